@@ -1,0 +1,129 @@
+//! What can go wrong on the host, with the exit status each kind ends in.
+//!
+//! Wrong input is one message: `FILE:LINE: CULPRIT: what was found, what was expected`, a hint, and
+//! where the text is at hand the place underlined. Everything else is an I/O failure.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use thiserror::Error;
+
+/// Any failure of the host.
+#[derive(Debug, Error, Diagnostic)]
+pub enum Error {
+    /// The scene, the mesh or the command line is wrong: exit status 2.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Input(Box<InputError>),
+    /// A file could not be read or written: exit status 1 (2 when the file is an input).
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A check of the main job failed: exit status 1.
+    #[error("{0}")]
+    Check(String),
+}
+
+/// Shorthand for results of the host.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Wrong input: the culprit, what was expected, a hint.
+#[derive(Debug, Error)]
+pub struct InputError {
+    file: Option<PathBuf>,
+    line: Option<usize>,
+    message: String,
+    hint: Option<String>,
+    excerpt: Option<(NamedSource<Arc<str>>, SourceSpan)>,
+}
+
+impl InputError {
+    /// `message` names the culprit (`boundary.river.value`, `triangle 12`) and what was expected.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { file: None, line: None, message: message.into(), hint: None, excerpt: None }
+    }
+
+    /// Adds what to do about it.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Adds the file it stands in.
+    pub fn file(mut self, file: &Path) -> Self {
+        self.file = Some(file.to_owned());
+        self
+    }
+
+    /// Adds the line, counted from 1.
+    pub fn line(mut self, line: usize) -> Self {
+        self.line = Some(line);
+        self
+    }
+
+    /// Adds the text and the byte range to underline; the line follows from it.
+    pub fn excerpt(mut self, text: &Arc<str>, span: std::ops::Range<usize>) -> Self {
+        let start = span.start.min(text.len());
+        let line = text.as_bytes()[..start].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let name = self.file.as_deref().unwrap_or(Path::new("input")).display().to_string();
+        self.line = Some(line);
+        self.excerpt = Some((NamedSource::new(name, text.clone()), span.into()));
+        self
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}:", file.display())?;
+            if let Some(line) = self.line {
+                write!(f, "{line}:")?;
+            }
+            write!(f, " ")?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+impl Diagnostic for InputError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.hint.as_ref().map(|hint| Box::new(hint) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        self.excerpt.as_ref().map(|(source, _)| source as &dyn miette::SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
+        let (_, span) = self.excerpt.as_ref()?;
+        Some(Box::new(std::iter::once(miette::LabeledSpan::underline(*span))))
+    }
+}
+
+impl From<InputError> for Error {
+    fn from(error: InputError) -> Self {
+        Self::Input(Box::new(error))
+    }
+}
+
+impl Error {
+    /// Wraps an I/O failure with the file it concerns.
+    pub fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io { path, source }
+    }
+
+    /// The exit status that this failure ends in.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Input(_) => 2,
+            Self::Io { .. } | Self::Check(_) => 1,
+        }
+    }
+}

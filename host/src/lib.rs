@@ -1,0 +1,4 @@
+//! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
+
+pub mod error;
+pub mod mesh;
