@@ -1,0 +1,37 @@
+//! What a controller reads off the contact boundary: force, length, active edges.
+
+use crate::boundary::Boundary;
+use crate::edges::EdgeCounts;
+use crate::geometry::scaled_normal;
+use crate::index::{Index, read};
+use crate::math::Math;
+use crate::mesh::Mesh;
+use crate::real::Real;
+
+/// ∫_C (σ·n − q), the sum of the multiplier λ over the contact boundary; `flux` as filled by
+/// [`crate::flux::recover`].
+pub fn force<R: Real, I: Index>(counts: EdgeCounts, boundary: &Boundary<R, I>, flux: &[R]) -> R {
+    let on_contact = flux.iter().skip(counts.free).take(counts.contact).enumerate();
+    on_contact.fold(R::ZERO, |sum, (at, &flux)| sum + (flux - boundary.contact_flux(at)))
+}
+
+/// Whether contact edge `contact` (counted from the first one) is active: u_E = ψ_E.
+pub fn is_active<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], contact: usize) -> bool {
+    contact < counts.contact && read(u, counts.free + contact) == read(lower, contact)
+}
+
+/// Σ|E| over the active contact edges, in the length unit of the mesh.
+pub fn length<R: Real, I: Index, M: Math<R>>(
+    mesh: &Mesh<R, I>,
+    edges: &crate::edges::Edges<I>,
+    lower: &[R],
+    u: &[R],
+) -> R {
+    let counts = edges.counts();
+    let active = (0..counts.contact).filter(|&at| is_active(counts, lower, u, at));
+    active.fold(R::ZERO, |sum, at| {
+        let ends = edges.endpoints(mesh, counts.free + at);
+        let [a, b] = ends.map(|vertex| read(mesh.vertices(), vertex.at()));
+        sum + M::sqrt(scaled_normal(a, b).norm_squared())
+    })
+}

@@ -1,0 +1,192 @@
+//! Edges: which cells they join, and the order that makes them unknowns.
+//!
+//! A *half-edge* is one side of one cell, numbered 3t + k for side k of triangle t and, behind all of
+//! those, 3T + 4q + k for side k of quad q. An edge has one half-edge (boundary) or two, and is
+//! directed along its first one: its normal n points out of its first cell.
+//!
+//! The order is the layout of every array over edges, and of the unknowns:
+//! ```text
+//!   | free: interior, Neumann, Robin | contact | Dirichlet |
+//!   0 ............................ free .... unknowns .... edges
+//! ```
+//! so that a sweep needs no test of the kind of an edge, contact bounds are an array of their own,
+//! and u_D simply stands in u behind the unknowns.
+
+use crate::error::{Array, Error, same_length};
+use crate::index::{Index, read};
+use crate::mesh::Mesh;
+use crate::real::Real;
+
+/// Where an edge stands in the order of the unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Block {
+    /// Inside the domain, Neumann or Robin: an unknown without a bound.
+    Free,
+    /// Contact: an unknown bounded below by the gap.
+    Contact,
+    /// Dirichlet: not an unknown.
+    Dirichlet,
+}
+
+/// How many edges stand in each block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct EdgeCounts {
+    /// Unknowns without a bound.
+    pub free: usize,
+    /// Unknowns with a bound.
+    pub contact: usize,
+    /// Edges with a given value.
+    pub dirichlet: usize,
+}
+
+impl EdgeCounts {
+    /// Edges not on the Dirichlet boundary.
+    pub fn unknowns(&self) -> usize {
+        self.free + self.contact
+    }
+
+    /// All edges.
+    pub fn edges(&self) -> usize {
+        self.free + self.contact + self.dirichlet
+    }
+
+    /// Where a block begins.
+    pub fn start(&self, block: Block) -> usize {
+        match block {
+            Block::Free => 0,
+            Block::Contact => self.free,
+            Block::Dirichlet => self.unknowns(),
+        }
+    }
+
+    pub(crate) fn of(&mut self, block: Block) -> &mut usize {
+        match block {
+            Block::Free => &mut self.free,
+            Block::Contact => &mut self.contact,
+            Block::Dirichlet => &mut self.dirichlet,
+        }
+    }
+}
+
+/// A side of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Side `.1` of triangle `.0`.
+    Triangle(usize, usize),
+    /// Side `.1` of quad `.0`.
+    Quad(usize, usize),
+}
+
+/// The numbered edges of a mesh (borrowed, validated).
+#[derive(Debug, Clone, Copy)]
+pub struct Edges<'a, I> {
+    of_triangles: &'a [[I; 3]],
+    of_quads: &'a [[I; 4]],
+    half_edges: &'a [[I; 2]],
+    counts: EdgeCounts,
+}
+
+impl<'a, I: Index> Edges<'a, I> {
+    /// Takes edges numbered elsewhere: the edge of each side of each cell, the half-edges of each
+    /// edge ([`Index::NONE`] in second place on the boundary), and the sizes of the blocks.
+    ///
+    /// # Errors
+    /// Lengths that do not match, and any half-edge whose side does not lead back to its edge.
+    pub fn new(
+        of_triangles: &'a [[I; 3]],
+        of_quads: &'a [[I; 4]],
+        half_edges: &'a [[I; 2]],
+        counts: EdgeCounts,
+    ) -> Result<Self, Error> {
+        let edges = Self { of_triangles, of_quads, half_edges, counts };
+        same_length(Array::Edges, half_edges.len(), counts.edges())?;
+        let sides = of_triangles.len() * 3 + of_quads.len() * 4;
+        let mut seen = 0;
+        for (at, pair) in half_edges.iter().enumerate() {
+            let inner = pair[1] != I::NONE;
+            let leads_back = |half: I| half.at() < sides && edges.edge_of(half.at()) == at;
+            if !leads_back(pair[0]) || inner && !(leads_back(pair[1]) && pair[0] != pair[1]) {
+                return Err(Error::OutOfRange { of: Array::HalfEdges, at });
+            }
+            seen += 1 + usize::from(inner);
+        }
+        // Each half-edge leads to one edge, which knows it: with equal counts none is left over.
+        same_length(Array::HalfEdges, seen, sides)?;
+        Ok(edges)
+    }
+
+    /// The edge of each side of each triangle.
+    pub fn of_triangles(&self) -> &'a [[I; 3]] {
+        self.of_triangles
+    }
+
+    /// The edge of each side of each quad.
+    pub fn of_quads(&self) -> &'a [[I; 4]] {
+        self.of_quads
+    }
+
+    /// The one or two half-edges of each edge.
+    pub fn half_edges(&self) -> &'a [[I; 2]] {
+        self.half_edges
+    }
+
+    /// Sizes of the blocks.
+    pub fn counts(&self) -> EdgeCounts {
+        self.counts
+    }
+
+    /// Number of entries of the matrix: each unknown's own, and the other sides of its cells.
+    pub fn nonzeros(&self) -> usize {
+        let triangles = self.of_triangles.len() * 3;
+        let others = |half: &I| match *half {
+            half if half == I::NONE => 0,
+            half if half.at() < triangles => 2,
+            _ => 3,
+        };
+        let unknowns = self.half_edges.iter().take(self.counts.unknowns());
+        unknowns.map(|pair| 1 + pair.iter().map(others).sum::<usize>()).sum()
+    }
+
+    /// The cell and side that a half-edge stands for.
+    pub fn side(&self, half_edge: usize) -> Side {
+        side(self.of_triangles.len(), half_edge)
+    }
+
+    /// The first side of an edge: its normal points out of that cell.
+    pub fn first_side(&self, edge: usize) -> Side {
+        self.side(read(self.half_edges, edge)[0].at())
+    }
+
+    /// Start and end vertex of an edge, counterclockwise around its first cell.
+    pub fn endpoints<R: Real>(&self, mesh: &Mesh<R, I>, edge: usize) -> [I; 2] {
+        endpoints(mesh, read(self.half_edges, edge)[0].at())
+    }
+
+    fn edge_of(&self, half_edge: usize) -> usize {
+        match self.side(half_edge) {
+            Side::Triangle(at, side) => read(&read(self.of_triangles, at), side).at(),
+            Side::Quad(at, side) => read(&read(self.of_quads, at), side).at(),
+        }
+    }
+}
+
+fn side(triangles: usize, half_edge: usize) -> Side {
+    match half_edge.checked_sub(3 * triangles) {
+        None => Side::Triangle(half_edge / 3, half_edge % 3),
+        Some(rest) => Side::Quad(rest / 4, rest % 4),
+    }
+}
+
+/// Start and end vertex of a half-edge.
+pub(crate) fn endpoints<R: Real, I: Index>(mesh: &Mesh<R, I>, half_edge: usize) -> [I; 2] {
+    match side(mesh.triangles().len(), half_edge) {
+        Side::Triangle(at, k) => {
+            let vertices = read(mesh.triangles(), at);
+            [read(&vertices, k), read(&vertices, (k + 1) % 3)]
+        }
+        Side::Quad(at, k) => {
+            let vertices = read(mesh.quads(), at);
+            [read(&vertices, k), read(&vertices, (k + 1) % 4)]
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The Crouzeix–Raviart triangle: P1, one degree of freedom a side.
+//!
+//! With N_k = |E_k| n_k the scaled outward normal of side k, the basis function of that side is
+//! φ_k = 1 − 2λ_opposite with the constant gradient ∇φ_k = N_k / |T|, so that
+//! ```text
+//!   K_ij = ∫_T A∇φ_j·∇φ_i = N_i · Ā N_j / |T|,      Ā the mean of A over T: exact.
+//! ```
+
+use nalgebra::Vector2;
+
+use crate::geometry::{doubled_area, scaled_normal};
+use crate::real::Real;
+use crate::tensor::Tensor;
+
+/// K_T without its diagonal, \[01, 02, 12\]; `a` is the mean of A over the triangle.
+pub fn stiffness<R: Real>([a, b, c]: [[R; 2]; 3], mean: Tensor<R>) -> [R; 3] {
+    let (n0, n1) = (scaled_normal(a, b), scaled_normal(b, c));
+    let n2 = -(n0 + n1);
+    let per_area = R::TWO / doubled_area(a, b, c);
+    let (a0, a1) = (mean.apply(n0) * per_area, mean.apply(n1) * per_area);
+    [a0.dot(&n1), a0.dot(&n2), a1.dot(&n2)]
+}
+
+/// ∇u_h on the triangle from the means of u_h over its sides.
+pub fn gradient<R: Real>([a, b, c]: [[R; 2]; 3], means: [R; 3]) -> Vector2<R> {
+    // Written with differences, since N₀ + N₁ + N₂ = 0.
+    let (n1, n2) = (scaled_normal(b, c), scaled_normal(c, a));
+    (n1 * (means[1] - means[0]) + n2 * (means[2] - means[0])) * (R::TWO / doubled_area(a, b, c))
+}
+
+/// φ₀, φ₁, φ₂ at the point with the barycentric coordinates `lambda` of vertices 0, 1, 2.
+pub fn basis<R: Real>(lambda: [R; 3]) -> [R; 3] {
+    [lambda[2], lambda[0], lambda[1]].map(|opposite| R::ONE - R::TWO * opposite)
+}
+
+/// The RT0 field with the outward fluxes `flux` (integrals over the sides) at a point `x`:
+/// σ = Σ_k F_k (x − opposite vertex) / (2|T|).
+pub fn raviart_thomas<R: Real>([a, b, c]: [[R; 2]; 3], flux: [R; 3], x: [R; 2]) -> Vector2<R> {
+    let from = |vertex: [R; 2]| Vector2::new(x[0] - vertex[0], x[1] - vertex[1]);
+    let sum = from(c) * flux[0] + from(a) * flux[1] + from(b) * flux[2];
+    sum * (R::ONE / doubled_area(a, b, c))
+}

@@ -1,0 +1,171 @@
+//! Input that has no answer. Each error names the culprit by its number in the caller's arrays.
+
+use core::fmt;
+
+/// What an input was refused for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Error {
+    /// The index type or a fixed capacity is too small.
+    Capacity {
+        /// What there is too much of.
+        of: Array,
+        /// How many there are.
+        needed: usize,
+        /// How many fit.
+        limit: usize,
+    },
+    /// Two arrays that must match do not.
+    Length {
+        /// The array with the wrong length.
+        of: Array,
+        /// Its length.
+        found: usize,
+        /// The length that the other arrays ask for.
+        expected: usize,
+    },
+    /// A number is infinite or NaN.
+    NotFinite {
+        /// The array that holds it.
+        of: Array,
+        /// Its position there.
+        at: usize,
+    },
+    /// An index points outside the array that it refers to.
+    OutOfRange {
+        /// The array that holds the index.
+        of: Array,
+        /// Its position there.
+        at: usize,
+    },
+    /// A cell names a vertex twice.
+    RepeatedVertex(CellId),
+    /// The area of a cell is zero, as far as the scalar type can tell.
+    Degenerate(CellId),
+    /// The vertices of a cell run clockwise.
+    Clockwise(CellId),
+    /// A quad has a corner of 180° or more, or crosses itself.
+    NotConvex(CellId),
+    /// The coefficient tensor of a cell is not symmetric positive definite.
+    NotPositiveDefinite(CellId),
+    /// Three cells share the edge between these vertices.
+    SharedByThree([u32; 2]),
+    /// Two cells lie on the same side of the edge between these vertices: they overlap.
+    Overlap([u32; 2]),
+    /// The boundary edge between these vertices has no condition.
+    NoCondition([u32; 2]),
+    /// The transfer coefficient of a Robin edge is negative.
+    NegativeRobin {
+        /// The edge.
+        edge: usize,
+    },
+    /// A connected part with neither Dirichlet nor Robin edges is pushed off its contact edges
+    /// (or, without contact edges, its loads do not balance): no solution exists.
+    NoSolution {
+        /// A cell of the part.
+        cell: usize,
+    },
+    /// A connected part with neither Dirichlet nor Robin edges is in balance without any contact
+    /// force: the solution is not unique.
+    NotUnique {
+        /// A cell of the part.
+        cell: usize,
+    },
+    /// The relaxation factor is not inside (0, 2).
+    Relaxation,
+}
+
+/// A cell, by kind and number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellId {
+    /// Position in the array of triangles.
+    Triangle(usize),
+    /// Position in the array of quads.
+    Quad(usize),
+}
+
+/// The arrays that the kernel reads and writes, by the names used in its documentation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Array {
+    Vertices,
+    Triangles,
+    Quads,
+    Edges,
+    HalfEdges,
+    Coefficients,
+    Stiffness,
+    CellLoads,
+    Neumann,
+    Robin,
+    Contact,
+    Dirichlet,
+    RowPointers,
+    ColumnIndices,
+    MatrixValues,
+    Load,
+    LowerBounds,
+    Unknowns,
+    Fluxes,
+    Scratch,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Capacity { of, needed, limit } => {
+                write!(f, "{of:?}: {needed} are needed, {limit} fit")
+            }
+            Self::Length { of, found, expected } => {
+                write!(f, "{of:?}: length {found}, expected {expected}")
+            }
+            Self::NotFinite { of, at } => write!(f, "{of:?}[{at}] is not a finite number"),
+            Self::OutOfRange { of, at } => write!(f, "{of:?}[{at}] points outside its array"),
+            Self::RepeatedVertex(cell) => write!(f, "{cell} names a vertex twice"),
+            Self::Degenerate(cell) => write!(f, "{cell} has no area"),
+            Self::Clockwise(cell) => write!(f, "{cell} runs clockwise: reverse its vertices"),
+            Self::NotConvex(cell) => write!(f, "{cell} is not convex"),
+            Self::NotPositiveDefinite(cell) => {
+                write!(f, "the coefficient tensor of {cell} is not positive definite")
+            }
+            Self::SharedByThree([a, b]) => write!(f, "edge {a}-{b} is shared by three cells"),
+            Self::Overlap([a, b]) => write!(f, "two cells lie on the same side of edge {a}-{b}"),
+            Self::NoCondition([a, b]) => write!(f, "boundary edge {a}-{b} has no condition"),
+            Self::NegativeRobin { edge } => {
+                write!(f, "edge {edge} has a negative Robin coefficient")
+            }
+            Self::NoSolution { cell } => write!(
+                f,
+                "no solution: the loads push the part around cell {cell} away and nothing holds it"
+            ),
+            Self::NotUnique { cell } => write!(
+                f,
+                "no unique solution: the loads on the part around cell {cell} balance by themselves"
+            ),
+            Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
+        }
+    }
+}
+
+impl fmt::Display for CellId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Triangle(at) => write!(f, "triangle {at}"),
+            Self::Quad(at) => write!(f, "quad {at}"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// `Ok` when an array is as long as the others ask for.
+pub(crate) fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected { Ok(()) } else { Err(Error::Length { of, found, expected }) }
+}
+
+/// `Ok` when every number of an array is finite.
+pub(crate) fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(), Error> {
+    match numbers.iter().position(|x| !x.finite()) {
+        Some(at) => Err(Error::NotFinite { of, at }),
+        None => Ok(()),
+    }
+}

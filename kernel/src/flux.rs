@@ -1,0 +1,92 @@
+//! The conservative flux σ = A∇u, recovered locally: formula (15).
+//!
+//! ```text
+//!   F_E = ∫_E σ·n_T = Σ_j K_ij u_j − (∫_T f)/m      for side i = E of a cell T with m sides
+//! ```
+//! The F are the Raviart–Thomas degrees of freedom. Their sum over a cell is −∫_T f for *any* u; from
+//! both sides of an edge they are equal and opposite as far as u solves the discrete problem.
+
+use crate::assembly::CellLoads;
+use crate::edges::Edges;
+use crate::element::product;
+use crate::error::{Array, Error, same_length};
+use crate::index::{Index, read};
+use crate::real::Real;
+use crate::stiffness::Stiffness;
+
+/// Outward fluxes through the sides of a triangle: `k` its stiffness, `u` the means over its sides,
+/// `load` = ∫_T f.
+#[inline(always)]
+pub fn on_triangle<R: Real>(k: &[R; 3], u: &[R; 3], load: R) -> [R; 3] {
+    let share = load * R::THIRD;
+    product(k, u).map(|flow| flow - share)
+}
+
+/// Outward fluxes through the sides of a quad.
+#[inline(always)]
+pub fn on_quad<R: Real>(k: &[R; 6], u: &[R; 4], load: R) -> [R; 4] {
+    let share = load * R::QUARTER;
+    product(k, u).map(|flow| flow - share)
+}
+
+/// What [`recover`] found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Recovered<R> {
+    /// max over interior edges of |F from one side + F from the other|: 0 for the exact solution,
+    /// the part of the flux that more sweeps would still change.
+    pub mismatch: R,
+    /// max |F|
+    pub largest: R,
+}
+
+/// Fills `flux` with F for every edge, along the normal out of its first cell: outward on the
+/// boundary; inside, the mean of both sides.
+///
+/// # Errors
+/// Slices of the wrong length.
+pub fn recover<R: Real, I: Index>(
+    edges: &Edges<I>,
+    stiffness: Stiffness<R>,
+    loads: CellLoads<R>,
+    u: &[R],
+    flux: &mut [R],
+) -> Result<Recovered<R>, Error> {
+    same_length(Array::Unknowns, u.len(), edges.counts().edges())?;
+    same_length(Array::Fluxes, flux.len(), edges.counts().edges())?;
+    let mut gathered =
+        Gathered { half_edges: edges.half_edges(), flux, found: Recovered::default() };
+    let mut half = 0;
+    for (at, (sides, k)) in edges.of_triangles().iter().zip(stiffness.triangles).enumerate() {
+        let out = on_triangle(k, &sides.map(|e| read(u, e.at())), read(loads.triangles, at));
+        sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
+    }
+    for (at, (sides, k)) in edges.of_quads().iter().zip(stiffness.quads).enumerate() {
+        let out = on_quad(k, &sides.map(|e| read(u, e.at())), read(loads.quads, at));
+        sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
+    }
+    Ok(gathered.found)
+}
+
+struct Gathered<'a, R, I> {
+    half_edges: &'a [[I; 2]],
+    flux: &'a mut [R],
+    found: Recovered<R>,
+}
+
+impl<R: Real, I: Index> Gathered<'_, R, I> {
+    /// The lower half-edge of an edge comes first, so the second visit completes the mean.
+    fn add(&mut self, edge: usize, half: &mut usize, out: R) {
+        let [first, second] = read(self.half_edges, edge);
+        let Some(flux) = self.flux.get_mut(edge) else { return };
+        let [lower, upper] = if second < first { [second, first] } else { [first, second] };
+        let along = if first.at() == *half { out } else { -out };
+        if lower.at() == *half {
+            *flux = along;
+        } else if upper.at() == *half {
+            self.found.mismatch = self.found.mismatch.or_larger((*flux - along).magnitude());
+            *flux = R::HALF * (*flux + along);
+        }
+        self.found.largest = self.found.largest.or_larger(out.magnitude());
+        *half += 1;
+    }
+}

@@ -1,0 +1,106 @@
+//! The element matrices of all cells, stored once: assembly, flux and certificate read them.
+
+use crate::element::{crouzeix_raviart, rannacher_turek};
+use crate::error::{Array, CellId, Error, same_length};
+use crate::index::{Index, read};
+use crate::mesh::Mesh;
+use crate::real::Real;
+use crate::tensor::Tensor;
+
+/// A as the kernel needs it: means over triangles, values at the quadrature points of quads.
+#[derive(Debug, Clone, Copy)]
+pub enum Coefficient<'a, R> {
+    /// One tensor everywhere.
+    Uniform(Tensor<R>),
+    /// One tensor a cell, triangles first (their means), then quads (taken as constant).
+    PerCell(&'a [Tensor<R>]),
+    /// One tensor a triangle, then points² a quad: row by row, x̂ running fastest.
+    PerPoint(&'a [Tensor<R>]),
+}
+
+impl<R: Real> Coefficient<'_, R> {
+    fn expected(&self, triangles: usize, quads: usize, points: usize) -> Option<usize> {
+        match self {
+            Self::Uniform(_) => None,
+            Self::PerCell(_) => Some(triangles + quads),
+            Self::PerPoint(_) => Some(triangles + quads * points * points),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Uniform(_) => 1,
+            Self::PerCell(tensors) | Self::PerPoint(tensors) => tensors.len(),
+        }
+    }
+
+    fn at(&self, cell: usize, point: usize) -> Tensor<R> {
+        match self {
+            Self::Uniform(tensor) => *tensor,
+            Self::PerCell(tensors) => read(tensors, cell),
+            Self::PerPoint(tensors) => read(tensors, point),
+        }
+    }
+}
+
+/// Element matrices without their diagonals (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Stiffness<'a, R> {
+    /// \[01, 02, 12\] of each triangle.
+    pub triangles: &'a [[R; 3]],
+    /// \[01, 02, 03, 12, 13, 23\] of each quad.
+    pub quads: &'a [[R; 6]],
+}
+
+/// Fills the element matrices of `mesh`; quads are integrated with `points`² Gauss points, 1 to 8
+/// in each direction (2 are exact on parallelograms with constant A).
+///
+/// # Errors
+/// Arrays of the wrong length, a tensor that is not positive definite, an entry that overflows.
+pub fn fill<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    coefficient: Coefficient<R>,
+    points: usize,
+    triangles: &mut [[R; 3]],
+    quads: &mut [[R; 6]],
+) -> Result<(), Error> {
+    same_length(Array::Stiffness, triangles.len(), mesh.triangles().len())?;
+    same_length(Array::Stiffness, quads.len(), mesh.quads().len())?;
+    let rule = *R::GAUSS.get(points.wrapping_sub(1)).ok_or(Error::Capacity {
+        of: Array::Coefficients,
+        needed: points,
+        limit: R::GAUSS.len(),
+    })?;
+    if let Some(expected) = coefficient.expected(triangles.len(), quads.len(), points) {
+        same_length(Array::Coefficients, coefficient.len(), expected)?;
+    }
+    for (at, (vertices, k)) in mesh.triangles().iter().zip(triangles.iter_mut()).enumerate() {
+        let tensor = checked(coefficient.at(at, at), CellId::Triangle(at))?;
+        *k = crouzeix_raviart::stiffness(mesh.triangle(vertices), tensor);
+        check_entries(k, at)?;
+    }
+    for (at, (vertices, k)) in mesh.quads().iter().zip(quads.iter_mut()).enumerate() {
+        let cell = mesh.triangles().len() + at;
+        let first_point = mesh.triangles().len() + at * points * points;
+        let mut definite = true;
+        *k = rannacher_turek::stiffness(mesh.quad(vertices), rule, |point, _| {
+            let tensor = coefficient.at(cell, first_point + point);
+            definite &= tensor.is_positive_definite();
+            tensor
+        });
+        if !definite {
+            return Err(Error::NotPositiveDefinite(CellId::Quad(at)));
+        }
+        check_entries(k, cell)?;
+    }
+    Ok(())
+}
+
+fn checked<R: Real>(tensor: Tensor<R>, cell: CellId) -> Result<Tensor<R>, Error> {
+    if tensor.is_positive_definite() { Ok(tensor) } else { Err(Error::NotPositiveDefinite(cell)) }
+}
+
+fn check_entries<R: Real>(k: &[R], at: usize) -> Result<(), Error> {
+    let finite = k.iter().all(|entry| entry.finite());
+    if finite { Ok(()) } else { Err(Error::NotFinite { of: Array::Stiffness, at }) }
+}
