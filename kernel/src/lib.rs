@@ -22,6 +22,7 @@ pub mod numbering;
 pub mod psor;
 pub mod quadrature;
 mod real;
+pub mod refinement;
 mod relaxation;
 pub mod signorini;
 pub mod solver;

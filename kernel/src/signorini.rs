@@ -94,12 +94,16 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             }
             let per_diagonal = R::ONE / row.diagonal();
             let mut step = r * per_diagonal;
+            let mut terms = size * per_diagonal;
             if i >= self.counts.free {
-                let opening = read(u, i) - read(self.lower, i - self.counts.free);
-                step = -opening.or_smaller(-step);
-                measure.active += u32::from(opening == R::ZERO);
+                let (own, lower) = (read(u, i), read(self.lower, i - self.counts.free));
+                measure.active += u32::from(own == lower);
+                if own - lower < -step {
+                    step = own - lower;
+                    terms = own.magnitude() + lower.magnitude();
+                }
             }
-            measure.include(step.magnitude(), load.magnitude() * per_diagonal, size * per_diagonal);
+            measure.include(step.magnitude(), load.magnitude() * per_diagonal, terms);
         }
         measure
     }
@@ -116,22 +120,24 @@ pub struct Residual<R> {
     pub range: R,
     /// max |b_i|/K_ii
     pub load: R,
-    /// What rounding alone can make of `largest`: ε max (|b_i| + Σ|K_ij u_j|)/K_ii.
+    /// What rounding alone can make of `largest`: ε max (|b_i| + Σ|K_ij u_j|)/K_ii, on contact edges
+    /// ε (|u_i| + |ψ_i|) where the opening decides.
     pub rounding: R,
     /// Number of active contact edges, u_E = ψ_E.
     pub active: u32,
 }
 
 impl<R: Real> Residual<R> {
-    fn include(&mut self, step: R, load: R, size: R) {
+    /// `terms` is the size of what `step` was summed from.
+    fn include(&mut self, step: R, load: R, terms: R) {
         // Written so that a NaN is taken over and then stays.
-        let is_nan = self.largest != self.largest;
+        let is_nan = !(self.largest >= R::ZERO);
         if !(step <= self.largest || is_nan) {
             self.largest = step;
         }
         self.sum += step;
         self.load = self.load.or_larger(load);
-        self.rounding = self.rounding.or_larger(size * R::EPSILON);
+        self.rounding = self.rounding.or_larger(terms * R::EPSILON);
     }
 
     /// `largest` divided by max(`range`, `load`, the smallest normal number).

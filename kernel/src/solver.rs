@@ -35,6 +35,11 @@ pub struct Settings<R> {
     pub relaxation: Relaxation<R>,
     /// Bound on [`Residual::scaled`]; 0 asks for the rounding limit.
     pub tolerance: R,
+    /// Bound on the error of u, relative like the residual, as far as an adaptive ω can tell it (see
+    /// [`Settings::amplification`]); infinite where the residual alone shall decide.
+    pub accuracy: R,
+    /// The least size of u that the residual is related to; 0 where u itself shall tell.
+    pub scale: R,
     /// Most sweeps allowed.
     pub max_sweeps: u32,
 }
@@ -42,7 +47,32 @@ pub struct Settings<R> {
 impl<R: Real> Default for Settings<R> {
     /// Adaptive ω, down to the rounding limit, a million sweeps.
     fn default() -> Self {
-        Self { relaxation: Relaxation::Adaptive(R::ONE), tolerance: R::ZERO, max_sweeps: 1_000_000 }
+        Self {
+            relaxation: Relaxation::Adaptive(R::ONE),
+            tolerance: R::ZERO,
+            accuracy: R::ONE / R::ZERO,
+            scale: R::ZERO,
+            max_sweeps: 1_000_000,
+        }
+    }
+}
+
+impl<R: Real> Settings<R> {
+    /// How much larger than the residual the error of u may be, 1/λ_min of D⁻¹K.
+    ///
+    /// The best ω tells it: √(1 − μ²) = (2 − ω)/ω and λ_min = 1 − μ give λ_min ≈ (2 − ω)²/8. At a
+    /// contrast of 10⁴ this reaches 10⁷, and a residual of 1e−11 is no comfort.
+    fn amplification(&self, omega: R) -> R {
+        match self.relaxation {
+            Relaxation::Fixed(_) => R::ONE,
+            Relaxation::Adaptive(_) => R::from_count(8) / ((R::TWO - omega) * (R::TWO - omega)),
+        }
+    }
+
+    /// Whether an iterate with this residual is good enough.
+    pub(crate) fn is_met(&self, residual: &Residual<R>, omega: R) -> bool {
+        let scaled = residual.largest / residual.scale().or_larger(self.scale);
+        scaled <= self.tolerance && scaled * self.amplification(omega) <= self.accuracy
     }
 }
 
@@ -71,10 +101,10 @@ pub struct Solver<R, M = Libm> {
     math: PhantomData<M>,
 }
 
-/// A residual below this multiple of [`Residual::rounding`] may be all rounding. It has ended only
-/// when a third of all sweeps brought no further fall: slow, smooth parts of the error can hide
-/// below the rounding of the others and still be a thousand times larger in u.
-const ROUNDING_MULTIPLE: u32 = 32;
+/// A residual up to this multiple of [`Residual::rounding`] may be all rounding. Slow, smooth parts of
+/// the error can hide below it and still be a thousand times larger in u, so a solve has ended
+/// there only when a third of all its sweeps brought no further fall.
+const ROUNDING: u32 = 4;
 
 /// Sweeps without a fall of the residual after which a solve far above rounding has stalled.
 const PATIENCE: u32 = 50_000;
@@ -148,7 +178,8 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
             return Some(self.outcome(status, residual));
         }
         let block = self.sweeps - self.last_look;
-        if block.is_power_of_two() {
+        // Near the rounding limit the residual falls slowly whatever ω is.
+        if block.is_power_of_two() && !self.at_limit(&residual) {
             self.estimate.observe::<M>(residual.sum, residual.active, block);
         }
         self.last_look = self.sweeps;
@@ -160,7 +191,7 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         if !(residual.largest.finite() && residual.range.finite()) {
             return Some(Status::NotFinite);
         }
-        if residual.scaled() <= self.settings.tolerance {
+        if self.settings.is_met(residual, self.estimate.omega) {
             return Some(Status::Converged);
         }
         let noticeably = R::ONE - R::QUARTER * R::HALF;
@@ -168,14 +199,21 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
             self.best = Best { largest: Some(residual.largest), sweeps: self.sweeps };
         }
         let waited = self.sweeps - self.best.sweeps;
-        let at_limit = residual.largest <= R::from_count(ROUNDING_MULTIPLE) * residual.rounding;
-        if at_limit && waited > self.sweeps / 3 && waited >= 4 * self.estimate.block() {
+        let blocks = if self.at_limit(residual) { 4 } else { 16 };
+        let long = waited > self.sweeps / 3 && waited >= blocks * self.estimate.block();
+        // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
+        let kept = residual.largest * (R::TWO - self.estimate.omega);
+        if long && kept <= R::from_count(ROUNDING) * residual.rounding {
             return Some(Status::RoundingLimit);
         }
         if waited > PATIENCE {
             return Some(Status::Stalled);
         }
         if self.sweeps >= self.settings.max_sweeps { Some(Status::OutOfSweeps) } else { None }
+    }
+
+    fn at_limit(&self, residual: &Residual<R>) -> bool {
+        residual.largest <= R::from_count(ROUNDING) * residual.rounding
     }
 
     fn outcome(&self, status: Status, residual: Residual<R>) -> Outcome<R> {
