@@ -1,0 +1,210 @@
+//! A problem in the kernel's hands: narrowed to one scalar and assembled.
+
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::csr::Csr;
+use signorini_kernel::edges::Edges;
+use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::signorini::System;
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Error, Tensor};
+
+use super::{Loads, Problem, QuadCoefficient};
+use crate::quadrature::DATA_POINTS;
+use crate::scalar::Scalar;
+
+/// Element matrices, CSR and loads in the scalar `R`; [`Assembled::system`] is the contact problem.
+///
+/// Coordinates are moved to the unit box before they are narrowed: in two dimensions K and all
+/// edge fluxes stay the same, and a mesh far from the origin keeps its shape in `f32`.
+#[derive(Debug, Clone)]
+pub struct Assembled<'p, R: Scalar> {
+    edges: Edges<'p, u32>,
+    triangles: Vec<[R; 3]>,
+    quads: Vec<[R; 6]>,
+    row_ptr: Vec<u32>,
+    col_idx: Vec<u32>,
+    values: Vec<R>,
+    loads: Narrowed<R>,
+    load: Vec<R>,
+}
+
+/// [`Loads`] in the scalar `R`.
+#[derive(Debug, Clone)]
+struct Narrowed<R> {
+    triangles: Vec<R>,
+    quads: Vec<R>,
+    neumann: Vec<Neumann<R, u32>>,
+    robin: Vec<Robin<R, u32>>,
+    contact_flux: Vec<R>,
+    gap: Vec<R>,
+    dirichlet: Vec<R>,
+}
+
+impl<R: Scalar> Narrowed<R> {
+    fn new(loads: &Loads) -> Self {
+        let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
+        let neumann = loads.neumann.iter();
+        let robin = loads.robin.iter();
+        Self {
+            triangles: all(&loads.triangles),
+            quads: all(&loads.quads),
+            neumann: neumann.map(|n| Neumann { edge: n.edge, flux: R::narrow(n.flux) }).collect(),
+            robin: robin
+                .map(|r| Robin {
+                    edge: r.edge,
+                    coefficient: R::narrow(r.coefficient),
+                    ambient: R::narrow(r.ambient),
+                })
+                .collect(),
+            contact_flux: all(&loads.contact_flux),
+            gap: all(&loads.gap),
+            dirichlet: all(&loads.dirichlet),
+        }
+    }
+}
+
+impl<'p, R: Scalar> Assembled<'p, R> {
+    /// Narrows and assembles.
+    ///
+    /// # Errors
+    /// What the scalar type cannot hold: cells too thin for it, coefficients or loads too large.
+    pub fn new(problem: &'p Problem) -> Result<Self, Error> {
+        let edges = problem.topology.edges()?;
+        let (triangles, quads) = element_matrices(problem)?;
+        let loads = Narrowed::new(&problem.loads);
+        let unknowns = edges.counts().unknowns();
+        let mut assembled = Self {
+            edges,
+            triangles,
+            quads,
+            row_ptr: vec![0; unknowns + 1],
+            col_idx: vec![0; edges.nonzeros()],
+            values: vec![R::ZERO; edges.nonzeros()],
+            loads,
+            load: vec![R::ZERO; unknowns],
+        };
+        assembly::pattern(&edges, &mut assembled.row_ptr, &mut assembled.col_idx)?;
+        assembled.fill_values()?;
+        assembled.fill_load()?;
+        Ok(assembled)
+    }
+
+    /// The numeric pass over the matrix.
+    ///
+    /// # Errors
+    /// Boundary records that are not admissible.
+    pub fn fill_values(&mut self) -> Result<(), Error> {
+        let mut values = std::mem::take(&mut self.values);
+        let filled = self.boundary().and_then(|boundary| {
+            assembly::values(&self.edges, self.stiffness(), &boundary, &self.row_ptr, &mut values)
+        });
+        self.values = values;
+        filled
+    }
+
+    /// The numeric pass over the load.
+    ///
+    /// # Errors
+    /// Boundary records that are not admissible.
+    pub fn fill_load(&mut self) -> Result<(), Error> {
+        let mut load = std::mem::take(&mut self.load);
+        let filled = self
+            .boundary()
+            .and_then(|boundary| assembly::load(&self.edges, self.cells(), &boundary, &mut load));
+        self.load = load;
+        filled
+    }
+
+    /// Edge numbering.
+    pub fn edges(&self) -> &Edges<'p, u32> {
+        &self.edges
+    }
+
+    /// Element matrices.
+    pub fn stiffness(&self) -> Stiffness<'_, R> {
+        Stiffness { triangles: &self.triangles, quads: &self.quads }
+    }
+
+    /// ∫f over the cells.
+    pub fn cells(&self) -> CellLoads<'_, R> {
+        CellLoads { triangles: &self.loads.triangles, quads: &self.loads.quads }
+    }
+
+    /// Boundary records.
+    ///
+    /// # Errors
+    /// Records that are not admissible in this scalar.
+    pub fn boundary(&self) -> Result<Boundary<'_, R, u32>, Error> {
+        let loads = &self.loads;
+        Boundary::new(&self.edges, &loads.neumann, &loads.robin, &loads.contact_flux)
+    }
+
+    /// Matrix, load and bounds.
+    ///
+    /// # Errors
+    /// Numbers that the scalar type cannot hold.
+    pub fn system(&self) -> Result<System<'_, R, u32>, Error> {
+        let counts = self.edges.counts();
+        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
+        System::new(matrix, &self.load, &self.loads.gap, counts)
+    }
+
+    /// A cold start: unknowns at the gap on C and at the mean of all given values elsewhere, u_D in
+    /// its place.
+    pub fn start(&self) -> Vec<R> {
+        let counts = self.edges.counts();
+        let given = [&self.loads.gap, &self.loads.dirichlet];
+        let number = given.iter().map(|values| values.len()).sum::<usize>().max(1) as f64;
+        let sum: f64 = given.iter().flat_map(|values| values.iter()).map(|x| x.wide()).sum();
+        let mut u = vec![R::narrow(sum / number); counts.free];
+        u.extend(&self.loads.gap);
+        u.extend(&self.loads.dirichlet);
+        u
+    }
+}
+
+type ElementMatrices<R> = (Vec<[R; 3]>, Vec<[R; 6]>);
+
+fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
+    let mesh = &problem.mesh;
+    let vertices = narrowed_vertices::<R>(&mesh.vertices);
+    let kernel_mesh = Mesh::new(&vertices, &mesh.triangles, &mesh.quads)?;
+    let narrow = |a: &Tensor<f64>| Tensor {
+        xx: R::narrow(a.xx),
+        xy: R::narrow(a.xy),
+        yy: R::narrow(a.yy),
+    };
+    let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
+    let triangles = triangles
+        .map(|(cell, a)| crouzeix_raviart::stiffness(kernel_mesh.triangle(cell), narrow(a)))
+        .collect();
+    let rule = R::GAUSS[DATA_POINTS - 1];
+    let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
+    let quads = quads.map(|(cell, coefficient)| {
+        let corners = kernel_mesh.quad(cell);
+        match coefficient {
+            QuadCoefficient::Constant(a) => {
+                rannacher_turek::stiffness(corners, rule, |_, _| narrow(a))
+            }
+            QuadCoefficient::AtPoints(tensors) => {
+                rannacher_turek::stiffness(corners, rule, |point, _| narrow(&tensors[point]))
+            }
+        }
+    });
+    Ok((triangles, quads.collect()))
+}
+
+/// Coordinates in the box [−1, 1]² around the middle of the mesh.
+fn narrowed_vertices<R: Scalar>(vertices: &[[f64; 2]]) -> Vec<[R; 2]> {
+    let extent = |k: usize| {
+        let values = vertices.iter().map(|vertex| vertex[k]);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+    };
+    let (x, y) = (extent(0), extent(1));
+    let middle = [0.5 * x.0 + 0.5 * x.1, 0.5 * y.0 + 0.5 * y.1];
+    let half = (0.5 * x.1 - 0.5 * x.0).max(0.5 * y.1 - 0.5 * y.0);
+    let moved = |vertex: &[f64; 2]| [0, 1].map(|k| R::narrow((vertex[k] - middle[k]) / half));
+    vertices.iter().map(moved).collect()
+}

@@ -1,0 +1,152 @@
+//! Which names of the scene mean which cells and boundary edges of the mesh.
+
+use std::collections::HashMap;
+
+use super::{EdgeKind, Topology};
+use crate::error::{InputError, Result};
+use crate::mesh::Mesh;
+use crate::scene::{Located, Scene};
+
+/// The name that covers what no other name does.
+const DEFAULT: &str = "default";
+
+/// Names resolved to positions in `scene.materials` and `scene.boundaries`.
+#[derive(Debug, Clone)]
+pub struct Binding {
+    /// The material of each cell, triangles first.
+    pub materials: Vec<u32>,
+    named: HashMap<[u32; 2], u32>,
+    default: Option<u32>,
+}
+
+impl Binding {
+    /// Resolves the names of `scene` on `mesh`.
+    ///
+    /// # Errors
+    /// A name that the mesh lacks, a cell with no material or with two, an edge in two curves that
+    /// the scene binds.
+    pub fn new(scene: &Scene, mesh: &Mesh) -> Result<Self> {
+        let materials = bind_materials(scene, mesh)?;
+        let (named, default) = bind_boundaries(scene, mesh)?;
+        Ok(Self { materials, named, default })
+    }
+
+    /// The boundary that an edge between two vertices belongs to.
+    pub fn boundary(&self, ends: [u32; 2]) -> Option<usize> {
+        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        self.named.get(&key).copied().or(self.default).map(|at| at as usize)
+    }
+
+    pub(super) fn kind(
+        &self,
+        scene: &Scene,
+        topology: &Topology,
+        edge: usize,
+        ends: [u32; 2],
+    ) -> EdgeKind {
+        let interior = topology.half_edges[edge][1] != u32::MAX;
+        match self.boundary(ends).filter(|_| !interior) {
+            Some(boundary) => EdgeKind::of(&scene.boundaries[boundary].condition),
+            None => EdgeKind::Interior,
+        }
+    }
+
+    pub(super) fn unbound(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> InputError {
+        let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
+        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let within = mesh.curves.iter().find(|curve| curve.edges.binary_search(&key).is_ok());
+        let place = match within {
+            Some(curve) => format!("physical curve {:?} of the mesh", curve.name),
+            None => "a part of the boundary without a physical curve".to_owned(),
+        };
+        let curve = within.map_or("default", |curve| &curve.name);
+        InputError::new(format!(
+            "boundary.{curve}: missing; the boundary edge ({}, {})–({}, {}) lies in {place}, and no \
+             [boundary.…] covers it",
+            a[0], a[1], b[0], b[1]
+        ))
+        .file(&scene.path)
+        .hint(format!("add [boundary.{curve}], or [boundary.default] for all that is left"))
+    }
+}
+
+fn bind_materials(scene: &Scene, mesh: &Mesh) -> Result<Vec<u32>> {
+    let cells = mesh.triangles.len() + mesh.quads.len();
+    let mut materials = vec![None; cells];
+    let mut default = None;
+    for (at, material) in scene.materials.iter().enumerate() {
+        if material.name.value == DEFAULT {
+            default = Some(at as u32);
+            continue;
+        }
+        let surface = mesh.surfaces.iter().find(|surface| surface.name == material.name.value);
+        let known = mesh.surfaces.iter().map(|surface| surface.name.as_str());
+        let surface =
+            surface.ok_or_else(|| unknown(scene, &material.name, "physical surface", known))?;
+        for &cell in &surface.cells {
+            if let Some(other) = materials[cell as usize].replace(at as u32) {
+                let other = &scene.materials[other as usize].name.value;
+                let message = format!(
+                    "cell {cell} lies in the physical surfaces {:?} and {other:?}, which both have a \
+                     material",
+                    surface.name
+                );
+                return Err(scene.error(&material.name, message).hint("keep one of the two").into());
+            }
+        }
+    }
+    let missing = |cell: usize| {
+        let home = mesh.surfaces.iter().find(|s| s.cells.binary_search(&(cell as u32)).is_ok());
+        let name = home.map_or(DEFAULT, |surface| &surface.name);
+        InputError::new(format!("material.{name}: missing; cell {cell} has no material"))
+            .file(&scene.path)
+            .hint(format!("add [material.{name}], or [material.default] for all that is left"))
+    };
+    let resolved = materials.iter().enumerate();
+    resolved.map(|(cell, own)| own.or(default).ok_or_else(|| missing(cell).into())).collect()
+}
+
+type NamedEdges = (HashMap<[u32; 2], u32>, Option<u32>);
+
+fn bind_boundaries(scene: &Scene, mesh: &Mesh) -> Result<NamedEdges> {
+    let mut named: HashMap<[u32; 2], u32> = HashMap::new();
+    let mut default = None;
+    for (at, boundary) in scene.boundaries.iter().enumerate() {
+        if boundary.name.value == DEFAULT {
+            default = Some(at as u32);
+            continue;
+        }
+        let curve = mesh.curves.iter().find(|curve| curve.name == boundary.name.value);
+        let known = mesh.curves.iter().map(|curve| curve.name.as_str());
+        let curve = curve.ok_or_else(|| unknown(scene, &boundary.name, "physical curve", known))?;
+        for &edge in &curve.edges {
+            if let Some(other) = named.insert(edge, at as u32) {
+                let other = &scene.boundaries[other as usize].name.value;
+                let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
+                let message = format!(
+                    "the edge ({}, {})–({}, {}) lies in the physical curves {:?} and {other:?}, which \
+                     both have a condition",
+                    a[0], a[1], b[0], b[1], curve.name
+                );
+                return Err(scene.error(&boundary.name, message).hint("keep one of the two").into());
+            }
+        }
+    }
+    Ok((named, default))
+}
+
+fn unknown<'n>(
+    scene: &Scene,
+    name: &Located<String>,
+    what: &str,
+    known: impl Iterator<Item = &'n str>,
+) -> InputError {
+    let known: Vec<_> = known.map(|name| format!("{name:?}")).collect();
+    let hint = if known.is_empty() {
+        format!("the mesh has no {what}; use \"default\" for all of it")
+    } else {
+        format!("the mesh has {}", known.join(", "))
+    };
+    let mesh = scene.mesh.value.display();
+    scene.error(name, format!("{mesh} has no {what} {:?}", name.value)).hint(hint)
+}

@@ -1,0 +1,178 @@
+//! Loads, gaps and boundary values as integrals over cells and edges, at one time.
+//!
+//! A field of the scene is its own expression plus, for every `[input.…]` that refers to it, the
+//! input's value times its pattern.
+
+use signorini_kernel::Real;
+use signorini_kernel::boundary::{Neumann, Robin};
+
+use super::{EdgeKind, Problem};
+use crate::error::Result;
+use crate::expression::Expression;
+use crate::quadrature::{DATA_POINTS, TRIANGLE_POINTS, mean_on_edge, on_quad, on_triangle};
+use crate::scene::{Condition, Field, Located, Scene};
+
+/// Everything on the right-hand side.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loads {
+    /// ∫_T f of each triangle.
+    pub triangles: Vec<f64>,
+    /// ∫_T f of each quad.
+    pub quads: Vec<f64>,
+    /// Edges with a flux other than 0.
+    pub neumann: Vec<Neumann<f64, u32>>,
+    /// Edges with a transfer law.
+    pub robin: Vec<Robin<f64, u32>>,
+    /// ∫_E q of each contact edge.
+    pub contact_flux: Vec<f64>,
+    /// Mean of ψ on each contact edge.
+    pub gap: Vec<f64>,
+    /// Mean of u_D on each Dirichlet edge.
+    pub dirichlet: Vec<f64>,
+}
+
+/// A field with its inputs: Σ weight · expression.
+struct Sum<'s> {
+    scene: &'s Scene,
+    base: &'s Located<Expression>,
+    inputs: Vec<(f64, &'s Located<Expression>)>,
+    time: f64,
+}
+
+impl<'s> Sum<'s> {
+    fn new(
+        scene: &'s Scene,
+        of: &str,
+        field: Field,
+        base: &'s Located<Expression>,
+        time: f64,
+    ) -> Self {
+        let refers = |input: &&'s crate::scene::Input| {
+            input.of.value == of && input.field.value == field && input.default != 0.0
+        };
+        let inputs = scene.inputs.iter().filter(refers);
+        let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
+        Self { scene, base, inputs, time }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.base.value.is_zero() && self.inputs.is_empty()
+    }
+
+    fn at(&self, x: f64, y: f64) -> f64 {
+        let base = self.base.value.eval(x, y, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum + weight * pattern.value.eval(x, y, self.time)
+        })
+    }
+
+    fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
+        if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
+            return self.finite(constant, segment[0]);
+        }
+        let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
+        self.finite(mean_on_edge(segment, |x, y| self.at(x, y)), middle)
+    }
+
+    fn finite(&self, value: f64, [x, y]: [f64; 2]) -> Result<f64> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let message = format!("{} is not finite near ({x}, {y})", self.base.value);
+        let hint = "the expression must be finite wherever it is used";
+        Err(self.scene.error(self.base, message).hint(hint).into())
+    }
+}
+
+impl Loads {
+    /// Integrates all data of `scene` at time `time`.
+    ///
+    /// # Errors
+    /// Data that are not finite, a negative Robin coefficient.
+    pub fn at_time(scene: &Scene, problem: &Problem, time: f64) -> Result<Self> {
+        let source = Sum::new(scene, "source", Field::Source, &scene.source, time);
+        let mut loads = Self::default();
+        if !source.is_zero() {
+            loads.integrate_source(&source, problem)?;
+        }
+        for edge in 0..problem.ends.len() {
+            if problem.kinds[edge] != EdgeKind::Interior {
+                loads.add_edge(scene, problem, edge, time)?;
+            }
+        }
+        Ok(loads)
+    }
+
+    fn integrate_source(&mut self, f: &Sum, problem: &Problem) -> Result<()> {
+        let mesh = &problem.mesh;
+        let corner = |vertex: u32| mesh.vertices[vertex as usize];
+        let integral = |sum: f64, p: crate::quadrature::Point| sum + p.weight * f.at(p.x[0], p.x[1]);
+        for vertices in &mesh.triangles {
+            let corners = vertices.map(corner);
+            let points = on_triangle(corners, f64::GAUSS[TRIANGLE_POINTS - 1]);
+            self.triangles.push(f.finite(points.fold(0.0, integral), corners[0])?);
+        }
+        for vertices in &mesh.quads {
+            let corners = vertices.map(corner);
+            let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
+            self.quads.push(f.finite(points.fold(0.0, integral), corners[0])?);
+        }
+        Ok(())
+    }
+
+    /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.
+    fn add_edge(&mut self, scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<()> {
+        let Some(boundary) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
+        let boundary = &scene.boundaries[boundary];
+        let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
+        let name = &boundary.name.value;
+        let mean = |field, base| Sum::new(scene, name, field, base, time).mean(segment);
+        let index = edge as u32;
+        match &boundary.condition {
+            Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
+            Condition::Neumann { flux } => {
+                let flux = length * mean(Field::Flux, flux)?;
+                if flux != 0.0 {
+                    self.neumann.push(Neumann { edge: index, flux });
+                }
+            }
+            Condition::Robin { coefficient, ambient } => {
+                let (h, outside) = (
+                    Sum { scene, base: coefficient, inputs: Vec::new(), time },
+                    Sum::new(scene, name, Field::Ambient, ambient, time),
+                );
+                nowhere_negative(scene, coefficient, segment, &h)?;
+                let both = mean_on_edge(segment, |x, y| h.at(x, y) * outside.at(x, y));
+                let robin = Robin {
+                    edge: index,
+                    coefficient: length * h.mean(segment)?,
+                    ambient: length * outside.finite(both, segment[0])?,
+                };
+                self.robin.push(robin);
+            }
+            Condition::Contact { gap, flux } => {
+                self.gap.push(mean(Field::Gap, gap)?);
+                self.contact_flux.push(length * mean(Field::Flux, flux)?);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn nowhere_negative(
+    scene: &Scene,
+    coefficient: &Located<Expression>,
+    [a, b]: [[f64; 2]; 2],
+    h: &Sum,
+) -> Result<()> {
+    for &[t, _] in f64::GAUSS[DATA_POINTS - 1] {
+        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let value = h.at(x, y);
+        if value < 0.0 {
+            let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
+            let hint = "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
+            return Err(scene.error(coefficient, message).hint(hint).into());
+        }
+    }
+    Ok(())
+}

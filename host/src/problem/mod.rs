@@ -1,0 +1,212 @@
+//! A scene on its mesh: every integral that the method needs, in f64, before a scalar is chosen.
+//!
+//! ```text
+//!   Scene + Mesh ─► binding (names to cells and edges) ─► edges ─► integrals ─► Problem ─► Assembled<R>
+//! ```
+
+mod assembled;
+mod binding;
+mod integrals;
+mod loads;
+
+pub use assembled::Assembled;
+pub use binding::Binding;
+pub use loads::Loads;
+
+use signorini_kernel::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::Mesh as KernelMesh;
+use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::{Error as KernelError, Tensor, error::CellId};
+
+use crate::error::{InputError, Result};
+use crate::mesh::Mesh;
+use crate::scene::{Condition, Scene};
+
+/// What lies on an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// Between two cells.
+    Interior,
+    /// Given value.
+    Dirichlet,
+    /// Given flux.
+    Neumann,
+    /// Transfer law.
+    Robin,
+    /// Unilateral contact.
+    Contact,
+}
+
+impl EdgeKind {
+    /// Its name in `edges.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Interior => "interior",
+            Self::Dirichlet => "dirichlet",
+            Self::Neumann => "neumann",
+            Self::Robin => "robin",
+            Self::Contact => "contact",
+        }
+    }
+
+    fn of(condition: &Condition) -> Self {
+        match condition {
+            Condition::Dirichlet { .. } => Self::Dirichlet,
+            Condition::Neumann { .. } => Self::Neumann,
+            Condition::Robin { .. } => Self::Robin,
+            Condition::Contact { .. } => Self::Contact,
+        }
+    }
+
+    fn block(self) -> Block {
+        match self {
+            Self::Interior | Self::Neumann | Self::Robin => Block::Free,
+            Self::Contact => Block::Contact,
+            Self::Dirichlet => Block::Dirichlet,
+        }
+    }
+}
+
+/// Edge numbering of a mesh, owned; see [`signorini_kernel::edges`] for the order.
+#[derive(Debug, Clone, Default)]
+pub struct Topology {
+    /// The edge of each side of each triangle.
+    pub of_triangles: Vec<[u32; 3]>,
+    /// The edge of each side of each quad.
+    pub of_quads: Vec<[u32; 4]>,
+    /// The half-edges of each edge.
+    pub half_edges: Vec<[u32; 2]>,
+    /// Sizes of the blocks.
+    pub counts: EdgeCounts,
+}
+
+/// A as the element matrices need it.
+#[derive(Debug, Clone)]
+pub struct Coefficients {
+    /// The mean over each triangle.
+    pub triangles: Vec<Tensor<f64>>,
+    /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
+    pub quads: Vec<QuadCoefficient>,
+}
+
+/// A on one quad.
+#[derive(Debug, Clone)]
+pub enum QuadCoefficient {
+    /// The same everywhere.
+    Constant(Tensor<f64>),
+    /// At the 8×8 Gauss points, x̂ running fastest.
+    AtPoints(Vec<Tensor<f64>>),
+}
+
+/// Everything that defines one discrete contact problem.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The mesh as read.
+    pub mesh: Mesh,
+    /// Edge numbering.
+    pub topology: Topology,
+    /// Start and end vertex of each edge: the normal is this direction turned clockwise.
+    pub ends: Vec<[u32; 2]>,
+    /// |E|
+    pub lengths: Vec<f64>,
+    /// What lies on each edge.
+    pub kinds: Vec<EdgeKind>,
+    /// Which names mean which cells and edges.
+    pub binding: Binding,
+    /// A.
+    pub coefficients: Coefficients,
+    /// Loads, gaps and boundary values at the start time.
+    pub loads: Loads,
+}
+
+impl Problem {
+    /// Binds `scene` to `mesh` and integrates its data at time t = 0.
+    ///
+    /// # Errors
+    /// Names that do not match, boundary edges without a condition, data that are not finite or
+    /// not admissible; each names the culprit.
+    pub fn new(scene: &Scene, mesh: Mesh) -> Result<Self> {
+        let binding = Binding::new(scene, &mesh)?;
+        let topology = number_edges(scene, &mesh, &binding)?;
+        let kernel_mesh = KernelMesh::new(&mesh.vertices, &mesh.triangles, &mesh.quads)
+            .map_err(|error| wrong_mesh(scene, error))?;
+        let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
+        let count = topology.counts.edges();
+        let ends: Vec<_> = (0..count).map(|edge| edges.endpoints(&kernel_mesh, edge)).collect();
+        let kinds: Vec<_> =
+            (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge])).collect();
+        let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
+        let lengths = ends.iter().map(|&ends| crate::quadrature::edge_length(at(ends))).collect();
+        let coefficients = integrals::coefficients(scene, &mesh, &binding)?;
+        let mut problem = Self {
+            mesh,
+            topology,
+            ends,
+            lengths,
+            kinds,
+            binding,
+            coefficients,
+            loads: Loads::default(),
+        };
+        problem.loads = Loads::at_time(scene, &problem, 0.0)?;
+        Ok(problem)
+    }
+
+    /// Coordinates of the ends of an edge.
+    pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
+        self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])
+    }
+}
+
+impl Topology {
+    /// The kernel's view of it.
+    ///
+    /// # Errors
+    /// Never for a topology that [`Problem::new`] made.
+    pub fn edges(&self) -> std::result::Result<Edges<'_, u32>, KernelError> {
+        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+}
+
+fn number_edges(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Topology> {
+    let kernel_mesh = KernelMesh::new(&mesh.vertices, &mesh.triangles, &mesh.quads)
+        .map_err(|error| wrong_mesh(scene, error))?;
+    let sides = kernel_mesh.half_edges();
+    let mut topology = Topology {
+        of_triangles: vec![[0; 3]; mesh.triangles.len()],
+        of_quads: vec![[0; 4]; mesh.quads.len()],
+        half_edges: vec![[0; 2]; sides],
+        counts: EdgeCounts::default(),
+    };
+    let buffers = NumberingBuffers {
+        of_triangles: &mut topology.of_triangles,
+        of_quads: &mut topology.of_quads,
+        half_edges: &mut topology.half_edges,
+        at_vertex: &mut vec![[0; 2]; mesh.vertices.len()],
+        next: &mut vec![0; sides],
+    };
+    let block = |ends| {
+        let boundary = binding.boundary(ends)?;
+        Some(EdgeKind::of(&scene.boundaries[boundary].condition).block())
+    };
+    let counts = number(&kernel_mesh, buffers, block).map(|edges| edges.counts());
+    topology.counts = counts.map_err(|error| match error {
+        KernelError::NoCondition(ends) => binding.unbound(scene, mesh, ends),
+        error => wrong_mesh(scene, error),
+    })?;
+    topology.half_edges.truncate(topology.counts.edges());
+    Ok(topology)
+}
+
+/// A mesh that the kernel refuses.
+fn wrong_mesh(scene: &Scene, error: KernelError) -> InputError {
+    let what = match error {
+        KernelError::Degenerate(CellId::Triangle(_) | CellId::Quad(_)) => {
+            "the mesh has a cell too thin for the scalar type"
+        }
+        _ => "the mesh is not usable",
+    };
+    InputError::new(format!("{what}: {error}"))
+        .file(&scene.mesh.value)
+        .hint("cells are numbered from 0, triangles first, in the order of the file")
+}
