@@ -25,6 +25,8 @@ use super::ordering::contact_last;
 use super::problem::Matrix;
 use super::sparse_cholesky::SparseCholesky;
 
+/// The largest n_c: S takes 1.2 GB then, and the work on it is of order n_c³.
+const MOST_CONTACTS: usize = 12_000;
 /// A pivot that has lost all but this share of its diagonal entry is a zero hidden by rounding.
 const SINGULAR_PIVOT: f64 = 1e-14;
 /// S_ii may be negative by rounding, up to this share of K_ii.
@@ -47,9 +49,12 @@ pub(super) struct CondensedLoad {
 
 impl Condensation {
     pub fn new(matrix: &Matrix) -> Result<Self, ReferenceError> {
-        let n = matrix.unknowns();
+        let (n, contact) = (matrix.unknowns(), matrix.contact());
+        if contact > MOST_CONTACTS {
+            return Err(ReferenceError::TooManyContacts { contact, most: MOST_CONTACTS });
+        }
         let mut values = matrix.values.clone();
-        let mut springs = Vec::with_capacity(matrix.contact());
+        let mut springs = Vec::with_capacity(contact);
         for unknown in matrix.free..n {
             let entry = matrix.diagonal(unknown)?;
             springs.push(values[entry]);

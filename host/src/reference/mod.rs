@@ -11,9 +11,9 @@
 //! λ_F = 0,   u_C ≥ ψ,   λ_C ≥ 0,   λ_i (u_i − ψ_i) = 0.
 //! ```
 //!
-//! The way there, a file each: [`ordering`] keeps C last and the fill low; [`condensation`] factors
-//! once ([`sparse_cholesky`]) and reads the Schur complement S on C from the trailing block of L;
-//! [`active_set`] solves the small dense problem on S exactly; [`refinement`] repeats the two with
+//! The way there, a file each: `ordering` keeps C last and the fill low; `condensation` factors
+//! once (`sparse_cholesky`) and reads the Schur complement S on C from the trailing block of L;
+//! `active_set` solves the small dense problem on S exactly; `refinement` repeats the two with
 //! the remaining residual until u is right to its last digits.
 
 mod active_set;
@@ -102,6 +102,14 @@ pub enum ReferenceError {
     Cycling {
         /// Steps made.
         steps: usize,
+    },
+    /// The dense Schur complement would not fit into memory.
+    #[error("{contact} contact unknowns are more than the {most} that fit a dense matrix")]
+    TooManyContacts {
+        /// n_c.
+        contact: usize,
+        /// The largest n_c that is tried.
+        most: usize,
     },
     /// The factor does not fit into memory or its indices.
     #[error("the sparse factorisation is too large: {0:?}")]

@@ -6,27 +6,30 @@ use crate::reference::Factor;
 
 type Dense = Vec<Vec<f64>>;
 
-/// Gaussian elimination with partial pivoting.
-fn dense_solve(mut matrix: Dense, mut rhs: Vec<f64>) -> Vec<f64> {
-    let n = rhs.len();
+/// Subtracts multiples of row k from the rows below it so that their column k vanishes.
+fn eliminate(matrix: &mut Dense, k: usize) {
+    let (above, below) = matrix.split_at_mut(k + 1);
+    let pivot = &above[k];
+    for row in below {
+        let multiple = row[k] / pivot[k];
+        row.iter_mut().zip(pivot).skip(k).for_each(|(entry, p)| *entry -= multiple * p);
+    }
+}
+
+/// Gaussian elimination with partial pivoting; the last column of `system` is the right-hand side.
+fn dense_solve(mut system: Dense) -> Vec<f64> {
+    let n = system.len();
     for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| matrix[i][k].abs().total_cmp(&matrix[j][k].abs()));
-        let pivot = pivot.expect("rows are left");
-        matrix.swap(k, pivot);
-        rhs.swap(k, pivot);
-        for i in k + 1..n {
-            let factor = matrix[i][k] / matrix[k][k];
-            for j in k..n {
-                matrix[i][j] -= factor * matrix[k][j];
-            }
-            rhs[i] -= factor * rhs[k];
-        }
+        let pivot = (k..n).max_by(|&i, &j| system[i][k].abs().total_cmp(&system[j][k].abs()));
+        system.swap(k, pivot.expect("rows are left"));
+        eliminate(&mut system, k);
     }
+    let mut u = vec![0.0; n];
     for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|j| matrix[i][j] * rhs[j]).sum();
-        rhs[i] = (rhs[i] - known) / matrix[i][i];
+        let known: f64 = (i + 1..n).map(|j| system[i][j] * u[j]).sum();
+        u[i] = (system[i][n] - known) / system[i][i];
     }
-    rhs
+    u
 }
 
 fn times(matrix: &Dense, u: &[f64]) -> Vec<f64> {
@@ -40,13 +43,13 @@ fn enumerate(matrix: &Dense, load: &[f64], lower: &[f64]) -> Vec<f64> {
     let mut best = (f64::INFINITY, Vec::new());
     for set in 0..1_u32 << contact {
         let held = |i: usize| i >= free && set >> (i - free) & 1 == 1;
-        let mut system = matrix.clone();
-        let mut rhs = load.to_vec();
-        for i in (0..n).filter(|&i| held(i)) {
-            system[i] = (0..n).map(|j| f64::from(i == j)).collect();
-            rhs[i] = lower[i - free];
-        }
-        let u = dense_solve(system, rhs);
+        let equation = |i: usize| -> Vec<f64> {
+            match held(i) {
+                true => (0..n).map(|j| f64::from(i == j)).chain([lower[i - free]]).collect(),
+                false => matrix[i].iter().copied().chain([load[i]]).collect(),
+            }
+        };
+        let u = dense_solve((0..n).map(equation).collect());
         let feasible = u[free..].iter().zip(lower).all(|(u, psi)| *u >= psi - 1e-12);
         let ku = times(matrix, &u);
         let energy: f64 = (0..n).map(|i| u[i] * (0.5 * ku[i] - load[i])).sum();
@@ -125,6 +128,19 @@ fn random_matrices_that_are_no_m_matrices() {
     agrees_with_enumeration(gram_matrix, 1e-9);
 }
 
+/// From full contact the semismooth Newton step alone returns to a set it has left.
+#[test]
+fn matrix_on_which_newton_alone_cycles() {
+    let matrix = [[21.0, -7.0, 15.0], [-7.0, 17.0, -7.0], [15.0, -7.0, 11.0]].map(Vec::from);
+    let (load, lower) = (vec![-1.0, 6.0, -2.0], vec![0.0; 3]);
+    let expected = enumerate(&matrix.to_vec(), &load, &lower);
+    let stencil = sparse(&matrix.to_vec(), load, lower);
+    let factor = Factor::new(&stencil.problem()).expect("definite");
+    let found = factor.solve(&stencil.load, &stencil.lower, None).expect("solvable");
+    assert!(largest_difference(&found.u, &expected) < 1e-13, "{:?}, not {expected:?}", found.u);
+    assert!(found.steps > 8, "{} steps only: no cycle was met", found.steps);
+}
+
 #[test]
 fn schur_complement_is_what_elimination_leaves() {
     let mut random = Random(3);
@@ -132,14 +148,7 @@ fn schur_complement_is_what_elimination_leaves() {
     let mut matrix = gram_matrix(free + contact, &mut random);
     let stencil = sparse(&matrix, vec![0.0; free + contact], vec![0.0; contact]);
     let factor = Factor::new(&stencil.problem()).expect("definite");
-    for k in 0..free {
-        for i in k + 1..free + contact {
-            let multiple = matrix[i][k] / matrix[k][k];
-            for j in k..free + contact {
-                matrix[i][j] -= multiple * matrix[k][j];
-            }
-        }
-    }
+    (0..free).for_each(|k| eliminate(&mut matrix, k));
     for i in 0..contact {
         for j in 0..contact {
             let (found, expected) = (factor.schur()[(i, j)], matrix[free + i][free + j]);

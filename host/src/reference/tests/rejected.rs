@@ -70,6 +70,15 @@ fn matrices_that_are_not_definite() {
     assert_eq!(refusal(&indefinite.problem()), ReferenceError::NotPositiveDefinite { unknown: 1 });
 }
 
+#[test]
+fn contact_beyond_a_dense_matrix() {
+    let n = 20_000;
+    let rows: Vec<_> = (0..n).map(|i| vec![(i, 1.0)]).collect();
+    let stencil = Stencil::from_rows(&rows, vec![0.0; n as usize], vec![0.0; n as usize]);
+    let error = refusal(&stencil.problem());
+    assert!(matches!(error, ReferenceError::TooManyContacts { contact: 20_000, .. }), "{error}");
+}
+
 /// Nothing holds these squares and nothing touches them: K is singular, to rounding.
 #[test]
 fn square_that_nothing_holds() {
