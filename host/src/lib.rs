@@ -3,3 +3,4 @@
 pub mod error;
 pub mod mesh;
 pub mod output;
+pub mod report;
