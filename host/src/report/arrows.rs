@@ -1,4 +1,4 @@
-//! The flux as arrows on a regular grid of pixels.
+//! The flux as arrows on a regular grid in the picture.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,8 @@ const SHORTEST: f64 = 3.0;
 /// Their length is proportional to |σ| up to the 95th percentile of what is sampled, so that one
 /// singular corner does not shrink all others to dots.
 pub fn arrows(panel: &ScenePanel, view: &View) -> Option<(Path, f64)> {
-    let samples = samples(panel, view);
+    let origin = origin(view);
+    let samples = samples(panel, view, origin);
     let mut sizes: Vec<f64> = samples.values().map(|flux| flux[0].hypot(flux[1])).collect();
     sizes.sort_by(f64::total_cmp);
     let full = *sizes.get(sizes.len() * 95 / 100)?;
@@ -26,21 +27,30 @@ pub fn arrows(panel: &ScenePanel, view: &View) -> Option<(Path, f64)> {
         return None;
     }
     let mut path = Path::default();
-    for (&[column, row], &flux) in &samples {
+    for (&at, &flux) in &samples {
         let length = LONGEST * (flux[0].hypot(flux[1]) / full).min(1.0);
         if length >= SHORTEST {
-            path.polygon(&arrow(sample_point(column, row), view.direction(flux), length));
+            let centre = sample_point(origin, at);
+            path.polygon(&arrow(centre, view.direction(flux), length));
         }
     }
     Some((path, full))
 }
 
-fn sample_point(column: i32, row: i32) -> [f64; 2] {
-    [(f64::from(column) + 0.5) * SPACING, (f64::from(row) + 0.5) * SPACING]
+/// The corner of the grid: whole squares of it, centred in the picture.
+fn origin(view: &View) -> [f64; 2] {
+    let [x_range, y_range] = view.ranges();
+    let corner = view.at([x_range[0], y_range[1]]);
+    let size = view.size();
+    std::array::from_fn(|axis| corner[axis] + 0.5 * (size[axis] % SPACING))
+}
+
+fn sample_point(origin: [f64; 2], at: [i32; 2]) -> [f64; 2] {
+    std::array::from_fn(|axis| origin[axis] + (f64::from(at[axis]) + 0.5) * SPACING)
 }
 
 /// The flux at each grid point inside a cell, by column and row.
-fn samples(panel: &ScenePanel, view: &View) -> BTreeMap<[i32; 2], [f64; 2]> {
+fn samples(panel: &ScenePanel, view: &View, origin: [f64; 2]) -> BTreeMap<[i32; 2], [f64; 2]> {
     let cells = panel.triangles.iter().map(|cell| cell.as_slice());
     let cells = cells.chain(panel.quads.iter().map(|cell| cell.as_slice()));
     let mut samples = BTreeMap::new();
@@ -50,7 +60,7 @@ fn samples(panel: &ScenePanel, view: &View) -> BTreeMap<[i32; 2], [f64; 2]> {
         let corners = corners.unwrap_or_default();
         let mut numbers = corners.as_flattened().iter().chain(&flux);
         if numbers.all(|number| number.is_finite()) {
-            for at in inside(&corners) {
+            for at in inside(&corners, origin) {
                 samples.entry(at).or_insert(flux);
             }
         }
@@ -59,13 +69,14 @@ fn samples(panel: &ScenePanel, view: &View) -> BTreeMap<[i32; 2], [f64; 2]> {
 }
 
 /// The grid points in a convex cell.
-fn inside(corners: &[[f64; 2]]) -> Vec<[i32; 2]> {
+fn inside(corners: &[[f64; 2]], origin: [f64; 2]) -> Vec<[i32; 2]> {
     let range = |axis: usize| {
         let (low, high) =
             corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |range, point| {
                 (range.0.min(point[axis]), range.1.max(point[axis]))
             });
-        (low / SPACING - 0.5).ceil() as i32..=(high / SPACING - 0.5).floor() as i32
+        let position = |pixel: f64| (pixel - origin[axis]) / SPACING - 0.5;
+        position(low).ceil() as i32..=position(high).floor() as i32
     };
     let covers = |point: [f64; 2]| {
         let sides = corners.iter().zip(corners.iter().cycle().skip(1));
@@ -77,7 +88,7 @@ fn inside(corners: &[[f64; 2]]) -> Vec<[i32; 2]> {
     };
     range(0)
         .flat_map(|column| range(1).map(move |row| [column, row]))
-        .filter(|&[column, row]| covers(sample_point(column, row)))
+        .filter(|&at| covers(sample_point(origin, at)))
         .collect()
 }
 
@@ -122,7 +133,7 @@ mod tests {
         let panel = triangle([2.0, 0.0]);
         let view = View::new(&panel.vertices, [0.0, 0.0]).unwrap();
         // 360 pixels a side: 12 × 12 grid points, the half of them below the diagonal.
-        assert_eq!(samples(&panel, &view).len(), 12 * 13 / 2);
+        assert_eq!(samples(&panel, &view, origin(&view)).len(), 12 * 13 / 2);
         assert_eq!(arrows(&panel, &view).unwrap().1, 2.0);
     }
 

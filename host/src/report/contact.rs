@@ -5,9 +5,9 @@ use super::scale::{Scale, extent};
 use super::svg::{Anchor, Path, Svg};
 use super::{ContactEdge, ScenePanel};
 
-const LEFT: f64 = 52.0;
-const RIGHT: f64 = 532.0;
-const WIDTH: f64 = 636.0;
+const LEFT: f64 = 58.0;
+const RIGHT: f64 = 538.0;
+const WIDTH: f64 = 642.0;
 /// Top and bottom of the two diagrams.
 const MULTIPLIER: [f64; 2] = [24.0, 164.0];
 const OPENING: [f64; 2] = [196.0, 250.0];
@@ -171,7 +171,7 @@ mod tests {
         let exact_multiplier = vec![f64::INFINITY, 1e9, 1.0];
         let edges = [ContactEdge { exact_multiplier, ..edge(0.0, true, 2.0) }];
         let edges: Vec<&ContactEdge> = edges.iter().collect();
-        assert_eq!(multiplier_range(&edges), [2.0_f64.min(1.0).max(1.0), TALLEST * 2.0]);
+        assert_eq!(multiplier_range(&edges), [1.0, TALLEST * 2.0]);
     }
 
     #[test]

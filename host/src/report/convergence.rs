@@ -44,8 +44,14 @@ pub fn convergence(plot: &ConvergencePlot) -> Option<String> {
 
     let mut svg = Svg::new(WIDTH, HEIGHT, &format!("{}: error over mesh width", plot.title));
     axes(&mut svg, &across, &up);
+    let mut heights: Vec<f64> = Vec::new();
     for (rate, corner, width) in slopes(&plot.series) {
-        slope_triangle(&mut svg, &at, rate, corner, width);
+        let height = up.at(corner[1]);
+        // One on top of another could not be read.
+        if heights.iter().all(|other| (other - height).abs() > 30.0) {
+            slope_triangle(&mut svg, &at, rate, corner, width);
+            heights.push(height);
+        }
     }
     for (index, curve) in curves.iter().enumerate() {
         let look = index % LOOKS;
@@ -107,8 +113,13 @@ fn slope_triangle(
     svg.text("slope-label", [right + 5.0, middle], Anchor::Start, &rate_label(rate));
 }
 
-fn rate_label(rate: f64) -> String {
-    if rate.fract() == 0.0 { format!("{rate:.0}") } else { format!("{rate:.2}") }
+/// A rate as theory writes it: 1, 2, 1.5.
+pub fn rate_label(rate: f64) -> String {
+    if !rate.is_finite() {
+        return "–".to_owned();
+    }
+    let text = format!("{rate:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Square, diamond or triangle, so that colour is not the only difference.

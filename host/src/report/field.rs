@@ -12,7 +12,7 @@ use super::{BoundaryKind, ScenePanel};
 const BANDS: u32 = 64;
 /// Finer meshes would cover the colours.
 const MOST_CELLS_WITH_LINES: usize = 1200;
-const MARGIN: f64 = 52.0;
+const MARGIN: f64 = 58.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 30.0;
 const BAR_GAP: f64 = 20.0;

@@ -16,10 +16,8 @@
 use std::collections::BTreeMap;
 
 use super::ScenePanel;
+use super::simplify::simplify;
 use super::view::View;
-
-/// Points of an outline nearer than this (in pixels) to the line without them are left out.
-const TOLERANCE: f64 = 0.12;
 
 /// Where an outline turns: the crossing of the level with an edge, or (with twice the same number)
 /// a vertex.
@@ -157,34 +155,6 @@ fn loops(mut next: BTreeMap<Node, Vec<Node>>) -> Vec<Vec<Node>> {
         loops.push(outline);
     }
     loops
-}
-
-/// Douglas and Peucker: of a run of points, keeps the one farthest from the straight line between
-/// its ends if that is visible, and looks at both halves again.
-fn simplify(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    let mut keep = vec![false; points.len()];
-    let mut runs = vec![(0, points.len().saturating_sub(1))];
-    while let Some((first, last)) = runs.pop() {
-        let distance = |index: &usize| distance(points[*index], points[first], points[last]);
-        if let Some(kept) = keep.get_mut(first..=last) {
-            kept[0] = true;
-            kept[last - first] = true;
-        }
-        let farthest = (first + 1..last).max_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(middle) = farthest.filter(|middle| distance(middle) > TOLERANCE) {
-            runs.extend([(first, middle), (middle, last)]);
-        }
-    }
-    points.into_iter().zip(keep).filter(|&(_, keep)| keep).map(|(point, _)| point).collect()
-}
-
-/// From `point` to the segment between `a` and `b`.
-fn distance(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
-    let square = along[0] * along[0] + along[1] * along[1];
-    let projection = (to[0] * along[0] + to[1] * along[1]) / square;
-    let part = if square > 0.0 { projection.clamp(0.0, 1.0) } else { 0.0 };
-    (to[0] - part * along[0]).hypot(to[1] - part * along[1])
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //!                        ├─► contact      λ and the opening along C
 //!                        └─► convergence  error over mesh width, log-log
 //! ```
-//! All pictures are SVG inside the page ([`svg`], [`scale`]); no script, no font, no other file.
+//! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
 //! The report knows no solver: [`Report`] is plain data, filled by whoever ran one. Values that are
 //! not finite are never written: what they belong to is left out or shown as "–".
 
@@ -17,6 +17,7 @@ mod field;
 mod isobands;
 mod page;
 mod scale;
+mod simplify;
 mod svg;
 #[cfg(test)]
 mod tests;

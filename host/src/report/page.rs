@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::contact::contact;
-use super::convergence::{LOOKS, convergence, legend_marker, measured_rate};
+use super::convergence::{LOOKS, convergence, legend_marker, measured_rate, rate_label};
 use super::field::{class, field};
 use super::svg::escape;
 use super::{BoundaryKind, Check, ConvergencePlot, Report, ScenePanel, Table};
@@ -131,9 +131,10 @@ fn convergence_figure(plot: &ConvergencePlot) -> Option<String> {
         let rate = measured_rate(series).map_or("–".to_owned(), |rate| format!("{rate:.2}"));
         let _ = writeln!(
             legend,
-            "<li>{}<span>{}</span><em>rate {rate}</em></li>",
+            "<li>{}<span>{}</span><em>rate {rate}, expected {}</em></li>",
             legend_marker(index % LOOKS),
-            escape(&series.label)
+            escape(&series.label),
+            rate_label(series.expected_rate)
         );
     }
     let title = escape(&plot.title);

@@ -134,7 +134,7 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("<a href=\"#scene-0\">half-disc</a>"));
     assert!(page.contains("id=\"scene-0\""));
     assert!(page.contains("Failed: 1 of 2 runs"));
-    assert!(page.contains("<em>rate 2.00</em>"));
+    assert!(page.contains("<em>rate 2.00, expected 2</em>"));
 }
 
 #[test]
