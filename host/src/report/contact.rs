@@ -81,6 +81,7 @@ fn multiplier_range(edges: &[&ContactEdge]) -> [f64; 2] {
 /// An axis that shows 0 and a little more than the range.
 fn vertical([low, high]: [f64; 2], [top, bottom]: [f64; 2]) -> Scale {
     let [low, high] = [low.min(0.0), high.max(0.0)];
+    let high = if low == high { 1.0 } else { high };
     let room = 0.06 * (high - low);
     Scale::linear([if low < 0.0 { low - room } else { 0.0 }, high + room], [bottom, top])
 }

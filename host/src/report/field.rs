@@ -10,6 +10,8 @@ use super::{BoundaryKind, ScenePanel};
 
 /// Bands of colour; more cannot be told apart.
 const BANDS: u32 = 64;
+/// A range below this part of the values is rounding of f32, not a picture.
+const ROUNDING: f64 = 1e-6;
 /// Finer meshes would cover the colours.
 const MOST_CELLS_WITH_LINES: usize = 1200;
 const MARGIN: f64 = 58.0;
@@ -36,7 +38,9 @@ pub fn field(panel: &ScenePanel) -> Option<Field> {
     let label = format!("{}: the solution u over the plane", panel.title);
     let mut svg = Svg::new(total, TOP + height + BOTTOM, &label);
 
-    if let Some(range) = extent(surface.values()) {
+    if let Some([low, high]) = extent(surface.values()) {
+        let visible = high - low > ROUNDING * low.abs().max(high.abs());
+        let range = if visible { [low, high] } else { [low, low] };
         bands(&mut svg, &surface, range);
         color_bar(&mut svg, range, MARGIN + width + BAR_GAP, [TOP + height, TOP]);
     }
@@ -142,7 +146,7 @@ fn axes(svg: &mut Svg, view: &View) {
     let [width, height] = view.size();
     let (bottom, right) = (TOP + height, MARGIN + width);
     let x = Scale::linear(x_range, [MARGIN, right]);
-    for (value, label) in x.ticks(if width > 240.0 { 5 } else { 2 }) {
+    for (value, label) in x.ticks(if width > 240.0 { 5 } else { 3 }) {
         svg.line("axis", [x.at(value), bottom + 6.0], [x.at(value), bottom + 10.0]);
         svg.text("tick", [x.at(value), bottom + 23.0], Anchor::Middle, &label);
     }

@@ -148,10 +148,13 @@ fn a_page_with_nothing_to_show_is_still_a_page() {
 fn a_constant_solution_without_contact_or_flux() {
     let mut constant = panel(4, false);
     constant.vertex_u.fill(3.0);
+    constant.vertex_u[0] += 1e-15;
     constant.cell_flux.fill([0.0, 0.0]);
     constant.contact.clear();
     let page = assert_clean(&full(constant));
     assert!(page.contains("<svg") && !page.contains("class=\"arrows\""));
+    // One colour for the field, the same for the bar.
+    assert_eq!(page.matches("<path fill=").count(), 2);
 }
 
 #[test]
