@@ -1,5 +1,15 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
 pub mod error;
+pub mod expression;
+pub mod field;
 pub mod mesh;
+pub mod norms;
+pub mod output;
+pub mod problem;
+pub mod quadrature;
 pub mod reference;
+pub mod report;
+pub mod scalar;
+pub mod scene;
+pub mod solve;

@@ -1,0 +1,4 @@
+//! Files that other programs read: written whole or not at all.
+
+pub mod atomic;
+pub mod vtu;

@@ -1,0 +1,190 @@
+//! What happens along the contact boundary C: the multiplier λ against the exact one, and below it,
+//! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0.
+
+use super::scale::{Scale, extent};
+use super::svg::{Anchor, Path, Svg};
+use super::{ContactEdge, ScenePanel};
+
+const LEFT: f64 = 58.0;
+const RIGHT: f64 = 538.0;
+const WIDTH: f64 = 642.0;
+/// Top and bottom of the two diagrams.
+const MULTIPLIER: [f64; 2] = [24.0, 164.0];
+const OPENING: [f64; 2] = [196.0, 250.0];
+const HEIGHT: f64 = 290.0;
+/// An exact λ may be infinite at a corner; the axis ends at this multiple of the discrete one.
+const TALLEST: f64 = 1.6;
+
+/// The two diagrams; `None` without a finite edge of contact.
+pub fn contact(panel: &ScenePanel) -> Option<String> {
+    let mut edges: Vec<&ContactEdge> = panel.contact.iter().collect();
+    edges.retain(|edge| edge.arc_length.iter().all(|s| s.is_finite()));
+    edges.sort_by(|a, b| a.arc_length[0].total_cmp(&b.arc_length[0]));
+    let length = extent(edges.iter().flat_map(|edge| edge.arc_length))?;
+    let along = Scale::linear(length, [LEFT, RIGHT]);
+    let mut svg = Svg::new(WIDTH, HEIGHT, &format!("{}: λ and u − ψ along C", panel.title));
+
+    for [top, bottom] in [MULTIPLIER, OPENING] {
+        for [from, to] in active_runs(&edges) {
+            svg.rectangle("contact-zone", [along.at(from), top], [along.at(to), bottom]);
+        }
+    }
+    let multiplier = |edge: &ContactEdge| edge.multiplier;
+    let up = vertical(multiplier_range(&edges), MULTIPLIER);
+    frame(&mut svg, &up, 4, MULTIPLIER, "λ = σ·n − q");
+    steps(&mut svg, ["multiplier-area", "multiplier"], &edges, &along, &up, multiplier);
+    svg.path("exact", &exact(&edges, &along, &up));
+
+    let opening = |edge: &ContactEdge| edge.opening;
+    let range = extent(edges.iter().map(|edge| edge.opening)).unwrap_or_default();
+    let up = vertical(range, OPENING);
+    frame(&mut svg, &up, 2, OPENING, "u − ψ");
+    steps(&mut svg, ["opening-area", "opening"], &edges, &along, &up, opening);
+
+    for (value, label) in along.ticks(6) {
+        let x = along.at(value);
+        svg.line("axis", [x, OPENING[1]], [x, OPENING[1] + 4.0]);
+        svg.text("tick", [x, OPENING[1] + 18.0], Anchor::Middle, &label);
+    }
+    svg.text("quantity", [RIGHT, OPENING[1] + 35.0], Anchor::End, "arc length along C");
+    Some(svg.finish())
+}
+
+/// The arc lengths between which contact is active, neighbouring edges joined.
+fn active_runs(edges: &[&ContactEdge]) -> Vec<[f64; 2]> {
+    let mut runs: Vec<[f64; 2]> = Vec::new();
+    for edge in edges.iter().filter(|edge| edge.active) {
+        match runs.last_mut() {
+            Some(run) if touches(run[1], edge) => run[1] = edge.arc_length[1],
+            _ => runs.push(edge.arc_length),
+        }
+    }
+    runs
+}
+
+/// Whether an edge begins where the one before ended, up to rounding.
+fn touches(end: f64, edge: &ContactEdge) -> bool {
+    let [start, stop] = edge.arc_length;
+    (start - end).abs() <= 1e-6 * (stop - start).abs()
+}
+
+fn multiplier_range(edges: &[&ContactEdge]) -> [f64; 2] {
+    let exact = extent(edges.iter().flat_map(|edge| edge.exact_multiplier.iter().copied()));
+    let Some([low, high]) = extent(edges.iter().map(|edge| edge.multiplier)) else {
+        return exact.unwrap_or_default();
+    };
+    let room = TALLEST * low.abs().max(high.abs());
+    let [exact_low, exact_high] = exact.unwrap_or([low, high]);
+    [low.min(exact_low.max(-room)), high.max(exact_high.min(room))]
+}
+
+/// An axis that shows 0 and a little more than the range.
+fn vertical([low, high]: [f64; 2], [top, bottom]: [f64; 2]) -> Scale {
+    let [low, high] = [low.min(0.0), high.max(0.0)];
+    let high = if low == high { 1.0 } else { high };
+    let room = 0.06 * (high - low);
+    Scale::linear([if low < 0.0 { low - room } else { 0.0 }, high + room], [bottom, top])
+}
+
+fn frame(svg: &mut Svg, up: &Scale, ticks: usize, [top, bottom]: [f64; 2], quantity: &str) {
+    for (value, label) in up.ticks(ticks) {
+        let y = up.at(value);
+        if (top - 0.5..=bottom + 0.5).contains(&y) {
+            svg.line("grid", [LEFT, y], [RIGHT, y]);
+            svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
+        }
+    }
+    svg.line("axis", [LEFT, up.at(0.0)], [RIGHT, up.at(0.0)]);
+    svg.text("quantity", [LEFT, top - 8.0], Anchor::Start, quantity);
+}
+
+/// A value that is constant on each edge: the area down to 0, and its upper end as a line.
+fn steps(
+    svg: &mut Svg,
+    [area_class, line_class]: [&str; 2],
+    edges: &[&ContactEdge],
+    along: &Scale,
+    up: &Scale,
+    value: impl Fn(&ContactEdge) -> f64,
+) {
+    let (mut area, mut line) = (Path::default(), Path::default());
+    for run in edges.chunk_by(|a, b| touches(a.arc_length[1], b)) {
+        let run = run.iter().filter(|edge| value(edge).is_finite());
+        let corners: Vec<[f64; 2]> = run
+            .flat_map(|edge| edge.arc_length.map(|s| [along.at(s), up.at(value(edge))]))
+            .collect();
+        line.line(&corners);
+        if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
+            let ground = up.at(0.0);
+            area.polygon(&[&[[first[0], ground]], &corners[..], &[[last[0], ground]]].concat());
+        }
+    }
+    svg.path(area_class, &area);
+    svg.path(line_class, &line);
+}
+
+/// The exact λ, interrupted where it leaves the diagram.
+fn exact(edges: &[&ContactEdge], along: &Scale, up: &Scale) -> Path {
+    let visible = |y: f64| (MULTIPLIER[0] - 1.0..=MULTIPLIER[1] + 1.0).contains(&y);
+    let mut path = Path::default();
+    for run in edges.chunk_by(|a, b| touches(a.arc_length[1], b)) {
+        let points: Vec<[f64; 2]> = run.iter().flat_map(|edge| exact_points(edge)).collect();
+        let points: Vec<[f64; 2]> =
+            points.into_iter().map(|[s, value]| [along.at(s), up.at(value)]).collect();
+        for piece in points.split(|point| !visible(point[1])) {
+            path.line(piece);
+        }
+    }
+    path
+}
+
+/// Arc length and exact λ at the sample points of an edge.
+fn exact_points(edge: &ContactEdge) -> Vec<[f64; 2]> {
+    let [start, stop] = edge.arc_length;
+    let values = &edge.exact_multiplier;
+    let fraction = |index: usize| match values.len() {
+        1 => 0.5,
+        count => index as f64 / (count - 1) as f64,
+    };
+    let points = values.iter().enumerate();
+    points.map(|(index, &value)| [start + fraction(index) * (stop - start), value]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn edge(start: f64, active: bool, multiplier: f64) -> ContactEdge {
+        let arc_length = [start, start + 1.0];
+        ContactEdge { arc_length, active, multiplier, ..ContactEdge::default() }
+    }
+
+    #[test]
+    fn active_edges_join_unless_something_is_between() {
+        let edges = [edge(0.0, true, 1.0), edge(1.0, true, 1.0), edge(2.0, false, 0.0)];
+        let apart = [edge(3.0, true, 1.0), edge(5.0, true, 1.0)];
+        let all: Vec<&ContactEdge> = edges.iter().chain(&apart).collect();
+        assert_eq!(active_runs(&all), [[0.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+    }
+
+    #[test]
+    fn a_singular_exact_multiplier_does_not_flatten_the_rest() {
+        let exact_multiplier = vec![f64::INFINITY, 1e9, 1.0];
+        let edges = [ContactEdge { exact_multiplier, ..edge(0.0, true, 2.0) }];
+        let edges: Vec<&ContactEdge> = edges.iter().collect();
+        assert_eq!(multiplier_range(&edges), [1.0, TALLEST * 2.0]);
+    }
+
+    #[test]
+    fn one_exact_value_is_at_the_midpoint() {
+        let midpoint = ContactEdge { exact_multiplier: vec![7.0], ..edge(2.0, true, 7.0) };
+        assert_eq!(exact_points(&midpoint), [[2.5, 7.0]]);
+        let ends = ContactEdge { exact_multiplier: vec![7.0, 8.0], ..edge(2.0, true, 7.0) };
+        assert_eq!(exact_points(&ends), [[2.0, 7.0], [3.0, 8.0]]);
+    }
+
+    #[test]
+    fn no_contact_no_picture() {
+        assert!(contact(&ScenePanel::default()).is_none());
+    }
+}

@@ -1,0 +1,159 @@
+//! The report: one HTML file a person wants to look at, complete in itself.
+//!
+//! ```text
+//! Report ─► page (HTML) ─┬─► field        u as colour ◄ isobands, colormap; the flux ◄ arrows
+//!                        ├─► contact      λ and the opening along C
+//!                        └─► convergence  error over mesh width, log-log
+//! ```
+//! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
+//! The report knows no solver: [`Report`] is plain data, filled by whoever ran one. Values that are
+//! not finite are never written: what they belong to is left out or shown as "–".
+
+mod arrows;
+mod colormap;
+mod contact;
+mod convergence;
+mod field;
+mod isobands;
+mod page;
+mod scale;
+mod simplify;
+mod svg;
+#[cfg(test)]
+mod tests;
+mod view;
+
+pub use page::html;
+
+/// Everything the page shows, in the order it shows it.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    /// The heading.
+    pub title: String,
+    /// Version, compiler, machine: what made these numbers.
+    pub generated_by: String,
+    /// The main table.
+    pub table: Table,
+    /// Claims that were tested beside the rows of the table.
+    pub checks: Vec<Check>,
+    /// Error over mesh width, a picture each.
+    pub convergence: Vec<ConvergencePlot>,
+    /// The solutions, a panel each.
+    pub scenes: Vec<ScenePanel>,
+}
+
+/// A table in which every row passes or fails.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// The rows; one whose first cell is the name of a panel links to it.
+    pub rows: Vec<TableRow>,
+}
+
+/// A row of the main table.
+#[derive(Debug, Clone)]
+pub struct TableRow {
+    /// A text for each column.
+    pub cells: Vec<String>,
+    /// Whether everything the row claims holds.
+    pub passed: bool,
+}
+
+/// A claim that was tested.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// What should hold.
+    pub claim: String,
+    /// What was found.
+    pub found: String,
+    /// Whether it holds.
+    pub passed: bool,
+}
+
+/// Several errors over the mesh width in one log-log picture.
+#[derive(Debug, Clone)]
+pub struct ConvergencePlot {
+    /// The heading.
+    pub title: String,
+    /// The curves.
+    pub series: Vec<ConvergenceSeries>,
+}
+
+/// One error over the mesh width.
+#[derive(Debug, Clone)]
+pub struct ConvergenceSeries {
+    /// Which error of which scene.
+    pub label: String,
+    /// The mesh widths, from coarse to fine.
+    pub h: Vec<f64>,
+    /// The error on each mesh.
+    pub error: Vec<f64>,
+    /// The exponent p that theory gives in error ~ h^p.
+    pub expected_rate: f64,
+}
+
+/// One solved scene.
+#[derive(Debug, Clone, Default)]
+pub struct ScenePanel {
+    /// The short name, as in the first column of the main table.
+    pub name: String,
+    /// The title.
+    pub title: String,
+    /// Whether every check on the scene holds.
+    pub passed: bool,
+    /// Vertex coordinates.
+    pub vertices: Vec<[f64; 2]>,
+    /// Vertices of the triangles.
+    pub triangles: Vec<[u32; 3]>,
+    /// Vertices of the quads.
+    pub quads: Vec<[u32; 4]>,
+    /// The conforming u at each vertex.
+    pub vertex_u: Vec<f64>,
+    /// The flux σ = A∇u at the centre of each cell, triangles first.
+    pub cell_flux: Vec<[f64; 2]>,
+    /// The edges of the contact boundary C, by arc length.
+    pub contact: Vec<ContactEdge>,
+    /// The edges of the rest of the boundary.
+    pub boundary: Vec<BoundaryEdge>,
+    /// Numbers worth knowing: name and value.
+    pub facts: Vec<(String, String)>,
+}
+
+/// An edge of the contact boundary.
+#[derive(Debug, Clone, Default)]
+pub struct ContactEdge {
+    /// Its ends.
+    pub ends: [[f64; 2]; 2],
+    /// The arc length along C at both ends, the smaller first.
+    pub arc_length: [f64; 2],
+    /// Whether u touches the gap here.
+    pub active: bool,
+    /// The multiplier λ = σ·n − q, constant on the edge.
+    pub multiplier: f64,
+    /// The exact λ at equally spaced points from the first to the second arc length (with both
+    /// ends when there are two or more; the midpoint when there is one); empty if unknown.
+    pub exact_multiplier: Vec<f64>,
+    /// The mean of u − ψ over the edge.
+    pub opening: f64,
+}
+
+/// An edge of the boundary outside C.
+#[derive(Debug, Clone)]
+pub struct BoundaryEdge {
+    /// Its ends.
+    pub ends: [[f64; 2]; 2],
+    /// What is prescribed.
+    pub kind: BoundaryKind,
+}
+
+/// What is prescribed on an edge outside C.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundaryKind {
+    /// u itself.
+    Dirichlet,
+    /// The outward flux.
+    Neumann,
+    /// The outward flux in proportion to ambient − u.
+    Robin,
+}

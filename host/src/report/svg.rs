@@ -1,0 +1,171 @@
+//! Pictures as SVG text, to stand inside an HTML page.
+//!
+//! Lengths are pixels, x to the right and y down, rounded to 1/100. Looks (colour, width, font)
+//! belong to the style sheet, which the `class` of each element names; so one picture serves a
+//! light page, a dark page and paper. A shape with a coordinate that is not finite is left out.
+
+use std::fmt::Write;
+
+/// Where the text of a label lies relative to its anchor point.
+#[derive(Debug, Clone, Copy)]
+pub enum Anchor {
+    /// The text begins there.
+    Start,
+    /// The text is centred there.
+    Middle,
+    /// The text ends there.
+    End,
+}
+
+/// A picture being drawn; later shapes cover earlier ones.
+#[derive(Debug)]
+pub struct Svg {
+    text: String,
+}
+
+impl Svg {
+    /// An empty picture; `label` says to those who cannot see it what it shows.
+    pub fn new(width: f64, height: f64, label: &str) -> Self {
+        let (width, height) = (number(width), number(height));
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" \
+             width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n",
+            escape(label)
+        );
+        Self { text }
+    }
+
+    /// A path in the look of `class`.
+    pub fn path(&mut self, class: &str, path: &Path) {
+        if !path.0.is_empty() {
+            let _ = writeln!(self.text, "<path class=\"{class}\" d=\"{}\"/>", path.0);
+        }
+    }
+
+    /// A path filled with `color`.
+    pub fn fill(&mut self, color: &str, path: &Path) {
+        if !path.0.is_empty() {
+            let _ = writeln!(self.text, "<path fill=\"{color}\" d=\"{}\"/>", path.0);
+        }
+    }
+
+    /// A line between two points.
+    pub fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
+        let mut path = Path::default();
+        path.line(&[from, to]);
+        self.path(class, &path);
+    }
+
+    /// A rectangle given by two opposite corners.
+    pub fn rectangle(&mut self, class: &str, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) {
+        let mut path = Path::default();
+        path.polygon(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]]);
+        self.path(class, &path);
+    }
+
+    /// A line of text, its baseline at `at`.
+    pub fn text(&mut self, class: &str, at: [f64; 2], anchor: Anchor, text: &str) {
+        if !at.iter().all(|value| value.is_finite()) {
+            return;
+        }
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let [x, y] = at.map(number);
+        let text = escape(text);
+        let _ = writeln!(
+            self.text,
+            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
+        );
+    }
+
+    /// The finished element.
+    pub fn finish(mut self) -> String {
+        self.text.push_str("</svg>\n");
+        self.text
+    }
+}
+
+/// The outline of one shape or of many that look alike.
+#[derive(Debug, Default)]
+pub struct Path(String);
+
+impl Path {
+    /// Adds an open line through the points.
+    pub fn line(&mut self, points: &[[f64; 2]]) {
+        if points.len() < 2 || !points.as_flattened().iter().all(|value| value.is_finite()) {
+            return;
+        }
+        for (index, point) in points.iter().enumerate() {
+            let [x, y] = point.map(number);
+            let _ = write!(self.0, "{}{x} {y}", if index == 0 { "M" } else { " " });
+        }
+    }
+
+    /// Adds a closed polygon.
+    pub fn polygon(&mut self, points: &[[f64; 2]]) {
+        let before = self.0.len();
+        self.line(points);
+        if self.0.len() > before {
+            self.0.push('Z');
+        }
+    }
+}
+
+/// At most two decimals and none that say nothing.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Text in which no character can be mistaken for markup.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            control if control.is_control() => escaped.push(' '),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(number(100.0), "100");
+        assert_eq!(number(-0.001), "0");
+        assert_eq!(number(1.2345), "1.23");
+        assert_eq!(number(-2.5), "-2.5");
+    }
+
+    #[test]
+    fn what_is_not_finite_is_left_out() {
+        let mut svg = Svg::new(10.0, 10.0, "<test>");
+        let empty = svg.text.len();
+        svg.line("axis", [0.0, f64::NAN], [1.0, 1.0]);
+        svg.rectangle("axis", [0.0, 0.0], [f64::INFINITY, 1.0]);
+        svg.text("tick", [f64::NAN, 0.0], Anchor::Middle, "text");
+        assert_eq!(svg.text.len(), empty);
+        assert!(svg.finish().contains("&lt;test&gt;"));
+    }
+
+    #[test]
+    fn a_polygon_is_closed_and_a_line_is_not() {
+        let (mut polygon, mut line) = (Path::default(), Path::default());
+        polygon.polygon(&[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]);
+        line.line(&[[0.0, 0.0], [1.0, 0.0]]);
+        assert_eq!((polygon.0.as_str(), line.0.as_str()), ("M0 0 1 0 0.5 1Z", "M0 0 1 0"));
+    }
+}
