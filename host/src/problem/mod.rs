@@ -8,10 +8,12 @@ mod assembled;
 mod binding;
 mod integrals;
 mod loads;
+mod solvability;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use loads::Loads;
+pub use solvability::Parts;
 
 use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh as KernelMesh;

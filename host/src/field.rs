@@ -1,0 +1,148 @@
+//! u_h and σ_h inside the cells, from edge means and edge fluxes.
+
+use signorini_kernel::Real;
+use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+
+use crate::problem::{Problem, QuadCoefficient};
+
+/// The discrete solution on one cell.
+#[derive(Debug, Clone, Copy)]
+pub enum CellField {
+    /// Corners, means of u_h over the sides, outward fluxes through the sides.
+    Triangle([[f64; 2]; 3], [f64; 3], [f64; 3]),
+    /// The same for a quad.
+    Quad([[f64; 2]; 4], [f64; 4], [f64; 4]),
+}
+
+/// u_h, its gradient and σ_h at one point.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample {
+    /// u_h
+    pub u: f64,
+    /// ∇u_h
+    pub gradient: [f64; 2],
+    /// σ_h
+    pub flux: [f64; 2],
+}
+
+impl CellField {
+    /// The field on cell `cell` (triangles first): `u` holds edge means, `flux` ∫_E σ·n along the
+    /// direction of each edge.
+    pub fn new(problem: &Problem, cell: usize, u: &[f64], flux: &[f64]) -> Self {
+        let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
+        let triangles = problem.mesh.triangles.len();
+        let outward = |edge: u32, half: usize| {
+            let first = problem.topology.half_edges[edge as usize][0] as usize == half;
+            if first { flux[edge as usize] } else { -flux[edge as usize] }
+        };
+        if cell < triangles {
+            let edges = problem.topology.of_triangles[cell];
+            let fluxes = std::array::from_fn(|k| outward(edges[k], 3 * cell + k));
+            let means = edges.map(|edge| u[edge as usize]);
+            Self::Triangle(problem.mesh.triangles[cell].map(corner), means, fluxes)
+        } else {
+            let at = cell - triangles;
+            let edges = problem.topology.of_quads[at];
+            let fluxes = std::array::from_fn(|k| outward(edges[k], 3 * triangles + 4 * at + k));
+            let means = edges.map(|edge| u[edge as usize]);
+            Self::Quad(problem.mesh.quads[at].map(corner), means, fluxes)
+        }
+    }
+
+    /// Values at a point given by its place and its reference coordinates.
+    pub fn sample(&self, point: &crate::quadrature::Point) -> Sample {
+        match *self {
+            Self::Triangle(corners, means, fluxes) => {
+                let basis = crouzeix_raviart::basis(point.reference);
+                let gradient = crouzeix_raviart::gradient(corners, means);
+                let flux = crouzeix_raviart::raviart_thomas(corners, fluxes, point.x);
+                Sample { u: dot(basis, means), gradient: gradient.into(), flux: flux.into() }
+            }
+            Self::Quad(corners, means, fluxes) => {
+                let [x, y, _] = point.reference;
+                let place = rannacher_turek::place(corners, [x, y]);
+                Sample {
+                    u: dot(place.basis(), means),
+                    gradient: place.gradient(means).into(),
+                    flux: place.raviart_thomas(fluxes).into(),
+                }
+            }
+        }
+    }
+
+    /// σ_h in the middle.
+    pub fn middle_flux(&self) -> [f64; 2] {
+        match *self {
+            Self::Triangle([a, b, c], _, fluxes) => {
+                let middle = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+                crouzeix_raviart::raviart_thomas([a, b, c], fluxes, middle).into()
+            }
+            Self::Quad(corners, _, fluxes) => {
+                rannacher_turek::place(corners, [0.5; 2]).raviart_thomas(fluxes).into()
+            }
+        }
+    }
+
+    /// The mean of the edge means.
+    pub fn mean(&self) -> f64 {
+        match self {
+            Self::Triangle(_, means, _) => means.iter().sum::<f64>() / 3.0,
+            Self::Quad(_, means, _) => means.iter().sum::<f64>() / 4.0,
+        }
+    }
+
+    fn at_corners(&self) -> Vec<f64> {
+        match *self {
+            Self::Triangle(_, means, _) => {
+                let corner = |k: usize| std::array::from_fn(|j| f64::from(u8::from(j == k)));
+                (0..3).map(|k| dot(crouzeix_raviart::basis(corner(k)), means)).collect()
+            }
+            Self::Quad(corners, means, _) => {
+                let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+                let value = |at| dot(rannacher_turek::place(corners, at).basis(), means);
+                places.map(value).to_vec()
+            }
+        }
+    }
+}
+
+fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// A conforming picture of u_h: at each vertex the mean over its cells, weighted by ½ tr A so that
+/// across a jump the stiff side decides.
+pub fn vertex_values(problem: &Problem, u: &[f64], flux: &[f64]) -> Vec<f64> {
+    let vertices = problem.mesh.vertices.len();
+    let (mut sums, mut weights) = (vec![0.0; vertices], vec![0.0; vertices]);
+    let cells = problem.mesh.triangles.len() + problem.mesh.quads.len();
+    for cell in 0..cells {
+        let weight = half_trace(problem, cell);
+        let values = CellField::new(problem, cell, u, flux).at_corners();
+        for (&vertex, value) in corners(problem, cell).iter().zip(values) {
+            sums[vertex as usize] += weight * value;
+            weights[vertex as usize] += weight;
+        }
+    }
+    sums.iter().zip(&weights).map(|(sum, &weight)| sum / weight.max(f64::TINY)).collect()
+}
+
+fn corners(problem: &Problem, cell: usize) -> &[u32] {
+    let triangles = &problem.mesh.triangles;
+    match triangles.get(cell) {
+        Some(vertices) => vertices,
+        None => &problem.mesh.quads[cell - triangles.len()],
+    }
+}
+
+fn half_trace(problem: &Problem, cell: usize) -> f64 {
+    let triangles = &problem.coefficients.triangles;
+    let tensor = match triangles.get(cell) {
+        Some(tensor) => tensor,
+        None => match &problem.coefficients.quads[cell - triangles.len()] {
+            QuadCoefficient::Constant(tensor) => tensor,
+            QuadCoefficient::AtPoints(tensors) => &tensors[tensors.len() / 2],
+        },
+    };
+    0.5 * (tensor.xx + tensor.yy)
+}

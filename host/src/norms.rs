@@ -1,0 +1,84 @@
+//! Errors against an exact solution, integrated with 16×16 Gauss points a cell.
+//!
+//! A lower rule comes out up to 0.5 % too small where the exact gradient has a kink.
+
+use serde::Serialize;
+
+use crate::error::Result;
+use crate::field::CellField;
+use crate::problem::Problem;
+use crate::quadrature::{Point, gauss, on_quad, on_triangle};
+use crate::scene::{Exact, Scene};
+
+/// Points a direction.
+const POINTS: usize = 16;
+
+/// Distances between the discrete and the exact solution.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Errors {
+    /// Broken |u − u_h|₁
+    pub h1: f64,
+    /// ‖u − u_h‖
+    pub l2: f64,
+    /// ‖σ − σ_h‖
+    pub flux: f64,
+    /// ‖A^½ ∇_h(u − u_h)‖
+    pub energy: f64,
+}
+
+/// Integrates the errors of edge means `u` and edge fluxes `flux`.
+///
+/// # Errors
+/// An exact solution that is not finite at a quadrature point.
+pub fn errors(scene: &Scene, exact: &Exact, problem: &Problem, u: &[f64], flux: &[f64]) -> Result<Errors> {
+    let rule = gauss(POINTS);
+    let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
+    let triangles = problem.mesh.triangles.len();
+    let mut sums = Errors::default();
+    for cell in 0..triangles + problem.mesh.quads.len() {
+        let field = CellField::new(problem, cell, u, flux);
+        let material = &scene.materials[problem.binding.materials[cell] as usize];
+        let mut add = |point: Point| sums.add(scene, exact, material, &field, &point);
+        if cell < triangles {
+            let corners = problem.mesh.triangles[cell].map(corner);
+            on_triangle(corners, &rule).try_for_each(&mut add)?;
+        } else {
+            let corners = problem.mesh.quads[cell - triangles].map(corner);
+            on_quad(corners, &rule).try_for_each(&mut add)?;
+        }
+    }
+    let Errors { h1, l2, flux, energy } = sums;
+    Ok(Errors { h1: h1.sqrt(), l2: l2.sqrt(), flux: flux.sqrt(), energy: energy.sqrt() })
+}
+
+impl Errors {
+    /// Adds one point's squares.
+    fn add(
+        &mut self,
+        scene: &Scene,
+        exact: &Exact,
+        material: &crate::scene::Material,
+        field: &CellField,
+        point: &Point,
+    ) -> Result<()> {
+        let [x, y] = point.x;
+        let u = exact.u.value.eval(x, y, 0.0);
+        let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
+        for (value, key) in [(u, &exact.u), (ux, &exact.gradient[0]), (uy, &exact.gradient[1])] {
+            if !value.is_finite() {
+                let message = format!("not finite at ({x}, {y})");
+                return Err(scene.error(key, message).hint("see [exact]").into());
+            }
+        }
+        let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
+        let sample = field.sample(point);
+        let (ex, ey) = (ux - sample.gradient[0], uy - sample.gradient[1]);
+        let (sx, sy) = (xx * ux + xy * uy, xy * ux + yy * uy);
+        let weight = point.weight;
+        self.h1 += weight * (ex * ex + ey * ey);
+        self.l2 += weight * (u - sample.u).powi(2);
+        self.flux += weight * ((sx - sample.flux[0]).powi(2) + (sy - sample.flux[1]).powi(2));
+        self.energy += weight * (xx * ex * ex + 2.0 * xy * ex * ey + yy * ey * ey);
+        Ok(())
+    }
+}
