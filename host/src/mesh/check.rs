@@ -41,7 +41,7 @@ impl Fault {
         match *self {
             Self::Branching { edge: ends, cells: [a, b, c] } => {
                 let (a, b, c) = (cell(a), cell(b), cell(c));
-                format!("{a}, {b} and {c} share {}; two cells may", edge(ends))
+                format!("{a}, {b} and {c} share {}, expected two at most", edge(ends))
             }
             Self::Overlap { edge: ends, cells: [a, b] } => {
                 let (a, b) = (cell(a), cell(b));
@@ -107,7 +107,7 @@ mod tests {
         let fault = edges(&mesh(&[[0, 1, 2], [1, 0, 3], [1, 0, 4]], &[])).unwrap_err();
         assert_eq!(fault, Fault::Branching { edge: [0, 1], cells: [0, 1, 2] });
         let text = fault.describe(|c| format!("T{c}"), |v| format!("v{v}"));
-        assert_eq!(text, "T0, T1 and T2 share the edge from v0 to v1; two cells may");
+        assert_eq!(text, "T0, T1 and T2 share the edge from v0 to v1, expected two at most");
     }
 
     #[test]

@@ -37,17 +37,19 @@ pub fn read(path: &Path) -> Result<Mesh> {
     Ok(parse(&bytes).map_err(|error| error.file(path))?)
 }
 
-fn load(path: &Path) -> std::result::Result<Vec<u8>, InputError> {
-    let unreadable = |error| InputError::new(format!("the mesh cannot be read: {error}"));
+fn load(path: &Path) -> Parsed<Vec<u8>> {
+    let unreadable = |error: std::io::Error| {
+        Box::new(InputError::new(format!("the mesh cannot be read: {error}")))
+    };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
-        return Err(InputError::new("expected a mesh, found something that is not a file"));
+        return Err(InputError::new("expected a mesh, found something that is no file").into());
     }
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(unreadable)?;
     file.take(SIZE_LIMIT).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 == SIZE_LIMIT {
-        return Err(InputError::new("the mesh has 2 GiB or more, expected less"));
+        return Err(InputError::new("the mesh has 2 GiB or more, expected less").into());
     }
     Ok(bytes)
 }

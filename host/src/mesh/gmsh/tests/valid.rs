@@ -70,21 +70,18 @@ fn line_ends_and_blanks_do_not_matter() {
 #[test]
 fn sections_in_another_order_and_unknown_ones() {
     for text in [ascii22(), ascii41()] {
-        let cut = text.find("$PhysicalNames").unwrap();
-        let (head, tail) = text.split_at(cut);
-        let mut sections: Vec<_> = tail.split_inclusive("\n$End").collect();
-        // Each piece now begins with the rest of the marker before it: join them as sections.
-        let mut whole = Vec::new();
-        let first = sections.remove(0).to_owned();
-        let mut open = first;
-        for piece in sections {
-            let (name, rest) = piece.split_once('\n').unwrap();
-            whole.push(format!("{open}{name}\n"));
-            open = rest.to_owned();
+        let (head, tail) = text.split_at(text.find("$PhysicalNames").unwrap());
+        let mut sections: Vec<String> = Vec::new();
+        for line in tail.split_inclusive('\n') {
+            match sections.last_mut() {
+                Some(open) if !line.starts_with('$') || line.starts_with("$End") => *open += line,
+                _ => sections.push(line.to_owned()),
+            }
         }
-        whole.reverse();
+        assert!(sections.len() >= 3);
+        sections.reverse();
         let unknown = "$Comments\n$Nodes, of course\n$EndComments\n$Periodic\n0\n$EndPeriodic\n";
-        let text = format!("$A\n$EndA\n{head}{}{unknown}", whole.join(unknown));
+        let text = format!("$A\n$EndA\n{head}{}{unknown}", sections.join(unknown));
         assert_eq!(mesh(text.as_bytes()), expected());
     }
 }
