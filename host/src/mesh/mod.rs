@@ -1,5 +1,9 @@
 //! A mesh as it was read: coordinates in f64, cells by kind, physical groups by name.
 
+pub mod check;
+pub mod gmsh;
+pub mod shape;
+
 /// Cells and named groups, before any scene gives the names a meaning.
 ///
 /// Cells are numbered triangles first, then quads: cell `c` is triangle `c` below

@@ -1,0 +1,125 @@
+//! How cells may meet: an edge belongs to one cell, or to two that lie on its two sides.
+//!
+//! Cells run counterclockwise, so two neighbours run through their common edge in opposite
+//! directions; the same direction means that both lie on the same side and overlap. Edges are
+//! found by sorting, in O(n log n) whatever the mesh: a fan around one vertex costs no more than
+//! a grid.
+
+use super::Mesh;
+
+/// Cells that meet in a way no plane mesh has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// Three cells at one edge.
+    Branching {
+        /// The vertices of the edge.
+        edge: [u32; 2],
+        /// The first three of its cells.
+        cells: [u32; 3],
+    },
+    /// Two cells on the same side of an edge.
+    Overlap {
+        /// The vertices of the edge.
+        edge: [u32; 2],
+        /// The two cells.
+        cells: [u32; 2],
+    },
+}
+
+impl Fault {
+    /// The cell to be named first.
+    pub fn cell(&self) -> u32 {
+        match self {
+            Self::Branching { cells, .. } => cells[0],
+            Self::Overlap { cells, .. } => cells[0],
+        }
+    }
+
+    /// The fault in words, with cells and vertices called as the caller knows them.
+    pub fn describe(&self, cell: impl Fn(u32) -> String, vertex: impl Fn(u32) -> String) -> String {
+        let edge = |[a, b]: [u32; 2]| format!("the edge from {} to {}", vertex(a), vertex(b));
+        match *self {
+            Self::Branching { edge: ends, cells: [a, b, c] } => {
+                let (a, b, c) = (cell(a), cell(b), cell(c));
+                format!("{a}, {b} and {c} share {}, expected two at most", edge(ends))
+            }
+            Self::Overlap { edge: ends, cells: [a, b] } => {
+                let (a, b) = (cell(a), cell(b));
+                format!("{a} and {b} overlap: both lie on the same side of {}", edge(ends))
+            }
+        }
+    }
+}
+
+/// One side of a cell; the order sorts by edge, then by cell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Side {
+    edge: [u32; 2],
+    cell: u32,
+    upward: bool,
+}
+
+/// The edges of the mesh, lower vertex first, ascending, if its cells meet as they may.
+///
+/// Cells must be counterclockwise and without a repeated vertex.
+pub fn edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>, Fault> {
+    let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
+    let triangles = mesh.triangles.iter().map(|cell| &cell[..]);
+    let cells = triangles.chain(mesh.quads.iter().map(|cell| &cell[..]));
+    for (cell, corners) in (0..).zip(cells) {
+        let following = corners.iter().cycle().skip(1);
+        sides.extend(corners.iter().zip(following).map(|(&from, &to)| Side {
+            edge: [from.min(to), from.max(to)],
+            cell,
+            upward: from < to,
+        }));
+    }
+    sides.sort_unstable();
+    sides.chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
+}
+
+/// The edge that these sides have in common.
+fn edge_of(sides: &[Side]) -> Result<[u32; 2], Fault> {
+    let edge = sides[0].edge;
+    match sides {
+        [a, b, c, ..] => Err(Fault::Branching { edge, cells: [a.cell, b.cell, c.cell] }),
+        [a, b] if a.upward == b.upward => Err(Fault::Overlap { edge, cells: [a.cell, b.cell] }),
+        _ => Ok(edge),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(triangles: &[[u32; 3]], quads: &[[u32; 4]]) -> Mesh {
+        Mesh { triangles: triangles.to_vec(), quads: quads.to_vec(), ..Mesh::default() }
+    }
+
+    #[test]
+    fn edges_of_a_triangle_on_a_quad() {
+        let expected = vec![[0, 1], [0, 3], [1, 2], [2, 3], [2, 4], [3, 4]];
+        assert_eq!(edges(&mesh(&[[3, 2, 4]], &[[0, 1, 2, 3]])), Ok(expected));
+    }
+
+    #[test]
+    fn three_cells_at_an_edge() {
+        let fault = edges(&mesh(&[[0, 1, 2], [1, 0, 3], [1, 0, 4]], &[])).unwrap_err();
+        assert_eq!(fault, Fault::Branching { edge: [0, 1], cells: [0, 1, 2] });
+        let text = fault.describe(|c| format!("T{c}"), |v| format!("v{v}"));
+        assert_eq!(text, "T0, T1 and T2 share the edge from v0 to v1, expected two at most");
+    }
+
+    #[test]
+    fn two_cells_on_the_same_side() {
+        let fault = edges(&mesh(&[[0, 1, 2]], &[[0, 1, 3, 4]])).unwrap_err();
+        assert_eq!(fault, Fault::Overlap { edge: [0, 1], cells: [0, 1] });
+    }
+
+    #[test]
+    fn a_fan_of_200_000_triangles_is_quick() {
+        let n = 200_000;
+        let fan: Vec<_> = (1..=n).map(|k| [0, k, k % n + 1]).collect();
+        assert_eq!(edges(&mesh(&fan, &[])).map(|edges| edges.len()), Ok(2 * n as usize));
+    }
+}

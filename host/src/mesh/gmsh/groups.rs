@@ -1,0 +1,60 @@
+//! Physical groups: which elements are in them, and what they are called.
+
+use super::cursor::{Cursor, Parsed};
+use super::raw::{Element, Raw};
+use crate::error::InputError;
+
+/// The physical tags of an element: none, one, or several in format 4.1.
+pub(super) fn tags<'a>(cursor: &Cursor, raw: &'a Raw, element: &'a Element) -> Parsed<&'a [i32]> {
+    match &raw.entities {
+        // Format 2.2, where 0 is none, or 4.1 without entities and so without groups.
+        None if raw.labels_are_physical && element.label != 0 => {
+            Ok(std::slice::from_ref(&element.label))
+        }
+        None => Ok(&[]),
+        Some(entities) => {
+            let dimension = element.kind.dimension();
+            entities.get(&(dimension, element.label)).map(Vec::as_slice).ok_or_else(|| {
+                let message = format!(
+                    "{} is in entity {} of dimension {dimension}, which is not listed",
+                    element.title(),
+                    element.label
+                );
+                cursor.error(element.at, message).into()
+            })
+        }
+    }
+}
+
+/// The items of each group under its name, by ascending physical tag; items ascend and come once.
+pub(super) fn collect<T: Ord + Copy>(
+    raw: &Raw,
+    dimension: u8,
+    mut members: Vec<(i32, T)>,
+) -> Parsed<Vec<(String, Vec<T>)>> {
+    members.sort_unstable();
+    members.dedup();
+    let of_group = |members: &[(i32, T)]| {
+        (name(raw, dimension, members[0].0), members.iter().map(|member| member.1).collect())
+    };
+    let groups: Vec<_> = members.chunk_by(|a, b| a.0 == b.0).map(of_group).collect();
+    unambiguous(&groups, dimension)?;
+    Ok(groups)
+}
+
+/// The name of a group, or its tag in decimal.
+fn name(raw: &Raw, dimension: u8, group: i32) -> String {
+    let names = raw.names.as_ref();
+    let name = names.and_then(|names| names.get(&(dimension, group)));
+    name.filter(|name| !name.is_empty()).cloned().unwrap_or_else(|| group.to_string())
+}
+
+/// A scene speaks of groups by name: two of the same name are an error.
+fn unambiguous<T>(groups: &[(String, T)], dimension: u8) -> Parsed<()> {
+    let mut names: Vec<_> = groups.iter().map(|(name, _)| name).collect();
+    names.sort_unstable();
+    let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    let kind = if dimension == 1 { "curves" } else { "surfaces" };
+    let error = InputError::new(format!("two physical {kind} are called `{}`", pair[0]));
+    Err(error.hint("give each a name of its own, or make them one").into())
+}

@@ -1,0 +1,214 @@
+//! Files that are refused, with the message a user reads.
+
+use std::path::Path;
+
+use super::encode::{CODINGS, Coding, Model};
+use super::error;
+use super::valid::model;
+
+/// The message about a model that was spoilt, without the place in the file, which each encoding
+/// must give.
+fn refusal(spoil: impl Fn(&mut Model)) -> String {
+    let mut model = model();
+    spoil(&mut model);
+    let messages: Vec<_> = CODINGS
+        .iter()
+        .flat_map(|&coding| [(coding, model.v22(coding)), (coding, model.v41(coding))])
+        .map(|(coding, bytes)| {
+            let text = error(&bytes);
+            let text = if coding == Coding::Ascii { &text } else { &text["byte ".len()..] };
+            let (place, message) = text.split_once(": ").expect("a line or a byte");
+            assert!(place.parse::<u32>().is_ok_and(|place| place > 1), "{text}");
+            message.to_owned()
+        })
+        .collect();
+    assert!(messages.iter().all(|message| *message == messages[0]), "{messages:#?}");
+    messages[0].clone()
+}
+
+#[test]
+fn elements_of_other_kinds() {
+    let kind =
+        |code, nodes: i32| refusal(|m| m.elements[5] = (6, code, vec![1], (1..=nodes).collect()));
+    let expected = "expected a 3-node triangle, a 4-node quad, a 2-node line or a point";
+    let second = "element 6 is a triangle of second order (type 9)";
+    assert_eq!(kind(9, 6), format!("{second}, {expected}"));
+    assert_eq!(kind(4, 4), format!("element 6 is a tetrahedron (type 4), {expected}"));
+    assert_eq!(kind(250, 3), format!("element 6 is of an unknown kind (type 250), {expected}"));
+}
+
+#[test]
+fn cells_out_of_shape() {
+    let quad = |nodes: [[f64; 2]; 4]| {
+        refusal(|m| {
+            let places = [10, 7, 1_000_000_000, 4];
+            m.elements[4].3 = places.to_vec();
+            for (tag, [x, y]) in places.into_iter().zip(nodes) {
+                let node = m.nodes.iter_mut().find(|node| node.0 == tag).unwrap();
+                node.1 = [x, y, 0.5];
+            }
+        })
+    };
+    let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    assert_eq!(quad([a, b, d, c]), "quad 5 crosses itself");
+    let straight = "quad 5 has an angle of 180° at node 7";
+    assert_eq!(quad([a, [0.5, 0.0], b, d]), straight);
+    let reflex = "quad 5 is not convex: it has an angle of more than 180° at node 1000000000";
+    assert_eq!(quad([a, b, [0.2, 0.2], d]), reflex);
+    let degenerate = "quad 5 is degenerate: it has no area, or two corners in one place";
+    assert_eq!(quad([a, a, c, d]), degenerate);
+    let flat = refusal(|m| m.nodes[5].1 = [1.0, 0.5, 0.5]);
+    assert_eq!(flat, "triangle 6 is degenerate: it has no area, or two corners in one place");
+}
+
+#[test]
+fn corners_that_repeat_or_do_not_exist() {
+    let repeated = refusal(|m| m.elements[5].3[2] = 99);
+    assert_eq!(repeated, "triangle 6 has the corner node 99, and that twice");
+    let absent = refusal(|m| m.elements[5].3[2] = 98);
+    assert_eq!(absent, "triangle 6 has the corner node 98, which is not in the file");
+}
+
+#[test]
+fn nodes_out_of_order() {
+    assert_eq!(refusal(|m| m.nodes[2].0 = 10), "node 10 is listed twice");
+    let nan = refusal(|m| m.nodes[1].1[1] = f64::NAN);
+    assert_eq!(nan, "node 7 has the coordinate NaN");
+    assert_eq!(refusal(|m| m.nodes[1].1[2] = f64::INFINITY), "node 7 has the coordinate inf");
+    let bent = "node 99 has z = 0.6, node 10 has z = 0.5, expected a mesh in a plane z = constant";
+    assert_eq!(refusal(|m| m.nodes[5].1[2] = 0.6), bent);
+}
+
+#[test]
+fn cells_that_meet_as_they_may_not() {
+    let twice = refusal(|m| m.elements.push((7, 2, vec![1], vec![99, 7, 1_000_000_000])));
+    assert_eq!(twice, "duplicate cell: triangle 7 repeats triangle 6");
+    let ungrouped = refusal(|m| {
+        m.elements[5].2.clear();
+        m.elements.push((7, 2, vec![], vec![99, 1_000_000_000, 7]));
+    });
+    assert_eq!(ungrouped, "duplicate cell: triangle 7 repeats triangle 6");
+    let overlap = refusal(|m| m.elements.push((8, 2, vec![1], vec![10, 7, 99])));
+    let message = "triangle 8 and quad 5 overlap: both lie on the same side of";
+    assert_eq!(overlap, format!("{message} the edge from node 10 to node 7"));
+    let three = refusal(|m| m.elements.push((9, 2, vec![1], vec![7, 1_000_000_000, 4])));
+    let edge = "the edge from node 7 to node 1000000000";
+    assert_eq!(
+        three,
+        format!("triangle 6, triangle 9 and quad 5 share {edge}, expected two at most")
+    );
+}
+
+#[test]
+fn a_line_beside_the_cells() {
+    let hanging = refusal(|m| m.elements[2].3 = vec![4, 7]);
+    assert_eq!(hanging, "line 3, nodes 4 and 7, is no edge of a cell");
+    let unused = refusal(|m| m.elements[2].3 = vec![4, 5]);
+    assert_eq!(unused, "line 3, nodes 4 and 5, is no edge of a cell");
+}
+
+/// The message about the ASCII file of format 2.2 after a replacement in its text.
+fn edited(from: &str, to: &str) -> String {
+    let text = String::from_utf8(model().v22(Coding::Ascii)).unwrap();
+    assert!(text.contains(from));
+    error(text.replacen(from, to, 1).as_bytes())
+}
+
+#[test]
+fn texts_name_the_line() {
+    let cases = [
+        ("2.2 0 8", "3 0 8", "2: format 3 is not read"),
+        ("2.2 0 8", "2.2 2 8", "2: expected 0 (ASCII) or 1 (binary) after the version"),
+        ("2.2 0 8", "2.2 0 4", "2: expected a version, 0 or 1, and 8"),
+        (
+            "1 1 \"contact zone\"",
+            "1 1 contact",
+            "7: expected a physical name: dimension, tag and the name in quotes",
+        ),
+        ("1 1 \"c", "0 1 \"c", "7: physical group 1 of dimension 0 is named twice"),
+        ("$Nodes\n6", "$Nodes\n7", "18: expected a node tag, found `$EndNodes`"),
+        ("$Nodes\n6", "$Nodes\n5", "17: expected `$EndNodes`, found `99 2 0.5 0.5`"),
+        ("$Nodes\n6", "$Nodes\n-6", "11: expected the number of nodes, found `-6`"),
+        ("7 1 0 0.5", "-7 1 0 0.5", "13: expected a node tag, found `-7`"),
+        ("7 1 0 0.5", "7 1 0", "13: expected a coordinate, found nothing"),
+        ("7 1 0 0.5", "7 1 0 0.5 3", "13: expected the end of the line, found `3`"),
+        ("7 1 0 0.5", "7 1 1e999 0.5", "13: node 7 has the coordinate inf"),
+        ("7 1 0 0.5", "7 1 zero 0.5", "13: expected a coordinate, found `zero`"),
+        ("6 2 2 1 1 7 99", "6 2 2 1 1 99", "28: expected a node tag, found nothing"),
+        ("6 2 2 1 1 7 99", "6 2 99 1 1 7 99", "28: expected a tag of the element, found nothing"),
+        (
+            "6 2 2 1 1 7",
+            "6 2 2 3000000000 1 7",
+            "28: expected a tag of the element, found `3000000000`",
+        ),
+        ("$EndElements", "$EndNodes", "29: expected `$EndElements`, found `$EndNodes`"),
+        (
+            "$EndElements\n",
+            "$EndElements\njunk\n",
+            "30: expected the beginning of a section, like `$Nodes`, found `junk`",
+        ),
+        ("$EndElements\n", "$EndElements\n$Odd\n", "30: the section `Odd` is never closed"),
+        ("$PhysicalNames", "$MeshFormat", "4: a second section $MeshFormat"),
+    ];
+    for (from, to, message) in cases {
+        assert_eq!(edited(from, to), message);
+    }
+}
+
+#[test]
+fn sections_that_are_missing_or_come_twice() {
+    let without = |name: &str| edited(&format!("${name}\n"), "$Odd\n").contains("never closed");
+    assert!(["Nodes", "Elements", "PhysicalNames"].iter().all(|name| without(name)));
+    let text = String::from_utf8(model().v41(Coding::Ascii)).unwrap();
+    let (head, rest) = text.split_at(text.find("$Nodes").unwrap());
+    let (nodes, elements) = rest.split_at(rest.find("$Elements").unwrap());
+    let refused = |parts: &[&str]| error(parts.concat().as_bytes());
+    assert_eq!(refused(&[head, elements]), "expected a section $Nodes, found none");
+    assert_eq!(refused(&[head, nodes]), "expected a section $Elements, found none");
+    assert!(refused(&[head, nodes, nodes, elements]).ends_with("a second section $Nodes"));
+    assert_eq!(refused(&[nodes]), "expected a Gmsh mesh, found no `$MeshFormat`");
+    let partitioned = refused(&[head, "$PartitionedEntities\n0\n$EndPartitionedEntities\n"]);
+    assert!(partitioned.ends_with("the mesh is partitioned, expected it in one piece"));
+}
+
+#[test]
+fn format_41_must_agree_with_itself() {
+    let text = String::from_utf8(model().v41(Coding::Ascii)).unwrap();
+    let edited = |from: &str, to: &str| {
+        assert!(text.contains(from));
+        let message = error(text.replacen(from, to, 1).as_bytes());
+        message.split_once(": ").unwrap().1.to_owned()
+    };
+    assert_eq!(edited("2 6 1 9", "2 5 1 9"), "5 nodes are announced, the blocks hold 6");
+    assert_eq!(
+        edited("2 6 2 1 \n", "1 6 2 1 \n"),
+        "element 6, a triangle, in an entity of dimension 1"
+    );
+    let unlisted = "triangle 6 is in entity 60 of dimension 2, which is not listed";
+    assert_eq!(edited("2 6 2 1 \n", "2 60 2 1 \n"), unlisted);
+    assert_eq!(edited("2 1 1 3", "2 1 2 3"), "dimension 2, parametric 2: no such nodes");
+}
+
+#[test]
+fn two_groups_of_one_name() {
+    let mut model = model();
+    model.names.push((1, 8, "contact zone"));
+    assert_eq!(error(&model.v22(Coding::Ascii)), "two physical curves are called `contact zone`");
+}
+
+#[test]
+fn a_mesh_of_lines_only() {
+    let mut model = model();
+    model.elements.truncate(3);
+    assert_eq!(error(&model.v41(Coding::Little)), "the mesh has no triangle and no quad");
+}
+
+#[test]
+fn what_is_no_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for path in [folder.to_owned(), folder.join("absent.msh")] {
+        let refused = super::super::read(&path).unwrap_err();
+        assert_eq!(refused.exit_status(), 2);
+        assert!(refused.to_string().starts_with(&path.display().to_string()));
+    }
+}

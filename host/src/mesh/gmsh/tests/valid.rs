@@ -1,0 +1,132 @@
+//! Files that are read, with the mesh written out by hand.
+
+use super::encode::{CODINGS, Coding, Model};
+use super::mesh;
+use crate::mesh::{Curve, Mesh, Surface};
+
+/// A clockwise quad and a triangle, sparse node tags in no order, an unused node, a point, groups
+/// that share cells, edges and numbers.
+pub(super) fn model() -> Model {
+    let nodes = [
+        (10, [0.0, 0.0]),
+        (7, [1.0, 0.0]),
+        (5, [9.0, 9.0]),
+        (1_000_000_000, [1.0, 1.0]),
+        (4, [0.0, 1.0]),
+        (99, [2.0, 0.5]),
+    ];
+    Model {
+        names: vec![(0, 1, "a point"), (1, 1, "contact zone"), (2, 1, "dirichlet \"ü\"")],
+        nodes: nodes.map(|(tag, [x, y])| (tag, [x, y, 0.5])).to_vec(),
+        elements: vec![
+            (1, 15, vec![1], vec![10]),
+            (2, 1, vec![1, 8], vec![7, 10]),
+            (3, 1, vec![1], vec![4, 10]),
+            (4, 1, vec![], vec![5, 10]),
+            (5, 3, vec![1, 3], vec![10, 4, 1_000_000_000, 7]),
+            (6, 2, vec![1], vec![7, 99, 1_000_000_000]),
+        ],
+    }
+}
+
+fn expected() -> Mesh {
+    let surface = |name: &str, cells: &[u32]| Surface { name: name.into(), cells: cells.into() };
+    let curve = |name: &str, edges: &[_]| Curve { name: name.into(), edges: edges.into() };
+    Mesh {
+        vertices: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]],
+        triangles: vec![[1, 4, 2]],
+        quads: vec![[0, 1, 2, 3]],
+        surfaces: vec![surface("dirichlet \"ü\"", &[0, 1]), surface("3", &[1])],
+        curves: vec![curve("contact zone", &[[0, 1], [0, 3]]), curve("8", &[[0, 1]])],
+    }
+}
+
+#[test]
+fn both_formats_in_every_encoding() {
+    for coding in CODINGS {
+        assert_eq!(mesh(&model().v22(coding)), expected(), "2.2 {coding:?}");
+        assert_eq!(mesh(&model().v41(coding)), expected(), "4.1 {coding:?}");
+    }
+}
+
+fn ascii22() -> String {
+    String::from_utf8(model().v22(Coding::Ascii)).unwrap()
+}
+
+fn ascii41() -> String {
+    String::from_utf8(model().v41(Coding::Ascii)).unwrap()
+}
+
+#[test]
+fn line_ends_and_blanks_do_not_matter() {
+    for text in [ascii22(), ascii41()] {
+        assert_eq!(mesh(text.replace('\n', "\r\n").as_bytes()), expected());
+        assert_eq!(mesh(text.replace('\n', " \t\n\n").as_bytes()), expected());
+        assert_eq!(mesh(text.trim_end().as_bytes()), expected());
+        assert_eq!(mesh((text + "\n \r\n").as_bytes()), expected());
+    }
+}
+
+#[test]
+fn sections_in_another_order_and_unknown_ones() {
+    for text in [ascii22(), ascii41()] {
+        let (head, tail) = text.split_at(text.find("$PhysicalNames").unwrap());
+        let mut sections: Vec<String> = Vec::new();
+        for line in tail.split_inclusive('\n') {
+            match sections.last_mut() {
+                Some(open) if !line.starts_with('$') || line.starts_with("$End") => *open += line,
+                _ => sections.push(line.to_owned()),
+            }
+        }
+        assert!(sections.len() >= 3);
+        sections.reverse();
+        let unknown = "$Comments\n$Nodes, of course\n$EndComments\n$Periodic\n0\n$EndPeriodic\n";
+        let text = format!("$A\n$EndA\n{head}{}{unknown}", sections.join(unknown));
+        assert_eq!(mesh(text.as_bytes()), expected());
+    }
+}
+
+#[test]
+fn without_names_groups_go_by_number() {
+    let unnamed = Model { names: Vec::new(), ..model() };
+    let names = |mesh: Mesh| {
+        let surfaces = mesh.surfaces.into_iter().map(|surface| surface.name);
+        surfaces.chain(mesh.curves.into_iter().map(|curve| curve.name)).collect::<Vec<_>>()
+    };
+    assert_eq!(names(mesh(&unnamed.v22(Coding::Ascii))), ["1", "3", "1", "8"]);
+    assert_eq!(names(mesh(&unnamed.v41(Coding::Big))), ["1", "3", "1", "8"]);
+}
+
+#[test]
+fn without_entities_format_41_has_no_groups() {
+    let text = ascii41();
+    let (start, end) = (text.find("$Entities").unwrap(), text.find("$Nodes").unwrap());
+    let bare = mesh(format!("{}{}", &text[..start], &text[end..]).as_bytes());
+    assert_eq!(bare, Mesh { surfaces: vec![], curves: vec![], ..expected() });
+}
+
+#[test]
+fn a_line_listed_twice_and_a_line_inside_are_fine() {
+    let mut model = model();
+    model.elements.push((9, 1, vec![1], vec![10, 7]));
+    model.elements.push((10, 1, vec![6], vec![1_000_000_000, 7]));
+    let mesh = mesh(&model.v22(Coding::Little));
+    assert_eq!(mesh.curves[0], expected().curves[0]);
+    assert_eq!((&*mesh.curves[1].name, &mesh.curves[1].edges), ("6", &vec![[1, 2]]));
+}
+
+#[test]
+fn two_vertices_in_one_place_are_a_crack() {
+    let mut model = model();
+    model.nodes.push((100, [1.0, 0.0, 0.5]));
+    model.elements[5].3[0] = 100;
+    assert_eq!(mesh(&model.v41(Coding::Ascii)).vertices.len(), 6);
+}
+
+#[test]
+fn noise_in_z_is_no_other_plane() {
+    let mut model = model();
+    model.nodes[0].1[2] += 1e-12;
+    model.nodes[2].1[2] = 70.0; // unused
+    assert_eq!(mesh(&model.v22(Coding::Big)), expected());
+}
