@@ -17,7 +17,7 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(Box<InputError>),
-    /// A file could not be read or written: exit status 1 (2 when the file is an input).
+    /// A file could not be written: exit status 1. (A file that cannot be read is wrong input.)
     #[error("{}: {source}", path.display())]
     Io {
         /// The file.

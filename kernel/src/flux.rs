@@ -40,7 +40,8 @@ pub struct Recovered<R> {
 }
 
 /// Fills `flux` with F for every edge, along the normal out of its first cell: outward on the
-/// boundary; inside, the mean of both sides.
+/// boundary; inside, the mean of both sides. `low` is what [`crate::refinement`] found below the last
+/// digit of u, or empty.
 ///
 /// # Errors
 /// Slices of the wrong length.
@@ -49,22 +50,33 @@ pub fn recover<R: Real, I: Index>(
     stiffness: Stiffness<R>,
     loads: CellLoads<R>,
     u: &[R],
+    low: &[R],
     flux: &mut [R],
 ) -> Result<Recovered<R>, Error> {
     same_length(Array::Unknowns, u.len(), edges.counts().edges())?;
+    if !low.is_empty() {
+        same_length(Array::Scratch, low.len(), u.len())?;
+    }
     same_length(Array::Fluxes, flux.len(), edges.counts().edges())?;
     let mut gathered =
         Gathered { half_edges: edges.half_edges(), flux, found: Recovered::default() };
     let mut half = 0;
     for (at, (sides, k)) in edges.of_triangles().iter().zip(stiffness.triangles).enumerate() {
-        let out = on_triangle(k, &sides.map(|e| read(u, e.at())), read(loads.triangles, at));
+        let [high, rest] = [u, low].map(|part| sides.map(|edge| read(part, edge.at())));
+        let out = sum(on_triangle(k, &high, read(loads.triangles, at)), product(k, &rest));
         sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
     for (at, (sides, k)) in edges.of_quads().iter().zip(stiffness.quads).enumerate() {
-        let out = on_quad(k, &sides.map(|e| read(u, e.at())), read(loads.quads, at));
+        let [high, rest] = [u, low].map(|part| sides.map(|edge| read(part, edge.at())));
+        let out = sum(on_quad(k, &high, read(loads.quads, at)), product(k, &rest));
         sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
     Ok(gathered.found)
+}
+
+fn sum<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+    a
 }
 
 struct Gathered<'a, R, I> {

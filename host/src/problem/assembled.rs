@@ -141,6 +141,11 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         Boundary::new(&self.edges, &loads.neumann, &loads.robin, &loads.contact_flux)
     }
 
+    /// ψ on the contact edges.
+    pub fn lower(&self) -> &[R] {
+        &self.loads.gap
+    }
+
     /// Matrix, load and bounds.
     ///
     /// # Errors

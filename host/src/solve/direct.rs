@@ -1,0 +1,98 @@
+//! The host's own solver: the faer reference on the kernel's matrix.
+
+use std::collections::HashSet;
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::components::Support;
+use signorini_kernel::solver::{Outcome, Status};
+
+use super::{Clock, Fluxes, Found, ScalarKind, Seconds, Solution, finish, unfit};
+use crate::error::{InputError, Result};
+use crate::problem::{Assembled, Parts, Problem};
+use crate::reference::{self, Factor, ReferenceError};
+use crate::scene::Scene;
+
+pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Result<Solution> {
+    let unfit = unfit::<f64>(scene);
+    let mut clock = Clock::start();
+    let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+    let system = assembled.system().map_err(&unfit)?;
+    let assembly = clock.lap();
+    let failed = |error: ReferenceError| {
+        InputError::new(format!("the direct solver found no solution: {error}")).file(&scene.path)
+    };
+    let mut u = assembled.start();
+    let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
+    let factor = Factor::new(&reduced.problem(system.lower())).map_err(failed)?;
+    let found = factor.solve(&reduced.load, system.lower(), None).map_err(failed)?;
+    u[..found.u.len()].copy_from_slice(&found.u);
+    system.make_feasible(&mut u);
+    let residual = system.residual(&u);
+    let sweeps = found.steps as u32;
+    let outcome = Outcome { status: Status::Converged, sweeps, residual, omega: 0.0 };
+    let solve = clock.lap();
+    let fluxes = Fluxes::recover(&assembled, &u, &[]).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux: clock.lap() };
+    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, ScalarKind::F64))
+}
+
+/// K and b with the Dirichlet columns moved to the right: what the reference takes.
+struct Reduced {
+    row_ptr: Vec<u32>,
+    col_idx: Vec<u32>,
+    values: Vec<f64>,
+    load: Vec<f64>,
+    floating: Vec<bool>,
+}
+
+impl Reduced {
+    /// A part held by nothing gets a spring to 0 at one of its edges: in balance, that spring
+    /// carries no force, and it only picks one of the solutions.
+    fn new(
+        problem: &Problem,
+        parts: &Parts,
+        assembled: &Assembled<f64>,
+        u: &[f64],
+    ) -> std::result::Result<Self, KernelError> {
+        let (system, edges) = (assembled.system()?, assembled.edges());
+        let counts = problem.topology.counts;
+        let mut sprung = HashSet::new();
+        let mut reduced = Self {
+            row_ptr: vec![0],
+            col_idx: Vec::new(),
+            values: Vec::new(),
+            load: system.load().to_vec(),
+            floating: Vec::new(),
+        };
+        for (i, row) in system.matrix().iter().enumerate() {
+            let part = parts.of_edge(edges, i);
+            let support = parts.support(part);
+            let spring = support == Support::None && sprung.insert(part);
+            for (column, value) in row.entries() {
+                if column >= counts.unknowns() {
+                    reduced.load[i] -= value * u[column];
+                    continue;
+                }
+                reduced.col_idx.push(column as u32);
+                reduced.values.push(if spring && column == i { 2.0 * value } else { value });
+            }
+            reduced.row_ptr.push(reduced.values.len() as u32);
+            if i >= counts.free {
+                reduced.floating.push(support != Support::Held);
+            }
+        }
+        Ok(reduced)
+    }
+
+    fn problem<'a>(&'a self, lower: &'a [f64]) -> reference::Problem<'a> {
+        reference::Problem {
+            row_ptr: &self.row_ptr,
+            col_idx: &self.col_idx,
+            values: &self.values,
+            load: &self.load,
+            lower,
+            floating: &self.floating,
+        }
+    }
+}
+

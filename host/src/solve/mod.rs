@@ -1,0 +1,157 @@
+//! One contact problem solved: by the kernel in either scalar, or by the faer reference.
+
+mod direct;
+mod options;
+mod solution;
+
+pub use options::{Options, ScalarKind, SolverKind};
+pub use solution::{Seconds, Solution, status_name};
+
+use std::time::Instant;
+
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::solver::Outcome;
+use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
+
+use crate::error::{Error, InputError, Result};
+use crate::problem::{Assembled, Parts, Problem};
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use options::ROUNDS;
+use solution::centre_floating;
+
+/// Solves `problem`.
+///
+/// # Errors
+/// No solution, numbers that the scalar type cannot hold, a singular matrix.
+pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
+    let parts = Parts::examine(scene, problem)?;
+    match (options.solver, options.scalar) {
+        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
+        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(scene, problem, &parts, options),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts),
+        (SolverKind::Direct, ScalarKind::F32) => Err(InputError::new(
+            "--solver direct works in f64, --scalar f32 was asked for",
+        )
+        .hint("leave out --scalar, or use --solver kernel")
+        .into()),
+    }
+}
+
+/// The kernel's refusal, in the scene's words.
+fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
+    move |error| {
+        InputError::new(format!("the scene does not fit {}: {error}", R::NAME))
+            .file(&scene.path)
+            .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
+            .into()
+    }
+}
+
+fn by_kernel<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+) -> Result<Solution> {
+    let unfit = unfit::<R>(scene);
+    let mut clock = Clock::start();
+    let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+    let system = assembled.system().map_err(&unfit)?;
+    let boundary = assembled.boundary().map_err(&unfit)?;
+    let assembly = clock.lap();
+
+    let mut u = assembled.start();
+    let counts = problem.topology.counts;
+    let mut low = vec![R::ZERO; counts.edges()];
+    let buffers = RefinementBuffers {
+        low: &mut low,
+        defect: &mut vec![R::ZERO; counts.unknowns()],
+        lower: &mut vec![R::ZERO; counts.contact],
+    };
+    let settings = options.settings::<R>();
+    let outcome =
+        refinement::run::<R, u32, Libm>(&system, &boundary, settings, ROUNDS, &mut u, buffers)
+            .map_err(&unfit)?;
+    let solve = clock.lap();
+    let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux: clock.lap() };
+    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, options.scalar))
+}
+
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    fn lap(&mut self) -> f64 {
+        let lap = self.0.elapsed().as_secs_f64();
+        self.0 = Instant::now();
+        lap
+    }
+}
+
+struct Fluxes<R> {
+    flux: Vec<R>,
+    mismatch: f64,
+    force: f64,
+}
+
+impl<R: Scalar> Fluxes<R> {
+    fn recover(
+        assembled: &Assembled<R>,
+        u: &[R],
+        low: &[R],
+    ) -> std::result::Result<Self, KernelError> {
+        let edges = assembled.edges();
+        let mut flux = vec![R::ZERO; u.len()];
+        let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
+        let found = flux::recover(edges, stiffness, cells, u, low, &mut flux)?;
+        let force = contact::force(edges.counts(), &assembled.boundary()?, &flux).wide();
+        let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
+        Ok(Self { flux, mismatch, force })
+    }
+}
+
+struct Found<R> {
+    outcome: Outcome<R>,
+    u: Vec<R>,
+    fluxes: Fluxes<R>,
+    seconds: Seconds,
+}
+
+fn finish<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    assembled: &Assembled<R>,
+    found: Found<R>,
+    scalar: ScalarKind,
+) -> Solution {
+    let Found { outcome, u, fluxes, seconds } = found;
+    let counts = problem.topology.counts;
+    let lower = assembled.lower();
+    let active = (0..counts.contact).filter(|&at| contact::is_active(counts, lower, &u, at));
+    let active: Vec<usize> = active.collect();
+    let mut solution = Solution {
+        scalar,
+        status: outcome.status,
+        sweeps: outcome.sweeps,
+        algebraic_residual: outcome.residual.scaled().wide(),
+        omega: outcome.omega.wide(),
+        u: u.iter().map(|x| x.wide()).collect(),
+        flux: fluxes.flux.iter().map(|x| x.wide()).collect(),
+        mismatch: fluxes.mismatch,
+        contact_force: fluxes.force,
+        contact_length: active.iter().map(|at| problem.lengths[counts.free + at]).sum(),
+        contact_active: active.len(),
+        parts: parts.counts,
+        seconds,
+    };
+    if parts.counts.floating > 0 {
+        centre_floating(problem, parts, &mut solution.u);
+    }
+    solution
+}
+

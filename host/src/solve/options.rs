@@ -1,0 +1,75 @@
+//! What a solve is asked for.
+
+use clap::ValueEnum;
+use serde::Serialize;
+use signorini_kernel::Relaxation;
+use signorini_kernel::solver::Settings;
+
+use crate::scalar::Scalar;
+
+/// The scalar type of the kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ScalarKind {
+    /// Double precision.
+    F64,
+    /// Single precision, the microcontroller's.
+    F32,
+}
+
+/// Who solves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SolverKind {
+    /// The kernel's projected SOR.
+    Kernel,
+    /// The host's active set on one sparse Cholesky factorisation (f64).
+    Direct,
+}
+
+/// What to do.
+#[derive(Debug, Clone, Copy)]
+pub struct Options {
+    /// Scalar type.
+    pub scalar: ScalarKind,
+    /// Solver.
+    pub solver: SolverKind,
+    /// Bound on the scaled complementarity residual; `None`: the default of the scalar type.
+    pub tolerance: Option<f64>,
+    /// Most sweeps allowed.
+    pub max_sweeps: u32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            scalar: ScalarKind::F64,
+            solver: SolverKind::Kernel,
+            tolerance: None,
+            max_sweeps: 1_000_000,
+        }
+    }
+}
+
+/// Corrections of the defect at most; each gains about as many digits as the scalar leaves.
+pub(super) const ROUNDS: u32 = 6;
+
+impl Options {
+    /// The kernel's settings. The default in f64 bounds the residual by 1e−11 and the error that
+    /// may hide behind it by 1e−8; the default in f32 is the last digit of u.
+    pub(super) fn settings<R: Scalar>(&self) -> Settings<R> {
+        let (tolerance, accuracy) = match (self.tolerance, self.scalar) {
+            (Some(tolerance), _) => (tolerance, f64::INFINITY),
+            (None, ScalarKind::F64) => (1e-11, 1e-8),
+            (None, ScalarKind::F32) => (0.0, f64::from(f32::EPSILON)),
+        };
+        Settings {
+            relaxation: Relaxation::Adaptive(R::ONE),
+            tolerance: R::narrow(tolerance),
+            accuracy: R::narrow(accuracy),
+            scale: R::ZERO,
+            max_sweeps: self.max_sweeps,
+        }
+    }
+}
+

@@ -1,0 +1,124 @@
+//! A solved problem and what is read off it.
+
+use std::collections::HashMap;
+
+use serde::Serialize;
+use signorini_kernel::Real;
+use signorini_kernel::components::{PartCounts, Support};
+use signorini_kernel::geometry::{quad_area, triangle_area};
+use signorini_kernel::solver::Status;
+
+use super::ScalarKind;
+use crate::field::CellField;
+use crate::problem::{Parts, Problem};
+
+/// A solved problem; numbers of an f32 solve are held exactly in f64.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Its scalar type.
+    pub scalar: ScalarKind,
+    /// How the solve ended.
+    pub status: Status,
+    /// Sweeps, or active-set steps of the direct solver.
+    pub sweeps: u32,
+    /// The scaled complementarity residual.
+    pub algebraic_residual: f64,
+    /// The last relaxation factor; 0 for the direct solver.
+    pub omega: f64,
+    /// Mean of u_h over each edge.
+    pub u: Vec<f64>,
+    /// ∫_E σ·n for each edge along its direction's normal: (15), the mean of both sides.
+    pub flux: Vec<f64>,
+    /// Largest disagreement of the two sides, relative to the largest flux.
+    pub mismatch: f64,
+    /// ∫_C (σ·n − q)
+    pub contact_force: f64,
+    /// Σ|E| over active contact edges.
+    pub contact_length: f64,
+    /// Active contact edges, u_E = ψ_E.
+    pub contact_active: usize,
+    /// Connected parts of the domain.
+    pub parts: PartCounts,
+    /// Wall-clock seconds.
+    pub seconds: Seconds,
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Seconds {
+    /// Element matrices, pattern, values, load.
+    pub assembly: f64,
+    /// Sweeps, or factorisation and active set.
+    pub solve: f64,
+    /// Flux recovery.
+    pub flux: f64,
+}
+
+impl Solution {
+    /// The solve reached its tolerance, or all that rounding allows.
+    pub fn converged(&self) -> bool {
+        matches!(self.status, Status::Converged | Status::RoundingLimit)
+    }
+
+    /// max over the cells of |Σ_E ∫σ·n + ∫f|, relative to the largest edge flux.
+    pub fn conservation_defect(&self, problem: &Problem) -> f64 {
+        let triangles = problem.mesh.triangles.len();
+        let loads = &problem.loads;
+        let largest = self.flux.iter().fold(f64::TINY, |most, flux| most.max(flux.abs()));
+        let defect = (0..triangles + problem.mesh.quads.len()).map(|cell| {
+            let load = match cell.checked_sub(triangles) {
+                None => loads.triangles.get(cell),
+                Some(quad) => loads.quads.get(quad),
+            };
+            let out: f64 = match CellField::new(problem, cell, &self.u, &self.flux) {
+                CellField::Triangle(_, _, flux) => flux.iter().sum(),
+                CellField::Quad(_, _, flux) => flux.iter().sum(),
+            };
+            (out + load.unwrap_or(&0.0)).abs()
+        });
+        defect.fold(0.0, f64::max) / largest
+    }
+
+    /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
+    pub fn multiplier(&self, problem: &Problem, at: usize) -> f64 {
+        let edge = problem.topology.counts.free + at;
+        debug_assert_eq!(problem.kinds[edge], EdgeKind::Contact);
+        (self.flux[edge] - problem.loads.contact_flux[at]) / problem.lengths[edge]
+    }
+}
+
+/// A part held by nothing is determined up to a constant: the one with ∫u = 0 is given.
+pub(super) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
+    let Ok(edges) = problem.topology.edges() else { return };
+    let mesh = &problem.mesh;
+    let corner = |vertex: u32| mesh.vertices[vertex as usize];
+    let triangles = mesh.triangles.iter();
+    let areas = triangles
+        .map(|cell| triangle_area(cell.map(corner)))
+        .chain(mesh.quads.iter().map(|cell| quad_area(cell.map(corner))));
+    let mut means = HashMap::<usize, (f64, f64)>::new();
+    let no_flux = vec![0.0; u.len()];
+    for (cell, area) in areas.enumerate() {
+        let mean = CellField::new(problem, cell, u, &no_flux).mean();
+        let sums = means.entry(parts.of_cell(cell)).or_default();
+        *sums = (sums.0 + area * mean, sums.1 + area);
+    }
+    for (edge, u) in u.iter_mut().enumerate() {
+        let part = parts.of_edge(&edges, edge);
+        if parts.support(part) == Support::None {
+            let (integral, area) = means[&part];
+            *u -= integral / area;
+        }
+    }
+}
+
+/// The word for a status in `summary.json`.
+pub fn status_name(status: Status) -> &'static str {
+    match status {
+        Status::Converged => "converged",
+        Status::RoundingLimit => "rounding-limit",
+        Status::OutOfSweeps => "out-of-sweeps",
+        Status::Stalled => "stalled",
+        Status::NotFinite => "not-finite",
+    }
+}
