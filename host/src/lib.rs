@@ -1,4 +1,5 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
 pub mod error;
+pub mod expression;
 pub mod mesh;
