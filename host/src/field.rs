@@ -2,6 +2,7 @@
 
 use signorini_kernel::Real;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::geometry::doubled_area;
 
 use crate::problem::{Problem, QuadCoefficient};
 
@@ -70,6 +71,25 @@ impl CellField {
         }
     }
 
+    /// Reference coordinates of a point, where it lies in the cell (with a rounding's width around it).
+    pub fn locate(&self, x: [f64; 2]) -> Option<[f64; 3]> {
+        const SLACK: f64 = 1e-12;
+        match *self {
+            Self::Triangle([a, b, c], _, _) => {
+                let whole = doubled_area(a, b, c);
+                let parts = [doubled_area(x, b, c), doubled_area(a, x, c), doubled_area(a, b, x)];
+                let lambda = parts.map(|part| part / whole);
+                lambda.iter().all(|&part| part >= -SLACK).then_some(lambda)
+            }
+            Self::Quad(corners, _, _) => {
+                let reference = inverse_bilinear(corners, x);
+                let inside = |t: f64| (-SLACK..=1.0 + SLACK).contains(&t);
+                let [s, t] = reference;
+                (inside(s) && inside(t)).then_some([s, t, 0.0])
+            }
+        }
+    }
+
     /// σ_h in the middle.
     pub fn middle_flux(&self) -> [f64; 2] {
         match *self {
@@ -104,6 +124,28 @@ impl CellField {
             }
         }
     }
+}
+
+/// F⁻¹ on a convex quad by Newton's iteration from the middle; far outside it may not converge, and
+/// then returns a point outside.
+fn inverse_bilinear(corners: [[f64; 2]; 4], x: [f64; 2]) -> [f64; 2] {
+    let [a, b, c, d] = corners;
+    let mut at = [0.5; 2];
+    for _ in 0..30 {
+        let here = rannacher_turek::place(corners, at).x;
+        let along = |k: usize, t: f64| (b[k] - a[k]) * (1.0 - t) + (c[k] - d[k]) * t;
+        let across = |k: usize, s: f64| (d[k] - a[k]) * (1.0 - s) + (c[k] - b[k]) * s;
+        let (sx, sy) = (along(0, at[1]), along(1, at[1]));
+        let (tx, ty) = (across(0, at[0]), across(1, at[0]));
+        let (rx, ry) = (x[0] - here[0], x[1] - here[1]);
+        let determinant = sx * ty - sy * tx;
+        let step = [(rx * ty - ry * tx) / determinant, (sx * ry - sy * rx) / determinant];
+        at = [at[0] + step[0], at[1] + step[1]];
+        if step[0].abs().max(step[1].abs()) < 1e-14 || !at[0].is_finite() {
+            break;
+        }
+    }
+    at
 }
 
 fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {

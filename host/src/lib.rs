@@ -6,6 +6,7 @@ pub mod field;
 pub mod mesh;
 pub mod norms;
 pub mod output;
+pub mod outputs;
 pub mod problem;
 pub mod quadrature;
 pub mod reference;

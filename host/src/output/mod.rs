@@ -1,4 +1,6 @@
 //! Files that other programs read: written whole or not at all.
 
 pub mod atomic;
+pub mod edges;
+pub mod summary;
 pub mod vtu;

@@ -79,6 +79,12 @@ impl Solution {
         defect.fold(0.0, f64::max) / largest
     }
 
+    /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
+    pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
+        let gap = problem.loads.gap[at];
+        if self.scalar == ScalarKind::F32 { f64::from(gap as f32) } else { gap }
+    }
+
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
     pub fn multiplier(&self, problem: &Problem, at: usize) -> f64 {
         let edge = problem.topology.counts.free + at;

@@ -1,0 +1,114 @@
+//! Functions of the plane written as text: loads, gaps, coefficients, exact solutions.
+//!
+//! ```text
+//! sum      = product { (+|-) product }
+//! product  = signed { (*|/) signed }
+//! signed   = (+|-) signed | power
+//! power    = operand [ ^ signed ]              -x^2 = -(x^2),  2^3^2 = 2^9,  2^-x
+//! operand  = number | pi | x | y | t | ( sum ) | function ( sum {, sum} )
+//! ```
+//!
+//! text ─► [`lexer`] ─► [`parser`] ─► [`program`] (postfix, constants folded) ─► a value, or by dual
+//! numbers ([`dual`]) a value and its gradient. What each operation is stands in [`operation`].
+//!
+//! Evaluation follows IEEE: outside its domain an expression is NaN or infinite, and whoever asked
+//! decides what that means there. Hence `min` and `max` pass a NaN on instead of dropping it.
+
+mod dual;
+mod lexer;
+mod operation;
+mod parser;
+mod program;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::ops::Range;
+
+use dual::Dual;
+use program::Program;
+use thiserror::Error;
+
+/// A parsed expression: evaluates without allocation, cannot fail.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    text: String,
+    program: Program,
+}
+
+/// The variables that an expression may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variables {
+    /// x and y.
+    Space,
+    /// x, y and the time t.
+    SpaceTime,
+}
+
+/// Why a text is not an expression.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{message}")]
+pub struct ParseError {
+    /// What was found and what was expected.
+    pub message: String,
+    /// The culprit: bytes of the text, on character boundaries; empty at the end of the text.
+    pub span: Range<usize>,
+    /// What to write instead.
+    pub hint: Option<String>,
+}
+
+impl Expression {
+    /// Reads `text`; a name outside `variables`, `pi` and the functions is an error, and so is a
+    /// constant expression without a finite value.
+    pub fn parse(text: &str, variables: Variables) -> Result<Self, ParseError> {
+        Ok(Self { text: text.to_owned(), program: parser::parse(text, variables)? })
+    }
+
+    /// The expression whose value is `value` everywhere.
+    pub fn constant(value: f64) -> Self {
+        Self { text: format!("{value:?}"), program: Program::constant(value) }
+    }
+
+    /// The value at the point (x, y) and the time t; a coordinate −0.0 is read as 0.0.
+    pub fn eval(&self, x: f64, y: f64, t: f64) -> f64 {
+        match self.program.value() {
+            Some(value) => value,
+            None => self.program.run([x + 0.0, y + 0.0, t]),
+        }
+    }
+
+    /// The value and its gradient (∂/∂x, ∂/∂y) at (x, y) and t.
+    ///
+    /// At a kink: the derivative of `abs` and `sign` at 0 is 0, `min` and `max` take the argument
+    /// that they return.
+    pub fn gradient(&self, x: f64, y: f64, t: f64) -> (f64, [f64; 2]) {
+        let at = [
+            Dual { value: x + 0.0, gradient: [1.0, 0.0] },
+            Dual { value: y + 0.0, gradient: [0.0, 1.0] },
+            Dual { value: t, gradient: [0.0, 0.0] },
+        ];
+        let Dual { value, gradient } = self.program.run(at);
+        (value, gradient)
+    }
+
+    /// The value, if no variable occurs.
+    pub fn is_constant(&self) -> Option<f64> {
+        self.program.value()
+    }
+
+    /// Whether this is the constant 0, as a missing load is.
+    pub fn is_zero(&self) -> bool {
+        self.is_constant() == Some(0.0)
+    }
+
+    /// Whether t occurs.
+    pub fn uses_time(&self) -> bool {
+        self.program.uses_time()
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}

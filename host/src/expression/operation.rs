@@ -1,0 +1,150 @@
+//! What each operation is: its value, and its derivative with respect to each operand.
+
+/// Operations on one operand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unary {
+    Negate,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Sqrt,
+    Abs,
+    Sign,
+}
+
+/// Operations on two operands a, b, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    /// The angle of the point (b, a).
+    Atan2,
+    Min,
+    Max,
+}
+
+/// What a function name stands for; `Fold` joins two or more arguments pairwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Function {
+    One(Unary),
+    Two(Binary),
+    Fold(Binary),
+}
+
+/// The functions by name.
+pub(super) const FUNCTIONS: [(&str, Function); 17] = [
+    ("sin", Function::One(Unary::Sin)),
+    ("cos", Function::One(Unary::Cos)),
+    ("tan", Function::One(Unary::Tan)),
+    ("asin", Function::One(Unary::Asin)),
+    ("acos", Function::One(Unary::Acos)),
+    ("atan", Function::One(Unary::Atan)),
+    ("atan2", Function::Two(Binary::Atan2)),
+    ("sinh", Function::One(Unary::Sinh)),
+    ("cosh", Function::One(Unary::Cosh)),
+    ("tanh", Function::One(Unary::Tanh)),
+    ("exp", Function::One(Unary::Exp)),
+    ("ln", Function::One(Unary::Ln)),
+    ("sqrt", Function::One(Unary::Sqrt)),
+    ("abs", Function::One(Unary::Abs)),
+    ("min", Function::Fold(Binary::Min)),
+    ("max", Function::Fold(Binary::Max)),
+    ("sign", Function::One(Unary::Sign)),
+];
+
+impl Unary {
+    /// The value at `a`.
+    pub fn apply(self, a: f64) -> f64 {
+        match self {
+            Self::Negate => -a,
+            Self::Sin => a.sin(),
+            Self::Cos => a.cos(),
+            Self::Tan => a.tan(),
+            Self::Asin => a.asin(),
+            Self::Acos => a.acos(),
+            Self::Atan => a.atan(),
+            Self::Sinh => a.sinh(),
+            Self::Cosh => a.cosh(),
+            Self::Tanh => a.tanh(),
+            Self::Exp => a.exp(),
+            Self::Ln => a.ln(),
+            Self::Sqrt => a.sqrt(),
+            Self::Abs => a.abs(),
+            Self::Sign => sign(a),
+        }
+    }
+
+    /// The derivative at `a`; 0 at the kink of `abs` and the jump of `sign`.
+    pub fn derivative(self, a: f64) -> f64 {
+        match self {
+            Self::Negate => -1.0,
+            Self::Sin => a.cos(),
+            Self::Cos => -a.sin(),
+            Self::Tan => 1.0 / a.cos().powi(2),
+            Self::Asin => 1.0 / ((1.0 - a) * (1.0 + a)).sqrt(),
+            Self::Acos => -1.0 / ((1.0 - a) * (1.0 + a)).sqrt(),
+            Self::Atan => 1.0 / (1.0 + a * a),
+            Self::Sinh => a.cosh(),
+            Self::Cosh => a.sinh(),
+            Self::Tanh => 1.0 / a.cosh().powi(2),
+            Self::Exp => a.exp(),
+            Self::Ln => 1.0 / a,
+            Self::Sqrt => 0.5 / a.sqrt(),
+            Self::Abs => sign(a),
+            Self::Sign => 0.0,
+        }
+    }
+}
+
+impl Binary {
+    /// The value at `a`, `b`.
+    pub fn apply(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Add => a + b,
+            Self::Subtract => a - b,
+            Self::Multiply => a * b,
+            Self::Divide => a / b,
+            Self::Power => a.powf(b),
+            Self::Atan2 => a.atan2(b),
+            Self::Min if a <= b || a.is_nan() => a,
+            Self::Max if a >= b || a.is_nan() => a,
+            Self::Min | Self::Max => b,
+        }
+    }
+
+    /// The derivatives with respect to `a` and to `b`.
+    pub fn partials(self, a: f64, b: f64) -> [f64; 2] {
+        match self {
+            Self::Add => [1.0, 1.0],
+            Self::Subtract => [1.0, -1.0],
+            Self::Multiply => [b, a],
+            Self::Divide => [1.0 / b, -a / b / b],
+            Self::Power if b == 0.0 => [0.0, a.ln()],
+            Self::Power if a == 0.0 => [b * a.powf(b - 1.0), 0.0],
+            Self::Power => [b * a.powf(b - 1.0), a.powf(b) * a.ln()],
+            Self::Atan2 => {
+                let radius = a.hypot(b);
+                [b / radius / radius, -a / radius / radius]
+            }
+            Self::Min if a <= b => [1.0, 0.0],
+            Self::Max if a >= b => [1.0, 0.0],
+            Self::Min | Self::Max => [0.0, 1.0],
+        }
+    }
+}
+
+/// −1, 0 or 1; NaN stays NaN.
+fn sign(a: f64) -> f64 {
+    if a == 0.0 { 0.0 } else { a.signum() }
+}

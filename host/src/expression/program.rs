@@ -1,0 +1,136 @@
+//! An expression in postfix order, and the stack machine that runs it.
+//!
+//! `2*x + y` is `2 x * y +`: operands are pushed, an operation replaces the topmost one or two by
+//! its result. The machine's stack has a fixed size, so running allocates nothing.
+
+use super::operation::{Binary, Unary};
+
+/// The most operands that may wait on the stack.
+pub(super) const STACK: usize = 64;
+
+/// One step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Step {
+    Constant(f64),
+    Variable(Variable),
+    Unary(Unary),
+    Binary(Binary),
+}
+
+/// A variable; the discriminant is its place in the point (x, y, t).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Variable {
+    X = 0,
+    Y = 1,
+    T = 2,
+}
+
+/// What the machine computes with: numbers, or numbers with their gradient.
+pub(super) trait Number: Copy {
+    fn constant(value: f64) -> Self;
+    fn unary(self, operation: Unary) -> Self;
+    fn binary(self, operation: Binary, other: Self) -> Self;
+}
+
+impl Number for f64 {
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    fn unary(self, operation: Unary) -> Self {
+        operation.apply(self)
+    }
+
+    fn binary(self, operation: Binary, other: Self) -> Self {
+        operation.apply(self, other)
+    }
+}
+
+/// Steps that leave one value.
+///
+/// Invariant: run from the first step, the stack never holds more than [`STACK`] values, each
+/// operation finds its operands on it, and one value is left at the end.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Program {
+    steps: Vec<Step>,
+}
+
+impl Program {
+    pub fn constant(value: f64) -> Self {
+        Self { steps: vec![Step::Constant(value)] }
+    }
+
+    /// The value, if the program is a constant.
+    pub fn value(&self) -> Option<f64> {
+        match self.steps[..] {
+            [Step::Constant(value)] => Some(value),
+            _ => None,
+        }
+    }
+
+    pub fn uses_time(&self) -> bool {
+        self.steps.contains(&Step::Variable(Variable::T))
+    }
+
+    /// The result at the point (x, y, t).
+    pub fn run<N: Number>(&self, at: [N; 3]) -> N {
+        let mut stack = [N::constant(0.0); STACK];
+        let mut height = 0;
+        for step in &self.steps {
+            match *step {
+                Step::Constant(value) => {
+                    stack[height] = N::constant(value);
+                    height += 1;
+                }
+                Step::Variable(variable) => {
+                    stack[height] = at[variable as usize];
+                    height += 1;
+                }
+                Step::Unary(operation) => stack[height - 1] = stack[height - 1].unary(operation),
+                Step::Binary(operation) => {
+                    height -= 1;
+                    stack[height - 1] = stack[height - 1].binary(operation, stack[height]);
+                }
+            }
+        }
+        stack[0]
+    }
+}
+
+/// A program under construction; what has constant operands is computed at once.
+#[derive(Debug, Default)]
+pub(super) struct Builder {
+    steps: Vec<Step>,
+    height: usize,
+}
+
+impl Builder {
+    /// Pushes a constant or a variable; `None` if the stack is full.
+    pub fn operand(&mut self, step: Step) -> Option<()> {
+        self.steps.push(step);
+        self.height += 1;
+        (self.height <= STACK).then_some(())
+    }
+
+    pub fn unary(&mut self, operation: Unary) {
+        match self.steps.last_mut() {
+            Some(Step::Constant(value)) => *value = operation.apply(*value),
+            _ => self.steps.push(Step::Unary(operation)),
+        }
+    }
+
+    pub fn binary(&mut self, operation: Binary) {
+        self.height -= 1;
+        match self.steps[..] {
+            [.., Step::Constant(left), Step::Constant(right)] => {
+                self.steps.truncate(self.steps.len() - 2);
+                self.steps.push(Step::Constant(operation.apply(left, right)));
+            }
+            _ => self.steps.push(Step::Binary(operation)),
+        }
+    }
+
+    pub fn finish(self) -> Program {
+        Program { steps: self.steps }
+    }
+}

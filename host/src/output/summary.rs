@@ -1,0 +1,87 @@
+//! `summary.json`: what a solve found, in one object.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::norms::Errors;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solve::{ScalarKind, Seconds, Solution, SolverKind, status_name};
+
+/// The object, keys in the order of the file.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    title: String,
+    scalar: ScalarKind,
+    solver: SolverKind,
+    status: &'static str,
+    /// Edges not on the Dirichlet boundary.
+    unknowns: usize,
+    contact_edges: usize,
+    contact_active: usize,
+    sweeps: u32,
+    relaxation: f64,
+    converged: bool,
+    algebraic_residual: f64,
+    conservation_defect: f64,
+    contact_force: f64,
+    contact_length: f64,
+    /// Connected parts: held by Dirichlet or Robin edges, by contact alone, by nothing.
+    parts: PartNames,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    errors: Option<Errors>,
+    outputs: BTreeMap<String, Option<f64>>,
+    seconds: Seconds,
+}
+
+#[derive(Debug, Clone, Copy, Serialize)]
+struct PartNames {
+    held: u32,
+    contact_only: u32,
+    up_to_a_constant: u32,
+}
+
+impl Summary {
+    /// Collects it.
+    pub fn new(
+        scene: &Scene,
+        problem: &Problem,
+        solver: SolverKind,
+        solution: &Solution,
+        errors: Option<Errors>,
+        outputs: BTreeMap<String, Option<f64>>,
+    ) -> Self {
+        let counts = problem.topology.counts;
+        let parts = solution.parts;
+        Self {
+            title: scene.title.clone(),
+            scalar: solution.scalar,
+            solver,
+            status: status_name(solution.status),
+            unknowns: counts.unknowns(),
+            contact_edges: counts.contact,
+            contact_active: solution.contact_active,
+            sweeps: solution.sweeps,
+            relaxation: solution.omega,
+            converged: solution.converged(),
+            algebraic_residual: solution.algebraic_residual,
+            conservation_defect: solution.conservation_defect(problem),
+            contact_force: solution.contact_force,
+            contact_length: solution.contact_length,
+            parts: PartNames {
+                held: parts.held,
+                contact_only: parts.contact,
+                up_to_a_constant: parts.floating,
+            },
+            errors,
+            outputs,
+            seconds: solution.seconds,
+        }
+    }
+
+    /// The text of the file. Numbers that are not finite become null.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}
