@@ -1,5 +1,6 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
+pub mod cli;
 pub mod error;
 pub mod expression;
 pub mod field;
@@ -8,9 +9,11 @@ pub mod norms;
 pub mod output;
 pub mod outputs;
 pub mod problem;
+pub mod progress;
 pub mod quadrature;
 pub mod reference;
 pub mod report;
 pub mod scalar;
 pub mod scene;
 pub mod solve;
+pub mod study;

@@ -1,2 +1,17 @@
-//! The `signorini` command.
-fn main() {}
+//! The `signorini` command: see `signorini --help`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use signorini_host::cli::Cli;
+
+fn main() -> ExitCode {
+    match Cli::parse().run() {
+        Ok(status) => ExitCode::from(status),
+        Err(error) => {
+            let status = error.exit_status();
+            eprintln!("{:?}", miette::Report::new(error));
+            ExitCode::from(status)
+        }
+    }
+}

@@ -30,7 +30,13 @@ pub struct Errors {
 ///
 /// # Errors
 /// An exact solution that is not finite at a quadrature point.
-pub fn errors(scene: &Scene, exact: &Exact, problem: &Problem, u: &[f64], flux: &[f64]) -> Result<Errors> {
+pub fn errors(
+    scene: &Scene,
+    exact: &Exact,
+    problem: &Problem,
+    u: &[f64],
+    flux: &[f64],
+) -> Result<Errors> {
     let rule = gauss(POINTS);
     let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
     let triangles = problem.mesh.triangles.len();

@@ -72,10 +72,7 @@ pub fn on_triangle<'r>(
 }
 
 /// The points of a quad under a one-dimensional rule, x̂ running fastest.
-pub fn on_quad<'r>(
-    quad: [[f64; 2]; 4],
-    rule: &'r [[f64; 2]],
-) -> impl Iterator<Item = Point> + 'r {
+pub fn on_quad<'r>(quad: [[f64; 2]; 4], rule: &'r [[f64; 2]]) -> impl Iterator<Item = Point> + 'r {
     rule.iter().flat_map(move |&[y, weight_y]| {
         rule.iter().map(move |&[x, weight_x]| {
             let here = place(quad, [x, y]);

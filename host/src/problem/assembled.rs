@@ -176,11 +176,8 @@ fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, 
     let mesh = &problem.mesh;
     let vertices = narrowed_vertices::<R>(&mesh.vertices);
     let kernel_mesh = Mesh::new(&vertices, &mesh.triangles, &mesh.quads)?;
-    let narrow = |a: &Tensor<f64>| Tensor {
-        xx: R::narrow(a.xx),
-        xy: R::narrow(a.xy),
-        yy: R::narrow(a.yy),
-    };
+    let narrow =
+        |a: &Tensor<f64>| Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) };
     let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
     let triangles = triangles
         .map(|(cell, a)| crouzeix_raviart::stiffness(kernel_mesh.triangle(cell), narrow(a)))

@@ -91,7 +91,10 @@ fn bind_materials(scene: &Scene, mesh: &Mesh) -> Result<Vec<u32>> {
                      material",
                     surface.name
                 );
-                return Err(scene.error(&material.name, message).hint("keep one of the two").into());
+                return Err(scene
+                    .error(&material.name, message)
+                    .hint("keep one of the two")
+                    .into());
             }
         }
     }
@@ -128,7 +131,10 @@ fn bind_boundaries(scene: &Scene, mesh: &Mesh) -> Result<NamedEdges> {
                      both have a condition",
                     a[0], a[1], b[0], b[1], curve.name
                 );
-                return Err(scene.error(&boundary.name, message).hint("keep one of the two").into());
+                return Err(scene
+                    .error(&boundary.name, message)
+                    .hint("keep one of the two")
+                    .into());
             }
         }
     }

@@ -11,7 +11,8 @@ use crate::scene::{Material, Scene};
 /// Evaluates and checks A on every cell.
 pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Coefficients> {
     let corners = |vertex: u32| mesh.vertices[vertex as usize];
-    let constants = scene.materials.iter().map(|m| constant(scene, m)).collect::<Result<Vec<_>>>()?;
+    let constants =
+        scene.materials.iter().map(|m| constant(scene, m)).collect::<Result<Vec<_>>>()?;
     let triangles = mesh.triangles.iter().enumerate().map(|(cell, vertices)| {
         let material = binding.materials[cell] as usize;
         match constants[material] {
@@ -40,7 +41,7 @@ fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
 }
 
 fn mean(scene: &Scene, material: &Material, triangle: [[f64; 2]; 3]) -> Result<Tensor<f64>> {
-    let mut sum = Tensor::default();
+    let mut sum = Tensor::<f64>::default();
     let mut area = 0.0;
     for point in on_triangle(triangle, f64::GAUSS[TRIANGLE_POINTS - 1]) {
         let tensor = at_point(scene, material, point)?;
@@ -70,7 +71,8 @@ fn checked(
     let place = at.map_or(String::new(), |[x, y]| format!(" at ({x}, {y})"));
     let entries = [tensor.xx, tensor.xy, tensor.yy];
     let culprit = entries.iter().position(|entry| !entry.is_finite()).unwrap_or(0);
-    let message = format!("A = [{}, {}; {}, {}]{place}", tensor.xx, tensor.xy, tensor.xy, tensor.yy);
+    let message =
+        format!("A = [{}, {}; {}, {}]{place}", tensor.xx, tensor.xy, tensor.xy, tensor.yy);
     let (message, hint) = if entries.iter().all(|entry| entry.is_finite()) {
         (
             format!("{message} is not positive definite"),

@@ -61,9 +61,9 @@ impl<'s> Sum<'s> {
 
     fn at(&self, x: f64, y: f64) -> f64 {
         let base = self.base.value.eval(x, y, self.time);
-        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
-            sum + weight * pattern.value.eval(x, y, self.time)
-        })
+        self.inputs
+            .iter()
+            .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
     }
 
     fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
@@ -106,7 +106,8 @@ impl Loads {
     fn integrate_source(&mut self, f: &Sum, problem: &Problem) -> Result<()> {
         let mesh = &problem.mesh;
         let corner = |vertex: u32| mesh.vertices[vertex as usize];
-        let integral = |sum: f64, p: crate::quadrature::Point| sum + p.weight * f.at(p.x[0], p.x[1]);
+        let integral =
+            |sum: f64, p: crate::quadrature::Point| sum + p.weight * f.at(p.x[0], p.x[1]);
         for vertices in &mesh.triangles {
             let corners = vertices.map(corner);
             let points = on_triangle(corners, f64::GAUSS[TRIANGLE_POINTS - 1]);
@@ -170,7 +171,8 @@ fn nowhere_negative(
         let value = h.at(x, y);
         if value < 0.0 {
             let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
-            let hint = "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
+            let hint =
+                "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
             return Err(scene.error(coefficient, message).hint(hint).into());
         }
     }

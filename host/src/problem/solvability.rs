@@ -30,7 +30,8 @@ impl Parts {
     pub fn examine(scene: &Scene, problem: &Problem) -> Result<Self> {
         let triangles = problem.mesh.triangles.len();
         let mut cells = vec![Part::default(); triangles + problem.mesh.quads.len()];
-        let counts = Self::counts(problem, &mut cells).map_err(|error| refused(scene, problem, error))?;
+        let counts =
+            Self::counts(problem, &mut cells).map_err(|error| refused(scene, problem, error))?;
         Ok(Self { counts, cells, triangles })
     }
 

@@ -30,11 +30,11 @@ pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
         (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
         (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(scene, problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts),
-        (SolverKind::Direct, ScalarKind::F32) => Err(InputError::new(
-            "--solver direct works in f64, --scalar f32 was asked for",
-        )
-        .hint("leave out --scalar, or use --solver kernel")
-        .into()),
+        (SolverKind::Direct, ScalarKind::F32) => {
+            Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
+                .hint("leave out --scalar, or use --solver kernel")
+                .into())
+        }
     }
 }
 
@@ -154,4 +154,3 @@ fn finish<R: Scalar>(
     }
     solution
 }
-

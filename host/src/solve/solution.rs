@@ -88,7 +88,6 @@ impl Solution {
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
     pub fn multiplier(&self, problem: &Problem, at: usize) -> f64 {
         let edge = problem.topology.counts.free + at;
-        debug_assert_eq!(problem.kinds[edge], EdgeKind::Contact);
         (self.flux[edge] - problem.loads.contact_flux[at]) / problem.lengths[edge]
     }
 }

@@ -1,0 +1,46 @@
+//! The command line.
+
+mod solve;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Result;
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini                                         all standard scenes, table and report
+  signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
+  signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
+
+Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
+3 the solver stopped before its tolerance (its outputs are written and say so).";
+
+/// Unilateral contact by a mixed finite volume method: scenes, checks, report.
+///
+/// Without a command it runs the kernel on every standard scene, checks each against an independent
+/// reference and the exact solution where there is one, and writes target/report/index.html.
+#[derive(Debug, Parser)]
+#[command(name = "signorini", version, after_help = EXAMPLES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve one scene and write edges.csv, summary.json and solution.vtu
+    Solve(solve::Arguments),
+}
+
+impl Cli {
+    /// Runs the command; returns the exit status.
+    ///
+    /// # Errors
+    /// Wrong input, files that cannot be written, failed checks.
+    pub fn run(self) -> Result<u8> {
+        match self.command {
+            Some(Command::Solve(arguments)) => arguments.run(),
+            None => crate::study::run(),
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! `signorini solve`: one scene, its files.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::error::{Error, InputError, Result};
+use crate::field::{CellField, vertex_values};
+use crate::mesh::gmsh;
+use crate::norms::{Errors, errors};
+use crate::output::atomic::write_atomically;
+use crate::output::edges::edges_csv;
+use crate::output::summary::Summary;
+use crate::output::vtu::{Field, vtu};
+use crate::outputs::outputs;
+use crate::problem::Problem;
+use crate::progress::waiting;
+use crate::scene::Scene;
+use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini solve meshes/scenes/levee.toml
+  signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
+  signorini solve levee.toml --scalar f32 --input rain=2e-8";
+
+/// Arguments of `solve`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The scene file (TOML)
+    scene: PathBuf,
+    /// Another mesh than the scene names (Gmsh MSH 2.2 or 4.1)
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    /// Scalar type of the kernel
+    #[arg(long, value_enum, default_value = "f64")]
+    scalar: ScalarKind,
+    /// The kernel's projected SOR, or the host's active set on a sparse factorisation
+    #[arg(long, value_enum, default_value = "kernel")]
+    solver: SolverKind,
+    /// Bound on the scaled complementarity residual [default: 1e-11 in f64, the rounding limit in f32]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// Most sweeps allowed
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
+    max_sweeps: u32,
+    /// Set an input of the scene; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    input: Vec<String>,
+    /// Where the files go [default: out/SCENE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn tolerance(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance.is_finite() && tolerance >= 0.0 => Ok(tolerance),
+        _ => Err("expected a finite number ≥ 0, such as 1e-9".to_owned()),
+    }
+}
+
+impl Arguments {
+    pub(super) fn run(self) -> Result<u8> {
+        let mut scene = Scene::read(&self.scene)?;
+        if let Some(mesh) = &self.mesh {
+            scene.mesh.value.clone_from(mesh);
+        }
+        for input in &self.input {
+            scene.set_input(input)?;
+        }
+        let out = self.out.clone().unwrap_or_else(|| default_directory(&self.scene));
+        check_directory(&out)?;
+        let mesh = gmsh::read(&scene.mesh.value)?;
+        let problem = Problem::new(&scene, mesh)?;
+        let options = Options {
+            scalar: self.scalar,
+            solver: self.solver,
+            tolerance: self.tolerance,
+            max_sweeps: self.max_sweeps,
+        };
+        let unknowns = problem.topology.counts.unknowns();
+        let solution =
+            waiting(&format!("solving {unknowns} unknowns"), || solve(&scene, &problem, &options))?;
+        let errors = match &scene.exact {
+            Some(exact) => Some(errors(&scene, exact, &problem, &solution.u, &solution.flux)?),
+            None => None,
+        };
+        let declared = outputs(&scene, &problem, &solution)?;
+        let summary = Summary::new(&scene, &problem, self.solver, &solution, errors, declared);
+        let files = [
+            (
+                "edges.csv",
+                edges_csv(&problem, &solution).map_err(|error| Error::Check(error.to_string()))?,
+            ),
+            ("solution.vtu", picture(&problem, &solution).into_bytes()),
+            ("summary.json", summary.json().into_bytes()),
+        ];
+        for (name, bytes) in files {
+            write_atomically(&out.join(name), &bytes)?;
+        }
+        report(&scene, &problem, &solution, errors, &out);
+        Ok(if solution.converged() { 0 } else { 3 })
+    }
+}
+
+fn default_directory(scene: &Path) -> PathBuf {
+    Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
+}
+
+fn check_directory(out: &Path) -> Result<()> {
+    let is_file = out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir());
+    if is_file {
+        let message = format!("--out {}: is a file, expected a directory", out.display());
+        return Err(InputError::new(message)
+            .hint("name a directory, or one that does not exist yet")
+            .into());
+    }
+    Ok(())
+}
+
+fn picture(problem: &Problem, solution: &Solution) -> String {
+    let mesh = &problem.mesh;
+    let cells = 0..mesh.triangles.len() + mesh.quads.len();
+    let fields: Vec<_> =
+        cells.map(|cell| CellField::new(problem, cell, &solution.u, &solution.flux)).collect();
+    vtu(&Field {
+        vertices: &mesh.vertices,
+        triangles: &mesh.triangles,
+        quads: &mesh.quads,
+        cell_u: &fields.iter().map(CellField::mean).collect::<Vec<_>>(),
+        cell_flux: &fields.iter().map(CellField::middle_flux).collect::<Vec<_>>(),
+        region: &problem.binding.materials,
+        vertex_u: &vertex_values(problem, &solution.u, &solution.flux),
+    })
+}
+
+fn report(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+    errors: Option<Errors>,
+    out: &Path,
+) {
+    let counts = problem.topology.counts;
+    println!("{}", scene.title);
+    println!(
+        "  {} unknowns, {} of {} contact edges active",
+        counts.unknowns(),
+        solution.contact_active,
+        counts.contact
+    );
+    println!(
+        "  {} after {} sweeps, scaled residual {:.1e}",
+        status_name(solution.status),
+        solution.sweeps,
+        solution.algebraic_residual
+    );
+    println!(
+        "  contact force {}, contact length {}",
+        solution.contact_force, solution.contact_length
+    );
+    if let Some(errors) = errors {
+        println!(
+            "  errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}",
+            errors.h1, errors.l2, errors.flux
+        );
+    }
+    println!("  written to {}", out.display());
+}
