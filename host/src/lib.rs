@@ -3,3 +3,4 @@
 pub mod error;
 pub mod expression;
 pub mod mesh;
+pub mod scene;
