@@ -20,7 +20,7 @@ pub(super) struct Entry<'a> {
 impl<'a> Entry<'a> {
     /// The error that this value is wrong.
     pub fn error(&self, message: impl Display) -> InputError {
-        self.at.error(&self.document.path, &self.document.text, message)
+        self.document.error(&self.at, message)
     }
 
     /// A text.
@@ -87,7 +87,7 @@ impl<'a> Entry<'a> {
                 .map(|expression| self.at.with(expression))
                 .map_err(|error| {
                     let at = Located { span: self.within(text, error.span), ..self.at.with(()) };
-                    let input = at.error(&self.document.path, &self.document.text, error.message);
+                    let input = self.document.error(&at, error.message);
                     Error::from(match error.hint {
                         Some(hint) => input.hint(hint),
                         None => input,

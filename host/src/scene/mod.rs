@@ -9,8 +9,8 @@
 //! | robin | σ·n = coefficient (ambient − u) |
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0 |
 //!
-//! text ─► [`table`], [`entry`] (TOML with places) ─► [`read`], [`boundary`], [`control`] (sections
-//! into the model below). Every part of the model knows where it stands, so that whoever finds it wrong
+//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `control` (sections into the
+//! model below). Every part of the model knows where it stands, so that whoever finds it wrong
 //! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::boundary::read_boundary;
 use super::control::{read_input, read_output};
@@ -71,12 +71,11 @@ fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Resul
 }
 
 fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
-    let entry = root.require(key)?;
     let all = each(root, key, read)?;
     if all.is_empty() {
         let hint =
             format!("write [{key}.NAME] with the name of a group of the mesh, or [{key}.default]");
-        return Err(entry.error("empty").hint(hint).into());
+        return Err(root.absent(key).hint(hint).into());
     }
     Ok(all)
 }
@@ -90,7 +89,7 @@ fn read_title(root: &Table) -> Result<String> {
     }
 }
 
-fn read_mesh(root: &Table) -> Result<Located<std::path::PathBuf>> {
+fn read_mesh(root: &Table) -> Result<Located<PathBuf>> {
     let entry = root.require("mesh")?;
     let name = entry.text()?.value;
     if name.is_empty() {

@@ -5,12 +5,13 @@
 //! Serde could read the same into structs, but its errors carry no path of keys, and an enum chosen
 //! by `kind` loses the places.
 
+use std::fmt::Display;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::Located;
 use super::entry::Entry;
@@ -41,6 +42,11 @@ impl Document {
         })?;
         Ok(root.into_inner())
     }
+
+    /// The error that `at` is wrong.
+    pub fn error<T>(&self, at: &Located<T>, message: impl Display) -> InputError {
+        at.error(&self.path, &self.text, message)
+    }
 }
 
 impl<'a> Table<'a> {
@@ -59,11 +65,7 @@ impl<'a> Table<'a> {
             .min_by_key(|key| key.span().start);
         foreign.map_or(Ok(()), |key| {
             let at = self.locate(key.get_ref(), key.span(), ());
-            let error = at.error(
-                &self.document.path,
-                &self.document.text,
-                format_args!("unknown key of {what}"),
-            );
+            let error = self.document.error(&at, format_args!("unknown key of {what}"));
             Err(error.hint(format!("allowed here: {}", allowed.join(", "))).into())
         })
     }
@@ -78,14 +80,17 @@ impl<'a> Table<'a> {
     /// The value of `key`, which must be there.
     pub fn require(&self, key: &str) -> Result<Entry<'a>> {
         self.get(key).ok_or_else(|| {
-            let at = self.missing(key, ());
-            at.error(&self.document.path, &self.document.text, "missing")
-                .hint(match self.name.key.as_str() {
-                    "" => format!("add `{key} = …` or `[{key}…]` to the scene"),
-                    table => format!("add `{key} = …` under [{table}]"),
-                })
-                .into()
+            let under = match self.name.key.as_str() {
+                "" => "at the top of the scene".to_owned(),
+                table => format!("under [{table}]"),
+            };
+            self.absent(key).hint(format!("add `{key} = …` {under}")).into()
         })
+    }
+
+    /// The error that `key` is missing.
+    pub fn absent(&self, key: &str) -> InputError {
+        self.document.error(&self.missing(key, ()), "missing")
     }
 
     /// An expression in `variables`, 0 if the key is absent.
@@ -116,7 +121,7 @@ impl<'a> Table<'a> {
 
     fn subtable(
         &self,
-        name: &'a Spanned<toml::de::DeString<'a>>,
+        name: &'a Spanned<DeString<'a>>,
         value: &'a Spanned<DeValue<'a>>,
     ) -> Result<Self> {
         match value.get_ref() {

@@ -186,9 +186,9 @@ fn empty_sections_are_refused() {
     let start = "mesh = 'm'\n";
     for (text, message) in [
         ("", "1: boundary: missing"),
-        ("[boundary]", "2: boundary: empty"),
+        ("[boundary]", "1: boundary: missing"),
         ("[boundary.a]\nkind='contact'\n", "1: material: missing"),
-        ("[boundary.a]\nkind='contact'\n[material]", "4: material: empty"),
+        ("[boundary.a]\nkind='contact'\n[material]", "1: material: missing"),
     ] {
         let error = parse(&(start.to_owned() + text)).expect_err(message).to_string();
         assert_eq!(error, format!("scenes/levee.toml:{message}"));
