@@ -8,8 +8,8 @@
 //! operand  = number | pi | x | y | t | ( sum ) | function ( sum {, sum} )
 //! ```
 //!
-//! text ─► [`lexer`] ─► [`parser`] ─► [`program`] (postfix, constants folded) ─► a value, or by dual
-//! numbers ([`dual`]) a value and its gradient. What each operation is stands in [`operation`].
+//! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, or by dual
+//! numbers (`dual`) a value and its gradient. What each operation is stands in `operation`.
 //!
 //! Evaluation follows IEEE: outside its domain an expression is NaN or infinite, and whoever asked
 //! decides what that means there. Hence `min` and `max` pass a NaN on instead of dropping it.

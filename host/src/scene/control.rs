@@ -1,0 +1,140 @@
+//! What the controller sets and reads: inputs and outputs.
+
+use super::entry::Entry;
+use super::table::Table;
+use super::{Boundary, Condition, Field, Input, Located, Output, Quantity, Scene};
+use crate::error::{InputError, Result};
+use crate::expression::Variables;
+
+const FIELDS: [(&str, Field); 5] = [
+    ("flux", Field::Flux),
+    ("value", Field::Value),
+    ("gap", Field::Gap),
+    ("ambient", Field::Ambient),
+    ("f", Field::Source),
+];
+
+/// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
+pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input> {
+    table.only("an input", &["of", "field", "pattern", "default"])?;
+    let of = table.require("of")?;
+    let field = table.require("field")?;
+    check_field(&of, &field, boundaries)?;
+    Ok(Input {
+        name: table.name.clone(),
+        of: of.text()?,
+        field: field.choice(&FIELDS)?,
+        pattern: table.require("pattern")?.expression(Variables::Space)?,
+        default: table.get("default").map_or(Ok(0.0), |entry| entry.number())?,
+    })
+}
+
+/// Whether what `of` names has the field: the source has f, a boundary what its kind has.
+fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()> {
+    let choice = field.choice(&FIELDS)?.value;
+    let (found, fields) = match (choice, of.text()?.value.as_str()) {
+        (Field::Source, "source") => return Ok(()),
+        (_, "source") if !boundaries.iter().any(|known| known.name.value == "source") => {
+            ("the source".to_owned(), "f".to_owned())
+        }
+        _ => {
+            let condition = &find_boundary(of, boundaries)?.condition;
+            if condition.load(choice).is_some() {
+                return Ok(());
+            }
+            let has = |&&(_, field): &&(&str, Field)| condition.load(field).is_some();
+            let names: Vec<_> = FIELDS.iter().filter(has).map(|(name, _)| *name).collect();
+            (format!("a {} boundary", condition.kind()), names.join(", "))
+        }
+    };
+    let message = format!("{found} has no field `{}`", field.text()?.value);
+    Err(field.error(message).hint(format!("an input may act on its {fields}")).into())
+}
+
+/// Reads `[output.NAME]`.
+pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
+    let kind = table.require("kind")?;
+    let read = kind.choice::<fn(&Table, &[Boundary]) -> Result<Measured>>(&[
+        ("flux", read_flux),
+        ("force", |table, boundaries| read_contact(table, boundaries, "a force", Quantity::Force)),
+        ("length", |table, boundaries| {
+            read_contact(table, boundaries, "a length", Quantity::Length)
+        }),
+        ("probe", read_probe),
+        ("bound", |table, _| table.only("a bound", &["kind"]).map(|()| (Quantity::Bound, None))),
+    ])?;
+    let (quantity, of) = (read.value)(table, boundaries)?;
+    Ok(Output { name: table.name.clone(), quantity, of })
+}
+
+type Measured = (Quantity, Option<Located<String>>);
+
+fn read_flux(table: &Table, boundaries: &[Boundary]) -> Result<Measured> {
+    table.only("a flux", &["kind", "of"])?;
+    let of = table.require("of")?;
+    find_boundary(&of, boundaries)?;
+    Ok((Quantity::Flux, Some(of.text()?)))
+}
+
+fn read_contact(
+    table: &Table,
+    boundaries: &[Boundary],
+    what: &str,
+    quantity: Quantity,
+) -> Result<Measured> {
+    table.only(what, &["kind", "of"])?;
+    let Some(of) = table.get("of") else { return Ok((quantity, None)) };
+    match &find_boundary(&of, boundaries)?.condition {
+        Condition::Contact { .. } => Ok((quantity, Some(of.text()?))),
+        other => {
+            let message = format!("expected a contact boundary, this one is {}", other.kind());
+            Err(of.error(message).hint("without `of` it is taken over all contact").into())
+        }
+    }
+}
+
+fn read_probe(table: &Table, _: &[Boundary]) -> Result<Measured> {
+    table.only("a probe", &["kind", "at"])?;
+    let [x, y] = table.require("at")?.pair("x, y")?;
+    Ok((Quantity::Probe { at: [x.number()?, y.number()?] }, None))
+}
+
+/// The boundary that `of` names.
+fn find_boundary<'a>(of: &Entry, boundaries: &'a [Boundary]) -> Result<&'a Boundary> {
+    let name = of.text()?.value;
+    boundaries.iter().find(|boundary| boundary.name.value == name).ok_or_else(|| {
+        let error = of.error(format_args!("no boundary `{name}` in the scene"));
+        let names = list(boundaries.iter().map(|boundary| &boundary.name));
+        error.hint(format!("boundaries of the scene: {names}")).into()
+    })
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
+    names.map(|name| name.value.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+impl Scene {
+    /// Sets the default of an input from `NAME=VALUE`, as on the command line.
+    pub fn set_input(&mut self, assignment: &str) -> Result<()> {
+        let known = match list(self.inputs.iter().map(|input| &input.name)) {
+            none if none.is_empty() => "the scene has no inputs".to_owned(),
+            names => format!("inputs of the scene: {names}"),
+        };
+        let error = |message: String| {
+            InputError::new(format!("--input {assignment}: {message}")).hint(known.clone())
+        };
+        let (name, value) =
+            assignment.rsplit_once('=').ok_or_else(|| error("expected NAME=VALUE".to_owned()))?;
+        let input = self
+            .inputs
+            .iter_mut()
+            .find(|input| input.name.value == name)
+            .ok_or_else(|| error(format!("no input `{name}` in the scene")))?;
+        input.default = value
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .ok_or_else(|| error(format!("`{value}` is not a finite number")))?;
+        Ok(())
+    }
+}

@@ -1,0 +1,158 @@
+//! A value of the scene file, read as what it should be: text, number, expression, array.
+
+use std::fmt::Display;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeInteger, DeValue};
+
+use super::Located;
+use super::table::Document;
+use crate::error::{Error, InputError, Result};
+use crate::expression::{Expression, Variables};
+
+/// The value of a key.
+pub(super) struct Entry<'a> {
+    pub document: &'a Document,
+    pub at: Located<&'a DeValue<'a>>,
+}
+
+impl<'a> Entry<'a> {
+    /// The error that this value is wrong.
+    pub fn error(&self, message: impl Display) -> InputError {
+        self.document.error(&self.at, message)
+    }
+
+    /// A text.
+    pub fn text(&self) -> Result<Located<String>> {
+        match self.at.value {
+            DeValue::String(text) => Ok(self.at.with(text.to_string())),
+            _ => Err(self.expected("a text").into()),
+        }
+    }
+
+    /// One of the words on the left, as what stands on the right.
+    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<Located<T>> {
+        let word = self.text()?.value;
+        let names = choices.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        match choices.iter().find(|(name, _)| *name == word) {
+            Some(&(_, choice)) => Ok(self.at.with(choice)),
+            None => Err(self.error(format_args!("`{word}` is not one of: {names}")).into()),
+        }
+    }
+
+    /// A finite number.
+    pub fn number(&self) -> Result<f64> {
+        let value = match self.at.value {
+            DeValue::Integer(integer) => whole(integer),
+            DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
+            _ => return Err(self.expected("a number").into()),
+        };
+        match value.is_finite() {
+            true => Ok(value),
+            false => Err(self.error("not a finite number").into()),
+        }
+    }
+
+    /// A positive number; `unit` names its unit.
+    pub fn positive(&self, unit: &str) -> Result<f64> {
+        match self.number()? {
+            value if value > 0.0 => Ok(value),
+            value => {
+                Err(self.error(format_args!("{value} is not a positive number of {unit}")).into())
+            }
+        }
+    }
+
+    /// A positive whole number of bytes.
+    pub fn bytes(&self) -> Result<u64> {
+        let bytes = match self.at.value {
+            DeValue::Integer(integer) => {
+                u64::from_str_radix(integer.as_str(), integer.radix()).ok()
+            }
+            _ => None,
+        };
+        bytes
+            .filter(|&bytes| bytes > 0)
+            .ok_or_else(|| self.expected("a positive whole number of bytes").into())
+    }
+
+    /// A number, or a text that is an expression in `variables`.
+    pub fn expression(&self, variables: Variables) -> Result<Located<Expression>> {
+        match self.at.value {
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                Ok(self.at.with(Expression::constant(self.number()?)))
+            }
+            DeValue::String(text) => Expression::parse(text, variables)
+                .map(|expression| self.at.with(expression))
+                .map_err(|error| {
+                    let at = Located { span: self.within(text, error.span), ..self.at.with(()) };
+                    let input = self.document.error(&at, error.message);
+                    Error::from(match error.hint {
+                        Some(hint) => input.hint(hint),
+                        None => input,
+                    })
+                }),
+            _ => Err(self.expected("a number or an expression in quotes").into()),
+        }
+    }
+
+    /// An array of entries.
+    pub fn array(&self) -> Option<Vec<Self>> {
+        let DeValue::Array(items) = self.at.value else { return None };
+        let entry = |item: &'a Spanned<DeValue<'a>>| Self {
+            document: self.document,
+            at: Located { value: item.get_ref(), key: self.at.key.clone(), span: item.span() },
+        };
+        Some(items.iter().map(entry).collect())
+    }
+
+    /// An array of two entries; `what` they are.
+    pub fn pair(&self, what: &str) -> Result<[Self; 2]> {
+        self.array()
+            .and_then(|items| items.try_into().ok())
+            .ok_or_else(|| self.expected(&format!("an array of two: {what}")).into())
+    }
+
+    /// The error that a value of another kind was expected.
+    pub fn expected(&self, expected: &str) -> InputError {
+        self.error(format_args!("expected {expected}, found {}", self.kind()))
+    }
+
+    fn kind(&self) -> String {
+        match self.at.value {
+            DeValue::String(text) => format!("the text {text:?}"),
+            DeValue::Integer(integer) => format!("the number {integer}"),
+            DeValue::Float(float) => format!("the number {float}"),
+            DeValue::Boolean(value) => format!("{value}"),
+            DeValue::Datetime(date) => format!("the date {date}"),
+            DeValue::Array(items) => format!("an array of {}", items.len()),
+            DeValue::Table(_) => "a table".to_owned(),
+        }
+    }
+
+    /// The bytes of the file behind `part` of a text; the whole value where it is written with
+    /// escapes, so that the two don't run in step.
+    fn within(&self, text: &str, part: Range<usize>) -> Range<usize> {
+        let written = self.document.text.get(self.at.span.clone()).unwrap_or_default();
+        match written.find(text) {
+            Some(offset) => {
+                let start = self.at.span.start + offset;
+                start + part.start..start + part.end
+            }
+            None => self.at.span.clone(),
+        }
+    }
+}
+
+/// A whole number of any size, rounded.
+fn whole(integer: &DeInteger<'_>) -> f64 {
+    let text = integer.as_str();
+    match i64::from_str_radix(text, integer.radix()) {
+        Ok(value) => value as f64,
+        Err(_) if integer.radix() == 10 => text.parse().unwrap_or(f64::NAN),
+        Err(_) => {
+            u128::from_str_radix(text, integer.radix()).map_or(f64::NAN, |value| value as f64)
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! A scene: what is solved on a mesh, as its TOML file states it.
+//!
+//! −∇·(A∇u) = f in Ω, and on the boundary, with the outward normal n and σ·n = (A∇u)·n,
+//!
+//! | kind | condition |
+//! |---|---|
+//! | dirichlet | u = value |
+//! | neumann | σ·n = flux |
+//! | robin | σ·n = coefficient (ambient − u) |
+//! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0 |
+//!
+//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `control` (sections into the
+//! model below). Every part of the model knows where it stands, so that whoever finds it wrong
+//! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
+//! The names are not compared with the mesh here.
+
+mod boundary;
+mod control;
+mod entry;
+mod read;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Display;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::error::InputError;
+use crate::expression::Expression;
+
+/// Something read from the scene file, with its place in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located<T> {
+    /// What was read.
+    pub value: T,
+    /// The key with its tables: `boundary.river.value`.
+    pub key: String,
+    /// The bytes of the file it stands in; for a default, the header of its table.
+    pub span: Range<usize>,
+}
+
+/// A scene file, read and checked as far as possible without its mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The scene file.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: Arc<str>,
+    /// What to call it; without a title, the name of the file.
+    pub title: String,
+    /// The mesh file, relative to where the program runs.
+    pub mesh: Located<PathBuf>,
+    /// The materials in the order of the file; at least one.
+    pub materials: Vec<Material>,
+    /// The load f in x, y, t; 0 by default.
+    pub source: Located<Expression>,
+    /// The boundary parts in the order of the file; at least one.
+    pub boundaries: Vec<Boundary>,
+    /// Loads that change at run time.
+    pub inputs: Vec<Input>,
+    /// What the controller reads; if empty, contact force and length.
+    pub outputs: Vec<Output>,
+    /// The budget of the device.
+    pub target: Option<Target>,
+    /// The ticks.
+    pub time: Option<Time>,
+    /// The exact solution.
+    pub exact: Option<Exact>,
+}
+
+/// The coefficient tensor on one physical surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// The surface; `default` covers the cells that no other material names.
+    pub name: Located<String>,
+    /// a_xx, a_xy, a_yy in x, y; a scalar a stands as a, 0, a.
+    pub conductivity: [Located<Expression>; 3],
+    /// Whether the file gave a scalar.
+    pub is_scalar: bool,
+}
+
+/// The condition on one physical curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    /// The curve; `default` covers the edges that no other boundary names.
+    pub name: Located<String>,
+    /// What holds there.
+    pub condition: Condition,
+}
+
+/// A boundary condition; its data in x, y, t, except the Robin coefficient in x, y.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Condition {
+    /// u = value.
+    Dirichlet {
+        /// The value u_D.
+        value: Located<Expression>,
+    },
+    /// σ·n = flux.
+    Neumann {
+        /// The outward flux g.
+        flux: Located<Expression>,
+    },
+    /// σ·n = coefficient (ambient − u).
+    Robin {
+        /// The coefficient, ≥ 0; a constant one has been checked.
+        coefficient: Located<Expression>,
+        /// What u relaxes to.
+        ambient: Located<Expression>,
+    },
+    /// u ≥ gap, σ·n ≥ flux, one of them with equality.
+    Contact {
+        /// The gap function ψ; 0 by default.
+        gap: Located<Expression>,
+        /// The flux q without contact; 0 by default.
+        flux: Located<Expression>,
+    },
+}
+
+/// A load that an input may add to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    /// The flux of a Neumann or contact boundary.
+    Flux,
+    /// The value of a Dirichlet boundary.
+    Value,
+    /// The gap of a contact boundary.
+    Gap,
+    /// The ambient of a Robin boundary.
+    Ambient,
+    /// The load f.
+    Source,
+}
+
+/// A load that changes at run time: its value times the pattern is added to the field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// Its name.
+    pub name: Located<String>,
+    /// The boundary it acts on; `source` if the field is [`Field::Source`], and only then.
+    pub of: Located<String>,
+    /// The field it acts on; the boundary has it.
+    pub field: Located<Field>,
+    /// What its value multiplies, in x, y.
+    pub pattern: Located<Expression>,
+    /// Its value unless something else is set.
+    pub default: f64,
+}
+
+/// What an output measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// ∫ σ·n over a boundary.
+    Flux,
+    /// ∫ (σ·n − q) over a contact boundary, or over all of them.
+    Force,
+    /// The length of the active edges of a contact boundary, or of all of them.
+    Length,
+    /// u at a point.
+    Probe {
+        /// The point.
+        at: [f64; 2],
+    },
+    /// The error bound.
+    Bound,
+}
+
+/// A number that the controller reads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Its name.
+    pub name: Located<String>,
+    /// What it measures.
+    pub quantity: Quantity,
+    /// The boundary: always there for a flux; for force and length a contact boundary or, where
+    /// absent, all of them; otherwise absent.
+    pub of: Option<Located<String>>,
+}
+
+/// The budget of the device, as far as the scene sets one; each positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Memory in bytes.
+    pub ram: Option<u64>,
+    /// Read-only memory in bytes.
+    pub flash: Option<u64>,
+    /// The time of one tick in seconds.
+    pub tick: Option<f64>,
+    /// The clock in hertz.
+    pub clock: Option<f64>,
+}
+
+/// The ticks: 0 < step ≤ end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// From tick to tick, in seconds.
+    pub step: f64,
+    /// The time of the last tick, in seconds.
+    pub end: f64,
+}
+
+/// The exact solution in x, y, t.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exact {
+    /// u.
+    pub u: Located<Expression>,
+    /// ∂u/∂x, ∂u/∂y.
+    pub gradient: [Located<Expression>; 2],
+}
+
+impl Scene {
+    /// The error that `at` is wrong: `FILE:LINE: KEY: message`, with its place underlined.
+    pub fn error<T>(&self, at: &Located<T>, message: impl Display) -> InputError {
+        at.error(&self.path, &self.text, message)
+    }
+}
+
+impl<T> Located<T> {
+    fn error(&self, path: &Path, text: &Arc<str>, message: impl Display) -> InputError {
+        InputError::new(format!("{}: {message}", self.key))
+            .file(path)
+            .excerpt(text, self.span.clone())
+    }
+
+    /// Another value at the same place.
+    fn with<U>(&self, value: U) -> Located<U> {
+        Located { value, key: self.key.clone(), span: self.span.clone() }
+    }
+}

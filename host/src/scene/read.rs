@@ -1,0 +1,161 @@
+//! From the file to the model: the sections of a scene.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::boundary::read_boundary;
+use super::control::{read_input, read_output};
+use super::entry::Entry;
+use super::table::{Document, Table};
+use super::{Exact, Located, Material, Scene, Target, Time};
+use crate::error::{InputError, Result};
+use crate::expression::{Expression, Variables};
+
+const LARGEST_FILE: usize = 1 << 20;
+
+const SECTIONS: [&str; 10] = [
+    "title", "mesh", "material", "source", "boundary", "input", "output", "target", "time", "exact",
+];
+
+impl Scene {
+    /// Reads and checks the scene file at `path`; the mesh file is not touched.
+    pub fn read(path: &Path) -> Result<Self> {
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes))
+            .map_err(|error| unreadable(path, error.to_string()))?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| {
+            let line =
+                bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            unreadable(path, "not UTF-8 text".to_owned()).line(line)
+        })?;
+        Self::parse(text, path)
+    }
+
+    /// Reads and checks the scene `text`; `path` names it in messages, and the mesh is found from
+    /// there.
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        if text.len() > LARGEST_FILE {
+            return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
+        }
+        let document = Document { path: path.to_owned(), text: text.into() };
+        let entries = document.parse()?;
+        let root = Table::root(&document, &entries);
+        root.only("the scene", &SECTIONS)?;
+        let boundaries = at_least_one(&root, "boundary", read_boundary)?;
+        Ok(Self {
+            title: read_title(&root)?,
+            mesh: read_mesh(&root)?,
+            materials: at_least_one(&root, "material", read_material)?,
+            source: read_source(&root)?,
+            inputs: each(&root, "input", |table| read_input(table, &boundaries))?,
+            outputs: each(&root, "output", |table| read_output(table, &boundaries))?,
+            boundaries,
+            target: root.table("target")?.as_ref().map(read_target).transpose()?,
+            time: root.table("time")?.as_ref().map(read_time).transpose()?,
+            exact: root.table("exact")?.as_ref().map(read_exact).transpose()?,
+            path: path.to_owned(),
+            text: document.text.clone(),
+        })
+    }
+}
+
+fn unreadable(path: &Path, message: String) -> InputError {
+    InputError::new(message).file(path).hint("a scene is a TOML file")
+}
+
+/// The tables `[key.NAME]`, each read.
+fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
+    root.tables(key)?.iter().map(read).collect()
+}
+
+fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
+    let all = each(root, key, read)?;
+    if all.is_empty() {
+        let hint =
+            format!("write [{key}.NAME] with the name of a group of the mesh, or [{key}.default]");
+        return Err(root.absent(key).hint(hint).into());
+    }
+    Ok(all)
+}
+
+fn read_title(root: &Table) -> Result<String> {
+    match root.get("title") {
+        Some(entry) => Ok(entry.text()?.value),
+        None => {
+            Ok(root.document.path.file_stem().unwrap_or_default().to_string_lossy().into_owned())
+        }
+    }
+}
+
+fn read_mesh(root: &Table) -> Result<Located<PathBuf>> {
+    let entry = root.require("mesh")?;
+    let name = entry.text()?.value;
+    if name.is_empty() {
+        return Err(entry.expected("the path of a mesh file").into());
+    }
+    let folder = root.document.path.parent().unwrap_or(Path::new(""));
+    Ok(entry.at.with(folder.join(name)))
+}
+
+fn read_material(table: &Table) -> Result<Material> {
+    table.only("a material", &["conductivity"])?;
+    let entry = table.require("conductivity")?;
+    let read = |entry: &Entry| entry.expression(Variables::Space);
+    let entries = entry.array().unwrap_or_default();
+    let scalar = |a: Located<Expression>| {
+        let zero = a.with(Expression::constant(0.0));
+        [a.clone(), zero, a]
+    };
+    let (conductivity, is_scalar) = match &entries[..] {
+        [axx, axy, ayy] => ([read(axx)?, read(axy)?, read(ayy)?], false),
+        [a] => (scalar(read(a)?), true),
+        _ if entry.array().is_some() => {
+            return Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into());
+        }
+        _ => (scalar(read(&entry)?), true),
+    };
+    Ok(Material { name: table.name.clone(), conductivity, is_scalar })
+}
+
+fn read_source(root: &Table) -> Result<Located<Expression>> {
+    let Some(table) = root.table("source")? else {
+        let key = "source.f".to_owned();
+        return Ok(Located { value: Expression::constant(0.0), key, span: 0..0 });
+    };
+    table.only("the source", &["f"])?;
+    table.require("f")?.expression(Variables::SpaceTime)
+}
+
+fn read_target(table: &Table) -> Result<Target> {
+    table.only("the target", &["ram", "flash", "tick", "clock"])?;
+    let bytes = |key| table.get(key).as_ref().map(Entry::bytes).transpose();
+    let positive = |key, unit| table.get(key).map(|entry| entry.positive(unit)).transpose();
+    Ok(Target {
+        ram: bytes("ram")?,
+        flash: bytes("flash")?,
+        tick: positive("tick", "seconds")?,
+        clock: positive("clock", "hertz")?,
+    })
+}
+
+fn read_time(table: &Table) -> Result<Time> {
+    table.only("the time", &["step", "end"])?;
+    let step = table.require("step")?.positive("seconds")?;
+    let entry = table.require("end")?;
+    let end = entry.positive("seconds")?;
+    if end < step {
+        return Err(entry.error(format_args!("{end} comes before the first step, {step}")).into());
+    }
+    Ok(Time { step, end })
+}
+
+fn read_exact(table: &Table) -> Result<Exact> {
+    table.only("the exact solution", &["u", "gradient"])?;
+    let u = table.require("u")?.expression(Variables::SpaceTime)?;
+    let [along_x, along_y] = table.require("gradient")?.pair("∂u/∂x, ∂u/∂y")?;
+    let gradient =
+        [along_x.expression(Variables::SpaceTime)?, along_y.expression(Variables::SpaceTime)?];
+    Ok(Exact { u, gradient })
+}

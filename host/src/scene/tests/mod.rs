@@ -1,0 +1,182 @@
+//! A complete scene, and what may be left out of it.
+
+mod malformed;
+
+use std::path::{Path, PathBuf};
+
+use super::{Condition, Field, Located, Quantity, Scene, Target, Time};
+use crate::error::{Error, Result};
+use crate::expression::Expression;
+
+const LEVEE: &str = include_str!("levee.toml");
+
+const SMALL: &str = "
+mesh = '../plate.msh'
+material.default.conductivity = 2
+boundary.default = { kind = 'contact' }
+";
+
+fn parse(text: &str) -> Result<Scene> {
+    Scene::parse(text, Path::new("scenes/levee.toml"))
+}
+
+fn scene(text: &str) -> Scene {
+    parse(text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The value of a constant, the text of anything else, and the key.
+fn shown(expression: &Located<Expression>) -> (String, &str) {
+    let value = &expression.value;
+    (value.is_constant().map_or(value.to_string(), |value| value.to_string()), &expression.key)
+}
+
+fn pair<'a>(value: &str, key: &'a str) -> (String, &'a str) {
+    (value.to_owned(), key)
+}
+
+#[test]
+fn a_complete_scene_is_read_in_the_order_of_the_file() {
+    let scene = scene(LEVEE);
+    assert_eq!(scene.title, "drained levee");
+    assert_eq!(scene.mesh.value, PathBuf::from("scenes/levee.msh"));
+    assert_eq!(scene.time, Some(Time { step: 0.01, end: 1.0 }));
+    let (ram, flash, tick, clock) = (Some(196_608), Some(1 << 20), Some(1e-3), Some(168e6));
+    assert_eq!(scene.target, Some(Target { ram, flash, tick, clock }));
+    assert_eq!(shown(&scene.source), pair("0", "source.f"));
+
+    let [clay, sand] = &scene.materials[..] else { panic!("two materials") };
+    assert_eq!((clay.name.value.as_str(), clay.is_scalar), ("clay", false));
+    assert_eq!(
+        clay.conductivity.each_ref().map(|a| a.value.is_constant()),
+        [Some(1e-6), Some(0.0), Some(2e-7)]
+    );
+    assert_eq!((sand.name.key.as_str(), sand.is_scalar), ("material.sand", true));
+    assert_eq!(
+        sand.conductivity.each_ref().map(|a| a.value.is_constant()),
+        [Some(1e-4), Some(0.0), Some(1e-4)]
+    );
+
+    let exact = scene.exact.expect("an exact solution");
+    assert_eq!(shown(&exact.u), pair("x + t", "exact.u"));
+    assert_eq!(exact.gradient.each_ref().map(|d| d.value.is_constant()), [Some(1.0), Some(0.0)]);
+}
+
+#[test]
+fn each_kind_of_boundary_holds_its_data() {
+    let scene = scene(LEVEE);
+    let [river, base, face, air] = &scene.boundaries[..] else { panic!("four boundaries") };
+    let Condition::Dirichlet { value } = &river.condition else { panic!("dirichlet") };
+    assert_eq!(shown(value), pair("-4", "boundary.river.value"));
+    assert_eq!(&scene.text[value.span.clone()], "\"-4.0\"");
+    let Condition::Neumann { flux } = &base.condition else { panic!("neumann") };
+    assert_eq!(shown(flux), pair("0", "boundary.base.flux"));
+    let Condition::Contact { gap, flux } = &face.condition else { panic!("contact") };
+    assert_eq!(shown(gap), pair("-y", "boundary.face.gap"));
+    assert_eq!(shown(flux), pair("0", "boundary.face.flux"));
+    let Condition::Robin { coefficient, ambient } = &air.condition else { panic!("robin") };
+    assert_eq!(shown(coefficient), pair("15", "boundary.air.coefficient"));
+    assert_eq!(shown(ambient), pair("-10", "boundary.air.ambient"));
+    assert_eq!(river.name.value, "river");
+    assert_eq!(&scene.text[river.name.span.clone()], "river");
+}
+
+#[test]
+fn inputs_and_outputs_are_read_and_inputs_set() {
+    let mut scene = scene(LEVEE);
+    let rain = &scene.inputs[0];
+    assert_eq!((rain.name.value.as_str(), rain.of.value.as_str()), ("rain", "base"));
+    assert_eq!((rain.field.value, rain.default), (Field::Flux, 0.0));
+    assert_eq!(rain.pattern.value.is_constant(), Some(1.0));
+    let seepage = &scene.outputs[0];
+    assert_eq!((seepage.name.value.as_str(), seepage.quantity), ("seepage", Quantity::Flux));
+    assert_eq!(seepage.of.as_ref().map(|of| of.value.as_str()), Some("face"));
+
+    scene.set_input("rain=-0.3").expect("a known input");
+    assert_eq!(scene.inputs[0].default, -0.3);
+    for (assignment, message) in [
+        ("rain", "--input rain: expected NAME=VALUE"),
+        ("snow=1", "--input snow=1: no input `snow` in the scene"),
+        ("rain=", "--input rain=: `` is not a finite number"),
+        ("rain=much", "--input rain=much: `much` is not a finite number"),
+        ("rain=inf", "--input rain=inf: `inf` is not a finite number"),
+    ] {
+        let error = scene.set_input(assignment).expect_err(assignment);
+        assert_eq!((error.to_string().as_str(), error.exit_status()), (message, 2));
+        assert_eq!(hint(&error), "inputs of the scene: rain");
+    }
+    assert_eq!(scene.inputs[0].default, -0.3);
+}
+
+fn hint(error: &Error) -> String {
+    miette::Diagnostic::help(error).map(|help| help.to_string()).unwrap_or_default()
+}
+
+#[test]
+fn defaults_fill_what_is_left_out() {
+    let scene = scene(SMALL);
+    assert_eq!(scene.title, "levee");
+    assert_eq!(scene.mesh.value, PathBuf::from("scenes/../plate.msh"));
+    assert!(scene.source.value.is_zero());
+    let Condition::Contact { gap, flux } = &scene.boundaries[0].condition else { panic!() };
+    assert!(gap.value.is_zero() && flux.value.is_zero());
+    assert_eq!(
+        scene.error(gap, "too wide").to_string(),
+        "scenes/levee.toml:4: boundary.default.gap: too wide"
+    );
+    assert_eq!((scene.target, scene.time, &scene.exact), (None, None, &None));
+    assert!(scene.inputs.is_empty() && scene.outputs.is_empty());
+}
+
+#[test]
+fn every_output_and_every_input_field_has_a_form() {
+    let more = "
+[output]
+a = { kind = 'force' }
+b = { kind = 'length', of = 'face' }
+c = { kind = 'probe', at = [1, -0.5] }
+d = { kind = 'bound' }
+[input]
+e = { of = 'source', field = 'f', pattern = 'x' }
+g = { of = 'river', field = 'value', pattern = 1 }
+h = { of = 'face', field = 'gap', pattern = 0x10 }
+i = { of = 'air', field = 'ambient', pattern = 1, default = 1_000 }
+j = { of = 'face', field = 'flux', pattern = 1 }
+";
+    let kept = LEVEE.split("[input.rain]").next().expect("a text");
+    let scene = scene(&(kept.to_owned() + more));
+    let quantities: Vec<_> = scene.outputs.iter().map(|output| output.quantity).collect();
+    let probe = Quantity::Probe { at: [1.0, -0.5] };
+    assert_eq!(quantities, [Quantity::Force, Quantity::Length, probe, Quantity::Bound]);
+    let fields: Vec<_> = scene.inputs.iter().map(|input| input.field.value).collect();
+    assert_eq!(fields, [Field::Source, Field::Value, Field::Gap, Field::Ambient, Field::Flux]);
+    assert_eq!(scene.inputs[2].pattern.value.is_constant(), Some(16.0));
+    assert_eq!((scene.inputs[0].default, scene.inputs[3].default), (0.0, 1000.0));
+}
+
+#[test]
+fn names_may_be_any_text_and_lines_may_end_as_they_like() {
+    let text = format!("\u{feff}{SMALL}[boundary.'nördlich \"A\"=1.x']\nkind = 'robin'\n")
+        .replace('\n', "\r\n");
+    let message = parse(&text).expect_err("no coefficient").to_string();
+    let key = r#"boundary."nördlich \"A\"=1.x".coefficient"#;
+    assert_eq!(message, format!("scenes/levee.toml:5: {key}: missing"));
+}
+
+#[test]
+fn files_that_are_no_text_are_wrong_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    let message = |path: &Path| {
+        let error = Scene::read(path).expect_err("no scene");
+        assert_eq!(error.exit_status(), 2);
+        error.to_string().replace(&path.display().to_string(), "FILE")
+    };
+    assert!(message(&path).starts_with("FILE: No such file"));
+    assert!(message(folder.path()).starts_with("FILE: Is a directory"));
+    std::fs::write(&path, b"title = 'x'\nmesh = '\xff'").expect("written");
+    assert_eq!(message(&path), "FILE:2: not UTF-8 text");
+    std::fs::write(&path, " ".repeat((1 << 20) + 1)).expect("written");
+    assert_eq!(message(&path), "FILE: longer than 1048576 bytes");
+    std::fs::write(&path, SMALL).expect("written");
+    assert_eq!(Scene::read(&path).expect("a scene").title, "scene");
+}
