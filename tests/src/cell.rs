@@ -55,7 +55,7 @@ impl Cell {
         [sum(0), sum(1)]
     }
 
-    /// DF(x̂); entry [i][j] is ∂F_i/∂x̂_j.
+    /// DF(x̂); entry `[i][j]` is ∂F_i/∂x̂_j.
     pub fn jacobian(&self, reference: Point) -> [[f64; 2]; 2] {
         let gradients = self.vertex_gradients(reference);
         let sum = |i: usize, j: usize| {

@@ -72,7 +72,7 @@ impl Element {
         })
     }
 
-    /// K_T[i][j] = ∫_T A∇φ_j·∇φ_i, with n points a direction.
+    /// `K_T[i][j]` = ∫_T A∇φ_j·∇φ_i, with n points a direction.
     pub fn stiffness(&self, tensor: impl Fn(Point) -> [f64; 3], n: usize) -> Vec<Vec<f64>> {
         let m = self.cell.corners.len();
         let mut matrix = vec![vec![0.0; m]; m];

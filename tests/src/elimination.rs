@@ -10,10 +10,11 @@ pub fn solve(mut matrix: Vec<Vec<f64>>, mut rhs: Vec<f64>) -> Option<Vec<f64>> {
         }
         matrix.swap(k, pivot);
         rhs.swap(k, pivot);
+        let pivot_row = matrix[k].clone();
         for i in k + 1..n {
-            let factor = matrix[i][k] / matrix[k][k];
-            for j in k..n {
-                matrix[i][j] -= factor * matrix[k][j];
+            let factor = matrix[i][k] / pivot_row[k];
+            for (entry, above) in matrix[i].iter_mut().zip(&pivot_row).skip(k) {
+                *entry -= factor * above;
             }
             rhs[i] -= factor * rhs[k];
         }

@@ -53,7 +53,7 @@ impl Grid {
             let cut = match cells {
                 Cells::Triangles => true,
                 Cells::Quads => false,
-                Cells::Mixed => (i + j) % 2 == 0,
+                Cells::Mixed => (i + j).is_multiple_of(2),
             };
             if cut {
                 grid.triangles.extend([[a, b, c], [a, c, d]]);
@@ -86,7 +86,7 @@ impl Grid {
         let h = 1.0 / f64::from(n);
         for (k, v) in self.vertices.iter_mut().enumerate().filter(|(_, v)| is_inside(**v)) {
             let column = k / (n as usize + 1);
-            v[1] += if column % 2 == 0 { 0.25 * h } else { -0.25 * h };
+            v[1] += if column.is_multiple_of(2) { 0.25 * h } else { -0.25 * h };
         }
         self
     }
