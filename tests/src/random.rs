@@ -87,7 +87,7 @@ pub fn boundary(random: &mut Random) -> Boundary {
         0 => dirichlet(random),
         1 => Boundary::Neumann { flux: random.affine() },
         2 => {
-            // Affine and not negative where the grids of this module lie: 0 < x, y < 8.
+            // Positive where the grids of this module lie: x, y ≥ −0.2.
             let coefficient = affine(random.between(1.0, 9.0), random.between(0.0, 1.0), 0.1);
             Boundary::Robin { coefficient, ambient: random.affine() }
         }
