@@ -1,0 +1,89 @@
+//! The one tolerance table: every comparison of the tests takes its bound from here by name.
+
+/// A bound on a deviation, and why it is what it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// What is compared.
+    pub name: &'static str,
+    /// The largest deviation allowed.
+    pub value: f64,
+    /// Where the value comes from.
+    pub reason: &'static str,
+}
+
+impl Tolerance {
+    /// Panics, naming the entry and `what`, unless `deviation` is a number of at most `value`.
+    #[track_caller]
+    pub fn check(&self, what: &str, deviation: f64) {
+        let Self { name, value, reason } = self;
+        assert!(
+            deviation.abs() <= *value,
+            "{what}: {name} is off by {deviation:e}, allowed {value:e} ({reason})"
+        );
+    }
+
+    /// The same for the deviation of `measured` relative to `expected`.
+    #[track_caller]
+    pub fn check_relative(&self, what: &str, measured: f64, expected: f64) {
+        let what = format!("{what}: {measured:e} instead of {expected:e}");
+        self.check(&what, (measured - expected) / expected);
+    }
+}
+
+/// Declares each entry as a constant and lists them all in [`TABLE`].
+macro_rules! table {
+    ($($constant:ident: $name:literal, $value:literal, $reason:literal;)*) => {
+        $(
+            #[doc = concat!("The bound on ", $name, ": ", $reason, ".")]
+            pub const $constant: Tolerance =
+                Tolerance { name: $name, value: $value, reason: $reason };
+        )*
+        /// Every entry.
+        pub const TABLE: &[Tolerance] = &[$($constant),*];
+    };
+}
+
+table! {
+    FLUX_CONTINUITY: "normal flux from both sides of an edge, over the terms it is the sum of", 5e-13,
+        "measured in f64 on 64 × 128 cells, the rounding of the solve";
+    CONSERVATION: "sum of an element's fluxes plus its source, over the terms they are sums of", 7e-15,
+        "holds for any u, so only the rounding of one element enters";
+    BOUNDARY_FLUX: "mean flux on Neumann and Robin edges, over the terms it is the sum of", 3e-14,
+        "measured in f64 on 64 × 128 cells";
+    CONTACT_SIGN: "violation of u ≥ ψ, σ·n ≥ q or of their product, over the largest values", 1e-12,
+        "active edges are exact, open ones are as good as the solve";
+    CLOSED_FORM: "recovered flux against Marini's formula, over the terms it is the sum of", 1e-12,
+        "an identity of exact arithmetic; rounding grows with the condition of A";
+    PATCH: "patch solution, over its largest value", 1e-12,
+        "the solution lies in the space: only the rounding of the solve is left";
+    CATALOGUE: "error norm or force against the target table, relative", 5e-4,
+        "0.05 %: the targets have six digits, two quadratures of the errors differ by less";
+    TOTAL_FORCE: "contact force against the target table, relative", 2e-6,
+        "the table has six digits and the forces do not depend on the quadrature of errors";
+    SMOOTH_AGREEMENT: "edge means of two programs, data smooth in each cell, over the range", 1e-10,
+        "both integrate to rounding: what is left is the solves";
+    KINKED_AGREEMENT: "edge means of two programs, data with a kink in a cell, over the range", 1e-4,
+        "different quadrature points see a kink differently";
+    TRAPEZOID_RATE: "observed order of an error on trapezoids against its limit", 0.1,
+        "orders between n = 16 and 32 are still on their way to the limit";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PATCH, TABLE};
+
+    #[test]
+    fn entries_have_distinct_names_positive_values_and_reasons() {
+        let mut names: Vec<_> = TABLE.iter().map(|t| t.name).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), TABLE.len());
+        assert!(TABLE.iter().all(|t| t.value > 0.0 && !t.reason.is_empty()));
+    }
+
+    #[test]
+    #[should_panic(expected = "instead of")]
+    fn not_a_number_is_never_within_a_tolerance() {
+        PATCH.check_relative("a failed solve", f64::NAN, 1.0);
+    }
+}
