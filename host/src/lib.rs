@@ -1,6 +1,7 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
 pub mod cli;
+pub mod cycles;
 pub mod error;
 pub mod expression;
 pub mod field;

@@ -27,7 +27,8 @@ pub fn sweep<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], omega: R) {
 
 #[inline(always)]
 fn relax<R: Real, I: Index>(row: &Row<R, I>, load: R, u: &[R], i: usize, omega: R) -> R {
-    read(u, i) + omega * (load - row.dot(u)) / row.diagonal()
+    // ω / K_ii first: the division then waits for no neighbour, and runs beside the row before.
+    read(u, i) + omega / row.diagonal() * (load - row.dot(u))
 }
 
 #[inline(always)]

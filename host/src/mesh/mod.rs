@@ -3,6 +3,7 @@
 pub mod check;
 pub mod gmsh;
 pub mod shape;
+pub mod structured;
 
 /// Cells and named groups, before any scene gives the names a meaning.
 ///
