@@ -77,6 +77,7 @@ impl Arguments {
             scalar: self.scalar,
             solver: self.solver,
             tolerance: self.tolerance,
+            to_the_floor: false,
             max_sweeps: self.max_sweeps,
         };
         let unknowns = problem.topology.counts.unknowns();

@@ -154,6 +154,16 @@ impl Problem {
         Ok(problem)
     }
 
+    /// The largest entry of an element matrix.
+    pub fn stiffest(&self) -> f64 {
+        Assembled::<f64>::new(self).map_or(0.0, |assembled| {
+            let stiffness = assembled.stiffness();
+            let entries = stiffness.triangles.as_flattened().iter();
+            let entries = entries.chain(stiffness.quads.as_flattened());
+            entries.fold(0.0, |most: f64, entry| most.max(entry.abs()))
+        })
+    }
+
     /// Coordinates of the ends of an edge.
     pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
         self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])

@@ -36,6 +36,8 @@ pub struct Options {
     pub solver: SolverKind,
     /// Bound on the scaled complementarity residual; `None`: the default of the scalar type.
     pub tolerance: Option<f64>,
+    /// Whether to go on until rounding ends it, whatever the tolerance.
+    pub to_the_floor: bool,
     /// Most sweeps allowed.
     pub max_sweeps: u32,
 }
@@ -46,6 +48,7 @@ impl Default for Options {
             scalar: ScalarKind::F64,
             solver: SolverKind::Kernel,
             tolerance: None,
+            to_the_floor: false,
             max_sweeps: 1_000_000,
         }
     }
@@ -59,6 +62,7 @@ impl Options {
     /// may hide behind it by 1e−8; the default in f32 is the last digit of u.
     pub(super) fn settings<R: Scalar>(&self) -> Settings<R> {
         let (tolerance, accuracy) = match (self.tolerance, self.scalar) {
+            _ if self.to_the_floor => (0.0, R::EPSILON.wide()),
             (Some(tolerance), _) => (tolerance, f64::INFINITY),
             (None, ScalarKind::F64) => (1e-11, 1e-8),
             (None, ScalarKind::F32) => (0.0, f64::from(f32::EPSILON)),

@@ -60,11 +60,15 @@ impl Solution {
         matches!(self.status, Status::Converged | Status::RoundingLimit)
     }
 
+    /// max |∫_E σ·n|, at least the smallest normal number.
+    pub fn largest_flux(&self) -> f64 {
+        self.flux.iter().fold(f64::TINY, |most, flux| most.max(flux.abs()))
+    }
+
     /// max over the cells of |Σ_E ∫σ·n + ∫f|, relative to the largest edge flux.
     pub fn conservation_defect(&self, problem: &Problem) -> f64 {
         let triangles = problem.mesh.triangles.len();
         let loads = &problem.loads;
-        let largest = self.flux.iter().fold(f64::TINY, |most, flux| most.max(flux.abs()));
         let defect = (0..triangles + problem.mesh.quads.len()).map(|cell| {
             let load = match cell.checked_sub(triangles) {
                 None => loads.triangles.get(cell),
@@ -76,7 +80,7 @@ impl Solution {
             };
             (out + load.unwrap_or(&0.0)).abs()
         });
-        defect.fold(0.0, f64::max) / largest
+        defect.fold(0.0, f64::max) / self.largest_flux()
     }
 
     /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.

@@ -1,8 +1,114 @@
-//! The main job.
+//! The main job: every standard scene, checked, measured and shown.
 
-use crate::error::Result;
+mod case;
+mod checks;
+mod contact_line;
+mod convergence;
+mod cost;
+mod panel;
+mod table;
 
-/// Runs it.
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::error::{Error, InputError, Result};
+use crate::output::atomic::write_atomically;
+use crate::progress::steps;
+use crate::report::{Report, html};
+use case::Case;
+use checks::Check;
+use convergence::Study;
+
+/// Everything that `results.json` holds.
+#[derive(Debug, Serialize)]
+struct Results<'r> {
+    cycles: &'static str,
+    scenes: &'r [Case],
+    convergence: &'r [Study],
+    passed: bool,
+}
+
+/// Runs every scene under `meshes/`, prints the table, writes the report; exit status 0 only when every
+/// check holds.
+///
+/// # Errors
+/// Scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
-    Ok(0)
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let scenes = scenes(&root.join("meshes"))?;
+    let studies = convergence::planned(root)?;
+    let bar = steps(scenes.len() + studies.len());
+    let (mut cases, mut panels) = (Vec::new(), Vec::new());
+    for path in &scenes {
+        bar.set_message(format!("{}", path.strip_prefix(root).unwrap_or(path).display()));
+        let (case, panel) = case::study(path)?;
+        cases.push(case);
+        panels.push(panel);
+        bar.inc(1);
+    }
+    bar.set_message("convergence on refined grids");
+    let studies = convergence::run(&studies, || bar.inc(1))?;
+    bar.finish_and_clear();
+
+    println!("{}", table::scenes(&cases));
+    println!("{}", table::convergence(&studies));
+    let failed: Vec<&Check> = cases
+        .iter()
+        .flat_map(|case| &case.checks)
+        .chain(studies.iter().flat_map(|study| &study.checks))
+        .filter(|check| !check.passed)
+        .collect();
+    let folder = root.join("target/report");
+    let results = Results {
+        cycles: crate::cycles::METHOD,
+        scenes: &cases,
+        convergence: &studies,
+        passed: failed.is_empty(),
+    };
+    let json = serde_json::to_string_pretty(&results).unwrap_or_default() + "\n";
+    let report = Report {
+        title: "Signorini: standard scenes".to_owned(),
+        generated_by: format!(
+            "signorini {}; cycles: {}",
+            env!("CARGO_PKG_VERSION"),
+            crate::cycles::METHOD
+        ),
+        table: table::for_report(&cases),
+        checks: table::checks(&cases, &studies),
+        convergence: convergence::plots(&studies),
+        scenes: panels,
+    };
+    write_atomically(&folder.join("results.json"), json.as_bytes())?;
+    write_atomically(&folder.join("index.html"), html(&report).as_bytes())?;
+    println!("report: {}", folder.join("index.html").display());
+    for check in &failed {
+        eprintln!("failed: {}: {}", check.claim, check.found);
+    }
+    let checks = cases.iter().map(|case| case.checks.len()).sum::<usize>()
+        + studies.iter().map(|study| study.checks.len()).sum::<usize>();
+    println!("{} of {checks} checks hold", checks - failed.len());
+    Ok(u8::from(!failed.is_empty()))
+}
+
+/// The scene files below `folder`, in the order of their names.
+fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).map_err(Error::io(&folder))? {
+            let path = entry.map_err(Error::io(&folder))?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                found.push(path);
+            }
+        }
+    }
+    if found.is_empty() {
+        let message = format!("{}: no scene found", folder.display());
+        return Err(InputError::new(message).hint("run from a complete checkout").into());
+    }
+    found.sort();
+    Ok(found)
 }

@@ -1,0 +1,113 @@
+//! One standard scene: kernel in both scalars against the reference, errors, cost, picture.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::checks::{self, Check};
+use super::cost::{self, Cost};
+use super::panel::panel;
+use crate::cycles;
+use crate::error::Result;
+use crate::mesh::gmsh;
+use crate::norms::{Errors, errors};
+use crate::problem::Problem;
+use crate::report::ScenePanel;
+use crate::scene::Scene;
+use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+
+/// What is known of a scene after the study.
+#[derive(Debug, Clone, Serialize)]
+pub struct Case {
+    /// The scene file's name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Triangles and quads.
+    pub cells: [usize; 2],
+    /// Edges not on the Dirichlet boundary.
+    pub unknowns: usize,
+    /// Active contact edges, and all of them.
+    pub contact: [usize; 2],
+    /// ∫_C (σ·n − q)
+    pub force: f64,
+    /// Distance to the exact solution, where one is known.
+    pub errors: Option<Errors>,
+    /// The kernel in f64 and f32.
+    pub f64: Run,
+    /// The same in f32.
+    pub f32: Run,
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// The kernel in one scalar.
+#[derive(Debug, Clone, Serialize)]
+pub struct Run {
+    /// Sweeps down to the rounding floor.
+    pub sweeps: u32,
+    /// The ω it found.
+    pub omega: f64,
+    /// Largest distance to the reference, relative to the range of u.
+    pub distance: f64,
+    /// Cycles per unknown for the whole solve.
+    pub solve_cycles: f64,
+    /// Cycles of a sweep.
+    pub cost: Cost,
+}
+
+/// Solves the scene at `path` three times and compares.
+pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
+    let scene = Scene::read(path)?;
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+    let reference = solve(&scene, &problem, &direct)?;
+    let (double, f64) = run(&scene, &problem, ScalarKind::F64, &reference)?;
+    let (single, f32) = run(&scene, &problem, ScalarKind::F32, &reference)?;
+    let exact = scene.exact.as_ref();
+    let errors = exact.map(|exact| errors(&scene, exact, &problem, &double.u, &double.flux));
+    let errors = errors.transpose()?;
+    let mut checks = checks::of(&name, &problem, &double, &reference);
+    checks.extend(checks::of(&name, &problem, &single, &reference));
+    let counts = problem.topology.counts;
+    let case = Case {
+        name,
+        title: scene.title.clone(),
+        cells: [problem.mesh.triangles.len(), problem.mesh.quads.len()],
+        unknowns: counts.unknowns(),
+        contact: [double.contact_active, counts.contact],
+        force: double.contact_force,
+        errors,
+        f64,
+        f32,
+        checks,
+    };
+    let panel = panel(&scene, &problem, &double, &case);
+    Ok((case, panel))
+}
+
+/// The kernel down to the rounding floor.
+fn run(
+    scene: &Scene,
+    problem: &Problem,
+    scalar: ScalarKind,
+    reference: &Solution,
+) -> Result<(Solution, Run)> {
+    let options = Options { scalar, to_the_floor: true, ..Options::default() };
+    let start = cycles::now();
+    let solution = solve(scene, problem, &options)?;
+    let spent = cycles::now().saturating_sub(start) as f64;
+    let cost = match scalar {
+        ScalarKind::F64 => cost::measure::<f64>(problem),
+        ScalarKind::F32 => cost::measure::<f32>(problem),
+    };
+    let run = Run {
+        sweeps: solution.sweeps,
+        omega: solution.omega,
+        distance: checks::distance(&solution.u, &reference.u),
+        solve_cycles: spent / problem.topology.counts.unknowns().max(1) as f64,
+        cost: cost.unwrap_or_default(),
+    };
+    Ok((solution, run))
+}

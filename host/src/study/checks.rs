@@ -1,0 +1,120 @@
+//! What must hold on every scene, and how closely: the main job's tolerances with their reasons.
+
+use serde::Serialize;
+use signorini_kernel::Real;
+
+use crate::problem::{EdgeKind, Problem};
+use crate::solve::{ScalarKind, Solution};
+
+/// A claim and what was found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Check {
+    /// What should hold.
+    pub claim: String,
+    /// What was found, with the bound.
+    pub found: String,
+    /// Whether it holds.
+    pub passed: bool,
+}
+
+impl Check {
+    /// `value` ≤ `bound`; NaN fails.
+    pub fn at_most(claim: String, value: f64, bound: f64) -> Self {
+        Self { claim, found: format!("{value:.1e} ≤ {bound:.0e}"), passed: value <= bound }
+    }
+
+    /// `value` ≥ `bound`; NaN fails.
+    pub fn at_least(claim: String, value: f64, bound: f64) -> Self {
+        Self { claim, found: format!("{value:.3} ≥ {bound}"), passed: value >= bound }
+    }
+}
+
+/// Largest distance to the faer reference in u, relative to the range of u.
+///
+/// f64: both are at their rounding floor, a condition number of 10⁶ apart at most. f32: the kernel
+/// corrects its defect, so the rounding of data remains, amplified by contrast and distortion.
+fn agreement(scalar: ScalarKind) -> f64 {
+    match scalar {
+        ScalarKind::F64 => 1e-10,
+        ScalarKind::F32 => 1e-4,
+    }
+}
+
+/// Identities that hold to rounding, relative to the largest terms that are summed for them: a few
+/// dozen roundings a cell, some hundreds of thousand cells.
+fn rounding(scalar: ScalarKind) -> f64 {
+    match scalar {
+        ScalarKind::F64 => 1e-12,
+        ScalarKind::F32 => 2e-5,
+    }
+}
+
+/// Distance of two solutions, relative to the range of the second.
+pub fn distance(u: &[f64], reference: &[f64]) -> f64 {
+    let (low, high) = reference
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
+    let size = (high - low).max(f64::TINY);
+    u.iter().zip(reference).fold(0.0_f64, |most, (a, b)| most.or_larger((a - b).abs())) / size
+}
+
+/// Convergence, agreement with the reference and the method's identities.
+pub fn of(name: &str, problem: &Problem, solution: &Solution, reference: &Solution) -> Vec<Check> {
+    let scalar = solution.scalar;
+    let word = match scalar {
+        ScalarKind::F64 => "f64",
+        ScalarKind::F32 => "f32",
+    };
+    let claim = |what: &str| format!("{name}, {word}: {what}");
+    let terms = largest_terms(problem, solution);
+    let bound = rounding(scalar);
+    vec![
+        Check {
+            claim: claim("converged"),
+            found: crate::solve::status_name(solution.status).to_owned(),
+            passed: solution.converged(),
+        },
+        Check::at_most(
+            claim("u against the faer reference"),
+            distance(&solution.u, &reference.u),
+            agreement(scalar),
+        ),
+        Check::at_most(
+            claim("fluxes from both sides of an edge"),
+            solution.mismatch * solution.largest_flux() / terms,
+            bound,
+        ),
+        Check::at_most(
+            claim("balance of every cell"),
+            solution.conservation_defect(problem) * solution.largest_flux() / terms,
+            bound,
+        ),
+        Check::at_most(claim("flux on Neumann edges"), neumann(problem, solution) / terms, bound),
+        Check::at_most(claim("contact conditions"), contact(problem, solution, terms), bound),
+    ]
+}
+
+/// max |K_ij u_j| over the cells: what fluxes are summed from.
+fn largest_terms(problem: &Problem, solution: &Solution) -> f64 {
+    let stiffest = problem.stiffest();
+    let size = solution.u.iter().fold(f64::TINY, |most, u| most.max(u.abs()));
+    (stiffest * size).max(solution.largest_flux())
+}
+
+fn neumann(problem: &Problem, solution: &Solution) -> f64 {
+    let mut given = vec![0.0; problem.ends.len()];
+    problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
+    let edges = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);
+    edges.fold(0.0_f64, |most, edge| most.or_larger((solution.flux[edge] - given[edge]).abs()))
+}
+
+/// The largest violation of u ≥ ψ, λ ≥ 0, (u − ψ) λ = 0, each relative to its own size.
+fn contact(problem: &Problem, solution: &Solution, terms: f64) -> f64 {
+    let free = problem.topology.counts.free;
+    let size = solution.u.iter().fold(f64::TINY, |most, u| most.max(u.abs()));
+    (0..problem.topology.counts.contact).fold(0.0_f64, |most, at| {
+        let opening = (solution.u[free + at] - solution.gap(problem, at)) / size;
+        let force = (solution.flux[free + at] - problem.loads.contact_flux[at]) / terms;
+        most.or_larger(-opening).or_larger(-force).or_larger(opening.min(force))
+    })
+}

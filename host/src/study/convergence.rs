@@ -1,0 +1,145 @@
+//! Rates: the catalogue's scenes on its own grids, refined.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use serde::Serialize;
+
+use super::checks::Check;
+use crate::error::Result;
+use crate::mesh::structured::{Cells, grid};
+use crate::norms::{Errors, errors};
+use crate::problem::Problem;
+use crate::report::{ConvergencePlot, ConvergenceSeries};
+use crate::scene::Scene;
+use crate::solve::{Options, SolverKind, solve};
+
+/// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
+const SCENES: [&str; 4] = ["a", "b", "h", "hg"];
+const LEVELS: [u32; 4] = [8, 16, 32, 64];
+
+/// One scene on one kind of cells, refined.
+#[derive(Debug, Clone, Serialize)]
+pub struct Study {
+    /// Scene and cells.
+    pub name: String,
+    /// Squares over the height of the domain.
+    pub n: Vec<u32>,
+    /// Errors on each grid.
+    pub errors: Vec<Errors>,
+    /// ∫λ on each grid.
+    pub force: Vec<f64>,
+    /// Measured rates of h1, l2, flux: the least-squares slope over all grids.
+    pub rates: [f64; 3],
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// A scene still to be refined.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    scene: PathBuf,
+    cells: Cells,
+}
+
+/// The studies of the main job, the long ones first.
+pub fn planned(root: &Path) -> Result<Vec<Plan>> {
+    let folder = root.join("meshes/catalogue");
+    let plans = SCENES.iter().rev().flat_map(|name| {
+        let scene = folder.join(format!("{name}-tri.toml"));
+        [Cells::Triangles, Cells::Quads].map(|cells| Plan { scene: scene.clone(), cells })
+    });
+    Ok(plans.collect())
+}
+
+/// Runs the studies on two threads; calls `done` after each.
+pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<Study>> {
+    let next = Mutex::new(0..plans.len());
+    let results: Vec<Mutex<Option<Result<Study>>>> =
+        plans.iter().map(|_| Mutex::default()).collect();
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while let Some(at) = next.lock().ok().and_then(|mut next| next.next()) {
+                    let study = plans[at].run();
+                    if let Ok(mut slot) = results[at].lock() {
+                        *slot = Some(study);
+                    }
+                    done();
+                }
+            });
+        }
+    });
+    let finished = results.into_iter().filter_map(|slot| slot.into_inner().ok().flatten());
+    let mut studies = finished.collect::<Result<Vec<_>>>()?;
+    studies.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(studies)
+}
+
+impl Plan {
+    fn run(&self) -> Result<Study> {
+        let scene = Scene::read(&self.scene)?;
+        let cells = match self.cells {
+            Cells::Triangles => "triangles",
+            Cells::Quads => "quads",
+            Cells::Mixed => "mixed",
+        };
+        let stem = self.scene.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{}, {cells}", stem.trim_end_matches("-tri"));
+        let (mut found, mut force) = (Vec::new(), Vec::new());
+        for n in LEVELS {
+            let problem = Problem::new(&scene, grid(n, self.cells))?;
+            let options = Options { solver: SolverKind::Kernel, ..Options::default() };
+            let solution = solve(&scene, &problem, &options)?;
+            if let Some(exact) = &scene.exact {
+                found.push(errors(&scene, exact, &problem, &solution.u, &solution.flux)?);
+            }
+            force.push(solution.contact_force);
+        }
+        let rate = |error: fn(&Errors) -> f64| slope(&found.iter().map(error).collect::<Vec<_>>());
+        let rates = [rate(|e| e.h1), rate(|e| e.l2), rate(|e| e.flux)];
+        // The theory's rates are 1, 2, 1. The free points of H move against the grid, so that l2
+        // scatters around its slope by up to a twelfth.
+        let bounds = [("|u − u_h|₁", 0.97), ("‖u − u_h‖", 1.85), ("‖σ − σ_h‖", 0.97)];
+        let checks = bounds.iter().zip(rates).map(|(&(error, bound), rate)| {
+            Check::at_least(format!("{name}: rate of {error}"), rate, bound)
+        });
+        let checks = checks.collect();
+        Ok(Study { name, n: LEVELS.to_vec(), errors: found, force, rates, checks })
+    }
+}
+
+/// −d log error / d log n, by least squares.
+fn slope(errors: &[f64]) -> f64 {
+    let points = || LEVELS.iter().zip(errors).map(|(&n, e)| (f64::from(n).ln(), e.ln()));
+    let count = errors.len() as f64;
+    let mean = |pick: fn((f64, f64)) -> f64| points().map(pick).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let (cross, square) = points().fold((0.0, 0.0), |(cross, square), (a, b)| {
+        (cross + (a - x) * (b - y), square + (a - x) * (a - x))
+    });
+    -cross / square
+}
+
+/// The pictures: one an error, a curve a study.
+pub fn plots(studies: &[Study]) -> Vec<ConvergencePlot> {
+    type Pick = fn(&Errors) -> f64;
+    let errors: [(&str, f64, Pick); 3] = [
+        ("Broken energy error |u − u_h|₁", 1.0, |e| e.h1),
+        ("L² error ‖u − u_h‖", 2.0, |e| e.l2),
+        ("Flux error ‖σ − σ_h‖", 1.0, |e| e.flux),
+    ];
+    let plot = |&(title, expected_rate, pick): &(&str, f64, Pick)| ConvergencePlot {
+        title: title.to_owned(),
+        series: studies
+            .iter()
+            .map(|study| ConvergenceSeries {
+                label: study.name.clone(),
+                h: study.n.iter().map(|&n| 1.0 / f64::from(n)).collect(),
+                error: study.errors.iter().map(pick).collect(),
+                expected_rate,
+            })
+            .collect(),
+    };
+    errors.iter().map(plot).collect()
+}
