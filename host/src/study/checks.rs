@@ -6,26 +6,34 @@ use signorini_kernel::Real;
 use crate::problem::{EdgeKind, Problem};
 use crate::solve::{ScalarKind, Solution};
 
-/// A claim and what was found.
+/// A claim about one subject, and what was found.
 #[derive(Debug, Clone, Serialize)]
 pub struct Check {
+    /// The scene and the scalar, or the refined grid.
+    pub subject: String,
     /// What should hold.
-    pub claim: String,
+    pub claim: &'static str,
     /// What was found, with the bound.
     pub found: String,
+    /// How much of the bound is used up; above 1 (or NaN) the check fails.
+    pub used: f64,
     /// Whether it holds.
     pub passed: bool,
 }
 
 impl Check {
     /// `value` ≤ `bound`; NaN fails.
-    pub fn at_most(claim: String, value: f64, bound: f64) -> Self {
-        Self { claim, found: format!("{value:.1e} ≤ {bound:.0e}"), passed: value <= bound }
+    pub fn at_most(subject: &str, claim: &'static str, value: f64, bound: f64) -> Self {
+        let found = format!("{value:.1e} ≤ {bound:.0e}");
+        let (used, passed) = (value / bound, value <= bound);
+        Self { subject: subject.to_owned(), claim, found, used, passed }
     }
 
     /// `value` ≥ `bound`; NaN fails.
-    pub fn at_least(claim: String, value: f64, bound: f64) -> Self {
-        Self { claim, found: format!("{value:.3} ≥ {bound}"), passed: value >= bound }
+    pub fn at_least(subject: &str, claim: &'static str, value: f64, bound: f64) -> Self {
+        let found = format!("{value:.3} ≥ {bound}");
+        let (used, passed) = (bound / value, value >= bound);
+        Self { subject: subject.to_owned(), claim, found, used, passed }
     }
 }
 
@@ -65,32 +73,28 @@ pub fn of(name: &str, problem: &Problem, solution: &Solution, reference: &Soluti
         ScalarKind::F64 => "f64",
         ScalarKind::F32 => "f32",
     };
-    let claim = |what: &str| format!("{name}, {word}: {what}");
+    let subject = format!("{name}, {word}");
     let terms = largest_terms(problem, solution);
-    let bound = rounding(scalar);
+    let at_most = |claim, value, bound| Check::at_most(&subject, claim, value, bound);
+    let rounding = |claim, value| at_most(claim, value, rounding(scalar));
+    let largest = solution.largest_flux();
+    let apart = distance(&solution.u, &reference.u);
     vec![
         Check {
-            claim: claim("converged"),
+            subject: subject.clone(),
+            claim: "the solver converged",
             found: crate::solve::status_name(solution.status).to_owned(),
+            used: f64::from(u8::from(!solution.converged())),
             passed: solution.converged(),
         },
-        Check::at_most(
-            claim("u against the faer reference"),
-            distance(&solution.u, &reference.u),
-            agreement(scalar),
+        at_most("u agrees with the faer reference", apart, agreement(scalar)),
+        rounding("fluxes agree from both sides of an edge", solution.mismatch * largest / terms),
+        rounding(
+            "every cell is in balance",
+            solution.conservation_defect(problem) * largest / terms,
         ),
-        Check::at_most(
-            claim("fluxes from both sides of an edge"),
-            solution.mismatch * solution.largest_flux() / terms,
-            bound,
-        ),
-        Check::at_most(
-            claim("balance of every cell"),
-            solution.conservation_defect(problem) * solution.largest_flux() / terms,
-            bound,
-        ),
-        Check::at_most(claim("flux on Neumann edges"), neumann(problem, solution) / terms, bound),
-        Check::at_most(claim("contact conditions"), contact(problem, solution, terms), bound),
+        rounding("the flux on Neumann edges is the given one", neumann(problem, solution) / terms),
+        rounding("u ≥ ψ, λ ≥ 0, (u − ψ) λ = 0 on contact edges", contact(problem, solution, terms)),
     ]
 }
 

@@ -83,7 +83,7 @@ pub fn run() -> Result<u8> {
     write_atomically(&folder.join("index.html"), html(&report).as_bytes())?;
     println!("report: {}", folder.join("index.html").display());
     for check in &failed {
-        eprintln!("failed: {}: {}", check.claim, check.found);
+        eprintln!("failed: {}: {}: {}", check.subject, check.claim, check.found);
     }
     let checks = cases.iter().map(|case| case.checks.len()).sum::<usize>()
         + studies.iter().map(|study| study.checks.len()).sum::<usize>();

@@ -138,14 +138,26 @@ pub fn for_report(cases: &[Case]) -> report::Table {
     }
 }
 
-/// Every check that was made.
+/// One line a claim, with the subject that comes nearest to breaking it.
 pub fn checks(cases: &[Case], studies: &[Study]) -> Vec<report::Check> {
-    let of_cases = cases.iter().flat_map(|case| &case.checks);
-    let of_studies = studies.iter().flat_map(|study| &study.checks);
-    let check = |check: &super::Check| report::Check {
-        claim: check.claim.clone(),
-        found: check.found.clone(),
-        passed: check.passed,
+    let all = || {
+        let of_cases = cases.iter().flat_map(|case| &case.checks);
+        of_cases.chain(studies.iter().flat_map(|study| &study.checks))
     };
-    of_cases.chain(of_studies).map(check).collect()
+    let mut claims: Vec<&str> = Vec::new();
+    all().for_each(|check| {
+        if !claims.contains(&check.claim) {
+            claims.push(check.claim);
+        }
+    });
+    let worst = |claim: &&str| {
+        let about = || all().filter(|check| check.claim == *claim);
+        let worst = about().max_by(|a, b| a.used.total_cmp(&b.used))?;
+        Some(report::Check {
+            claim: format!("{claim} ({} checks)", about().count()),
+            found: format!("worst: {} ({})", worst.found, worst.subject),
+            passed: about().all(|check| check.passed),
+        })
+    };
+    claims.iter().filter_map(worst).collect()
 }
