@@ -6,11 +6,16 @@
 //! ```text
 //!   (R + ω − 1)² = R ω² μ²,        ω_best = 2 / (1 + √(1 − μ²)).
 //! ```
-//! The matrices here are only nearly so ordered; the relation still finds a good ω in a few stages,
-//! after Hageman and Young: start at ω = 1, observe R over a block of sweeps, and move up when R is
-//! worse than (ω − 1)^¾, a factor that an ω near the optimum would not show. Any ω in (0, 2)
-//! converges, and ω moves a bounded number of times, so convergence is never at stake. The memory
-//! is a handful of scalars.
+//! So the search *rises* from ω = 1 by this formula, after Hageman and Young, as long as R is worse
+//! than (ω − 1)^¾, a factor that an ω near the optimum would not show. Matrices of distorted cells are
+//! far from consistently ordered: there R gets worse again long before the formula is content. The
+//! search then *falls* back from the best ω seen in steps that widen 2 − ω, as long as R improves,
+//! and *settles*. It rises anew when R becomes much worse than where it settled, since a slow part of
+//! the error has come to light.
+//!
+//! R is the geometric mean over two blocks of sweeps, after one block that the transient of a new ω
+//! may have. Any ω in (0, 2) converges, and ω moves a bounded number of times, so convergence is
+//! never at stake. The memory is a handful of scalars.
 
 use crate::math::Math;
 use crate::real::Real;
@@ -20,37 +25,51 @@ use crate::real::Real;
 pub enum Relaxation<R> {
     /// This value, inside (0, 2).
     Fixed(R),
-    /// Estimated from the convergence observed, starting from this value in \[1, 2).
+    /// Found while the solver runs, starting from this value in \[1, 2).
     Adaptive(R),
 }
 
-/// The state of the estimate.
+/// What the search is doing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Phase {
+    Rising,
+    Falling,
+    Settled,
+}
+
+/// The state of the search.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Estimate<R> {
+pub(crate) struct Search<R> {
     pub(crate) omega: R,
-    adaptive: bool,
+    phase: Phase,
+    /// The best ω of this search and its factor.
+    best: Option<(R, R)>,
+    /// Size of the residual and number of active edges at the last look.
     previous: Option<(R, u32)>,
+    /// The factor of the block before.
+    factor: Option<R>,
     moves: u32,
 }
 
-/// ω moves at most this often; each move shortens 2 − ω, and twelve reach its lower limit.
-const MOVES: u32 = 24;
+/// ω moves at most this often.
+const MOVES: u32 = 64;
 
-impl<R: Real> Estimate<R> {
+impl<R: Real> Search<R> {
+    /// A search; with a fixed ω, one that is over.
     pub(crate) fn new(relaxation: Relaxation<R>) -> Self {
-        let (omega, adaptive) = match relaxation {
-            Relaxation::Fixed(omega) => (omega, false),
-            Relaxation::Adaptive(start) => (start, true),
+        let (omega, moves) = match relaxation {
+            Relaxation::Fixed(omega) => (omega, MOVES),
+            Relaxation::Adaptive(start) => (start, 0),
         };
-        Self { omega, adaptive, previous: None, moves: 0 }
+        Self { omega, phase: Phase::Rising, best: None, previous: None, factor: None, moves }
     }
 
-    /// Sweeps until the next look: long enough for the transient of a new ω, whose length is
-    /// 1/(2 − ω), to have passed; always a power of two.
+    /// Sweeps until the next look: about four times 1/(2 − ω), in which the transient of a new ω
+    /// passes; always a power of two.
     pub(crate) fn block(&self) -> u32 {
         let mut sweeps = 4;
         let mut time = R::TWO + R::TWO;
-        while sweeps < 1024 && time * (R::TWO - self.omega) < R::TWO {
+        while sweeps < 4096 && time * (R::TWO - self.omega) < R::THREE {
             sweeps *= 2;
             time *= R::TWO;
         }
@@ -58,26 +77,73 @@ impl<R: Real> Estimate<R> {
     }
 
     /// Looks at the size of the residual after a block of `sweeps` (a power of two).
-    pub(crate) fn observe<M: Math<R>>(&mut self, size: R, active: u32, sweeps: u32) {
+    pub(crate) fn look<M: Math<R>>(&mut self, size: R, active: u32, sweeps: u32) {
         let before = self.previous.replace((size, active));
-        let Some((earlier, active_earlier)) = before.filter(|_| self.adaptive) else { return };
-        if active != active_earlier || self.moves >= MOVES || !(size < earlier) {
+        let Some((earlier, active_earlier)) = before.filter(|_| self.moves < MOVES) else { return };
+        if active != active_earlier {
+            self.factor = None;
             return;
         }
         let mut factor = size / earlier;
         for _ in 0..sweeps.trailing_zeros() {
             factor = M::sqrt(factor);
         }
-        if let Some(omega) = better::<R, M>(self.omega, factor) {
-            self.omega = omega;
-            self.moves += 1;
-            self.previous = None;
+        if let Some(last) = self.factor.replace(factor) {
+            self.judge::<M>(M::sqrt(last * factor));
         }
+    }
+
+    /// Decides what follows from the factor R that ω has shown.
+    fn judge<M: Math<R>>(&mut self, shown: R) {
+        let improves = self.best.is_none_or(|(_, best)| shown < best);
+        match self.phase {
+            Phase::Rising if improves => {
+                self.best = Some((self.omega, shown));
+                match higher::<R, M>(self.omega, shown) {
+                    Some(omega) => self.move_to(omega),
+                    None => self.phase = Phase::Settled,
+                }
+            }
+            Phase::Rising => self.fall_from_best(),
+            Phase::Falling if improves => {
+                self.best = Some((self.omega, shown));
+                self.fall_from_best();
+            }
+            Phase::Falling => self.settle_at_best(),
+            Phase::Settled => self.rise_again::<M>(shown),
+        }
+    }
+
+    fn fall_from_best(&mut self) {
+        let Some((omega, _)) = self.best else { return };
+        self.phase = Phase::Falling;
+        let wider = (R::ONE + R::HALF) * (R::TWO - omega);
+        self.move_to((R::TWO - wider).or_larger(R::ONE));
+    }
+
+    fn settle_at_best(&mut self) {
+        let Some((omega, _)) = self.best else { return };
+        self.phase = Phase::Settled;
+        self.move_to(omega);
+    }
+
+    fn rise_again<M: Math<R>>(&mut self, shown: R) {
+        let much_worse = |(_, best): (R, R)| R::TWO * (R::ONE - shown) < R::ONE - best;
+        let Some(omega) = higher::<R, M>(self.omega, shown) else { return };
+        if self.best.is_some_and(much_worse) {
+            self.phase = Phase::Rising;
+            self.best = Some((self.omega, shown));
+            self.move_to(omega);
+        }
+    }
+
+    fn move_to(&mut self, omega: R) {
+        *self = Self { omega, previous: None, factor: None, moves: self.moves + 1, ..*self };
     }
 }
 
 /// The ω that the observed convergence factor asks for, where that is a real step upwards.
-fn better<R: Real, M: Math<R>>(omega: R, factor: R) -> Option<R> {
+fn higher<R: Real, M: Math<R>>(omega: R, factor: R) -> Option<R> {
     let over = omega - R::ONE;
     let root = M::sqrt(over);
     let expected = root * M::sqrt(root);

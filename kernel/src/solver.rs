@@ -10,7 +10,7 @@ use crate::index::Index;
 use crate::math::{Libm, Math};
 use crate::psor;
 use crate::real::Real;
-use crate::relaxation::{Estimate, Relaxation};
+use crate::relaxation::{Relaxation, Search};
 use crate::signorini::{Residual, System};
 
 /// How a solve ended. The iterate is the answer in every case but the last.
@@ -93,7 +93,7 @@ pub struct Outcome<R> {
 #[derive(Debug, Clone, Copy)]
 pub struct Solver<R, M = Libm> {
     settings: Settings<R>,
-    estimate: Estimate<R>,
+    search: Search<R>,
     sweeps: u32,
     next_look: u32,
     last_look: u32,
@@ -139,10 +139,10 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         if !valid {
             return Err(Error::Relaxation);
         }
-        let estimate = Estimate::new(settings.relaxation);
+        let search = Search::new(settings.relaxation);
         let best = Best { largest: None, sweeps: 0 };
-        let next_look = estimate.block();
-        Ok(Self { settings, estimate, sweeps: 0, next_look, last_look: 0, best, math: PhantomData })
+        let next_look = search.block();
+        Ok(Self { settings, search, sweeps: 0, next_look, last_look: 0, best, math: PhantomData })
     }
 
     /// One sweep; says how the solve ended where this was its last one.
@@ -150,7 +150,7 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         if self.sweeps >= self.settings.max_sweeps {
             return Some(self.outcome(Status::OutOfSweeps, system.residual(u)));
         }
-        psor::sweep(system, u, self.estimate.omega);
+        psor::sweep(system, u, self.search.omega);
         self.sweeps += 1;
         if self.sweeps < self.next_look.min(self.settings.max_sweeps) {
             return None;
@@ -180,10 +180,10 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         let block = self.sweeps - self.last_look;
         // Near the rounding limit the residual falls slowly whatever ω is.
         if block.is_power_of_two() && !self.at_limit(&residual) {
-            self.estimate.observe::<M>(residual.sum, residual.active, block);
+            self.search.look::<M>(residual.sum, residual.active, block);
         }
         self.last_look = self.sweeps;
-        self.next_look = self.sweeps.saturating_add(self.estimate.block());
+        self.next_look = self.sweeps.saturating_add(self.search.block());
         None
     }
 
@@ -191,7 +191,7 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         if !(residual.largest.finite() && residual.range.finite()) {
             return Some(Status::NotFinite);
         }
-        if self.settings.is_met(residual, self.estimate.omega) {
+        if self.settings.is_met(residual, self.search.omega) {
             return Some(Status::Converged);
         }
         let noticeably = R::ONE - R::QUARTER * R::HALF;
@@ -200,14 +200,12 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         }
         let waited = self.sweeps - self.best.sweeps;
         let blocks = if self.at_limit(residual) { 4 } else { 16 };
-        let long = waited > self.sweeps / 3 && waited >= blocks * self.estimate.block();
+        let long = waited > self.sweeps / 3 && waited >= blocks * self.search.block();
         // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
-        let kept = residual.largest * (R::TWO - self.estimate.omega);
-        if long && kept <= R::from_count(ROUNDING) * residual.rounding {
-            return Some(Status::RoundingLimit);
-        }
-        if waited > PATIENCE {
-            return Some(Status::Stalled);
+        let kept = residual.largest * (R::TWO - self.search.omega);
+        let only_rounding = kept <= R::from_count(ROUNDING) * residual.rounding;
+        if waited > PATIENCE || long && only_rounding {
+            return Some(if only_rounding { Status::RoundingLimit } else { Status::Stalled });
         }
         if self.sweeps >= self.settings.max_sweeps { Some(Status::OutOfSweeps) } else { None }
     }
@@ -217,6 +215,6 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
     }
 
     fn outcome(&self, status: Status, residual: Residual<R>) -> Outcome<R> {
-        Outcome { status, sweeps: self.sweeps, residual, omega: self.estimate.omega }
+        Outcome { status, sweeps: self.sweeps, residual, omega: self.search.omega }
     }
 }

@@ -17,7 +17,6 @@ use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use options::ROUNDS;
 use solution::centre_floating;
 
 /// Solves `problem`.
@@ -70,9 +69,15 @@ fn by_kernel<R: Scalar>(
         lower: &mut vec![R::ZERO; counts.contact],
     };
     let settings = options.settings::<R>();
-    let outcome =
-        refinement::run::<R, u32, Libm>(&system, &boundary, settings, ROUNDS, &mut u, buffers)
-            .map_err(&unfit)?;
+    let outcome = refinement::run::<R, u32, Libm>(
+        &system,
+        &boundary,
+        settings,
+        options.rounds(),
+        &mut u,
+        buffers,
+    )
+    .map_err(&unfit)?;
     let solve = clock.lap();
     let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux: clock.lap() };

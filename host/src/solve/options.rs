@@ -54,10 +54,13 @@ impl Default for Options {
     }
 }
 
-/// Corrections of the defect at most; each gains about as many digits as the scalar leaves.
-pub(super) const ROUNDS: u32 = 6;
-
 impl Options {
+    /// Corrections of the defect at most: each gains about as many digits as the scalar leaves. In
+    /// f64 the rounding limit itself is accurate enough, unless the floor is asked for.
+    pub(super) fn rounds(&self) -> u32 {
+        if self.scalar == ScalarKind::F32 || self.to_the_floor { 6 } else { 0 }
+    }
+
     /// The kernel's settings. The default in f64 bounds the residual by 1e−11 and the error that
     /// may hide behind it by 1e−8; the default in f32 is the last digit of u.
     pub(super) fn settings<R: Scalar>(&self) -> Settings<R> {
