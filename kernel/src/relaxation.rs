@@ -51,6 +51,9 @@ pub(crate) struct Search<R> {
     moves: u32,
 }
 
+/// The longest block, for 2 − ω around 1e−5.
+const LONGEST: u32 = 1 << 18;
+
 /// ω moves at most this often.
 const MOVES: u32 = 64;
 
@@ -69,7 +72,7 @@ impl<R: Real> Search<R> {
     pub(crate) fn block(&self) -> u32 {
         let mut sweeps = 4;
         let mut time = R::TWO + R::TWO;
-        while sweeps < 4096 && time * (R::TWO - self.omega) < R::THREE {
+        while sweeps < LONGEST && time * (R::TWO - self.omega) < R::THREE {
             sweeps *= 2;
             time *= R::TWO;
         }

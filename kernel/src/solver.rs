@@ -204,7 +204,8 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
         let kept = residual.largest * (R::TWO - self.search.omega);
         let only_rounding = kept <= R::from_count(ROUNDING) * residual.rounding;
-        if waited > PATIENCE || long && only_rounding {
+        let patience = PATIENCE.max(8 * self.search.block());
+        if waited > patience || long && only_rounding {
             return Some(if only_rounding { Status::RoundingLimit } else { Status::Stalled });
         }
         if self.sweeps >= self.settings.max_sweeps { Some(Status::OutOfSweeps) } else { None }
