@@ -43,6 +43,9 @@ pub struct InputError {
     excerpt: Option<(NamedSource<Arc<str>>, SourceSpan)>,
 }
 
+/// Lines beyond this many bytes are not shown: they would bury the message.
+const LONGEST_EXCERPT: usize = 400;
+
 impl InputError {
     /// `message` names the culprit (`boundary.river.value`, `triangle 12`) and what was expected.
     pub fn new(message: impl Into<String>) -> Self {
@@ -67,12 +70,17 @@ impl InputError {
         self
     }
 
-    /// Adds the text and the byte range to underline; the line follows from it.
+    /// Adds the text and the byte range to underline; the line number follows from it.
     pub fn excerpt(mut self, text: &Arc<str>, span: std::ops::Range<usize>) -> Self {
-        let start = span.start.min(text.len());
+        let start = text.floor_char_boundary(span.start);
         let line = text.as_bytes()[..start].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        let name = self.file.as_deref().unwrap_or(Path::new("input")).display().to_string();
         self.line = Some(line);
+        let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
+        let begin = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        if end - begin > LONGEST_EXCERPT {
+            return self;
+        }
+        let name = self.file.as_deref().unwrap_or(Path::new("input")).display().to_string();
         self.excerpt = Some((NamedSource::new(name, text.clone()), span.into()));
         self
     }

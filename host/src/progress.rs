@@ -1,8 +1,14 @@
 //! Progress on a terminal, silence in a pipe.
 
+use std::io::Write;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+
+/// Writes a line to standard output; a reader who has gone away is no error.
+pub fn say(line: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
 
 /// Shows `message` with a spinner and the time passed while `work` runs.
 pub fn waiting<T>(message: &str, work: impl FnOnce() -> T) -> T {

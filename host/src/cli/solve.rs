@@ -14,7 +14,7 @@ use crate::output::summary::Summary;
 use crate::output::vtu::{Field, vtu};
 use crate::outputs::outputs;
 use crate::problem::Problem;
-use crate::progress::waiting;
+use crate::progress::{say, waiting};
 use crate::scene::Scene;
 use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
 
@@ -144,28 +144,28 @@ fn report(
     out: &Path,
 ) {
     let counts = problem.topology.counts;
-    println!("{}", scene.title);
-    println!(
+    say(format_args!("{}", scene.title));
+    say(format_args!(
         "  {} unknowns, {} of {} contact edges active",
         counts.unknowns(),
         solution.contact_active,
         counts.contact
-    );
-    println!(
+    ));
+    say(format_args!(
         "  {} after {} sweeps, scaled residual {:.1e}",
         status_name(solution.status),
         solution.sweeps,
         solution.algebraic_residual
-    );
-    println!(
+    ));
+    say(format_args!(
         "  contact force {}, contact length {}",
         solution.contact_force, solution.contact_length
-    );
+    ));
     if let Some(errors) = errors {
-        println!(
+        say(format_args!(
             "  errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}",
             errors.h1, errors.l2, errors.flux
-        );
+        ));
     }
-    println!("  written to {}", out.display());
+    say(format_args!("  written to {}", out.display()));
 }

@@ -32,7 +32,7 @@ pub struct Loads {
 }
 
 /// A field with its inputs: Σ weight · expression.
-struct Sum<'s> {
+pub(super) struct Sum<'s> {
     scene: &'s Scene,
     base: &'s Located<Expression>,
     inputs: Vec<(f64, &'s Located<Expression>)>,
@@ -40,7 +40,7 @@ struct Sum<'s> {
 }
 
 impl<'s> Sum<'s> {
-    fn new(
+    pub(super) fn new(
         scene: &'s Scene,
         of: &str,
         field: Field,
@@ -59,7 +59,7 @@ impl<'s> Sum<'s> {
         self.base.value.is_zero() && self.inputs.is_empty()
     }
 
-    fn at(&self, x: f64, y: f64) -> f64 {
+    pub(super) fn at(&self, x: f64, y: f64) -> f64 {
         let base = self.base.value.eval(x, y, self.time);
         self.inputs
             .iter()
@@ -166,7 +166,8 @@ fn nowhere_negative(
     [a, b]: [[f64; 2]; 2],
     h: &Sum,
 ) -> Result<()> {
-    for &[t, _] in f64::GAUSS[DATA_POINTS - 1] {
+    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
+    for t in inside.chain([0.0, 1.0]) {
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let value = h.at(x, y);
         if value < 0.0 {

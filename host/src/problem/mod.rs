@@ -6,6 +6,7 @@
 
 mod assembled;
 mod binding;
+mod corners;
 mod integrals;
 mod loads;
 mod solvability;
@@ -151,6 +152,7 @@ impl Problem {
             loads: Loads::default(),
         };
         problem.loads = Loads::at_time(scene, &problem, 0.0)?;
+        corners::check(scene, &problem, 0.0)?;
         Ok(problem)
     }
 

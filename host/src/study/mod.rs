@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use crate::error::{Error, InputError, Result};
 use crate::output::atomic::write_atomically;
-use crate::progress::steps;
+use crate::progress::{say, steps};
 use crate::report::{Report, html};
 use case::Case;
 use checks::Check;
@@ -51,8 +51,8 @@ pub fn run() -> Result<u8> {
     let studies = convergence::run(&studies, || bar.inc(1))?;
     bar.finish_and_clear();
 
-    println!("{}", table::scenes(&cases));
-    println!("{}", table::convergence(&studies));
+    say(format_args!("{}", table::scenes(&cases)));
+    say(format_args!("{}", table::convergence(&studies)));
     let failed: Vec<&Check> = cases
         .iter()
         .flat_map(|case| &case.checks)
@@ -81,13 +81,13 @@ pub fn run() -> Result<u8> {
     };
     write_atomically(&folder.join("results.json"), json.as_bytes())?;
     write_atomically(&folder.join("index.html"), html(&report).as_bytes())?;
-    println!("report: {}", folder.join("index.html").display());
+    say(format_args!("report: {}", folder.join("index.html").display()));
     for check in &failed {
         eprintln!("failed: {}: {}: {}", check.subject, check.claim, check.found);
     }
     let checks = cases.iter().map(|case| case.checks.len()).sum::<usize>()
         + studies.iter().map(|study| study.checks.len()).sum::<usize>();
-    println!("{} of {checks} checks hold", checks - failed.len());
+    say(format_args!("{} of {checks} checks hold", checks - failed.len()));
     Ok(u8::from(!failed.is_empty()))
 }
 

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Writes the catalogue: scenes with exact solutions, and the structured meshes they stand on.
+
+Needs Python 3.8 or later and nothing else. Running it again writes the same bytes.
+
+    python3 meshes/catalogue/generate.py
+
+Domain (-1, 1) x (0, 1) in 2n x n squares, contact on y = 0, Dirichlet on the other three sides.
+Squares are cut from the lower left to the upper right corner (tri), kept (quad), or alternate like
+the fields of a chessboard (mixed).
+"""
+
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+
+# --- meshes -----------------------------------------------------------------------------------
+
+
+def grid(n, kind):
+    """Vertices, and elements as (Gmsh type, physical tag, vertices)."""
+    columns = 2 * n
+    number = lambda i, j: j * (columns + 1) + i + 1
+    vertices = [(i / n - 1, j / n) for j in range(n + 1) for i in range(columns + 1)]
+    lines = [(1, 1, (number(i, 0), number(i + 1, 0))) for i in range(columns)]
+    lines += [(1, 2, (number(i, n), number(i + 1, n))) for i in range(columns)]
+    for i in (0, columns):
+        lines += [(1, 2, (number(i, j), number(i, j + 1))) for j in range(n)]
+    cells = []
+    for j in range(n):
+        for i in range(columns):
+            a, b = number(i, j), number(i + 1, j)
+            c, d = number(i + 1, j + 1), number(i, j + 1)
+            region = 1 if i < n else 2
+            if kind == "quad" or (kind == "mixed" and (i + j) % 2 == 0):
+                cells.append((3, region, (a, b, c, d)))
+            else:
+                cells += [(2, region, (a, b, c)), (2, region, (a, c, d))]
+    return vertices, lines + cells
+
+
+def msh22(vertices, elements):
+    """Gmsh MSH 2.2 ASCII."""
+    names = ['1 1 "contact"', '1 2 "dirichlet"', '2 1 "left"', '2 2 "right"']
+    text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
+    text += ["$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames"]
+    text += ["$Nodes", str(len(vertices))]
+    text += [f"{k} {x!r} {y!r} 0" for k, (x, y) in enumerate(vertices, 1)]
+    text += ["$EndNodes", "$Elements", str(len(elements))]
+    for k, (kind, tag, corners) in enumerate(elements, 1):
+        text.append(f"{k} {kind} 2 {tag} {tag} " + " ".join(map(str, corners)))
+    return "\n".join(text + ["$EndElements", ""])
+
+
+# --- exact solutions, as expressions of the scene file ------------------------------------------
+
+
+def case_a(x, y):
+    p, m = f"max({x},0)", f"max(-({x}),0)"
+    return {
+        "u": f"{p}^3 - ({y})*{m}^3",
+        "gradient": (f"3*{p}^2 + 3*({y})*{m}^2", f"-({m}^3)"),
+        "f": f"-6*{p} + 6*({y})*{m}",
+    }
+
+
+def case_b(x, y):
+    r, theta = f"sqrt(({x})^2 + ({y})^2)", f"atan2({y},{x})"
+    return {
+        "u": f"{r}^1.5*cos(1.5*{theta})",
+        "gradient": (f"1.5*sqrt({r})*cos(0.5*{theta})", f"-1.5*sqrt({r})*sin(0.5*{theta})"),
+        "f": "0",
+    }
+
+
+def case_h(x, y, a="0.55"):
+    """Re[z s - a^2 log((z + s)/a)] with s = sqrt(z - a) sqrt(z + a); its derivative is 2 s."""
+    size = f"((({x})-{a})^2+({y})^2)^0.25*((({x})+{a})^2+({y})^2)^0.25"
+    angle = f"(0.5*atan2({y},({x})-{a}) + 0.5*atan2({y},({x})+{a}))"
+    re, im = f"{size}*cos{angle}", f"{size}*sin{angle}"
+    log = f"0.5*ln(((({x})+{re})^2 + (({y})+{im})^2)/{a}^2)"
+    return {
+        "u": f"({x})*{re} - ({y})*{im} - {a}^2*{log}",
+        "gradient": (f"2*{re}", f"-2*{im}"),
+        "f": "0",
+    }
+
+
+def plus(case, g, gradient, minus_laplacian):
+    """U + G with the gap G: any G with dG/dy = 0 on y = 0."""
+    gx, gy = case["gradient"]
+    return {
+        "u": f"{case['u']} + ({g})",
+        "gradient": (f"{gx} + ({gradient[0]})", f"{gy} + ({gradient[1]})"),
+        "f": f"{case['f']} + ({minus_laplacian})",
+        "gap": g,
+    }
+
+
+def sheared(case, s, kappa):
+    """u(x, y) = U(x - s y, kappa y) solves the problem with A = [[k + s^2/k, s/k], [s/k, 1/k]]."""
+    u = case(f"x - {s}*y", f"{kappa}*y")
+    ux, uy = u["gradient"]
+    return {
+        "u": u["u"],
+        "gradient": (ux, f"-{s}*({ux}) + {kappa}*({uy})"),
+        "f": f"{kappa}*({u['f']})",
+        "conductivity": [repr(kappa + s * s / kappa), repr(s / kappa), repr(1 / kappa)],
+    }
+
+
+def jump(k):
+    """r^alpha cos(alpha theta) for x > 0 and -k^(-1/2) r^alpha sin(alpha(pi - theta)) for x < 0.
+
+    (1 + sign(x))/2 chooses between the halves. The gradients are alpha r^(alpha-1) times
+    (cos, -sin)((alpha-1) theta) and (-sin, cos)((alpha-1)(pi - theta)).
+    """
+    alpha = f"(2 - 2/pi*atan(sqrt({k})))"
+    r, theta = "sqrt(x^2 + y^2)", "atan2(y,x)"
+    right, left = "(0.5 + 0.5*sign(x))", "(0.5 - 0.5*sign(x))"
+    size = f"{r}^{alpha}"
+    slope = f"{alpha}*{r}^({alpha} - 1)"
+    down = f"{alpha}*(pi - {theta})"
+    scale = f"({k})^-0.5"
+    u = f"{size}*({right}*cos({alpha}*{theta}) - {left}*{scale}*sin({down}))"
+    less, mirrored = f"({alpha} - 1)*{theta}", f"({alpha} - 1)*(pi - {theta})"
+    ux = f"{slope}*({right}*cos({less}) + {left}*{scale}*sin({mirrored}))"
+    uy = f"{slope}*(-{right}*sin({less}) - {left}*{scale}*cos({mirrored}))"
+    return {"u": u, "gradient": (ux, uy), "f": "0", "materials": {"left": k, "right": "1"}}
+
+
+# --- scenes -------------------------------------------------------------------------------------
+
+
+def scene(title, mesh, case):
+    text = [f'title = "{title}"', f'mesh = "{mesh}"', ""]
+    materials = case.get("materials", {"default": case.get("conductivity", "1")})
+    for name, value in materials.items():
+        entries = ", ".join(f'"{entry}"' for entry in value) if isinstance(value, list) else None
+        shown = f"[{entries}]" if entries else f'"{value}"'
+        text += [f"[material.{name}]", f"conductivity = {shown}", ""]
+    text += ["[source]", f'f = "{case["f"]}"', ""]
+    text += ["[boundary.dirichlet]", 'kind = "dirichlet"', f'value = "{case["u"]}"', ""]
+    text += ["[boundary.contact]", 'kind = "contact"', f'gap = "{case.get("gap", "0")}"', ""]
+    gx, gy = case["gradient"]
+    text += ["[exact]", f'u = "{case["u"]}"', f'gradient = ["{gx}", "{gy}"]', ""]
+    return "\n".join(text)
+
+
+def main():
+    for kind in ("tri", "quad", "mixed"):
+        (HERE / f"square-{kind}-16.msh").write_text(msh22(*grid(16, kind)))
+    a, b, h = case_a("x", "y"), case_b("x", "y"), case_h("x", "y")
+    hg = plus(h, "-x^2 + y^2", ("-2*x", "2*y"), "0")
+    hg["gap"] = "-x^2"
+    ag = plus(a, "0.1*cos(pi*x)*(1 + y^2)",
+              ("-0.1*pi*sin(pi*x)*(1 + y^2)", "0.2*cos(pi*x)*y"),
+              "0.1*pi^2*cos(pi*x)*(1 + y^2) - 0.2*cos(pi*x)")
+    ag["gap"] = "0.1*cos(pi*x)"
+    patch = {"u": "1 + 0.5*x - 2*y", "gradient": ("0.5", "-2"), "f": "0", "gap": "1 + 0.5*x"}
+    scenes = [
+        ("a-tri", "A: smooth, with a source", "tri", a),
+        ("a-quad", "A: smooth, with a source", "quad", a),
+        ("b-tri", "B: the generic free boundary", "tri", b),
+        ("b-quad", "B: the generic free boundary", "quad", b),
+        ("h-tri", "H(0.55): punch, two free points", "tri", h),
+        ("h-quad", "H(0.55): punch, two free points", "quad", h),
+        ("h-mixed", "H(0.55): punch, triangles and quads", "mixed", h),
+        ("hg-tri", "H_g(0.55): concave gap", "tri", hg),
+        ("hg-quad", "H_g(0.55): concave gap", "quad", hg),
+        ("ag-mixed", "A + G: arbitrary gap and source", "mixed", ag),
+        ("j100-tri", "J(100): conductivity 100 beside 1", "tri", jump("100")),
+        ("j001-tri", "J(0.01): conductivity 0.01 beside 1", "tri", jump("0.01")),
+        ("t-a-tri", "T(0.5, 1) of A: oblique tensor", "tri", sheared(case_a, 0.5, 1)),
+        ("t-h-tri", "T(3, 1) of H: condition 119", "tri", sheared(case_h, 3, 1)),
+        ("patch-mixed", "linear u, all in contact: exact to rounding", "mixed", patch),
+    ]
+    for name, title, kind, case in scenes:
+        (HERE / f"{name}.toml").write_text(scene(title, f"square-{kind}-16.msh", case))
+
+
+main()
