@@ -18,12 +18,12 @@ pub enum Error {
     #[diagnostic(transparent)]
     Input(Box<InputError>),
     /// A file could not be written: exit status 1. (A file that cannot be read is wrong input.)
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {cause}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// A check of the main job failed: exit status 1.
     #[error("{0}")]
@@ -120,11 +120,24 @@ impl From<InputError> for Error {
     }
 }
 
+/// Prints errors with their excerpt; on a terminal to its width, elsewhere without breaking lines, so
+/// that a script finds file, line and key in one piece.
+pub fn install_handler() {
+    let on_terminal = std::io::IsTerminal::is_terminal(&std::io::stderr());
+    let handler = move |_: &dyn Diagnostic| {
+        let options = miette::MietteHandlerOpts::new().terminal_links(false).break_words(false);
+        let options = if on_terminal { options } else { options.wrap_lines(false) };
+        Box::new(options.build()) as Box<dyn miette::ReportHandler>
+    };
+    // Fails only where a handler is installed already.
+    let _ = miette::set_hook(Box::new(handler));
+}
+
 impl Error {
     /// Wraps an I/O failure with the file it concerns.
     pub fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
-        move |source| Self::Io { path, source }
+        move |cause| Self::Io { path, cause }
     }
 
     /// The exit status that this failure ends in.

@@ -6,6 +6,7 @@ use clap::Parser;
 use signorini_host::cli::Cli;
 
 fn main() -> ExitCode {
+    signorini_host::error::install_handler();
     match Cli::parse().run() {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
