@@ -1,0 +1,61 @@
+//! Runs cargo at the root of the repository, with the toolchain that runs this program.
+
+use std::env;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+
+/// The root of the repository.
+pub fn root() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package)
+}
+
+/// Where builds of a workspace apart from the main one go.
+pub fn target_dir(workspace: &str) -> PathBuf {
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    root().join(target).join(workspace)
+}
+
+/// `cargo` with these words.
+pub fn cargo(words: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(words).current_dir(root());
+    command
+}
+
+/// Runs `command` with its output in sight.
+pub fn run(mut command: Command) -> Result<(), String> {
+    let status = command.status().map_err(|error| not_started(&command, &error))?;
+    verdict(status)
+}
+
+/// Runs `command` with its output in sight, and hands each line of its standard output on.
+pub fn run_with_lines(mut command: Command, mut each: impl FnMut(&str)) -> Result<(), String> {
+    let child = command.stdout(Stdio::piped()).spawn();
+    let mut child = child.map_err(|error| not_started(&command, &error))?;
+    for line in child.stdout.take().into_iter().flat_map(|pipe| BufReader::new(pipe).split(b'\n')) {
+        let line = line.map_err(|error| error.to_string())?;
+        let line = String::from_utf8_lossy(&line);
+        println!("{line}");
+        each(&line);
+    }
+    verdict(child.wait().map_err(|error| error.to_string())?)
+}
+
+/// `Err` with the line to run where a subcommand of cargo is not installed.
+pub fn require(subcommand: &str, component: &str) -> Result<(), String> {
+    let probe = cargo(&[subcommand, "--version"]).output();
+    if probe.is_ok_and(|output| output.status.success()) {
+        return Ok(());
+    }
+    Err(format!("cargo {subcommand} is missing; run `rustup component add {component}`"))
+}
+
+fn not_started(command: &Command, error: &std::io::Error) -> String {
+    format!("{} did not start: {error}", command.get_program().display())
+}
+
+fn verdict(status: ExitStatus) -> Result<(), String> {
+    if status.success() { Ok(()) } else { Err(status.to_string()) }
+}

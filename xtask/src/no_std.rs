@@ -1,0 +1,75 @@
+//! `cargo xtask no-std`: the kernel needs neither std nor an allocator, shown by a link for the host
+//! on a plain stable toolchain, and shown to fail where it should.
+//!
+//! `tests/no_std` holds every stage of the kernel as machine code. Rustc refuses to build it as soon
+//! as a dependency links std (a second panic handler) or alloc (nobody brings an allocator). Where a
+//! dependency brings an allocator of its own, the names in the archive tell.
+
+use std::process::Command;
+
+use crate::cargo::{cargo, run as run_cargo, target_dir};
+use crate::steps::Steps;
+use crate::symbols::{allocates, symbols};
+
+/// The crate that links the kernel.
+pub const MANIFEST: &str = "tests/no_std/Cargo.toml";
+
+/// The functions that stand for the kernel in both scalars: without them the archive shows nothing.
+const ENTRIES: [&str; 2] = ["force_f32_u16", "force_f64_u32"];
+
+/// The kernel as it is, then each way of breaking it.
+pub fn run(steps: &mut Steps) {
+    steps.check("kernel without std and allocator", || {
+        run_cargo(build(None))?;
+        inspect()
+    });
+    steps.check("a kernel with std is caught", || refused("broken-std", "panic_impl"));
+    steps.check("a kernel with alloc is caught", || {
+        refused("broken-alloc", "no global memory allocator")
+    });
+    steps.check("a kernel with an allocator is caught", || {
+        run_cargo(build(Some("broken-allocator")))?;
+        match inspect() {
+            Err(why) if why.contains("__rust_alloc") => Ok(()),
+            Err(why) => Err(format!("refused for another reason: {why}")),
+            Ok(()) => Err("not caught".to_owned()),
+        }
+    });
+}
+
+fn build(feature: Option<&str>) -> Command {
+    let mut command = cargo(&["build", "--locked", "--manifest-path", MANIFEST, "--target-dir"]);
+    command.arg(target_dir("no_std"));
+    if let Some(feature) = feature {
+        command.args(["--features", feature]);
+    }
+    command
+}
+
+/// `Err` where the archive lacks the kernel or has anything to do with an allocator.
+fn inspect() -> Result<(), String> {
+    let names = symbols(&target_dir("no_std").join("debug/libsignorini_no_std.a"))?;
+    // Some object formats put an underscore before every name.
+    let holds = |entry| names.iter().any(|name| name.trim_start_matches('_') == entry);
+    if let Some(entry) = ENTRIES.into_iter().find(|entry| !holds(*entry)) {
+        return Err(format!("the archive has no `{entry}`"));
+    }
+    match names.iter().find(|name| allocates(name)) {
+        Some(name) => Err(format!("the archive names `{name}`")),
+        None => Ok(()),
+    }
+}
+
+/// `Ok` where the build with `feature` fails, and says `reason`.
+fn refused(feature: &str, reason: &str) -> Result<(), String> {
+    let output = build(Some(feature)).output().map_err(|error| error.to_string())?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() {
+        return Err("not caught".to_owned());
+    }
+    if said.contains(reason) {
+        return Ok(());
+    }
+    eprint!("{said}");
+    Err(format!("refused for another reason than `{reason}`"))
+}

@@ -1,0 +1,50 @@
+//! The symbols of an archive, by `nm` of binutils.
+
+use std::path::Path;
+use std::process::Command;
+
+/// The names that the members of `archive` define or ask for.
+pub fn symbols(archive: &Path) -> Result<Vec<String>, String> {
+    let output = Command::new("nm").arg("-P").arg(archive).output();
+    let output = output.map_err(|error| format!("nm: {error}; run `apt-get install binutils`"))?;
+    if !output.status.success() {
+        return Err(format!("nm: {}", String::from_utf8_lossy(&output.stderr)));
+    }
+    let listing = String::from_utf8_lossy(&output.stdout);
+    Ok(listing.lines().filter_map(name).collect())
+}
+
+/// A line is `NAME TYPE …`; what is not, names a member.
+fn name(line: &str) -> Option<String> {
+    let (name, rest) = line.split_once(' ')?;
+    (!rest.is_empty()).then(|| name.to_owned())
+}
+
+/// Whether a symbol belongs to an allocator: Rust's, mangled or not, or C's.
+pub fn allocates(symbol: &str) -> bool {
+    let rust = ["__rust_alloc", "__rust_realloc", "__rust_dealloc"];
+    let c = ["malloc", "calloc", "realloc", "free"];
+    rust.iter().any(|name| symbol.contains(name)) || c.contains(&symbol.trim_start_matches('_'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn members_are_not_symbols() {
+        assert_eq!(name("libkernel.a[bar.o]:"), None);
+        assert_eq!(name("memcpy U         "), Some("memcpy".to_owned()));
+        assert_eq!(name("force_f32_u16 T 0 8"), Some("force_f32_u16".to_owned()));
+    }
+
+    #[test]
+    fn allocators_are_known_by_name() {
+        for symbol in ["_RNvCsfLfy6EI15iL_7___rustc12___rust_alloc", "__rust_dealloc", "_malloc"] {
+            assert!(allocates(symbol), "{symbol}");
+        }
+        for symbol in ["memcpy", "force_f32_u16", "_ZN4core5alloc6layout"] {
+            assert!(!allocates(symbol), "{symbol}");
+        }
+    }
+}
