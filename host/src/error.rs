@@ -124,13 +124,12 @@ impl From<InputError> for Error {
 /// that a script finds file, line and key in one piece.
 pub fn install_handler() {
     let on_terminal = std::io::IsTerminal::is_terminal(&std::io::stderr());
-    let handler = move |_: &dyn Diagnostic| {
+    // Fails only where a handler is installed already.
+    let _ = miette::set_hook(Box::new(move |_| {
         let options = miette::MietteHandlerOpts::new().terminal_links(false).break_words(false);
         let options = if on_terminal { options } else { options.wrap_lines(false) };
-        Box::new(options.build()) as Box<dyn miette::ReportHandler>
-    };
-    // Fails only where a handler is installed already.
-    let _ = miette::set_hook(Box::new(handler));
+        Box::new(options.build())
+    }));
 }
 
 impl Error {
