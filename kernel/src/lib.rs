@@ -24,6 +24,7 @@ pub mod quadrature;
 mod real;
 pub mod refinement;
 mod relaxation;
+pub mod shift;
 pub mod signorini;
 pub mod solver;
 pub mod stiffness;

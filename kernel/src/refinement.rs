@@ -62,7 +62,7 @@ pub fn run<R: Real, I: Index, M: Math<R>>(
         {
             *bound = psi - read(u, at);
         }
-        let correction = System::new(*system.matrix(), defect, lower, system.counts())?;
+        let correction = system.with_data(defect, lower)?;
         let goal = goal(settings, &outcome, size.scale());
         let mut next = Solver::<R, M>::with_math(goal)?.run(&correction, low);
         next.residual = Residual { range: size.range, load: size.load, ..next.residual };

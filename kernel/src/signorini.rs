@@ -14,6 +14,7 @@ use crate::edges::EdgeCounts;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::real::Real;
+use crate::shift::Shifts;
 
 /// Matrix, load and bounds of one contact problem (borrowed, validated).
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +23,7 @@ pub struct System<'a, R, I> {
     load: &'a [R],
     lower: &'a [R],
     counts: EdgeCounts,
+    shifts: Option<Shifts<'a, R, I>>,
 }
 
 impl<'a, R: Real, I: Index> System<'a, R, I> {
@@ -40,7 +42,34 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         same_length(Array::LowerBounds, lower.len(), counts.contact)?;
         all_finite(Array::Load, load)?;
         all_finite(Array::LowerBounds, lower)?;
-        Ok(Self { matrix, load, lower, counts })
+        Ok(Self { matrix, load, lower, counts, shifts: None })
+    }
+
+    /// The same problem, with the solver allowed to shift whole parts ([`crate::shift`]).
+    ///
+    /// # Errors
+    /// Parts of another length than the unknowns (or empty).
+    pub fn with_shifts(self, shifts: Shifts<'a, R, I>) -> Result<Self, Error> {
+        if !shifts.part.is_empty() {
+            same_length(Array::Scratch, shifts.part.len(), self.counts.unknowns())?;
+        }
+        Ok(Self { shifts: Some(shifts), ..self })
+    }
+
+    /// The same matrix and shifts with another load and other bounds.
+    ///
+    /// # Errors
+    /// As for [`System::new`].
+    pub fn with_data<'b>(&self, load: &'b [R], lower: &'b [R]) -> Result<System<'b, R, I>, Error>
+    where
+        'a: 'b,
+    {
+        let system = System::new(self.matrix, load, lower, self.counts)?;
+        Ok(System { shifts: self.shifts, ..system })
+    }
+
+    pub(crate) fn shifts(&self) -> Option<Shifts<'a, R, I>> {
+        self.shifts
     }
 
     /// K, one row an unknown and one column an edge.

@@ -11,6 +11,7 @@ use crate::math::{Libm, Math};
 use crate::psor;
 use crate::real::Real;
 use crate::relaxation::{Relaxation, Search};
+use crate::shift;
 use crate::signorini::{Residual, System};
 
 /// How a solve ended. The iterate is the answer in every case but the last.
@@ -172,7 +173,8 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         }
     }
 
-    fn look<I: Index>(&mut self, system: &System<R, I>, u: &[R]) -> Option<Outcome<R>> {
+    fn look<I: Index>(&mut self, system: &System<R, I>, u: &mut [R]) -> Option<Outcome<R>> {
+        shift::all(system, u);
         let residual = system.residual(u);
         if let Some(status) = self.judge(&residual) {
             return Some(self.outcome(status, residual));

@@ -1,16 +1,19 @@
 //! A problem in the kernel's hands: narrowed to one scalar and assembled.
 
+use std::collections::HashMap;
+
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Tensor};
 
-use super::{Loads, Problem, QuadCoefficient};
+use super::{Loads, Parts, Problem, QuadCoefficient};
 use crate::quadrature::DATA_POINTS;
 use crate::scalar::Scalar;
 
@@ -28,6 +31,8 @@ pub struct Assembled<'p, R: Scalar> {
     values: Vec<R>,
     loads: Narrowed<R>,
     load: Vec<R>,
+    part: Vec<u32>,
+    parts: usize,
 }
 
 /// [`Loads`] in the scalar `R`.
@@ -84,11 +89,27 @@ impl<'p, R: Scalar> Assembled<'p, R> {
             values: vec![R::ZERO; edges.nonzeros()],
             loads,
             load: vec![R::ZERO; unknowns],
+            part: Vec::new(),
+            parts: 1,
         };
         assembly::pattern(&edges, &mut assembled.row_ptr, &mut assembled.col_idx)?;
         assembled.fill_values()?;
         assembled.fill_load()?;
         Ok(assembled)
+    }
+
+    /// Tells which part of the domain each unknown belongs to; without, all are one part.
+    pub fn set_parts(&mut self, parts: &Parts) {
+        let mut numbers = HashMap::new();
+        let unknowns = 0..self.edges.counts().unknowns();
+        let roots = unknowns.map(|edge| parts.of_edge(&self.edges, edge));
+        self.part = roots
+            .map(|root| {
+                let next = numbers.len() as u32;
+                *numbers.entry(root).or_insert(next)
+            })
+            .collect();
+        self.parts = numbers.len();
     }
 
     /// The numeric pass over the matrix.
@@ -153,7 +174,8 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn system(&self) -> Result<System<'_, R, u32>, Error> {
         let counts = self.edges.counts();
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
-        System::new(matrix, &self.load, &self.loads.gap, counts)
+        let shifts = Shifts { part: &self.part, parts: self.parts, robin: &self.loads.robin };
+        System::new(matrix, &self.load, &self.loads.gap, counts)?.with_shifts(shifts)
     }
 
     /// A cold start: unknowns at the gap on C and at the mean of all given values elsewhere, u_D in

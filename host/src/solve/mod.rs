@@ -55,7 +55,8 @@ fn by_kernel<R: Scalar>(
 ) -> Result<Solution> {
     let unfit = unfit::<R>(scene);
     let mut clock = Clock::start();
-    let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+    let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+    assembled.set_parts(parts);
     let system = assembled.system().map_err(&unfit)?;
     let boundary = assembled.boundary().map_err(&unfit)?;
     let assembly = clock.lap();
