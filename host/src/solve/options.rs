@@ -62,12 +62,12 @@ impl Options {
     }
 
     /// The kernel's settings. The default in f64 bounds the residual by 1e−11 and the error that
-    /// may hide behind it by 1e−8; the default in f32 is the last digit of u.
+    /// may hide behind it by 1e−10; the default in f32 is the last digit of u.
     pub(super) fn settings<R: Scalar>(&self) -> Settings<R> {
         let (tolerance, accuracy) = match (self.tolerance, self.scalar) {
             _ if self.to_the_floor => (0.0, R::EPSILON.wide()),
             (Some(tolerance), _) => (tolerance, f64::INFINITY),
-            (None, ScalarKind::F64) => (1e-11, 1e-8),
+            (None, ScalarKind::F64) => (1e-11, 1e-10),
             (None, ScalarKind::F32) => (0.0, f64::from(f32::EPSILON)),
         };
         Settings {
