@@ -37,7 +37,7 @@ pub struct Settings<R> {
     /// Bound on [`Residual::scaled`]; 0 asks for the rounding limit.
     pub tolerance: R,
     /// Bound on the error of u, relative like the residual, as far as an adaptive ω can tell it (see
-    /// [`Settings::amplification`]); infinite where the residual alone shall decide.
+    /// `amplification` in the source); infinite where the residual alone shall decide.
     pub accuracy: R,
     /// The least size of u that the residual is related to; 0 where u itself shall tell.
     pub scale: R,

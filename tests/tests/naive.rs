@@ -46,14 +46,6 @@ fn catalogue_on_coarse_meshes() {
 }
 
 #[test]
-#[ignore = "two minutes: dense local work on 16 384 cells, eight times"]
-fn catalogue_on_fine_meshes() {
-    for (level, row) in (2..4).flat_map(|level| targets::CATALOGUE.map(|row| (level, row))) {
-        check_target(&row[level], level);
-    }
-}
-
-#[test]
 fn flux_error_with_a_source() {
     for (cells, expected) in targets::FLUX_OF_A {
         let problem = Problem::catalogue(&Exact::a(), Grid::catalogue(32, cells));
@@ -125,12 +117,6 @@ fn moved_grid() {
     check_moved(0);
 }
 
-#[test]
-#[ignore = "half a minute"]
-fn moved_grid_refined() {
-    check_moved(1);
-}
-
 fn check_benchmark(levels: std::ops::Range<usize>) {
     for &(n, expected) in &targets::BENCHMARK[levels] {
         let grid = Grid::rectangle([0.0, 0.0], [1.0, 1.0], n, n, Cells::Triangles);
@@ -157,10 +143,4 @@ fn check_benchmark(levels: std::ops::Range<usize>) {
 #[test]
 fn ben_belgacem_renard() {
     check_benchmark(0..3);
-}
-
-#[test]
-#[ignore = "half a minute"]
-fn ben_belgacem_renard_refined() {
-    check_benchmark(3..5);
 }

@@ -23,11 +23,15 @@ fn points(series: &ConvergenceSeries) -> Vec<[f64; 2]> {
     pairs.filter(|&(&h, &e)| positive(h) && positive(e)).map(|(&h, &e)| [h, e]).collect()
 }
 
-/// The exponent p in error ~ h^p between the two finest meshes.
+/// The exponent p in error ~ h^p: the least-squares slope over all meshes.
 pub fn measured_rate(series: &ConvergenceSeries) -> Option<f64> {
-    let points = points(series);
-    let [.., [coarse, coarse_error], [fine, fine_error]] = points[..] else { return None };
-    let rate = (coarse_error / fine_error).ln() / (coarse / fine).ln();
+    let points: Vec<_> = points(series).iter().map(|point| point.map(f64::ln)).collect();
+    let count = points.len() as f64;
+    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / count;
+    let (h, error) = (mean(0), mean(1));
+    let sum =
+        |f: fn(f64, f64) -> f64| points.iter().map(|p| f(p[0] - h, p[1] - error)).sum::<f64>();
+    let rate = sum(|h, error| h * error) / sum(|h, _| h * h);
     rate.is_finite().then_some(rate)
 }
 

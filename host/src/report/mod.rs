@@ -23,6 +23,7 @@ mod svg;
 mod tests;
 mod view;
 
+pub use convergence::measured_rate;
 pub use page::html;
 
 /// Everything the page shows, in the order it shows it.
