@@ -45,14 +45,15 @@ fn evaluate(
     });
     let contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
     Ok(match output.quantity {
-        Quantity::Flux => Some(edges.map(|edge| solution.flux[edge]).sum()),
+        Quantity::Flux => Some(edges.fold(0.0, |sum, edge| sum + solution.flux[edge])),
         Quantity::Force => {
             let force = |edge| solution.flux[edge] - problem.loads.contact_flux[edge - free];
-            Some(edges.filter(contact).map(force).sum())
+            Some(edges.filter(contact).map(force).fold(0.0, |sum, force| sum + force))
         }
         Quantity::Length => {
             let active = |edge: &usize| solution.u[*edge] == solution.gap(problem, *edge - free);
-            Some(edges.filter(contact).filter(active).map(|edge| problem.lengths[edge]).sum())
+            let touching = edges.filter(contact).filter(active);
+            Some(touching.fold(0.0, |sum, edge| sum + problem.lengths[edge]))
         }
         Quantity::Probe { at } => Some(probe(scene, problem, solution, output, at)?),
         Quantity::Bound => None,

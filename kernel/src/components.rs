@@ -64,12 +64,10 @@ pub fn examine<R: Real, I: Index>(
     same_length(Array::Load, load.len(), edges.counts().unknowns())?;
     join(edges, parts);
     for edge in 0..edges.counts().edges() {
-        let support = if edge >= edges.counts().start(Block::Dirichlet) {
-            Support::Held
-        } else if edge >= edges.counts().start(Block::Contact) {
-            Support::Contact
-        } else {
-            Support::None
+        let support = match edges.counts().block(edge) {
+            Block::Dirichlet => Support::Held,
+            Block::Contact => Support::Contact,
+            Block::Free => Support::None,
         };
         hold(edges, parts, edge, support, read(load, edge));
     }

@@ -1,8 +1,7 @@
 //! What a controller reads off the contact boundary: force, length, active edges.
 
 use crate::boundary::Boundary;
-use crate::edges::EdgeCounts;
-use crate::geometry::scaled_normal;
+use crate::edges::{EdgeCounts, Edges};
 use crate::index::{Index, read};
 use crate::math::Math;
 use crate::mesh::Mesh;
@@ -23,15 +22,11 @@ pub fn is_active<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], contact: usi
 /// Σ|E| over the active contact edges, in the length unit of the mesh.
 pub fn length<R: Real, I: Index, M: Math<R>>(
     mesh: &Mesh<R, I>,
-    edges: &crate::edges::Edges<I>,
+    edges: &Edges<I>,
     lower: &[R],
     u: &[R],
 ) -> R {
     let counts = edges.counts();
     let active = (0..counts.contact).filter(|&at| is_active(counts, lower, u, at));
-    active.fold(R::ZERO, |sum, at| {
-        let ends = edges.endpoints(mesh, counts.free + at);
-        let [a, b] = ends.map(|vertex| read(mesh.vertices(), vertex.at()));
-        sum + M::sqrt(scaled_normal(a, b).norm_squared())
-    })
+    active.fold(R::ZERO, |sum, at| sum + edges.length::<R, M>(mesh, counts.free + at))
 }

@@ -13,7 +13,9 @@
 //! and u_D simply stands in u behind the unknowns.
 
 use crate::error::{Array, Error, same_length};
+use crate::geometry::scaled_normal;
 use crate::index::{Index, read};
+use crate::math::Math;
 use crate::mesh::Mesh;
 use crate::real::Real;
 
@@ -56,6 +58,17 @@ impl EdgeCounts {
             Block::Free => 0,
             Block::Contact => self.free,
             Block::Dirichlet => self.unknowns(),
+        }
+    }
+
+    /// The block that an edge stands in.
+    pub fn block(&self, edge: usize) -> Block {
+        if edge < self.free {
+            Block::Free
+        } else if edge < self.unknowns() {
+            Block::Contact
+        } else {
+            Block::Dirichlet
         }
     }
 
@@ -160,6 +173,13 @@ impl<'a, I: Index> Edges<'a, I> {
     /// Start and end vertex of an edge, counterclockwise around its first cell.
     pub fn endpoints<R: Real>(&self, mesh: &Mesh<R, I>, edge: usize) -> [I; 2] {
         endpoints(mesh, read(self.half_edges, edge)[0].at())
+    }
+
+    /// Length of an edge, in the length unit of the mesh.
+    pub fn length<R: Real, M: Math<R>>(&self, mesh: &Mesh<R, I>, edge: usize) -> R {
+        let ends = self.endpoints(mesh, edge);
+        let [a, b] = ends.map(|vertex| read(mesh.vertices(), vertex.at()));
+        M::sqrt(scaled_normal(a, b).norm_squared())
     }
 
     fn edge_of(&self, half_edge: usize) -> usize {

@@ -53,6 +53,9 @@ pub enum Error {
     Overlap([u32; 2]),
     /// The boundary edge between these vertices has no condition.
     NoCondition([u32; 2]),
+    /// The condition on the boundary edge between these vertices has become one that asks for another
+    /// pattern: contact and Dirichlet edges stay what they are, Neumann and Robin may interchange.
+    ConditionChanged([u32; 2]),
     /// The transfer coefficient of a Robin edge is negative.
     NegativeRobin {
         /// The edge.
@@ -130,6 +133,9 @@ impl fmt::Display for Error {
             Self::SharedByThree([a, b]) => write!(f, "edge {a}-{b} is shared by three cells"),
             Self::Overlap([a, b]) => write!(f, "two cells lie on the same side of edge {a}-{b}"),
             Self::NoCondition([a, b]) => write!(f, "boundary edge {a}-{b} has no condition"),
+            Self::ConditionChanged([a, b]) => {
+                write!(f, "the condition on boundary edge {a}-{b} asks for another pattern")
+            }
             Self::NegativeRobin { edge } => {
                 write!(f, "edge {edge} has a negative Robin coefficient")
             }

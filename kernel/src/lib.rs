@@ -3,11 +3,64 @@
 #![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 // `!(a < b)` is meant: it is true where a or b is NaN.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
-//! Kernel.
+//! # Signorini, the kernel
+//!
+//! Unilateral contact inside a control loop: `no_std`, no allocation, no panic, fixed memory.
+//!
+//! The problem: find u on a polygon cut into triangles and quads with
+//! ```text
+//!   −∇·(A∇u) = f       in the domain       A: symmetric positive definite tensor, one a cell or varying
+//!   u = u_D            on D (Dirichlet)
+//!   A∇u·n = g          on N (Neumann)      n: outward normal; flux is σ = A∇u, without a minus sign
+//!   A∇u·n = h(u_ext−u) on R (Robin)
+//!   u ≥ ψ,  A∇u·n ≥ q,  (u − ψ)(A∇u·n − q) = 0       on C (contact)
+//! ```
+//! The method: K.-Y. Kim, *Mixed finite volume method on non-staggered grids for the Signorini problem*.
+//! One unknown an edge, the mean of u over it; equation numbers in these pages are that paper's.
+//!
+//! ## An example
+//!
+//! A heated bar: 0 °C outside on the left, a heater on the right that keeps at least 2 °C.
+//! ```
+//! use signorini_kernel::condition::Condition;
+//! use signorini_kernel::solver::{Settings, Status};
+//! use signorini_kernel::stiffness::Coefficient;
+//! use signorini_kernel::{Libm, Mesh, Tensor, Workspace};
+//!
+//! let vertices = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+//! let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[])?;
+//! let mut bar = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25>::new();
+//! bar.build(&mesh, Coefficient::Uniform(Tensor::scalar(3.0)), |edge| {
+//!     Some(match edge.middle() {
+//!         [x, _] if x == 0.0 => Condition::Dirichlet { value: 0.0 },
+//!         [x, _] if x == 1.0 => Condition::Contact { gap: 2.0, flux: 0.0 },
+//!         _ => Condition::Neumann { flux: 0.0 },
+//!     })
+//! })?;
+//! let outcome = bar.solve(Settings::default())?;
+//! assert_eq!(outcome.status, Status::Converged);
+//! assert!((bar.contact_force() - 6.0).abs() < 1e-5); // 3 W/mK · 2 K / 1 m
+//! assert_eq!(bar.contact_length::<Libm>(&mesh)?, 1.0);
+//! # Ok::<(), signorini_kernel::Error>(())
+//! ```
+//!
+//! ## The layers, in the order of use
+//!
+//! [`mesh`] → [`numbering`] and [`edges`] → [`stiffness`] of each [`element`] → [`assembly`] into [`csr`] →
+//! [`signorini`] (the contact problem) → [`psor`], one sweep, in the loop of [`solver`], corrected by
+//! [`refinement`] → [`flux`] → [`contact`]. Each works on slices and can be used alone; [`workspace`] owns
+//! the memory and goes the whole way. [`components`] tells beforehand whether a solution exists.
+//!
+//! ## What is absent
+//!
+//! The kernel never allocates, prints, panics, reads a clock or knows a file format. It adds,
+//! subtracts, multiplies, divides, compares and takes correctly rounded square roots, in one fixed
+//! order: the same bits on every machine.
 
 pub mod assembly;
 pub mod boundary;
 pub mod components;
+pub mod condition;
 pub mod contact;
 pub mod csr;
 pub mod edges;
@@ -29,10 +82,18 @@ pub mod signorini;
 pub mod solver;
 pub mod stiffness;
 mod tensor;
+pub mod workspace;
 
 pub use error::Error;
 pub use index::Index;
 pub use math::{Libm, Math, Micromath};
+pub use mesh::Mesh;
 pub use real::Real;
 pub use relaxation::Relaxation;
 pub use tensor::Tensor;
+pub use workspace::Workspace;
+
+/// The examples of the front page are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct FrontPage;

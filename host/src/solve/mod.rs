@@ -10,7 +10,7 @@ pub use solution::{Seconds, Solution, status_name};
 use std::time::Instant;
 
 use signorini_kernel::refinement::{self, RefinementBuffers};
-use signorini_kernel::solver::Outcome;
+use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
 
 use crate::error::{Error, InputError, Result};
@@ -47,6 +47,13 @@ fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
     }
 }
 
+fn overflow<R: Scalar>(scene: &Scene) -> Error {
+    InputError::new(format!("not-finite: the solution overflows {}", R::NAME))
+        .file(&scene.path)
+        .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
+        .into()
+}
+
 fn by_kernel<R: Scalar>(
     scene: &Scene,
     problem: &Problem,
@@ -79,6 +86,9 @@ fn by_kernel<R: Scalar>(
         buffers,
     )
     .map_err(&unfit)?;
+    if outcome.status == Status::NotFinite {
+        return Err(overflow::<R>(scene));
+    }
     let solve = clock.lap();
     let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux: clock.lap() };
@@ -150,7 +160,7 @@ fn finish<R: Scalar>(
         flux: fluxes.flux.iter().map(|x| x.wide()).collect(),
         mismatch: fluxes.mismatch,
         contact_force: fluxes.force,
-        contact_length: active.iter().map(|at| problem.lengths[counts.free + at]).sum(),
+        contact_length: active.iter().fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
         contact_active: active.len(),
         parts: parts.counts,
         seconds,

@@ -1,0 +1,71 @@
+//! Boundary conditions as a user states them: by place, in the units of the problem.
+//!
+//! The kernel's own arrays hold integrals over numbered edges ([`crate::boundary`]). Here a condition
+//! belongs to a boundary edge that is known by its end points, and its numbers are means over that
+//! edge, so that nobody needs to know a number of an edge or its length.
+
+use crate::edges::Block;
+use crate::index::{Index, read};
+use crate::mesh::Mesh;
+use crate::real::Real;
+
+/// The condition on one boundary edge; n points outward, flux is A∇u·n.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition<R> {
+    /// u = `value`.
+    Dirichlet {
+        /// Mean of u_D.
+        value: R,
+    },
+    /// A∇u·n = `flux`.
+    Neumann {
+        /// Mean of g.
+        flux: R,
+    },
+    /// A∇u·n = `coefficient` (`ambient` − u).
+    Robin {
+        /// Mean of h, not negative.
+        coefficient: R,
+        /// Mean of u_ext.
+        ambient: R,
+    },
+    /// u ≥ `gap`, A∇u·n ≥ `flux`, and one of both is an equality.
+    Contact {
+        /// Mean of ψ.
+        gap: R,
+        /// Mean of q.
+        flux: R,
+    },
+}
+
+impl<R> Condition<R> {
+    /// Where an edge with this condition stands among the unknowns.
+    pub fn block(&self) -> Block {
+        match self {
+            Self::Neumann { .. } | Self::Robin { .. } => Block::Free,
+            Self::Contact { .. } => Block::Contact,
+            Self::Dirichlet { .. } => Block::Dirichlet,
+        }
+    }
+}
+
+/// A boundary edge, counterclockwise around its cell: the domain is on its left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoundaryEdge<R, I> {
+    /// Its vertices.
+    pub vertices: [I; 2],
+    /// Their coordinates.
+    pub ends: [[R; 2]; 2],
+}
+
+impl<R: Real, I: Index> BoundaryEdge<R, I> {
+    pub(crate) fn new(mesh: &Mesh<R, I>, vertices: [I; 2]) -> Self {
+        Self { vertices, ends: vertices.map(|vertex| read(mesh.vertices(), vertex.at())) }
+    }
+
+    /// The point halfway between its ends.
+    pub fn middle(&self) -> [R; 2] {
+        let [a, b] = self.ends;
+        [R::HALF * (a[0] + b[0]), R::HALF * (a[1] + b[1])]
+    }
+}
