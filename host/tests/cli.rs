@@ -1,0 +1,250 @@
+//! The command as users and scripts meet it: files, exit status, messages.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn signorini(arguments: &[&str]) -> Output {
+    let command = Command::new(env!("CARGO_BIN_EXE_signorini")).args(arguments).output();
+    command.expect("the binary runs")
+}
+
+fn meshes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes")
+}
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Runs `solve` on a scene of the repository; returns exit status, folder and summary.
+fn solve(scene: &str, more: &[&str]) -> (i32, tempfile::TempDir, Value) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = meshes().join(scene);
+    let out = folder.path().to_string_lossy().into_owned();
+    let mut arguments = vec!["solve", scene.to_str().expect("a path in UTF-8"), "--out", &out];
+    arguments.extend(more);
+    let output = signorini(&arguments);
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!stderr.contains("panicked"), "{stderr}");
+    let summary = serde_json::from_str(&text(&folder.path().join("summary.json")));
+    (output.status.code().unwrap_or(-1), folder, summary.expect("valid JSON"))
+}
+
+#[test]
+fn solve_writes_its_three_files() {
+    let (status, folder, summary) = solve("catalogue/h-mixed.toml", &[]);
+    assert_eq!(status, 0);
+    let edges = text(&folder.path().join("edges.csv"));
+    assert_eq!(edges.lines().next(), Some("x0,y0,x1,y1,kind,u_mean,flux_normal"));
+    let kinds = |kind: &str| edges.lines().filter(|line| line.contains(kind)).count();
+    assert_eq!((kinds("contact"), kinds("dirichlet")), (32, 64));
+    for key in [
+        "title",
+        "scalar",
+        "solver",
+        "status",
+        "unknowns",
+        "contact_edges",
+        "contact_active",
+        "sweeps",
+        "converged",
+        "algebraic_residual",
+        "conservation_defect",
+        "contact_force",
+        "contact_length",
+        "errors",
+        "outputs",
+        "seconds",
+    ] {
+        assert!(!summary[key].is_null(), "{key}");
+    }
+    assert_eq!(summary["unknowns"], 1264);
+    let force = summary["contact_force"].as_f64().expect("a number");
+    assert!((force - 0.950787).abs() < 1e-6);
+    assert!(text(&folder.path().join("solution.vtu")).contains("UnstructuredGrid"));
+}
+
+#[test]
+fn both_scalars_and_both_solvers_agree() {
+    for scene in ["scenes/levee.toml", "scenes/slab.toml", "scenes/membrane.toml"] {
+        let force = |more: &[&str]| {
+            let (status, _folder, summary) = solve(scene, more);
+            assert_eq!(status, 0, "{scene} {more:?}");
+            summary["contact_force"].as_f64().expect("a number")
+        };
+        let direct = force(&["--solver", "direct"]);
+        assert!((force(&[]) / direct - 1.0).abs() < 1e-7, "{scene}");
+        assert!((force(&["--scalar", "f32"]) / direct - 1.0).abs() < 1e-4, "{scene}");
+    }
+}
+
+#[test]
+fn a_solve_that_is_cut_off_says_so_and_is_feasible() {
+    let (status, folder, summary) = solve("catalogue/b-tri.toml", &["--max-sweeps", "3"]);
+    assert_eq!(status, 3);
+    assert_eq!(summary["status"], "out-of-sweeps");
+    assert_eq!(summary["converged"], false);
+    for line in text(&folder.path().join("edges.csv")).lines().filter(|l| l.contains("contact")) {
+        let u: f64 = line.split(',').nth(5).expect("u_mean").parse().expect("a number");
+        assert!(u >= 0.0, "{line}");
+    }
+}
+
+#[test]
+fn inputs_change_the_answer() {
+    let head = |input: &str| {
+        let (_, _folder, summary) = solve("scenes/levee.toml", &["--input", input]);
+        summary["outputs"]["seepage"].as_f64().expect("a number")
+    };
+    assert!(head("river=0.5") > head("river=0"));
+}
+
+#[test]
+fn help_has_examples() {
+    for command in [&["--help"][..], &["solve", "--help"]] {
+        let output = signorini(command);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("Examples:"), "{command:?}");
+    }
+}
+
+const SCENE: &str = r#"mesh = "MESH"
+[material.default]
+conductivity = "1"
+[source]
+f = "0"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "0"
+[boundary.contact]
+kind = "contact"
+"#;
+
+/// What to replace in a good scene, by what, and a part of the message.
+#[rustfmt::skip]
+const WRONG_SCENES: &[(&str, &str, &str)] = &[
+    ("conductivity = \"1\"", "conductivity = \"-1\"", "material.default.conductivity"),
+    ("conductivity = \"1\"", "conductivity = [\"1\", \"2\", \"1\"]", "not positive definite"),
+    ("conductivity = \"1\"", "conductivity = \"0.5 - y\"", "not positive definite"),
+    ("conductivity = \"1\"", "conductivity = \"ln(-1 - y)\"", "not finite"),
+    ("conductivity = \"1\"", "conductvity = \"1\"", "material.default.conductvity"),
+    ("conductivity = \"1\"", "conductivity = \"t\"", "material.default.conductivity"),
+    ("[material.default]", "[material.nowhere]", "\"left\", \"right\""),
+    ("[material.default]", "[material.left]", "material.right"),
+    ("f = \"0\"", "f = \"2x\"", "source.f"),
+    ("f = \"0\"", "f = \"sqrt(-1 - x^2)\"", "source.f"),
+    ("f = \"0\"", "f = nan", "source.f"),
+    ("f = \"0\"", "f = \"foo(x)\"", "foo"),
+    ("f = \"0\"", "f = \"1e999\"", "source.f"),
+    ("f = \"0\"", "f = \"\"", "source.f"),
+    ("value = \"0\"", "value = \"1/x\"", "boundary.dirichlet.value"),
+    ("value = \"0\"", "valeu = \"0\"", "boundary.dirichlet.valeu"),
+    ("value = \"0\"", "value = \"-1\"", "below the gap"),
+    ("kind = \"dirichlet\"", "kind = \"dirichlet\"\nflux = 0", "boundary.dirichlet.flux"),
+    ("kind = \"dirichlet\"", "kind = \"fixed\"", "boundary.dirichlet.kind"),
+    ("kind = \"dirichlet\"\nvalue = \"0\"", "kind = \"neumann\"\nflux = \"1\"", "no solution"),
+    ("kind = \"dirichlet\"\nvalue = \"0\"", "kind = \"neumann\"\nflux = \"0\"", "no unique solution"),
+    ("kind = \"dirichlet\"\nvalue = \"0\"", "kind = \"robin\"\ncoefficient = \"-1\"\nambient = 0", "coefficient"),
+    ("kind = \"dirichlet\"\nvalue = \"0\"", "kind = \"robin\"\ncoefficient = \"y - 0.5\"\nambient = 0", "coefficient"),
+    ("[boundary.dirichlet]", "[boundary.wall]", "\"contact\", \"dirichlet\""),
+    ("[boundary.contact]\nkind = \"contact\"", "", "boundary.contact"),
+    ("mesh = \"MESH\"", "mesh = \"missing.msh\"", "missing.msh"),
+    ("mesh = \"MESH\"", "mesh = 3", "mesh"),
+    ("mesh = \"MESH\"", "mesh = \"MESH\"\nsolver = \"fast\"", "solver"),
+    ("mesh = \"MESH\"", "mesh = \"MESH", "a.toml:1: not TOML"),
+    ("[source]", "[output.q]\nkind = \"probe\"\nat = [5, 5]\n[source]", "output.q"),
+    ("[source]", "[output.q]\nkind = \"flux\"\nof = \"roof\"\n[source]", "output.q"),
+    ("[source]", "[input.p]\nof = \"contact\"\nfield = \"value\"\n[source]", "input.p"),
+    ("[source]", "[exact]\nu = \"x\"\ngradient = [\"1\"]\n[source]", "exact.gradient"),
+    ("[source]", "[time]\nstep = 0\nend = 1\n[source]", "time.step"),
+];
+
+/// The same for the mesh.
+#[rustfmt::skip]
+const WRONG_MESHES: &[(&str, &str, &str)] = &[
+    ("2.2 0 8", "3.0 0 8", "3.0"),
+    ("2.2 0 8", "2.2 1 8", ""),
+    ("$EndNodes", "$EndNode", ""),
+    ("$Nodes\n561", "$Nodes\n4611686018427387904", ""),
+    ("$Nodes\n561", "$Nodes\n-1", ""),
+    ("$Elements\n1120", "$Elements\n99999999", ""),
+    ("1 -1.0 0.0 0\n", "1 nan 0.0 0\n", "NaN"),
+    ("1 -1.0 0.0 0\n", "1 -1.0 0.0 7\n", "plane"),
+    ("1 -1.0 0.0 0\n", "2 -1.0 0.0 0\n", "node 2"),
+    ("1 -1.0 0.0 0\n", "1 5.0 5.0 0\n", ""),
+    ("97 2 2 1 1 1 2 35\n", "97 2 2 1 1 1 2 2\n", "97"),
+    ("97 2 2 1 1 1 2 35\n", "97 2 2 1 1 1 2 9999\n", "9999"),
+    ("97 2 2 1 1 1 2 35\n", "97 9 2 1 1 1 2 35 4 5 6\n", "97"),
+    ("98 2 2 1 1 1 35 34\n", "98 2 2 1 1 1 2 35\n", "98"),
+];
+
+fn refused(scene: &str, mesh: &str, expected: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("a.msh"), mesh).expect("a file");
+    std::fs::write(path("a.toml"), scene.replace("MESH", "a.msh")).expect("a file");
+    let (scene_path, out) = (path("a.toml"), path("out"));
+    let output = signorini(&[
+        "solve",
+        scene_path.to_str().expect("UTF-8"),
+        "--out",
+        out.to_str().expect("UTF-8"),
+    ]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "expected {expected:?}: {message}");
+    assert!(message.contains(expected), "expected {expected:?}: {message}");
+    assert!(!message.contains("panicked") && message.len() < 4000, "{message}");
+    assert!(!out.exists(), "something was written: {expected:?}");
+}
+
+fn good_mesh() -> String {
+    text(&meshes().join("catalogue/square-tri-16.msh"))
+}
+
+#[test]
+fn wrong_scenes_are_refused() {
+    let mesh = good_mesh();
+    for (part, by, expected) in WRONG_SCENES {
+        assert!(SCENE.contains(part), "{part}");
+        refused(&SCENE.replace(part, by), &mesh, expected);
+    }
+    let nested = format!("f = \"{}0{}\"", "(".repeat(200_000), ")".repeat(200_000));
+    refused(&SCENE.replace("f = \"0\"", &nested), &mesh, "source.f");
+    refused(&"[".repeat(200_000), &mesh, "");
+    refused("", &mesh, "");
+}
+
+#[test]
+fn wrong_meshes_are_refused() {
+    let mesh = good_mesh();
+    for (part, by, expected) in WRONG_MESHES {
+        assert!(mesh.contains(part), "{part}");
+        refused(SCENE, &mesh.replacen(part, by, 1), expected);
+    }
+    for length in [0, 10, 100, 5000, mesh.len() / 2, mesh.len() - 20] {
+        refused(SCENE, &mesh[..length], "a.msh");
+    }
+}
+
+#[test]
+fn wrong_arguments_are_refused() {
+    let scene = meshes().join("catalogue/a-tri.toml");
+    let scene = scene.to_str().expect("UTF-8");
+    for (arguments, expected) in [
+        (&["solve", scene, "--tolerance", "nan"][..], "tolerance"),
+        (&["solve", scene, "--tolerance", "-1"], "tolerance"),
+        (&["solve", scene, "--max-sweeps", "0"], "max-sweeps"),
+        (&["solve", scene, "--input", "rain=1"], "rain"),
+        (&["solve", scene, "--scalar", "f16"], "f16"),
+        (&["solve", scene, "--scalar", "f32", "--solver", "direct"], "direct"),
+        (&["solve", scene, "--out", scene], "is a file"),
+        (&["solve", "nowhere.toml"], "nowhere.toml"),
+        (&["slove"], "slove"),
+    ] {
+        let output = signorini(arguments);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+    }
+}

@@ -1,0 +1,223 @@
+//! The smallest and strangest problems first: what they answer, and how they are refused.
+
+use signorini_kernel::boundary::Boundary;
+use signorini_kernel::components::{Part, PartCounts, examine};
+use signorini_kernel::condition::{BoundaryEdge, Condition};
+use signorini_kernel::csr::Csr;
+use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::signorini::System;
+use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace};
+
+type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200>;
+
+const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
+const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
+
+fn build(
+    mesh: &Mesh<f64, u16>,
+    condition: impl FnMut(&BoundaryEdge<f64, u16>) -> Option<Condition<f64>>,
+) -> Result<Small, Error> {
+    let mut small = Small::new();
+    small.build(mesh, UNIT, condition)?;
+    Ok(small)
+}
+
+#[test]
+fn a_single_triangle_and_a_single_quad() {
+    for (triangles, quads) in [(&[[0u16, 1, 2]][..], &[][..]), (&[], &[[0u16, 1, 2, 3]])] {
+        let mesh = Mesh::new(&SQUARE, triangles, quads).expect("a valid cell");
+        // All sides given: nothing to solve, and the flux of u = x through the sides is exact.
+        let value =
+            |edge: &BoundaryEdge<f64, u16>| Some(Condition::Dirichlet { value: edge.middle()[0] });
+        let mut cell = build(&mesh, value).expect("fits");
+        let outcome = cell.solve(Settings::default()).expect("finite");
+        assert_eq!(outcome.status, Status::Converged);
+        let total: f64 = cell.flux().iter().sum();
+        assert!(total.abs() < 1e-15, "{:?}", cell.flux());
+        assert!(cell.flux().iter().any(|flux| (flux - 1.0).abs() < 1e-15), "{:?}", cell.flux());
+    }
+}
+
+/// −Δu = −4 pushes the whole plate onto its gap: λ takes the load, and nothing moves.
+#[test]
+fn all_contact() {
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let gap = |_: &_| Some(Condition::Contact { gap: 1.0, flux: 0.0 });
+    let mut plate = build(&mesh, gap).expect("fits");
+    plate.set_source(&[-2.0, -2.0], &[]).expect("lengths");
+    let outcome = plate.solve(Settings::default()).expect("finite");
+    assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit));
+    // ∫λ = ∫σ·n = −∫f
+    assert!((plate.contact_force() - 4.0).abs() < 1e-12);
+    assert_eq!(outcome.residual.active, 4);
+}
+
+#[test]
+fn no_contact_is_a_linear_problem() {
+    let mesh = Mesh::new(&SQUARE, &[], &[[0u16, 1, 2, 3]]).expect("valid");
+    let sides = |edge: &BoundaryEdge<f64, u16>| match edge.middle() {
+        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
+        [1.0, _] => Some(Condition::Neumann { flux: 3.0 }),
+        _ => Some(OPEN),
+    };
+    let mut bar = build(&mesh, sides).expect("fits");
+    bar.solve(Settings::default()).expect("finite");
+    let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
+    assert!((highest - 3.0).abs() < 1e-12);
+    assert_eq!(bar.contact_force(), 0.0);
+}
+
+/// Two separate triangles: one held, one not.
+#[test]
+fn parts_are_told_apart() {
+    let vertices = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
+    let mesh = Mesh::<f64, u16>::new(&vertices, &[[0, 1, 2], [3, 4, 5]], &[]).expect("valid");
+    let check = |second: Condition<f64>, load: f64| {
+        let conditions = |edge: &BoundaryEdge<f64, u16>| {
+            Some(if edge.middle()[0] < 2.0 { Condition::Dirichlet { value: 0.0 } } else { second })
+        };
+        let parts = build(&mesh, conditions)?;
+        let edges = parts.edges()?;
+        let boundary = Boundary::new(&edges, &[], &[], &[])?;
+        let unknowns = edges.counts().unknowns();
+        let loads = vec![load; unknowns];
+        examine(&edges, &boundary, &loads, 1e-9, &mut [Part::default(); 2])
+    };
+    let contact = Condition::Contact { gap: 0.0, flux: 0.0 };
+    let counts = |held, contact, floating| Ok(PartCounts { held, contact, floating });
+    assert_eq!(check(contact, -1.0), counts(1, 1, 0));
+    assert_eq!(check(contact, 1.0), Err(Error::NoSolution { cell: 1 }));
+    assert_eq!(check(contact, 0.0), Err(Error::NotUnique { cell: 1 }));
+    assert_eq!(check(OPEN, 0.0), counts(1, 0, 1));
+    assert_eq!(check(OPEN, 1.0), Err(Error::NoSolution { cell: 1 }));
+}
+
+#[test]
+fn bad_meshes_are_named() {
+    let new = |vertices: &[[f64; 2]], triangles: &[[u16; 3]], quads: &[[u16; 4]]| {
+        Mesh::new(vertices, triangles, quads).map(|mesh| mesh.cells())
+    };
+    let triangle = CellId::Triangle(0);
+    assert_eq!(new(&SQUARE, &[[0, 2, 1]], &[]), Err(Error::Clockwise(triangle)));
+    assert_eq!(new(&SQUARE, &[[0, 1, 1]], &[]), Err(Error::RepeatedVertex(triangle)));
+    let outside = Error::OutOfRange { of: Array::Triangles, at: 0 };
+    assert_eq!(new(&SQUARE, &[[0, 1, 9]], &[]), Err(outside));
+    let line = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
+    assert_eq!(new(&line, &[[0, 1, 2]], &[]), Err(Error::Degenerate(triangle)));
+    assert_eq!(new(&SQUARE, &[], &[[0, 1, 3, 2]]), Err(Error::NotConvex(CellId::Quad(0))));
+    let nan = [[0.0, f64::NAN], [1.0, 0.0], [0.0, 1.0]];
+    assert_eq!(new(&nan, &[], &[]), Err(Error::NotFinite { of: Array::Vertices, at: 0 }));
+    let many = vec![[0u16, 1, 2]; 22_000];
+    let capacity = Error::Capacity { of: Array::HalfEdges, needed: 66_000, limit: 65_535 };
+    assert_eq!(new(&SQUARE, &many, &[]), Err(capacity));
+}
+
+#[test]
+fn bad_topology_is_named() {
+    let all = |_: &BoundaryEdge<f64, u16>| Some(OPEN);
+    let error = |triangles: &[[u16; 3]]| {
+        let vertices = [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.5, -1.0], [0.5, 2.0]];
+        build(&Mesh::new(&vertices, triangles, &[])?, all).map(|_| ())
+    };
+    assert_eq!(error(&[[0, 1, 2], [0, 1, 2]]), Err(Error::Overlap([0, 1])));
+    assert_eq!(error(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), Err(Error::Overlap([0, 1])));
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2]], &[]).expect("valid");
+    assert_eq!(build(&mesh, |_| None).map(|_| ()), Err(Error::NoCondition([0, 1])));
+}
+
+#[test]
+fn a_workspace_that_is_too_small_says_by_how_much() {
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mut tight = Workspace::<f64, u16, 4, 1, 0, 4, 6, 25>::new();
+    let error = tight.build(&mesh, UNIT, |_| Some(OPEN));
+    assert_eq!(error, Err(Error::Capacity { of: Array::Triangles, needed: 2, limit: 1 }));
+}
+
+#[test]
+fn arrays_that_do_not_fit_are_refused() {
+    let csr = |row_ptr: &[u32], col_idx: &[u16], values: &[f64]| {
+        Csr::new(row_ptr, col_idx, values, 2).map(|matrix| matrix.rows())
+    };
+    assert_eq!(csr(&[0, 1, 2], &[0, 1], &[1.0, 1.0]), Ok(2));
+    assert!(csr(&[0, 2, 1], &[0, 1], &[1.0, 1.0]).is_err());
+    assert!(csr(&[0, 1, 9], &[0, 1], &[1.0, 1.0]).is_err());
+    assert!(csr(&[0, 1, 2], &[0, 7], &[1.0, 1.0]).is_err());
+    assert!(csr(&[0, 1, 2], &[1, 0], &[1.0, 1.0]).is_err());
+    assert!(csr(&[0, 1, 2], &[0, 1], &[1.0, -1.0]).is_err());
+    assert!(csr(&[0, 1, 2], &[0, 1], &[1.0, f64::NAN]).is_err());
+    assert!(csr(&[], &[], &[]).is_err());
+    let one = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
+    assert!(Edges::<u16>::new(&[[0, 0, 0]], &[], &[[0, 1]], one).is_err());
+    assert!(Edges::<u16>::new(&[[7, 0, 0]], &[], &[[9, 1]], one).is_err());
+    for omega in [0.0, 2.0, -1.0, f64::NAN] {
+        let settings = Settings { relaxation: Relaxation::Fixed(omega), ..Settings::default() };
+        assert!(Solver::new(settings).is_err());
+    }
+}
+
+/// The chain −u'' = −1 over an obstacle, small enough to write down.
+fn chain<R>(work: impl FnOnce(&System<f64, u16>) -> R) -> R {
+    let (row_ptr, col_idx) = ([0, 2, 5, 7], [0u16, 1, 1, 0, 2, 2, 1]);
+    let values = [2.0, -1.0, 2.0, -1.0, -1.0, 2.0, -1.0];
+    let counts = EdgeCounts { free: 2, contact: 1, dirichlet: 0 };
+    let matrix = Csr::new(&row_ptr, &col_idx, &values, 3).expect("valid");
+    work(&System::new(matrix, &[-1.0, -1.0, -1.0], &[-0.5], counts).expect("valid"))
+}
+
+#[test]
+fn every_start_and_every_relaxation_lead_to_the_same_answer() {
+    let factors = [0.5, 1.0, 1.5, 1.9].map(Relaxation::Fixed);
+    for relaxation in factors.into_iter().chain([Relaxation::Adaptive(1.0)]) {
+        for start in [[0.0; 3], [1e6, -1e6, 1e6], [-7.0, 3.0, f64::NAN]] {
+            let mut u = start;
+            let settings = Settings { relaxation, tolerance: 1e-14, ..Settings::default() };
+            let mut solver = Solver::new(settings).expect("valid");
+            let outcome = chain(|system| solver.run(system, &mut u));
+            if start[2].is_nan() {
+                assert!(u[2].is_finite(), "the gap lifts what is not a number");
+            }
+            assert_eq!(outcome.status, Status::Converged, "{relaxation:?} from {start:?}");
+            // u₃ = −½ is active; 2u₁ − u₂ = −1 and −u₁ + 2u₂ = −1 − ½ give u₁ = −7/6, u₂ = −4/3.
+            for (u, exact) in u.iter().zip([-7.0 / 6.0, -4.0 / 3.0, -0.5]) {
+                assert!((u - exact).abs() < 1e-12, "{u} instead of {exact}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_way_to_end() {
+    let settings = Settings::<f64>::default();
+    let run = |settings, start: [f64; 3]| {
+        let mut u = start;
+        chain(|system| Solver::new(settings).expect("valid").run(system, &mut u)).status
+    };
+    assert_eq!(run(Settings { tolerance: 1e-6, ..settings }, [0.0; 3]), Status::Converged);
+    let few = Settings { max_sweeps: 1, ..settings };
+    assert_eq!(run(few, [0.0; 3]), Status::OutOfSweeps);
+    let ended = run(settings, [0.0; 3]);
+    assert!(matches!(ended, Status::RoundingLimit | Status::Converged), "{ended:?}");
+    assert_eq!(run(settings, [f64::INFINITY, 0.0, 0.0]), Status::NotFinite);
+}
+
+/// micromath's root is off by up to 6 %: it may serve a length, and never changes the solution.
+#[test]
+fn fast_math_costs_what_it_says() {
+    let vertices = SQUARE.map(|v| v.map(|x| x as f32));
+    let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mut plate = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25>::new();
+    let unit = Coefficient::Uniform(Tensor::scalar(1.0));
+    let sides = |edge: &BoundaryEdge<f32, u16>| match edge.middle() {
+        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
+        _ => Some(Condition::Contact { gap: 1.0, flux: 0.0 }),
+    };
+    plate.build(&mesh, unit, sides).expect("fits");
+    plate.solve(Settings::default()).expect("finite");
+    let exact = plate.contact_length::<Libm>(&mesh).expect("built");
+    let fast = plate.contact_length::<Micromath>(&mesh).expect("built");
+    assert!(exact > 0.0 && (fast / exact - 1.0).abs() <= 0.06, "{fast} against {exact}");
+}
