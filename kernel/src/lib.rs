@@ -61,6 +61,7 @@ pub mod assembly;
 pub mod boundary;
 pub mod components;
 pub mod condition;
+pub mod conjugate;
 pub mod contact;
 pub mod csr;
 pub mod edges;

@@ -12,6 +12,7 @@
 //! two numbers (high and low part), so that the next defect profits from it.
 
 use crate::boundary::Boundary;
+use crate::conjugate::{self, ConjugateBuffers};
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::math::Math;
@@ -20,7 +21,7 @@ use crate::relaxation::Relaxation;
 use crate::signorini::{Residual, System};
 use crate::solver::{Outcome, Settings, Solver, Status};
 
-/// Memory for [`run`]: two arrays over edges, one over unknowns, one over contact edges.
+/// Memory for [`run`]: two arrays over edges, two over unknowns, one over contact edges.
 #[derive(Debug)]
 pub struct RefinementBuffers<'a, R> {
     /// The low part of u after the solve: u + low is the answer. One entry an edge.
@@ -29,6 +30,46 @@ pub struct RefinementBuffers<'a, R> {
     pub defect: &'a mut [R],
     /// The bounds of the correction. One entry a contact edge.
     pub lower: &'a mut [R],
+    /// Scratch for the problems on which sweeps crawl.
+    pub conjugate: ConjugateBuffers<'a, R>,
+}
+
+/// Sweeps after which a solve that has not ended gets help: more than any well-shaped mesh of 10⁵
+/// edges needs.
+const PLAIN: u32 = 10_000;
+
+/// Rounds of help at most; after each, sweeps judge the iterate.
+const HELP: u32 = 8;
+
+/// A solve whose slow parts are left to conjugate gradients where plain sweeps do not end.
+fn solve<R: Real, I: Index, M: Math<R>>(
+    system: &System<R, I>,
+    settings: Settings<R>,
+    u: &mut [R],
+    buffers: &mut ConjugateBuffers<R>,
+) -> Result<Outcome<R>, Error> {
+    let most = settings.max_sweeps;
+    let plain = Settings { max_sweeps: most.min(PLAIN), ..settings };
+    let mut outcome = Solver::<R, M>::with_math(plain)?.run(system, u);
+    for _ in 0..HELP {
+        let left = most.saturating_sub(outcome.sweeps);
+        let ended = !matches!(outcome.status, Status::OutOfSweeps | Status::Stalled);
+        if ended || left == 0 {
+            break;
+        }
+        let unknowns = u32::try_from(system.load().len()).unwrap_or(u32::MAX);
+        let iterations = left.min(unknowns.saturating_mul(4).max(PLAIN));
+        let goal = outcome.residual.rounding;
+        let used = conjugate::run(system, goal, iterations, u, buffers);
+        // At least one sweep judges, also where the help has used up all that was left.
+        let check = left.saturating_sub(used).min(PLAIN / 4);
+        let again = Settings { max_sweeps: check.saturating_add(1), ..settings };
+        let before = outcome;
+        outcome = Solver::<R, M>::with_math(again)?.run(system, u);
+        outcome.sweeps = outcome.sweeps.saturating_add(before.sweeps).saturating_add(used);
+        outcome.conjugate = before.conjugate.saturating_add(used);
+    }
+    Ok(outcome)
 }
 
 /// Solves, and where rounding ended the solve corrects until corrections vanish or `rounds` are up.
@@ -46,12 +87,14 @@ pub fn run<R: Real, I: Index, M: Math<R>>(
     u: &mut [R],
     buffers: RefinementBuffers<R>,
 ) -> Result<Outcome<R>, Error> {
-    let RefinementBuffers { low, defect, lower } = buffers;
+    let RefinementBuffers { low, defect, lower, mut conjugate } = buffers;
     same_length(Array::Scratch, low.len(), u.len())?;
     same_length(Array::Scratch, defect.len(), system.load().len())?;
     same_length(Array::Scratch, lower.len(), system.lower().len())?;
+    same_length(Array::Scratch, conjugate.direction.len(), u.len())?;
+    same_length(Array::Scratch, conjugate.residual.len(), system.load().len())?;
     low.fill(R::ZERO);
-    let mut outcome = Solver::<R, M>::with_math(settings)?.run(system, u);
+    let mut outcome = solve::<R, I, M>(system, settings, u, &mut conjugate)?;
     let size = outcome.residual;
     for _ in 0..rounds {
         if outcome.status != Status::RoundingLimit {
@@ -64,9 +107,11 @@ pub fn run<R: Real, I: Index, M: Math<R>>(
         }
         let correction = system.with_data(defect, lower)?;
         let goal = goal(settings, &outcome, size.scale());
-        let mut next = Solver::<R, M>::with_math(goal)?.run(&correction, low);
+        let mut next = solve::<R, I, M>(&correction, goal, low, &mut conjugate)?;
         next.residual = Residual { range: size.range, load: size.load, ..next.residual };
-        outcome = Outcome { sweeps: outcome.sweeps.saturating_add(next.sweeps), ..next };
+        next.sweeps = next.sweeps.saturating_add(outcome.sweeps);
+        next.conjugate = next.conjugate.saturating_add(outcome.conjugate);
+        outcome = next;
         if outcome.status == Status::NotFinite {
             low.fill(R::ZERO);
             break;

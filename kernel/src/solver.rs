@@ -84,6 +84,8 @@ pub struct Outcome<R> {
     pub status: Status,
     /// Sweeps done in all.
     pub sweeps: u32,
+    /// Iterations of conjugate gradients among them, where sweeps alone would not have ended.
+    pub conjugate: u32,
     /// The residual of the iterate.
     pub residual: Residual<R>,
     /// The last ω.
@@ -218,6 +220,6 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
     }
 
     fn outcome(&self, status: Status, residual: Residual<R>) -> Outcome<R> {
-        Outcome { status, sweeps: self.sweeps, residual, omega: self.search.omega }
+        Outcome { status, sweeps: self.sweeps, conjugate: 0, residual, omega: self.search.omega }
     }
 }

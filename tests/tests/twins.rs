@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::mesh::Mesh;
@@ -116,9 +117,13 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
         low: &mut low,
         defect: &mut vec![R::ZERO; counts.unknowns()],
         lower: &mut vec![R::ZERO; counts.contact],
+        conjugate: ConjugateBuffers {
+            direction: &mut vec![R::ZERO; counts.edges()],
+            residual: &mut vec![R::ZERO; counts.unknowns()],
+        },
     };
     let (tolerance, accuracy) =
-        if R::EPSILON.wide() < 1e-10 { (1e-11, 1e-10) } else { (0.0, 1e-7) };
+        if R::EPSILON.wide() < 1e-10 { (1e-13, 1e-10) } else { (0.0, 1e-7) };
     let [tolerance, accuracy] = [tolerance, accuracy].map(R::narrow);
     let settings = Settings { tolerance, accuracy, ..Settings::default() };
     let outcome = refinement::run::<R, I, Libm>(&system, &boundary, settings, 6, &mut u, buffers)
@@ -226,20 +231,15 @@ fn size(values: &BTreeMap<Edge, f64>) -> f64 {
 }
 
 /// Every cell has its own oblique tensor with eigenvalues from 10⁻² to 10²: harder than any region of a
-/// real scene. Where projected SOR cannot cope it must say so, and that must stay rare.
+/// real scene.
 const SEEDS: u64 = 150;
-const MOST_UNCONVERGED: usize = 8;
 
 #[test]
 fn random_scenes_in_f64() {
-    let mut unconverged = Vec::new();
     for seed in 0..SEEDS {
         let problem = random::problem(&mut Random::new(seed), 5);
         let (kernel, twin) = (by_kernel::<f64, u16>(&problem), by_twin(&problem));
-        if !kernel.converged {
-            unconverged.push(seed);
-            continue;
-        }
+        assert!(kernel.converged, "seed {seed}");
         let what = format!("seed {seed}");
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
         KERNEL_AGREEMENT.check(&what, u);
@@ -247,23 +247,17 @@ fn random_scenes_in_f64() {
         KERNEL_FLUX.check(&what, distance(&kernel.outward, &twin.outward) / fluxes);
         KERNEL_FLUX.check(&what, (kernel.force - twin.force) / fluxes.max(twin.force.abs()));
     }
-    assert!(unconverged.len() <= MOST_UNCONVERGED, "did not converge: {unconverged:?}");
 }
 
 #[test]
 fn random_scenes_in_f32_and_with_wide_indices() {
-    let mut unconverged = Vec::new();
     for seed in 0..SEEDS / 2 {
         let problem = random::problem(&mut Random::new(seed), 5);
         let (kernel, twin) = (by_kernel::<f32, u32>(&problem), by_twin(&problem));
-        if !kernel.converged {
-            unconverged.push(seed);
-            continue;
-        }
+        assert!(kernel.converged, "seed {seed}");
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
         NARROW_AGREEMENT.check(&format!("seed {seed}"), u);
     }
-    assert!(unconverged.len() <= MOST_UNCONVERGED, "did not converge: {unconverged:?}");
 }
 
 #[test]

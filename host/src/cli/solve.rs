@@ -39,7 +39,7 @@ pub struct Arguments {
     /// The kernel's projected SOR, or the host's active set on a sparse factorisation
     #[arg(long, value_enum, default_value = "kernel")]
     solver: SolverKind,
-    /// Bound on the scaled complementarity residual [default: 1e-11 in f64, the rounding limit in f32]
+    /// Bound on the scaled complementarity residual [default: 1e-13 in f64, the rounding limit in f32]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Most sweeps allowed

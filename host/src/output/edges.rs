@@ -21,8 +21,9 @@ pub fn edges_csv(problem: &Problem, solution: &Solution) -> csv::Result<Vec<u8>>
     writer.into_inner().map_err(|error| error.into_error().into())
 }
 
-/// The shortest text that reads back as the same number of the solution's scalar type.
+/// The shortest text that reads back as the same number of the solution's scalar type; −0 is 0.
 fn digits(solution: &Solution, x: f64) -> String {
+    let x = x + 0.0;
     match solution.scalar {
         ScalarKind::F64 => format!("{x:?}"),
         ScalarKind::F32 => format!("{:?}", x as f32),

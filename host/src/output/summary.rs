@@ -21,6 +21,8 @@ pub struct Summary {
     contact_edges: usize,
     contact_active: usize,
     sweeps: u32,
+    /// Of these, iterations of conjugate gradients: projected SOR alone would not have ended.
+    conjugate_iterations: u32,
     relaxation: f64,
     converged: bool,
     algebraic_residual: f64,
@@ -63,6 +65,7 @@ impl Summary {
             contact_edges: counts.contact,
             contact_active: solution.contact_active,
             sweeps: solution.sweeps,
+            conjugate_iterations: solution.conjugate,
             relaxation: solution.omega,
             converged: solution.converged(),
             algebraic_residual: solution.algebraic_residual,

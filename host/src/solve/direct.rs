@@ -29,7 +29,7 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
     system.make_feasible(&mut u);
     let residual = system.residual(&u);
     let sweeps = found.steps as u32;
-    let outcome = Outcome { status: Status::Converged, sweeps, residual, omega: 0.0 };
+    let outcome = Outcome { status: Status::Converged, sweeps, conjugate: 0, residual, omega: 0.0 };
     let solve = clock.lap();
     let fluxes = Fluxes::recover(&assembled, &u, &[]).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux: clock.lap() };

@@ -9,6 +9,7 @@ pub use solution::{Seconds, Solution, status_name};
 
 use std::time::Instant;
 
+use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
@@ -75,6 +76,10 @@ fn by_kernel<R: Scalar>(
         low: &mut low,
         defect: &mut vec![R::ZERO; counts.unknowns()],
         lower: &mut vec![R::ZERO; counts.contact],
+        conjugate: ConjugateBuffers {
+            direction: &mut vec![R::ZERO; counts.edges()],
+            residual: &mut vec![R::ZERO; counts.unknowns()],
+        },
     };
     let settings = options.settings::<R>();
     let outcome = refinement::run::<R, u32, Libm>(
@@ -154,6 +159,7 @@ fn finish<R: Scalar>(
         scalar,
         status: outcome.status,
         sweeps: outcome.sweeps,
+        conjugate: outcome.conjugate,
         algebraic_residual: outcome.residual.scaled().wide(),
         omega: outcome.omega.wide(),
         u: u.iter().map(|x| x.wide()).collect(),

@@ -21,6 +21,8 @@ pub struct Solution {
     pub status: Status,
     /// Sweeps, or active-set steps of the direct solver.
     pub sweeps: u32,
+    /// Iterations of conjugate gradients among them.
+    pub conjugate: u32,
     /// The scaled complementarity residual.
     pub algebraic_residual: f64,
     /// The last relaxation factor; 0 for the direct solver.
