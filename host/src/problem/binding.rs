@@ -16,6 +16,8 @@ pub struct Binding {
     /// The material of each cell, triangles first.
     pub materials: Vec<u32>,
     named: HashMap<[u32; 2], u32>,
+    /// Edges in two bound curves; wrong on the boundary, of no meaning inside.
+    twice: HashMap<[u32; 2], [u32; 2]>,
     default: Option<u32>,
 }
 
@@ -23,12 +25,47 @@ impl Binding {
     /// Resolves the names of `scene` on `mesh`.
     ///
     /// # Errors
-    /// A name that the mesh lacks, a cell with no material or with two, an edge in two curves that
-    /// the scene binds.
+    /// A name that the mesh lacks, a cell with no material or with two.
     pub fn new(scene: &Scene, mesh: &Mesh) -> Result<Self> {
         let materials = bind_materials(scene, mesh)?;
-        let (named, default) = bind_boundaries(scene, mesh)?;
-        Ok(Self { materials, named, default })
+        let mut binding =
+            Self { materials, named: HashMap::new(), twice: HashMap::new(), default: None };
+        binding.bind_boundaries(scene, mesh)?;
+        Ok(binding)
+    }
+
+    fn bind_boundaries(&mut self, scene: &Scene, mesh: &Mesh) -> Result<()> {
+        for (at, boundary) in scene.boundaries.iter().enumerate() {
+            let at = at as u32;
+            if boundary.name.value == DEFAULT {
+                self.default = Some(at);
+                continue;
+            }
+            let curve = mesh.curves.iter().find(|curve| curve.name == boundary.name.value);
+            let known = mesh.curves.iter().map(|curve| curve.name.as_str());
+            let curve =
+                curve.ok_or_else(|| unknown(scene, &boundary.name, "physical curve", known))?;
+            for &edge in &curve.edges {
+                if let Some(other) = self.named.insert(edge, at) {
+                    self.twice.insert(edge, [other, at]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a boundary edge that lies in two curves with a condition.
+    pub(super) fn check_once(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> Result<()> {
+        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let Some(&both) = self.twice.get(&key) else { return Ok(()) };
+        let [first, second] = both.map(|at| &scene.boundaries[at as usize].name);
+        let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
+        let message = format!(
+            "the edge ({}, {})–({}, {}) lies in the physical curves {:?} and {:?}, which both have a \
+             condition",
+            a[0], a[1], b[0], b[1], second.value, first.value
+        );
+        Err(scene.error(second, message).hint("keep one of the two").into())
     }
 
     /// The boundary that an edge between two vertices belongs to.
@@ -107,38 +144,6 @@ fn bind_materials(scene: &Scene, mesh: &Mesh) -> Result<Vec<u32>> {
     };
     let resolved = materials.iter().enumerate();
     resolved.map(|(cell, own)| own.or(default).ok_or_else(|| missing(cell).into())).collect()
-}
-
-type NamedEdges = (HashMap<[u32; 2], u32>, Option<u32>);
-
-fn bind_boundaries(scene: &Scene, mesh: &Mesh) -> Result<NamedEdges> {
-    let mut named: HashMap<[u32; 2], u32> = HashMap::new();
-    let mut default = None;
-    for (at, boundary) in scene.boundaries.iter().enumerate() {
-        if boundary.name.value == DEFAULT {
-            default = Some(at as u32);
-            continue;
-        }
-        let curve = mesh.curves.iter().find(|curve| curve.name == boundary.name.value);
-        let known = mesh.curves.iter().map(|curve| curve.name.as_str());
-        let curve = curve.ok_or_else(|| unknown(scene, &boundary.name, "physical curve", known))?;
-        for &edge in &curve.edges {
-            if let Some(other) = named.insert(edge, at as u32) {
-                let other = &scene.boundaries[other as usize].name.value;
-                let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
-                let message = format!(
-                    "the edge ({}, {})–({}, {}) lies in the physical curves {:?} and {other:?}, which \
-                     both have a condition",
-                    a[0], a[1], b[0], b[1], curve.name
-                );
-                return Err(scene
-                    .error(&boundary.name, message)
-                    .hint("keep one of the two")
-                    .into());
-            }
-        }
-    }
-    Ok((named, default))
 }
 
 fn unknown<'n>(

@@ -136,6 +136,11 @@ impl Problem {
         let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
         let count = topology.counts.edges();
         let ends: Vec<_> = (0..count).map(|edge| edges.endpoints(&kernel_mesh, edge)).collect();
+        for edge in 0..count {
+            if topology.half_edges[edge][1] == u32::MAX {
+                binding.check_once(scene, &mesh, ends[edge])?;
+            }
+        }
         let kinds: Vec<_> =
             (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge])).collect();
         let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
