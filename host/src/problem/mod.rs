@@ -136,9 +136,9 @@ impl Problem {
         let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
         let count = topology.counts.edges();
         let ends: Vec<_> = (0..count).map(|edge| edges.endpoints(&kernel_mesh, edge)).collect();
-        for edge in 0..count {
-            if topology.half_edges[edge][1] == u32::MAX {
-                binding.check_once(scene, &mesh, ends[edge])?;
+        for (pair, &ends) in topology.half_edges.iter().zip(&ends) {
+            if pair[1] == u32::MAX {
+                binding.check_once(scene, &mesh, ends)?;
             }
         }
         let kinds: Vec<_> =
