@@ -5,6 +5,8 @@
 //! and the last iterate stay, so that every solve starts warm. Who needs another arrangement takes the
 //! layers themselves: they work on slices.
 
+mod data;
+
 use heapless::Vec;
 
 use crate::assembly::{self, CellLoads};
@@ -12,9 +14,9 @@ use crate::boundary::{Boundary, Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
 use crate::csr::Csr;
 use crate::edges::{EdgeCounts, Edges};
-use crate::error::{Array, Error, all_finite, same_length};
-use crate::index::{Index, read};
-use crate::math::{Libm, Math};
+use crate::error::{Array, Error, all_finite};
+use crate::index::Index;
+use crate::math::Math;
 use crate::mesh::Mesh;
 use crate::numbering::{NumberingBuffers, number};
 use crate::real::Real;
@@ -173,97 +175,6 @@ impl<
         Ok(())
     }
 
-    /// Sets all boundary data anew; the iterate stays. An edge keeps its block: contact edges stay
-    /// contact and Dirichlet edges stay Dirichlet.
-    ///
-    /// # Errors
-    /// An edge without a condition or with one of another block, numbers that are not admissible;
-    /// the data are then half set, and another call must set them.
-    pub fn set_conditions(
-        &mut self,
-        mesh: &Mesh<R, I>,
-        mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
-    ) -> Result<(), Error> {
-        self.neumann.clear();
-        self.robin.clear();
-        self.contact_flux.clear();
-        self.gap.clear();
-        for at in 0..self.counts.edges() {
-            if read(&self.half_edges, at)[1] == I::NONE {
-                let edges = self.edges()?;
-                let ends = edges.endpoints(mesh, at);
-                let length = edges.length::<R, Libm>(mesh, at);
-                let named = ends.map(|vertex| vertex.at() as u32);
-                let found = condition(&BoundaryEdge::new(mesh, ends));
-                let found = found.ok_or(Error::NoCondition(named))?;
-                if self.counts.block(at) != found.block() {
-                    return Err(Error::ConditionChanged(named));
-                }
-                self.set_condition(at, length, found)?;
-            }
-        }
-        let mut values = core::mem::take(&mut self.values);
-        let filled = self.boundary().and_then(|boundary| {
-            assembly::values(
-                &self.edges()?,
-                self.stiffness(),
-                &boundary,
-                &self.row_ptr,
-                &mut values,
-            )
-        });
-        self.values = values;
-        filled?;
-        self.fill_load()
-    }
-
-    fn set_condition(&mut self, at: usize, length: R, found: Condition<R>) -> Result<(), Error> {
-        let edge = I::new(at).unwrap_or(I::NONE);
-        match found {
-            Condition::Neumann { flux } => {
-                push(&mut self.neumann, Neumann { edge, flux: flux * length }, Array::Neumann)
-            }
-            Condition::Robin { coefficient, ambient } => {
-                let coefficient = coefficient * length;
-                let record = Robin { edge, coefficient, ambient: coefficient * ambient };
-                push(&mut self.robin, record, Array::Robin)
-            }
-            Condition::Contact { gap, flux } => {
-                push(&mut self.contact_flux, flux * length, Array::Contact)?;
-                push(&mut self.gap, gap, Array::Contact)
-            }
-            Condition::Dirichlet { value } => {
-                if let Some(entry) = self.u.get_mut(at) {
-                    *entry = value;
-                }
-                Ok(())
-            }
-        }
-    }
-
-    /// Sets ∫_T f of every cell; the iterate stays.
-    ///
-    /// # Errors
-    /// Slices of the wrong length, numbers that are not finite: nothing is changed then.
-    pub fn set_source(&mut self, triangles: &[R], quads: &[R]) -> Result<(), Error> {
-        same_length(Array::CellLoads, triangles.len(), self.source_triangles.len())?;
-        same_length(Array::CellLoads, quads.len(), self.source_quads.len())?;
-        all_finite(Array::CellLoads, triangles)?;
-        all_finite(Array::CellLoads, quads)?;
-        self.source_triangles.copy_from_slice(triangles);
-        self.source_quads.copy_from_slice(quads);
-        self.fill_load()
-    }
-
-    fn fill_load(&mut self) -> Result<(), Error> {
-        let mut load = core::mem::take(&mut self.load);
-        let filled = self.boundary().and_then(|boundary| {
-            assembly::load(&self.edges()?, self.cells(), &boundary, &mut load)
-        });
-        self.load = load;
-        filled
-    }
-
     /// Solves from the present iterate and recovers the flux. Look at the outcome's status: the
     /// iterate is feasible and usable also where sweeps ran out.
     ///
@@ -349,8 +260,4 @@ fn fit<T: Copy + Default, const N: usize>(
 ) -> Result<(), Error> {
     storage.clear();
     storage.resize_default(needed).map_err(|_| Error::Capacity { of, needed, limit: N })
-}
-
-fn push<T, const N: usize>(storage: &mut Vec<T, N>, entry: T, of: Array) -> Result<(), Error> {
-    storage.push(entry).map_err(|_| Error::Capacity { of, needed: N + 1, limit: N })
 }
