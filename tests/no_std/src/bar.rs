@@ -10,6 +10,7 @@
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::components::{self, Part};
+use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::mesh::Mesh;
@@ -85,6 +86,10 @@ fn solve<R: Real, I: Index>(
         low: &mut low,
         defect: &mut [R::ZERO; UNKNOWNS],
         lower: &mut [R::ZERO; CONTACT],
+        conjugate: ConjugateBuffers {
+            direction: &mut [R::ZERO; EDGES],
+            residual: &mut [R::ZERO; UNKNOWNS],
+        },
     };
     refinement::run::<R, I, Libm>(&system, &boundary, Settings::default(), 1, &mut u, buffers)?;
     Ok([u, low])
