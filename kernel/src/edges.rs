@@ -44,12 +44,12 @@ pub struct EdgeCounts {
 impl EdgeCounts {
     /// Edges not on the Dirichlet boundary.
     pub fn unknowns(&self) -> usize {
-        self.free + self.contact
+        self.free.saturating_add(self.contact)
     }
 
     /// All edges.
     pub fn edges(&self) -> usize {
-        self.free + self.contact + self.dirichlet
+        self.unknowns().saturating_add(self.dirichlet)
     }
 
     /// Where a block begins.

@@ -54,9 +54,15 @@ pub fn recover<R: Real, I: Index>(
     flux: &mut [R],
 ) -> Result<Recovered<R>, Error> {
     same_length(Array::Unknowns, u.len(), edges.counts().edges())?;
-    if !low.is_empty() {
-        same_length(Array::Scratch, low.len(), u.len())?;
-    }
+    let (triangles, quads) = (edges.of_triangles().len(), edges.of_quads().len());
+    same_length(Array::Stiffness, stiffness.triangles.len(), triangles)?;
+    same_length(Array::Stiffness, stiffness.quads.len(), quads)?;
+    let or_empty = |of, found: usize, expected| {
+        if found == 0 { Ok(()) } else { same_length(of, found, expected) }
+    };
+    or_empty(Array::CellLoads, loads.triangles.len(), triangles)?;
+    or_empty(Array::CellLoads, loads.quads.len(), quads)?;
+    or_empty(Array::Scratch, low.len(), u.len())?;
     same_length(Array::Fluxes, flux.len(), edges.counts().edges())?;
     let mut gathered =
         Gathered { half_edges: edges.half_edges(), flux, found: Recovered::default() };
