@@ -5,7 +5,7 @@
 
 use crate::boundary::Boundary;
 use crate::edges::{Edges, Side};
-use crate::element::{diagonal, entry};
+use crate::element::lend;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::real::Real;
@@ -45,18 +45,7 @@ pub fn pattern<I: Index>(
             break;
         }
         length += put(I::new(i).unwrap_or(I::NONE));
-        for half in read(edges.half_edges(), i).into_iter().filter(|&half| half != I::NONE) {
-            match edges.side(half.at()) {
-                Side::Triangle(at, side) => {
-                    let others = read(edges.of_triangles(), at);
-                    (1..3).for_each(|k| length += put(read(&others, (side + k) % 3)));
-                }
-                Side::Quad(at, side) => {
-                    let others = read(edges.of_quads(), at);
-                    (1..4).for_each(|k| length += put(read(&others, (side + k) % 4)));
-                }
-            }
-        }
+        edges.neighbours(i).for_each(|column| length += put(column));
     }
     Ok(())
 }
@@ -84,10 +73,10 @@ pub fn values<R: Real, I: Index>(
         for half in pair.iter().filter(|&&half| half != I::NONE) {
             match edges.side(half.at()) {
                 Side::Triangle(at, side) => {
-                    *own += gather(&read(stiffness.triangles, at), 3, side, &mut places);
+                    *own += lend(&read(stiffness.triangles, at), 3, side, &mut places);
                 }
                 Side::Quad(at, side) => {
-                    *own += gather(&read(stiffness.quads, at), 4, side, &mut places);
+                    *own += lend(&read(stiffness.quads, at), 4, side, &mut places);
                 }
             }
         }
@@ -99,22 +88,6 @@ pub fn values<R: Real, I: Index>(
         }
     });
     Ok(())
-}
-
-/// Copies the entries of one side's row counterclockwise; returns the diagonal one.
-#[inline(always)]
-fn gather<'v, R: Real + 'v>(
-    k: &[R],
-    sides: usize,
-    side: usize,
-    places: &mut impl Iterator<Item = &'v mut R>,
-) -> R {
-    for step in 1..sides {
-        if let Some(place) = places.next() {
-            *place = read(k, entry(sides, side, (side + step) % sides));
-        }
-    }
-    diagonal(sides, k, side)
 }
 
 /// Fills the load b: (∫_T f)/m from each cell with m sides, and what the boundary adds.

@@ -11,9 +11,11 @@
 //! ```
 //! Every step lowers the energy. Two vectors of scratch; K p is computed twice instead of stored.
 
+use crate::error::Error;
 use crate::index::{Index, read};
 use crate::psor;
 use crate::real::Real;
+use crate::rows::Rows;
 use crate::signorini::System;
 
 /// Scratch: the direction (one entry an edge) and the residual on the face (one an unknown).
@@ -26,17 +28,22 @@ pub struct ConjugateBuffers<'a, R> {
 }
 
 /// Iterates at most `iterations` times, until every |r_i|/K_ii on the face is below `goal`; returns
-/// the number of iterations. `u` must be feasible, and stays so.
-pub fn run<R: Real, I: Index>(
+/// the number of iterations. `u` must be feasible, and stays so; `rows` are set for the sweeps.
+///
+/// # Errors
+/// Arrays that do not belong to the same mesh.
+pub fn run<R: Real, I: Index, const WIDTH: usize>(
     system: &System<R, I>,
+    rows: &mut Rows<R, I, WIDTH>,
     goal: R,
     iterations: u32,
     u: &mut [R],
     buffers: &mut ConjugateBuffers<R>,
-) -> u32 {
+) -> Result<u32, Error> {
     let mut used = 0;
+    rows.set(system, R::ONE)?;
     while used < iterations {
-        psor::sweep(system, u, R::ONE);
+        psor::sweep(rows, system.lower(), u)?;
         used += 1;
         let small = start(system, u, buffers, goal);
         if small && system.residual(u).largest <= goal {
@@ -51,7 +58,7 @@ pub fn run<R: Real, I: Index>(
             }
         }
     }
-    used
+    Ok(used)
 }
 
 /// r on the face and p = D⁻¹r; tells whether the residual is small already.

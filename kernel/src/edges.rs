@@ -170,6 +170,28 @@ impl<'a, I: Index> Edges<'a, I> {
         self.side(read(self.half_edges, edge)[0].at())
     }
 
+    /// The other sides of an edge's cells: those of its first cell, then those of its second, each
+    /// counterclockwise from the edge. A row of the matrix has this order.
+    pub fn neighbours(&self, edge: usize) -> impl Iterator<Item = I> + use<'a, I> {
+        let edges = *self;
+        let halves = read(self.half_edges, edge).into_iter().filter(|&half| half != I::NONE);
+        halves.flat_map(move |half| edges.others(half.at()).into_iter().filter(|&i| i != I::NONE))
+    }
+
+    /// The edges of the other sides of a half-edge's cell, counterclockwise.
+    fn others(&self, half_edge: usize) -> [I; 3] {
+        match self.side(half_edge) {
+            Side::Triangle(at, side) => {
+                let sides = read(self.of_triangles, at);
+                [read(&sides, (side + 1) % 3), read(&sides, (side + 2) % 3), I::NONE]
+            }
+            Side::Quad(at, side) => {
+                let sides = read(self.of_quads, at);
+                [1, 2, 3].map(|k| read(&sides, (side + k) % 4))
+            }
+        }
+    }
+
     /// Start and end vertex of an edge, counterclockwise around its first cell.
     pub fn endpoints<R: Real>(&self, mesh: &Mesh<R, I>, edge: usize) -> [I; 2] {
         endpoints(mesh, read(self.half_edges, edge)[0].at())

@@ -105,6 +105,7 @@ pub enum Array {
     RowPointers,
     ColumnIndices,
     MatrixValues,
+    Rows,
     Load,
     LowerBounds,
     Unknowns,
@@ -166,6 +167,11 @@ impl core::error::Error for Error {}
 /// `Ok` when an array is as long as the others ask for.
 pub(crate) fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { of, found, expected }) }
+}
+
+/// The same for an array that may be left out.
+pub(crate) fn same_length_or_empty(of: Array, found: usize, expected: usize) -> Result<(), Error> {
+    if found == 0 { Ok(()) } else { same_length(of, found, expected) }
 }
 
 /// `Ok` when every number of an array is finite.

@@ -12,6 +12,8 @@ mod sealed {
 
 /// An index into vertices, cells or edges: `u16` or `u32`, and nothing else.
 pub trait Index: Copy + Eq + Ord + Default + core::fmt::Debug + sealed::Sealed + 'static {
+    /// Position 0.
+    const FIRST: Self;
     /// "There is none": the second cell of a boundary edge.
     const NONE: Self;
     /// The largest number of things that this type can number.
@@ -27,6 +29,7 @@ pub trait Index: Copy + Eq + Ord + Default + core::fmt::Debug + sealed::Sealed +
 macro_rules! index {
     ($integer:ident) => {
         impl Index for $integer {
+            const FIRST: Self = 0;
             const NONE: Self = $integer::MAX;
             const LIMIT: usize = $integer::MAX as usize;
 

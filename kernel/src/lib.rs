@@ -1,5 +1,4 @@
 #![no_std]
-#![forbid(unsafe_code)]
 #![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 // `!(a < b)` is meant: it is true where a or b is NaN.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
@@ -29,7 +28,7 @@
 //!
 //! let vertices = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 //! let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[])?;
-//! let mut bar = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25>::new();
+//! let mut bar = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25, 4>::new();
 //! bar.build(&mesh, Coefficient::Uniform(Tensor::scalar(3.0)), |edge| {
 //!     Some(match edge.middle() {
 //!         [x, _] if x == 0.0 => Condition::Dirichlet { value: 0.0 },
@@ -78,6 +77,7 @@ pub mod quadrature;
 mod real;
 pub mod refinement;
 mod relaxation;
+pub mod rows;
 pub mod shift;
 pub mod signorini;
 pub mod solver;

@@ -100,7 +100,14 @@ impl<'a, R: Real, I: Index> Mesh<'a, R, I> {
 
     /// The corners of a triangle.
     pub fn triangle(&self, vertices: &[I; 3]) -> [[R; 2]; 3] {
-        vertices.map(|vertex| read(self.vertices, vertex.at()))
+        self.corners(vertices).unwrap_or_default()
+    }
+
+    /// `None` where a vertex is not one of this mesh.
+    #[inline(always)]
+    pub(crate) fn corners(&self, &[a, b, c]: &[I; 3]) -> Option<[[R; 2]; 3]> {
+        let at = |vertex: I| self.vertices.get(vertex.at()).copied();
+        Some([at(a)?, at(b)?, at(c)?])
     }
 
     /// The corners of a quad.

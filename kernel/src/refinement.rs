@@ -18,12 +18,15 @@ use crate::index::{Index, read};
 use crate::math::Math;
 use crate::real::Real;
 use crate::relaxation::Relaxation;
+use crate::rows::Rows;
 use crate::signorini::{Residual, System};
 use crate::solver::{Outcome, Settings, Solver, Status};
 
-/// Memory for [`run`]: two arrays over edges, two over unknowns, one over contact edges.
+/// Memory for [`run`]: the rows, two arrays over edges, two over unknowns, one over contact edges.
 #[derive(Debug)]
-pub struct RefinementBuffers<'a, R> {
+pub struct RefinementBuffers<'a, R, I, const WIDTH: usize> {
+    /// Rows to sweep over, of the system's numbering.
+    pub rows: Rows<'a, R, I, WIDTH>,
     /// The low part of u after the solve: u + low is the answer. One entry an edge.
     pub low: &'a mut [R],
     /// The defect. One entry an unknown.
@@ -42,15 +45,16 @@ const PLAIN: u32 = 10_000;
 const HELP: u32 = 8;
 
 /// A solve whose slow parts are left to conjugate gradients where plain sweeps do not end.
-fn solve<R: Real, I: Index, M: Math<R>>(
+fn solve<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     system: &System<R, I>,
     settings: Settings<R>,
     u: &mut [R],
+    rows: &mut Rows<R, I, WIDTH>,
     buffers: &mut ConjugateBuffers<R>,
 ) -> Result<Outcome<R>, Error> {
     let most = settings.max_sweeps;
     let plain = Settings { max_sweeps: most.min(PLAIN), ..settings };
-    let mut outcome = Solver::<R, M>::with_math(plain)?.run(system, u);
+    let mut outcome = Solver::<R, M>::with_math(plain)?.run(system, rows, u)?;
     for _ in 0..HELP {
         let left = most.saturating_sub(outcome.sweeps);
         let ended = !matches!(outcome.status, Status::OutOfSweeps | Status::Stalled);
@@ -60,12 +64,12 @@ fn solve<R: Real, I: Index, M: Math<R>>(
         let unknowns = u32::try_from(system.load().len()).unwrap_or(u32::MAX);
         let iterations = left.min(unknowns.saturating_mul(4).max(PLAIN));
         let goal = outcome.residual.rounding;
-        let used = conjugate::run(system, goal, iterations, u, buffers);
+        let used = conjugate::run(system, rows, goal, iterations, u, buffers)?;
         // At least one sweep judges, also where the help has used up all that was left.
         let check = left.saturating_sub(used).min(PLAIN / 4);
         let again = Settings { max_sweeps: check.saturating_add(1), ..settings };
         let before = outcome;
-        outcome = Solver::<R, M>::with_math(again)?.run(system, u);
+        outcome = Solver::<R, M>::with_math(again)?.run(system, rows, u)?;
         outcome.sweeps = outcome.sweeps.saturating_add(before.sweeps).saturating_add(used);
         outcome.conjugate = before.conjugate.saturating_add(used);
     }
@@ -79,22 +83,22 @@ fn solve<R: Real, I: Index, M: Math<R>>(
 ///
 /// # Errors
 /// Slices of the wrong length, a relaxation factor outside (0, 2).
-pub fn run<R: Real, I: Index, M: Math<R>>(
+pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     system: &System<R, I>,
     boundary: &Boundary<R, I>,
     settings: Settings<R>,
     rounds: u32,
     u: &mut [R],
-    buffers: RefinementBuffers<R>,
+    buffers: RefinementBuffers<R, I, WIDTH>,
 ) -> Result<Outcome<R>, Error> {
-    let RefinementBuffers { low, defect, lower, mut conjugate } = buffers;
+    let RefinementBuffers { mut rows, low, defect, lower, mut conjugate } = buffers;
     same_length(Array::Scratch, low.len(), u.len())?;
     same_length(Array::Scratch, defect.len(), system.load().len())?;
     same_length(Array::Scratch, lower.len(), system.lower().len())?;
     same_length(Array::Scratch, conjugate.direction.len(), u.len())?;
     same_length(Array::Scratch, conjugate.residual.len(), system.load().len())?;
     low.fill(R::ZERO);
-    let mut outcome = solve::<R, I, M>(system, settings, u, &mut conjugate)?;
+    let mut outcome = solve::<R, I, M, WIDTH>(system, settings, u, &mut rows, &mut conjugate)?;
     let size = outcome.residual;
     for _ in 0..rounds {
         if outcome.status != Status::RoundingLimit {
@@ -107,7 +111,7 @@ pub fn run<R: Real, I: Index, M: Math<R>>(
         }
         let correction = system.with_data(defect, lower)?;
         let goal = goal(settings, &outcome, size.scale());
-        let mut next = solve::<R, I, M>(&correction, goal, low, &mut conjugate)?;
+        let mut next = solve::<R, I, M, WIDTH>(&correction, goal, low, &mut rows, &mut conjugate)?;
         next.residual = Residual { range: size.range, load: size.load, ..next.residual };
         next.sweeps = next.sweeps.saturating_add(outcome.sweeps);
         next.conjugate = next.conjugate.saturating_add(outcome.conjugate);

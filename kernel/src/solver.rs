@@ -5,12 +5,13 @@
 
 use core::marker::PhantomData;
 
-use crate::error::Error;
+use crate::error::{Array, Error, same_length};
 use crate::index::Index;
 use crate::math::{Libm, Math};
 use crate::psor;
 use crate::real::Real;
 use crate::relaxation::{Relaxation, Search};
+use crate::rows::Rows;
 use crate::shift;
 use crate::signorini::{Residual, System};
 
@@ -148,29 +149,65 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         Ok(Self { settings, search, sweeps: 0, next_look, last_look: 0, best, math: PhantomData })
     }
 
-    /// One sweep; says how the solve ended where this was its last one.
-    pub fn step<I: Index>(&mut self, system: &System<R, I>, u: &mut [R]) -> Option<Outcome<R>> {
-        if self.sweeps >= self.settings.max_sweeps {
-            return Some(self.outcome(Status::OutOfSweeps, system.residual(u)));
-        }
-        psor::sweep(system, u, self.search.omega);
-        self.sweeps += 1;
-        if self.sweeps < self.next_look.min(self.settings.max_sweeps) {
-            return None;
-        }
-        self.look(system, u)
+    /// Makes `u` feasible and `rows` those of `system`; says so where nothing is left to do. To be
+    /// called once before [`Solver::step`].
+    ///
+    /// # Errors
+    /// Arrays that do not belong to the same mesh.
+    pub fn start<I: Index, const WIDTH: usize>(
+        &mut self,
+        system: &System<R, I>,
+        rows: &mut Rows<R, I, WIDTH>,
+        u: &mut [R],
+    ) -> Result<Option<Outcome<R>>, Error> {
+        same_length(Array::Unknowns, u.len(), system.counts().edges())?;
+        system.make_feasible(u);
+        rows.set(system, self.search.omega)?;
+        let residual = system.residual(u);
+        Ok(self.judge(&residual).map(|status| self.outcome(status, residual)))
     }
 
-    /// Sweeps until the solve ends. `u` is the start (any values; the gap lifts it) and the answer.
-    pub fn run<I: Index>(&mut self, system: &System<R, I>, u: &mut [R]) -> Outcome<R> {
-        system.make_feasible(u);
-        let start = system.residual(u);
-        if let Some(status) = self.judge(&start) {
-            return self.outcome(status, start);
+    /// One sweep; says how the solve ended where this was its last one.
+    ///
+    /// # Errors
+    /// Arrays that do not belong to the same mesh.
+    pub fn step<I: Index, const WIDTH: usize>(
+        &mut self,
+        system: &System<R, I>,
+        rows: &mut Rows<R, I, WIDTH>,
+        u: &mut [R],
+    ) -> Result<Option<Outcome<R>>, Error> {
+        if self.sweeps >= self.settings.max_sweeps {
+            return Ok(Some(self.outcome(Status::OutOfSweeps, system.residual(u))));
         }
+        psor::sweep(rows, system.lower(), u)?;
+        self.sweeps += 1;
+        if self.sweeps < self.next_look.min(self.settings.max_sweeps) {
+            return Ok(None);
+        }
+        let ended = self.look(system, u);
+        if self.search.omega != rows.omega() {
+            rows.set(system, self.search.omega)?;
+        }
+        Ok(ended)
+    }
+
+    /// Sweeps until the solve ends. `u` is the start (any values; the gap lifts it) and the answer;
+    /// `rows` is memory to sweep over, of the numbering that `system` has.
+    ///
+    /// # Errors
+    /// Arrays that do not belong to the same mesh.
+    pub fn run<I: Index, const WIDTH: usize>(
+        &mut self,
+        system: &System<R, I>,
+        rows: &mut Rows<R, I, WIDTH>,
+        u: &mut [R],
+    ) -> Result<Outcome<R>, Error> {
+        let mut ended = self.start(system, rows, u)?;
         loop {
-            if let Some(outcome) = self.step(system, u) {
-                return outcome;
+            match ended {
+                Some(outcome) => return Ok(outcome),
+                None => ended = self.step(system, rows, u)?,
             }
         }
     }

@@ -46,7 +46,7 @@ impl<R: Real> Coefficient<'_, R> {
 /// Element matrices without their diagonals (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Stiffness<'a, R> {
-    /// \[01, 02, 12\] of each triangle.
+    /// \[01, 12, 20\] of each triangle.
     pub triangles: &'a [[R; 3]],
     /// \[01, 02, 03, 12, 13, 23\] of each quad.
     pub quads: &'a [[R; 6]],
@@ -74,10 +74,23 @@ pub fn fill<R: Real, I: Index>(
     if let Some(expected) = coefficient.expected(triangles.len(), quads.len(), points) {
         same_length(Array::Coefficients, coefficient.len(), expected)?;
     }
+    if let Coefficient::Uniform(tensor) = coefficient {
+        checked(tensor, CellId::Triangle(0))?;
+    }
+    // Becomes NaN with the first sum that is not finite, and stays it.
+    let mut doubt = R::ZERO;
     for (at, (vertices, k)) in mesh.triangles().iter().zip(triangles.iter_mut()).enumerate() {
-        let tensor = checked(coefficient.at(at, at), CellId::Triangle(at))?;
-        *k = crouzeix_raviart::stiffness(mesh.triangle(vertices), tensor);
-        check_entries(k, at)?;
+        let tensor = match coefficient {
+            Coefficient::Uniform(tensor) => tensor,
+            _ => checked(coefficient.at(at, at), CellId::Triangle(at))?,
+        };
+        let stray = Error::OutOfRange { of: Array::Triangles, at };
+        *k = crouzeix_raviart::stiffness(mesh.corners(vertices).ok_or(stray)?, tensor);
+        let sum = k[0] + k[1] + k[2];
+        doubt += sum * R::ZERO;
+    }
+    if !doubt.finite() {
+        triangles.iter().enumerate().try_for_each(|(at, k)| check_entries(k, at))?;
     }
     for (at, (vertices, k)) in mesh.quads().iter().zip(quads.iter_mut()).enumerate() {
         let cell = mesh.triangles().len() + at;
@@ -100,7 +113,8 @@ fn checked<R: Real>(tensor: Tensor<R>, cell: CellId) -> Result<Tensor<R>, Error>
     if tensor.is_positive_definite() { Ok(tensor) } else { Err(Error::NotPositiveDefinite(cell)) }
 }
 
+/// The diagonal, a sum of the entries, shall not overflow either.
 fn check_entries<R: Real>(k: &[R], at: usize) -> Result<(), Error> {
-    let finite = k.iter().all(|entry| entry.finite());
-    if finite { Ok(()) } else { Err(Error::NotFinite { of: Array::Stiffness, at }) }
+    let sum = k.iter().fold(R::ZERO, |sum, &entry| sum + entry);
+    if sum.finite() { Ok(()) } else { Err(Error::NotFinite { of: Array::Stiffness, at }) }
 }

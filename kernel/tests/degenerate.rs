@@ -6,12 +6,13 @@ use signorini_kernel::condition::{BoundaryEdge, Condition};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace};
 
-type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200>;
+type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200, 6>;
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
@@ -132,7 +133,7 @@ fn bad_topology_is_named() {
 #[test]
 fn a_workspace_that_is_too_small_says_by_how_much() {
     let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
-    let mut tight = Workspace::<f64, u16, 4, 1, 0, 4, 6, 25>::new();
+    let mut tight = Workspace::<f64, u16, 4, 1, 0, 4, 6, 25, 4>::new();
     let error = tight.build(&mesh, UNIT, |_| Some(OPEN));
     assert_eq!(error, Err(Error::Capacity { of: Array::Triangles, needed: 2, limit: 1 }));
 }
@@ -160,12 +161,15 @@ fn arrays_that_do_not_fit_are_refused() {
 }
 
 /// The chain −u'' = −1 over an obstacle, small enough to write down.
-fn chain<R>(work: impl FnOnce(&System<f64, u16>) -> R) -> R {
+fn chain<R>(work: impl FnOnce(&System<f64, u16>, &mut Rows<f64, u16, 2>) -> R) -> R {
     let (row_ptr, col_idx) = ([0, 2, 5, 7], [0u16, 1, 1, 0, 2, 2, 1]);
     let values = [2.0, -1.0, 2.0, -1.0, -1.0, 2.0, -1.0];
     let counts = EdgeCounts { free: 2, contact: 1, dirichlet: 0 };
     let matrix = Csr::new(&row_ptr, &col_idx, &values, 3).expect("valid");
-    work(&System::new(matrix, &[-1.0, -1.0, -1.0], &[-0.5], counts).expect("valid"))
+    let mut memory = [Row::EMPTY; 3];
+    let mut rows = Rows::of_matrix(&matrix, counts, &mut memory).expect("valid");
+    let system = System::new(matrix, &[-1.0, -1.0, -1.0], &[-0.5], counts).expect("valid");
+    work(&system, &mut rows)
 }
 
 #[test]
@@ -176,7 +180,7 @@ fn every_start_and_every_relaxation_lead_to_the_same_answer() {
             let mut u = start;
             let settings = Settings { relaxation, tolerance: 1e-14, ..Settings::default() };
             let mut solver = Solver::new(settings).expect("valid");
-            let outcome = chain(|system| solver.run(system, &mut u));
+            let outcome = chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid");
             if start[2].is_nan() {
                 assert!(u[2].is_finite(), "the gap lifts what is not a number");
             }
@@ -194,7 +198,8 @@ fn every_way_to_end() {
     let settings = Settings::<f64>::default();
     let run = |settings, start: [f64; 3]| {
         let mut u = start;
-        chain(|system| Solver::new(settings).expect("valid").run(system, &mut u)).status
+        let mut solver = Solver::new(settings).expect("valid");
+        chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid").status
     };
     assert_eq!(run(Settings { tolerance: 1e-6, ..settings }, [0.0; 3]), Status::Converged);
     let few = Settings { max_sweeps: 1, ..settings };
@@ -209,7 +214,7 @@ fn every_way_to_end() {
 fn fast_math_costs_what_it_says() {
     let vertices = SQUARE.map(|v| v.map(|x| x as f32));
     let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
-    let mut plate = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25>::new();
+    let mut plate = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25, 4>::new();
     let unit = Coefficient::Uniform(Tensor::scalar(1.0));
     let sides = |edge: &BoundaryEdge<f32, u16>| match edge.middle() {
         [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),

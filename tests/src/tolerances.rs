@@ -70,8 +70,9 @@ table! {
         "the kernel stops when it takes the error for 1e−10";
     KERNEL_FLUX: "edge fluxes of kernel and twin, over the largest one", 1e-8,
         "differences of u times entries of K, which are large on distorted cells";
-    NARROW_AGREEMENT: "edge means in f32 against the twin, over the largest one", 1e-4,
-        "coordinates and tensors are rounded to f32, and jumps of 10⁴ from cell to cell amplify that";
+    NARROW_AGREEMENT: "edge means in f32 against the twin, over the largest one", 1e-3,
+        "coordinates and tensors are rounded to f32, and jumps of 10⁴ from cell to cell amplify that: \
+         4.7e-4 at worst over 1500 seeds, 4.6e-4 with another formula for areas";
     TRAPEZOID_RATE: "observed order of an error on trapezoids against its limit", 0.1,
         "orders between n = 16 and 32 are still on their way to the limit";
 }

@@ -11,11 +11,12 @@ use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::{Index, Libm, Real, Tensor, contact, flux};
+use signorini_kernel::{Index, Libm, Real, Tensor, contact, flux, psor};
 use signorini_tests::cell::Cell;
 use signorini_tests::field::Scalar;
 use signorini_tests::grid::{Edge, edge};
@@ -112,8 +113,14 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
 
     let mut u = vec![R::ZERO; counts.unknowns()];
     u.extend(&data.dirichlet);
+    if quads.is_empty() {
+        rows_agree::<R, I, TRIANGLES>(&edges, k, &boundary, &system, &u);
+    }
+    rows_agree::<R, I, QUADS>(&edges, k, &boundary, &system, &u);
     let mut low = vec![R::ZERO; u.len()];
+    let mut rows = vec![Row::<R, I, QUADS>::EMPTY; counts.unknowns()];
     let buffers = RefinementBuffers {
+        rows: Rows::new(&edges, &mut rows).expect("small enough"),
         low: &mut low,
         defect: &mut vec![R::ZERO; counts.unknowns()],
         lower: &mut vec![R::ZERO; counts.contact],
@@ -126,8 +133,9 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
         if R::EPSILON.wide() < 1e-10 { (1e-13, 1e-10) } else { (0.0, 1e-7) };
     let [tolerance, accuracy] = [tolerance, accuracy].map(R::narrow);
     let settings = Settings { tolerance, accuracy, ..Settings::default() };
-    let outcome = refinement::run::<R, I, Libm>(&system, &boundary, settings, 6, &mut u, buffers)
-        .expect("valid settings");
+    let outcome =
+        refinement::run::<R, I, Libm, QUADS>(&system, &boundary, settings, 6, &mut u, buffers)
+            .expect("valid settings");
     let converged = matches!(outcome.status, Status::Converged | Status::RoundingLimit);
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(&edges, k, loads, &u, &low, &mut fluxes).expect("lengths");
@@ -138,6 +146,45 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
         outward: on_boundary.map(|at| (keys[at], fluxes[at].wide())).collect(),
         means: keys.iter().copied().zip(u.iter().map(|u| u.wide())).collect(),
         force,
+    }
+}
+
+/// A sweep over rows from CSR, one over rows from the element matrices, bit for bit, and one written
+/// out with CSR, up to rounding.
+fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
+    edges: &Edges<I>,
+    stiffness: Stiffness<R>,
+    boundary: &Boundary<R, I>,
+    system: &System<R, I>,
+    start: &[R],
+) {
+    let omega = R::narrow(1.7);
+    let (counts, matrix) = (system.counts(), system.matrix());
+    let mut memory = vec![Row::<R, I, WIDTH>::EMPTY; counts.unknowns()];
+    let mut rows = Rows::of_matrix(matrix, counts, &mut memory).expect("small enough");
+    rows.set(system, omega).expect("one numbering");
+    let mut swept = start.to_vec();
+    psor::sweep(&rows, system.lower(), &mut swept).expect("lengths");
+
+    let mut memory = vec![Row::<R, I, WIDTH>::EMPTY; counts.unknowns()];
+    let mut rows = Rows::new(edges, &mut memory).expect("small enough");
+    rows.gather(edges, stiffness, boundary, system.load(), omega).expect("one numbering");
+    let mut gathered = start.to_vec();
+    psor::sweep(&rows, system.lower(), &mut gathered).expect("lengths");
+    assert_eq!(swept, gathered, "rows of either source");
+
+    let mut plain = start.to_vec();
+    for (i, (row, &load)) in matrix.iter().zip(system.load()).enumerate() {
+        let step = omega * (load - row.dot(&plain)) / row.diagonal();
+        plain[i] += step;
+        if i >= counts.free && plain[i] < system.lower()[i - counts.free] {
+            plain[i] = system.lower()[i - counts.free];
+        }
+    }
+    let most = plain.iter().fold(1e-30, |most: f64, u| most.max(u.wide().abs()));
+    for (swept, plain) in swept.iter().zip(&plain) {
+        let apart = (swept.wide() - plain.wide()).abs() / most;
+        assert!(apart < 1e3 * R::EPSILON.wide(), "{swept} instead of {plain}");
     }
 }
 
@@ -262,7 +309,7 @@ fn random_scenes_in_f32_and_with_wide_indices() {
 
 #[test]
 fn element_matrices() {
-    use signorini_kernel::element::{crouzeix_raviart, product, rannacher_turek};
+    use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
     for seed in 0..100 {
         let problem = random::problem(&mut Random::new(1000 + seed), 3);
         for cell in 0..problem.grid.cell_count() {
@@ -274,12 +321,12 @@ fn element_matrices() {
             let columns: Vec<Vec<f64>> = match corners[..] {
                 [p, q, r] => {
                     let k = crouzeix_raviart::stiffness([p, q, r], a);
-                    (0..3).map(|j| product(&k, &unit::<3>(j)).to_vec()).collect()
+                    (0..3).map(|j| crouzeix_raviart::product(&k, &unit::<3>(j)).to_vec()).collect()
                 }
                 [p, q, r, s] => {
                     let rule = f64::GAUSS[7];
                     let k = rannacher_turek::stiffness([p, q, r, s], rule, |_, _| a);
-                    (0..4).map(|j| product(&k, &unit::<4>(j)).to_vec()).collect()
+                    (0..4).map(|j| rannacher_turek::product(&k, &unit::<4>(j)).to_vec()).collect()
                 }
                 _ => unreachable!("cells have three or four corners"),
             };

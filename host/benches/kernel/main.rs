@@ -13,6 +13,7 @@ use signorini_host::problem::{Assembled, Problem};
 use signorini_host::quadrature::DATA_POINTS;
 use signorini_host::scalar::Scalar;
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Tensor, assembly, flux, psor};
@@ -89,14 +90,19 @@ fn sweep<R: Scalar>(bencher: &mut Bencher, _: &Problem, assembled: &Assembled<R>
     let system = assembled.system().expect("the numbers are finite");
     let mut u = assembled.start();
     system.make_feasible(&mut u);
-    bencher.iter(|| psor::sweep(&system, &mut u, R::narrow(1.9)));
+    let mut memory = vec![Row::<R, u32, QUADS>::EMPTY; system.counts().unknowns()];
+    let mut rows = Rows::new(assembled.edges(), &mut memory).expect("u32 holds the edges");
+    rows.set(&system, R::narrow(1.9)).expect("one numbering");
+    bencher.iter(|| psor::sweep(&rows, system.lower(), &mut u));
 }
 
 /// A solve from a cold start to a residual that both scalars reach.
 fn solve<R: Scalar>(bencher: &mut Bencher, _: &Problem, assembled: &Assembled<R>) {
     let system = assembled.system().expect("the numbers are finite");
     let settings = Settings { tolerance: R::narrow(1e-5), ..Settings::default() };
-    let run = |u: &mut Vec<R>| Solver::new(settings).map(|mut solver| solver.run(&system, u));
+    let mut memory = vec![Row::<R, u32, QUADS>::EMPTY; system.counts().unknowns()];
+    let mut rows = Rows::new(assembled.edges(), &mut memory).expect("u32 holds the edges");
+    let mut run = |u: &mut Vec<R>| Solver::<R>::new(settings)?.run(&system, &mut rows, u);
     let status = run(&mut assembled.start()).map(|outcome| outcome.status);
     assert_eq!(status, Ok(Status::Converged));
     bencher.iter_batched_ref(|| assembled.start(), run, BatchSize::LargeInput);

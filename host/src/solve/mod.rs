@@ -9,8 +9,12 @@ pub use solution::{Seconds, Solution, status_name};
 
 use std::time::Instant;
 
+use signorini_kernel::boundary::Boundary;
 use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::edges::Edges;
 use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
 
@@ -70,10 +74,37 @@ fn by_kernel<R: Scalar>(
     let assembly = clock.lap();
 
     let mut u = assembled.start();
-    let counts = problem.topology.counts;
-    let mut low = vec![R::ZERO; counts.edges()];
+    let mut low = vec![R::ZERO; u.len()];
+    let iterate = if problem.mesh.quads.is_empty() {
+        iterate::<R, { rows::TRIANGLES }>
+    } else {
+        iterate::<R, { rows::QUADS }>
+    };
+    let outcome = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
+    let outcome = outcome.map_err(&unfit)?;
+    if outcome.status == Status::NotFinite {
+        return Err(overflow::<R>(scene));
+    }
+    let solve = clock.lap();
+    let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux: clock.lap() };
+    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, options.scalar))
+}
+
+/// Sweeps with rows of `WIDTH` entries and refines; `low` becomes the low part of `u`.
+fn iterate<R: Scalar, const WIDTH: usize>(
+    system: &System<R, u32>,
+    boundary: &Boundary<R, u32>,
+    edges: &Edges<u32>,
+    options: &Options,
+    u: &mut [R],
+    low: &mut [R],
+) -> std::result::Result<Outcome<R>, KernelError> {
+    let counts = edges.counts();
+    let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
     let buffers = RefinementBuffers {
-        low: &mut low,
+        rows: Rows::new(edges, &mut rows)?,
+        low,
         defect: &mut vec![R::ZERO; counts.unknowns()],
         lower: &mut vec![R::ZERO; counts.contact],
         conjugate: ConjugateBuffers {
@@ -82,22 +113,7 @@ fn by_kernel<R: Scalar>(
         },
     };
     let settings = options.settings::<R>();
-    let outcome = refinement::run::<R, u32, Libm>(
-        &system,
-        &boundary,
-        settings,
-        options.rounds(),
-        &mut u,
-        buffers,
-    )
-    .map_err(&unfit)?;
-    if outcome.status == Status::NotFinite {
-        return Err(overflow::<R>(scene));
-    }
-    let solve = clock.lap();
-    let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux: clock.lap() };
-    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, options.scalar))
+    refinement::run::<R, u32, Libm, WIDTH>(system, boundary, settings, options.rounds(), u, buffers)
 }
 
 struct Clock(Instant);

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use signorini_kernel::psor;
+use signorini_kernel::rows::{self, Row, Rows};
 
 use crate::cycles::smallest;
 use crate::problem::{Assembled, Problem};
@@ -12,9 +13,9 @@ use crate::scalar::Scalar;
 pub struct Cost {
     /// Cycles per unknown and sweep.
     pub sweep: f64,
-    /// Cycles per unknown for reading once, in order, all that a sweep reads.
+    /// Cycles per unknown for reading once, in order, as many bytes as the rows have.
     pub stream: f64,
-    /// Bytes of matrix, load and u that a sweep touches, per unknown.
+    /// Bytes of rows and u that a sweep touches, per unknown.
     pub bytes: f64,
     /// Multiply–adds of a sweep, per unknown.
     pub multiply_adds: f64,
@@ -26,35 +27,44 @@ const TOGETHER: u32 = 20;
 /// Sums kept apart, so that reading and not adding is measured.
 const LANES: usize = 16;
 
-fn add<R: Scalar>(mut sums: [R; LANES], values: &[R]) -> [R; LANES] {
+fn add<R: Scalar>(mut sums: [R; LANES], values: &[R; LANES]) -> [R; LANES] {
     sums.iter_mut().zip(values).for_each(|(sum, &value)| *sum += value);
     sums
 }
 
 /// Measures sweeps on `problem`; `None` where it has no unknowns or does not fit the scalar.
 pub fn measure<R: Scalar>(problem: &Problem) -> Option<Cost> {
+    if problem.mesh.quads.is_empty() {
+        with_rows::<R, { rows::TRIANGLES }>(problem)
+    } else {
+        with_rows::<R, { rows::QUADS }>(problem)
+    }
+}
+
+fn with_rows<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Option<Cost> {
     let assembled = Assembled::<R>::new(problem).ok()?;
     let system = assembled.system().ok()?;
+    let unknowns = system.counts().unknowns();
+    let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; unknowns];
+    let mut rows = Rows::new(assembled.edges(), &mut memory).ok()?;
+    rows.set(&system, R::ONE + R::HALF).ok()?;
     let mut u = assembled.start();
-    let omega = R::ONE + R::HALF;
-    let sweeps = smallest(|| (0..TOGETHER).for_each(|_| psor::sweep(&system, &mut u, omega)));
-    let matrix = system.matrix();
+    let mut sweep = |_| psor::sweep(&rows, system.lower(), &mut u);
+    let sweeps = smallest(|| (0..TOGETHER).try_for_each(&mut sweep).unwrap_or_default());
+    let bytes = size_of::<Row<R, u32, WIDTH>>() as f64;
+    let numbers = vec![R::ONE; unknowns * size_of::<Row<R, u32, WIDTH>>() / size_of::<R>()];
     let stream = smallest(|| {
         for _ in 0..TOGETHER {
-            let values = matrix.values().chunks(LANES).fold([R::ZERO; LANES], add);
-            let columns = matrix.col_idx().iter().fold(0_u32, |sum, &c| sum.wrapping_add(c));
-            std::hint::black_box((values, columns));
+            let (values, _) = std::hint::black_box(&numbers).as_chunks::<LANES>();
+            std::hint::black_box(values.iter().fold([R::ZERO; LANES], add));
         }
     });
-    let unknowns = matrix.rows() as f64;
-    let entries = matrix.values().len() as f64 / unknowns;
-    let scalar = size_of::<R>() as f64;
-    let each = f64::from(TOGETHER) * unknowns;
-    (unknowns > 0.0).then_some(Cost {
+    let each = f64::from(TOGETHER) * unknowns as f64;
+    (unknowns > 0).then_some(Cost {
         sweep: sweeps / each,
         stream: stream / each,
-        // Values and columns of the row, its pointer, b, and u read and written once.
-        bytes: entries * (scalar + 4.0) + 4.0 + 3.0 * scalar,
-        multiply_adds: entries + 1.0,
+        // The row, and u read and written once.
+        bytes: bytes + 2.0 * size_of::<R>() as f64,
+        multiply_adds: WIDTH as f64 + 1.0,
     })
 }

@@ -12,13 +12,21 @@ use crate::geometry::{doubled_area, scaled_normal};
 use crate::real::Real;
 use crate::tensor::Tensor;
 
-/// K_T without its diagonal, \[01, 02, 12\]; `a` is the mean of A over the triangle.
+/// K_T without its diagonal, \[01, 12, 20\]; `a` is the mean of A over the triangle.
 pub fn stiffness<R: Real>([a, b, c]: [[R; 2]; 3], mean: Tensor<R>) -> [R; 3] {
     let (n0, n1) = (scaled_normal(a, b), scaled_normal(b, c));
     let n2 = -(n0 + n1);
-    let per_area = R::TWO / doubled_area(a, b, c);
+    // Twice the area, from differences that the normals hold already.
+    let per_area = R::TWO / (n0.x * n1.y - n0.y * n1.x);
     let (a0, a1) = (mean.apply(n0) * per_area, mean.apply(n1) * per_area);
-    [a0.dot(&n1), a0.dot(&n2), a1.dot(&n2)]
+    [a0.dot(&n1), a1.dot(&n2), a0.dot(&n2)]
+}
+
+/// (K_T u)_i for each side i, `k` as from [`stiffness`].
+#[inline(always)]
+pub fn product<R: Real>(&[k01, k12, k20]: &[R; 3], &[u0, u1, u2]: &[R; 3]) -> [R; 3] {
+    let (t01, t12, t20) = (k01 * (u1 - u0), k12 * (u2 - u1), k20 * (u0 - u2));
+    [t01 - t20, t12 - t01, t20 - t12]
 }
 
 /// ∇u_h on the triangle from the means of u_h over its sides.

@@ -111,3 +111,14 @@ pub fn stiffness<R: Real>(
     }
     k
 }
+
+/// (K_T u)_i for each side i, `k` as from [`stiffness`].
+#[inline(always)]
+pub fn product<R: Real>(
+    &[k01, k02, k03, k12, k13, k23]: &[R; 6],
+    &[u0, u1, u2, u3]: &[R; 4],
+) -> [R; 4] {
+    let (t01, t02, t03) = (k01 * (u1 - u0), k02 * (u2 - u0), k03 * (u3 - u0));
+    let (t12, t13, t23) = (k12 * (u2 - u1), k13 * (u3 - u1), k23 * (u3 - u2));
+    [t01 + t02 + t03, t12 + t13 - t01, t23 - t12 - t02, -(t03 + t13 + t23)]
+}

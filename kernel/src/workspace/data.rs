@@ -3,14 +3,16 @@
 use heapless::Vec;
 
 use super::Workspace;
-use crate::assembly;
-use crate::boundary::{Neumann, Robin};
+use crate::assembly::{self, CellLoads};
+use crate::boundary::{Boundary, Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
+use crate::edges::Edges;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::math::Libm;
 use crate::mesh::Mesh;
 use crate::real::Real;
+use crate::stiffness::Stiffness;
 
 impl<
     R: Real,
@@ -21,7 +23,8 @@ impl<
     const B: usize,
     const E: usize,
     const N: usize,
-> Workspace<R, I, V, T, Q, B, E, N>
+    const W: usize,
+> Workspace<R, I, V, T, Q, B, E, N, W>
 {
     /// Sets all boundary data anew; the iterate stays. An edge keeps its block: contact edges stay
     /// contact and Dirichlet edges stay Dirichlet.
@@ -52,18 +55,11 @@ impl<
                 self.set_condition(at, length, found)?;
             }
         }
-        let mut values = core::mem::take(&mut self.values);
-        let filled = self.boundary().and_then(|boundary| {
-            assembly::values(
-                &self.edges()?,
-                self.stiffness(),
-                &boundary,
-                &self.row_ptr,
-                &mut values,
-            )
-        });
-        self.values = values;
-        filled?;
+        let Self { of_triangles, of_quads, half_edges, values, .. } = self;
+        let edges = Edges::new(of_triangles, of_quads, half_edges, self.counts)?;
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        let stiffness = Stiffness { triangles: &self.triangles, quads: &self.quads };
+        assembly::values(&edges, stiffness, &boundary, &self.row_ptr, values)?;
         self.fill_load()
     }
 
@@ -106,12 +102,11 @@ impl<
     }
 
     fn fill_load(&mut self) -> Result<(), Error> {
-        let mut load = core::mem::take(&mut self.load);
-        let filled = self.boundary().and_then(|boundary| {
-            assembly::load(&self.edges()?, self.cells(), &boundary, &mut load)
-        });
-        self.load = load;
-        filled
+        let Self { of_triangles, of_quads, half_edges, load, .. } = self;
+        let edges = Edges::new(of_triangles, of_quads, half_edges, self.counts)?;
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
+        assembly::load(&edges, cells, &boundary, load)
     }
 }
 

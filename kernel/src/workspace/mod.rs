@@ -10,7 +10,7 @@ mod data;
 use heapless::Vec;
 
 use crate::assembly::{self, CellLoads};
-use crate::boundary::{Boundary, Neumann, Robin};
+use crate::boundary::{Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
 use crate::csr::Csr;
 use crate::edges::{EdgeCounts, Edges};
@@ -20,6 +20,7 @@ use crate::math::Math;
 use crate::mesh::Mesh;
 use crate::numbering::{NumberingBuffers, number};
 use crate::real::Real;
+use crate::rows::{Row, Rows};
 use crate::shift::Shifts;
 use crate::signorini::System;
 use crate::solver::{Outcome, Settings, Solver};
@@ -27,7 +28,8 @@ use crate::stiffness::{self, Coefficient, Stiffness};
 use crate::{contact, flux};
 
 /// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles,
-/// quads, boundary edges, edges **plus one**, and matrix entries.
+/// quads, boundary edges, edges **plus one**, matrix entries, and entries a packed row
+/// ([`crate::rows::TRIANGLES`] = 4, with quads [`crate::rows::QUADS`] = 6).
 ///
 /// A mesh of T triangles and Q quads with B boundary edges has (3T + 4Q + B)/2 edges, and at most
 /// 5 (triangles) or 7 (quads) matrix entries an edge. Too small a capacity is an error that names the
@@ -42,6 +44,7 @@ pub struct Workspace<
     const BOUNDARY: usize,
     const EDGES: usize,
     const ENTRIES: usize,
+    const WIDTH: usize,
 > {
     at_vertex: Vec<[I; 2], VERTICES>,
     of_triangles: Vec<[I; 3], TRIANGLES>,
@@ -59,6 +62,7 @@ pub struct Workspace<
     row_ptr: Vec<u32, EDGES>,
     col_idx: Vec<I, ENTRIES>,
     values: Vec<R, ENTRIES>,
+    rows: Vec<Row<R, I, WIDTH>, EDGES>,
     load: Vec<R, EDGES>,
     u: Vec<R, EDGES>,
     flux: Vec<R, EDGES>,
@@ -73,7 +77,8 @@ impl<
     const B: usize,
     const E: usize,
     const N: usize,
-> Default for Workspace<R, I, V, T, Q, B, E, N>
+    const W: usize,
+> Default for Workspace<R, I, V, T, Q, B, E, N, W>
 {
     fn default() -> Self {
         Self::new()
@@ -89,7 +94,8 @@ impl<
     const B: usize,
     const E: usize,
     const N: usize,
-> Workspace<R, I, V, T, Q, B, E, N>
+    const W: usize,
+> Workspace<R, I, V, T, Q, B, E, N, W>
 {
     /// An empty workspace; can initialise a `static`.
     pub const fn new() -> Self {
@@ -110,6 +116,7 @@ impl<
             row_ptr: Vec::new(),
             col_idx: Vec::new(),
             values: Vec::new(),
+            rows: Vec::new(),
             load: Vec::new(),
             u: Vec::new(),
             flux: Vec::new(),
@@ -138,6 +145,7 @@ impl<
         let (triangles, quads) = (&self.of_triangles, &self.of_quads);
         let edges = Edges::new(triangles, quads, &self.half_edges, self.counts)?;
         assembly::pattern(&edges, &mut self.row_ptr, &mut self.col_idx)?;
+        fit(&mut self.rows, self.counts.unknowns(), Array::Rows)?;
         fit(&mut self.load, self.counts.unknowns(), Array::Load)?;
         fit(&mut self.u, self.counts.edges(), Array::Unknowns)?;
         fit(&mut self.flux, self.counts.edges(), Array::Fluxes)?;
@@ -181,26 +189,18 @@ impl<
     /// # Errors
     /// Data that are not finite, a relaxation factor outside (0, 2).
     pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
-        let mut u = core::mem::take(&mut self.u);
-        let mut flux = core::mem::take(&mut self.flux);
-        let outcome = self.solve_into(settings, &mut u, &mut flux);
-        (self.u, self.flux) = (u, flux);
-        outcome
-    }
-
-    fn solve_into(
-        &self,
-        settings: Settings<R>,
-        u: &mut [R],
-        flux: &mut [R],
-    ) -> Result<Outcome<R>, Error> {
-        all_finite(Array::Unknowns, u)?;
-        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, self.counts.edges())?;
+        all_finite(Array::Unknowns, &self.u)?;
+        // Borrowed apart, since moving an array out of the workspace would pass through the stack.
+        let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
+        let edges = Edges::new(of_triangles, of_quads, half_edges, *counts)?;
+        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
-        let system =
-            System::new(matrix, &self.load, &self.gap, self.counts)?.with_shifts(shifts)?;
-        let outcome = Solver::<R>::new(settings)?.run(&system, u);
-        flux::recover(&self.edges()?, self.stiffness(), self.cells(), u, &[], flux)?;
+        let system = System::new(matrix, &self.load, &self.gap, *counts)?.with_shifts(shifts)?;
+        let mut rows = Rows::new(&edges, &mut self.rows)?;
+        let outcome = Solver::<R>::new(settings)?.run(&system, &mut rows, u)?;
+        let stiffness = Stiffness { triangles: &self.triangles, quads: &self.quads };
+        let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
+        flux::recover(&edges, stiffness, cells, u, &[], flux)?;
         Ok(outcome)
     }
 
@@ -210,18 +210,6 @@ impl<
     /// None once [`Workspace::build`] has succeeded.
     pub fn edges(&self) -> Result<Edges<'_, I>, Error> {
         Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
-    }
-
-    fn boundary(&self) -> Result<Boundary<'_, R, I>, Error> {
-        Boundary::new(&self.edges()?, &self.neumann, &self.robin, &self.contact_flux)
-    }
-
-    fn stiffness(&self) -> Stiffness<'_, R> {
-        Stiffness { triangles: &self.triangles, quads: &self.quads }
-    }
-
-    fn cells(&self) -> CellLoads<'_, R> {
-        CellLoads { triangles: &self.source_triangles, quads: &self.source_quads }
     }
 
     /// Means of u over the edges.

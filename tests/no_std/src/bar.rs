@@ -16,6 +16,7 @@ use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
@@ -82,7 +83,9 @@ fn solve<R: Real, I: Index>(
     let gap = [-R::ONE; CONTACT];
     let system = System::new(matrix, &load, &gap, edges.counts())?;
     let (mut u, mut low) = ([R::ZERO; EDGES], [R::ZERO; EDGES]);
+    let mut rows = [Row::<R, I, QUADS>::EMPTY; UNKNOWNS];
     let buffers = RefinementBuffers {
+        rows: Rows::new(edges, &mut rows)?,
         low: &mut low,
         defect: &mut [R::ZERO; UNKNOWNS],
         lower: &mut [R::ZERO; CONTACT],
@@ -91,7 +94,7 @@ fn solve<R: Real, I: Index>(
             residual: &mut [R::ZERO; UNKNOWNS],
         },
     };
-    refinement::run::<R, I, Libm>(&system, &boundary, Settings::default(), 1, &mut u, buffers)?;
+    refinement::run::<R, I, Libm, QUADS>(&system, &boundary, Settings::default(), 1, &mut u, buffers)?;
     Ok([u, low])
 }
 
