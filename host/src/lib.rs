@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod cycles;
 pub mod error;
+pub mod export;
 pub mod expression;
 pub mod field;
 pub mod mesh;

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod export;
 mod solve;
 
 use clap::{Parser, Subcommand};
@@ -11,6 +12,7 @@ Examples:
   signorini                                         all standard scenes, table and report
   signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
+  signorini export my.toml -o my.rs --scalar f32    the scene as data for its firmware
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
 3 the solver stopped before its tolerance (its outputs are written and say so).";
@@ -30,6 +32,8 @@ pub struct Cli {
 enum Command {
     /// Solve one scene and write edges.csv, summary.json and solution.vtu
     Solve(solve::Arguments),
+    /// Write a scene as static data of a Rust program for a microcontroller
+    Export(export::Arguments),
 }
 
 impl Cli {
@@ -40,6 +44,7 @@ impl Cli {
     pub fn run(self) -> Result<u8> {
         match self.command {
             Some(Command::Solve(arguments)) => arguments.run(),
+            Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),
         }
     }

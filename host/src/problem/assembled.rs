@@ -11,8 +11,9 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Error, Tensor};
+use signorini_kernel::{Error, Model, Tensor};
 
+use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
 use crate::quadrature::DATA_POINTS;
 use crate::scalar::Scalar;
@@ -23,6 +24,9 @@ use crate::scalar::Scalar;
 /// edge fluxes stay the same, and a mesh far from the origin keeps its shape in `f32`.
 #[derive(Debug, Clone)]
 pub struct Assembled<'p, R: Scalar> {
+    problem: &'p Problem,
+    vertices: Vec<[R; 2]>,
+    tensors: Vec<Tensor<R>>,
     edges: Edges<'p, u32>,
     triangles: Vec<[R; 3]>,
     quads: Vec<[R; 6]>,
@@ -77,10 +81,14 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// What the scalar type cannot hold: cells too thin for it, coefficients or loads too large.
     pub fn new(problem: &'p Problem) -> Result<Self, Error> {
         let edges = problem.topology.edges()?;
-        let (triangles, quads) = element_matrices(problem)?;
+        let vertices = UnitBox::of(&problem.mesh.vertices).narrowed(&problem.mesh.vertices);
+        let (triangles, quads) = element_matrices(problem, &vertices)?;
         let loads = Narrowed::new(&problem.loads);
         let unknowns = edges.counts().unknowns();
         let mut assembled = Self {
+            problem,
+            vertices,
+            tensors: tensors(problem).unwrap_or_default(),
             edges,
             triangles,
             quads,
@@ -136,6 +144,30 @@ impl<'p, R: Scalar> Assembled<'p, R> {
             .and_then(|boundary| assembly::load(&self.edges, self.cells(), &boundary, &mut load));
         self.load = load;
         filled
+    }
+
+    /// Everything as borrowed arrays; `start` is a copy of [`Assembled::start`].
+    pub fn model<'a>(&'a self, title: &'a str, start: &'a [R]) -> Model<'a, R, u32> {
+        let (mesh, topology) = (&self.problem.mesh, &self.problem.topology);
+        Model {
+            title,
+            vertices: &self.vertices,
+            unit: R::narrow(UnitBox::of(&mesh.vertices).half),
+            triangles: &mesh.triangles,
+            quads: &mesh.quads,
+            of_triangles: &topology.of_triangles,
+            of_quads: &topology.of_quads,
+            half_edges: &topology.half_edges,
+            counts: topology.counts,
+            tensors: &self.tensors,
+            stiffness: self.stiffness(),
+            loads: self.cells(),
+            neumann: &self.loads.neumann,
+            robin: &self.loads.robin,
+            contact_flux: &self.loads.contact_flux,
+            gap: &self.loads.gap,
+            start,
+        }
     }
 
     /// Edge numbering.
@@ -194,12 +226,26 @@ impl<'p, R: Scalar> Assembled<'p, R> {
 
 type ElementMatrices<R> = (Vec<[R; 3]>, Vec<[R; 6]>);
 
-fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
+fn narrow<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
+    Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }
+}
+
+/// A of every cell, triangles first; `None` where it varies inside a quad.
+fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
+    let triangles = problem.coefficients.triangles.iter().map(Some);
+    let quads = problem.coefficients.quads.iter().map(|quad| match quad {
+        QuadCoefficient::Constant(a) => Some(a),
+        QuadCoefficient::AtPoints(_) => None,
+    });
+    triangles.chain(quads).map(|a| a.map(narrow)).collect()
+}
+
+fn element_matrices<R: Scalar>(
+    problem: &Problem,
+    vertices: &[[R; 2]],
+) -> Result<ElementMatrices<R>, Error> {
     let mesh = &problem.mesh;
-    let vertices = narrowed_vertices::<R>(&mesh.vertices);
-    let kernel_mesh = Mesh::new(&vertices, &mesh.triangles, &mesh.quads)?;
-    let narrow =
-        |a: &Tensor<f64>| Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) };
+    let kernel_mesh = Mesh::new(vertices, &mesh.triangles, &mesh.quads)?;
     let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
     let triangles = triangles
         .map(|(cell, a)| crouzeix_raviart::stiffness(kernel_mesh.triangle(cell), narrow(a)))
@@ -218,17 +264,4 @@ fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, 
         }
     });
     Ok((triangles, quads.collect()))
-}
-
-/// Coordinates in the box [−1, 1]² around the middle of the mesh.
-fn narrowed_vertices<R: Scalar>(vertices: &[[f64; 2]]) -> Vec<[R; 2]> {
-    let extent = |k: usize| {
-        let values = vertices.iter().map(|vertex| vertex[k]);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-    };
-    let (x, y) = (extent(0), extent(1));
-    let middle = [0.5 * x.0 + 0.5 * x.1, 0.5 * y.0 + 0.5 * y.1];
-    let half = (0.5 * x.1 - 0.5 * x.0).max(0.5 * y.1 - 0.5 * y.0);
-    let moved = |vertex: &[f64; 2]| [0, 1].map(|k| R::narrow((vertex[k] - middle[k]) / half));
-    vertices.iter().map(moved).collect()
 }

@@ -10,6 +10,7 @@ mod corners;
 mod integrals;
 mod loads;
 mod solvability;
+mod unit_box;
 
 pub use assembled::Assembled;
 pub use binding::Binding;

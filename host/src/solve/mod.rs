@@ -43,7 +43,7 @@ pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
 }
 
 /// The kernel's refusal, in the scene's words.
-fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
+pub(crate) fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
     move |error| {
         InputError::new(format!("the scene does not fit {}: {error}", R::NAME))
             .file(&scene.path)

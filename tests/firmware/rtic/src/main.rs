@@ -7,11 +7,9 @@
 //!   SSI0,    priority 1, check    judge what was published; report after the last tick
 //! ```
 //! A tick never waits for the solver: between blocks of sweeps it looks at the clock, and whatever the
-//! temperatures are then is feasible, can be acted on, and is where the next tick goes on. Run it in
-//! QEMU from this folder; with `--features overload` it has to miss its deadlines and fail:
-//! ```text
-//! RUSTC_BOOTSTRAP=1 cargo run --release --locked
-//! ```
+//! temperatures are then is feasible, can be acted on, and is where the next tick goes on.
+//! `cargo xtask firmware-test` runs it in QEMU; with `--features overload` it has to miss its
+//! deadlines and fail.
 
 mod clock;
 mod console;

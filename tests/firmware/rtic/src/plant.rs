@@ -41,7 +41,8 @@ const BOUNDARY: usize = 2 * (COLUMNS + ROWS);
 const EDGES: usize = (3 * TRIANGLES + BOUNDARY) / 2;
 
 /// The kernel's memory.
-pub type Memory = Workspace<f32, u16, NODES, TRIANGLES, 0, BOUNDARY, { EDGES + 1 }, { 5 * EDGES }>;
+pub type Memory =
+    Workspace<f32, u16, NODES, TRIANGLES, 0, BOUNDARY, { EDGES + 1 }, { 5 * EDGES }, 4>;
 
 /// Computed by the compiler: the mesh lies in flash.
 static VERTICES: [[f32; 2]; NODES] = {

@@ -1,0 +1,54 @@
+//! `signorini export`: a scene as a `static` for firmware.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::error::Result;
+use crate::export::{Origin, export};
+use crate::mesh::gmsh;
+use crate::output::atomic::write_atomically;
+use crate::problem::Problem;
+use crate::scene::Scene;
+use crate::solve::ScalarKind;
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini export meshes/scenes/levee.toml -o levee.rs
+  signorini export slab.toml -o slab.rs --scalar f64
+
+In the firmware: include!(\"levee.rs\"); then MODEL is a signorini_kernel::Model.";
+
+/// Arguments of `export`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The scene file (TOML)
+    scene: PathBuf,
+    /// The Rust file to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Scalar type of the firmware
+    #[arg(long, value_enum, default_value = "f32")]
+    scalar: ScalarKind,
+    /// Set an input of the scene; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    input: Vec<String>,
+}
+
+impl Arguments {
+    pub(super) fn run(self) -> Result<u8> {
+        let mut scene = Scene::read(&self.scene)?;
+        for input in &self.input {
+            scene.set_input(input)?;
+        }
+        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let origin = Origin { scene: &scene, problem: &problem };
+        let text = match self.scalar {
+            ScalarKind::F32 => export::<f32>(origin)?,
+            ScalarKind::F64 => export::<f64>(origin)?,
+        };
+        write_atomically(&self.output, text.as_bytes())?;
+        Ok(0)
+    }
+}

@@ -1,0 +1,11 @@
+//! What the images have in common: the stages that they run, and the board that they run on.
+//!
+//! [`stages`] is the kernel at work on exported scenes, and knows no machine: an image and the program
+//! `desk` run the same code and print the same lines, where the bits are the same.
+#![cfg_attr(not(feature = "desk"), no_std)]
+
+#[cfg(target_os = "none")]
+pub mod board;
+pub mod journal;
+pub mod scenes;
+pub mod stages;
