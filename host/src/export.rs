@@ -80,6 +80,15 @@ fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> Strin
         text,
         "/// The other side of a boundary edge.\nconst NONE: {index} = {index}::MAX;\n\n"
     );
+    let sizes = [
+        ("UNKNOWNS", counts.unknowns()),
+        ("EDGES", counts.edges()),
+        ("TRIANGLES", model.triangles.len()),
+        ("QUADS", model.quads.len()),
+    ];
+    for (name, size) in sizes {
+        let _ = writeln!(text, "/// {}\npub const {name}: usize = {size};", name.to_lowercase());
+    }
     let _ = writeln!(text, "/// {}", model.title.escape_debug());
     let _ = writeln!(text, "pub static MODEL: Model<'static, {}, {index}> = Model {{", R::NAME);
     for field in fields {

@@ -6,7 +6,7 @@
 use crate::boundary::Boundary;
 use crate::edges::{Edges, Side};
 use crate::element::lend;
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::index::{Index, read};
 use crate::real::Real;
 use crate::stiffness::Stiffness;
@@ -100,23 +100,39 @@ pub fn load<R: Real, I: Index>(
     boundary: &Boundary<R, I>,
     load: &mut [R],
 ) -> Result<(), Error> {
+    load_of_triangles(edges, cells.triangles, boundary, load)?;
+    same_length_or_empty(Array::CellLoads, cells.quads.len(), edges.of_quads().len())?;
+    add_quads(edges.of_quads(), cells.quads, load);
+    Ok(())
+}
+
+/// The same for a mesh of triangles, without any code for quads.
+///
+/// # Errors
+/// Slices of the wrong length.
+pub fn load_of_triangles<R: Real, I: Index>(
+    edges: &Edges<I>,
+    loads: &[R],
+    boundary: &Boundary<R, I>,
+    load: &mut [R],
+) -> Result<(), Error> {
+    let triangles = edges.of_triangles();
     same_length(Array::Load, load.len(), edges.counts().unknowns())?;
-    let (triangles, quads) = (edges.of_triangles(), edges.of_quads());
-    if !cells.triangles.is_empty() {
-        same_length(Array::CellLoads, cells.triangles.len(), triangles.len())?;
-    }
-    if !cells.quads.is_empty() {
-        same_length(Array::CellLoads, cells.quads.len(), quads.len())?;
-    }
+    same_length_or_empty(Array::CellLoads, loads.len(), triangles.len())?;
     load.fill(R::ZERO);
-    for (sides, &integral) in triangles.iter().zip(cells.triangles) {
+    for (sides, &integral) in triangles.iter().zip(loads) {
         spread(sides, integral * R::THIRD, load);
-    }
-    for (sides, &integral) in quads.iter().zip(cells.quads) {
-        spread(sides, integral * R::QUARTER, load);
     }
     boundary.add_to_load(edges, load);
     Ok(())
+}
+
+// Not inlined, so that an image's symbols tell whether it holds code for quads.
+#[inline(never)]
+fn add_quads<R: Real, I: Index>(quads: &[[I; 4]], loads: &[R], load: &mut [R]) {
+    for (sides, &integral) in quads.iter().zip(loads) {
+        spread(sides, integral * R::QUARTER, load);
+    }
 }
 
 fn spread<R: Real, I: Index>(sides: &[I], share: R, load: &mut [R]) {

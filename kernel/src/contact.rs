@@ -14,6 +14,26 @@ pub fn force<R: Real, I: Index>(counts: EdgeCounts, boundary: &Boundary<R, I>, f
     on_contact.fold(R::ZERO, |sum, (at, &flux)| sum + (flux - boundary.contact_flux(at)))
 }
 
+/// The same from the fluxes of the cells, as filled by [`crate::flux::of_triangles`] and
+/// [`crate::flux::of_quads`]: a contact edge has one cell.
+pub fn force_of_cells<R: Real, I: Index>(
+    edges: &Edges<I>,
+    boundary: &Boundary<R, I>,
+    triangles: &[[R; 3]],
+    quads: &[[R; 4]],
+) -> R {
+    let (triangles, quads) = (triangles.as_flattened(), quads.as_flattened());
+    let counts = edges.counts();
+    let on_contact = edges.half_edges().iter().skip(counts.free).take(counts.contact);
+    on_contact.enumerate().fold(R::ZERO, |sum, (at, pair)| {
+        let flux = match pair[0].at().checked_sub(triangles.len()) {
+            None => read(triangles, pair[0].at()),
+            Some(rest) => read(quads, rest),
+        };
+        sum + (flux - boundary.contact_flux(at))
+    })
+}
+
 /// Whether contact edge `contact` (counted from the first one) is active: u_E = ψ_E.
 pub fn is_active<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], contact: usize) -> bool {
     contact < counts.contact && read(u, counts.free + contact) == read(lower, contact)

@@ -34,7 +34,6 @@ pub fn on_quad<R: Real>(k: &[R; 6], u: &[R; 4], load: R) -> [R; 4] {
 ///
 /// # Errors
 /// Slices of the wrong length.
-#[inline(never)]
 pub fn of_triangles<R: Real, I: Index>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
@@ -66,7 +65,7 @@ fn on_sides<R: Real, I: Index>(&[a, b, c]: &[I; 3], u: &[R]) -> Option<[R; 3]> {
     Some([*u.get(a.at())?, *u.get(b.at())?, *u.get(c.at())?])
 }
 
-/// The same for every quad.
+/// The same for every quad. Not inlined, so that symbols tell whether it is there.
 ///
 /// # Errors
 /// Slices of the wrong length.

@@ -240,7 +240,8 @@ fn gather_triangles<R: Real, I: Index, const WIDTH: usize>(
     }
 }
 
-/// Rows of edges of any cells.
+/// Rows of edges of any cells. Not inlined, so that symbols tell whether it is there.
+#[inline(never)]
 fn gather_cells<R: Real, I: Index, const WIDTH: usize>(
     rows: &mut [Row<R, I, WIDTH>],
     half_edges: &[[I; 2]],

@@ -74,24 +74,52 @@ pub fn fill<R: Real, I: Index>(
     if let Some(expected) = coefficient.expected(triangles.len(), quads.len(), points) {
         same_length(Array::Coefficients, coefficient.len(), expected)?;
     }
-    if let Coefficient::Uniform(tensor) = coefficient {
-        checked(tensor, CellId::Triangle(0))?;
-    }
-    // Becomes NaN with the first sum that is not finite, and stays it.
+    fill_triangles(mesh, coefficient, triangles)?;
+    fill_quads(mesh, coefficient, rule, quads)
+}
+
+/// Element matrices of triangles: one tensor for all of them is checked once.
+#[inline(never)]
+fn fill_triangles<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    coefficient: Coefficient<R>,
+    triangles: &mut [[R; 3]],
+) -> Result<(), Error> {
+    // Becomes NaN with the first matrix that is not finite, and stays it.
     let mut doubt = R::ZERO;
-    for (at, (vertices, k)) in mesh.triangles().iter().zip(triangles.iter_mut()).enumerate() {
-        let tensor = match coefficient {
-            Coefficient::Uniform(tensor) => tensor,
-            _ => checked(coefficient.at(at, at), CellId::Triangle(at))?,
-        };
-        let stray = Error::OutOfRange { of: Array::Triangles, at };
-        *k = crouzeix_raviart::stiffness(mesh.corners(vertices).ok_or(stray)?, tensor);
-        let sum = k[0] + k[1] + k[2];
-        doubt += sum * R::ZERO;
+    match coefficient {
+        Coefficient::Uniform(tensor) => {
+            let tensor = checked(tensor, CellId::Triangle(0))?;
+            for (vertices, k) in mesh.triangles().iter().zip(triangles.iter_mut()) {
+                let Some(corners) = mesh.corners(vertices) else { break };
+                *k = crouzeix_raviart::stiffness(corners, tensor);
+                doubt += (k[0] + k[1] + k[2]) * R::ZERO;
+            }
+        }
+        Coefficient::PerCell(tensors) | Coefficient::PerPoint(tensors) => {
+            let cells = mesh.triangles().iter().zip(tensors).enumerate();
+            for ((at, (vertices, &tensor)), k) in cells.zip(triangles.iter_mut()) {
+                let tensor = checked(tensor, CellId::Triangle(at))?;
+                *k = crouzeix_raviart::stiffness(mesh.triangle(vertices), tensor);
+                doubt += (k[0] + k[1] + k[2]) * R::ZERO;
+            }
+        }
     }
-    if !doubt.finite() {
-        triangles.iter().enumerate().try_for_each(|(at, k)| check_entries(k, at))?;
+    if doubt.finite() {
+        return Ok(());
     }
+    triangles.iter().enumerate().try_for_each(|(at, k)| check_entries(k, at))
+}
+
+/// Element matrices of quads. Not inlined, so that symbols tell whether it is there.
+#[inline(never)]
+fn fill_quads<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    coefficient: Coefficient<R>,
+    rule: &[[R; 2]],
+    quads: &mut [[R; 6]],
+) -> Result<(), Error> {
+    let points = rule.len();
     for (at, (vertices, k)) in mesh.quads().iter().zip(quads.iter_mut()).enumerate() {
         let cell = mesh.triangles().len() + at;
         let first_point = mesh.triangles().len() + at * points * points;

@@ -57,6 +57,24 @@ impl Journal<'_> {
     pub fn count(&mut self, name: &str, count: u32) {
         self.0(name);
         self.0(" ");
+        self.decimal(count);
+        self.0("\n");
+    }
+
+    /// Columns of text, then columns of counts.
+    pub fn row(&mut self, texts: &[&str], counts: &[u32]) {
+        for text in texts {
+            self.0(text);
+            self.0(" | ");
+        }
+        for &count in counts {
+            self.decimal(count);
+            self.0(" ");
+        }
+        self.0("\n");
+    }
+
+    fn decimal(&mut self, count: u32) {
         let mut power = 1;
         while count / power > 9 {
             power *= 10;
@@ -65,7 +83,6 @@ impl Journal<'_> {
             self.digit(u64::from(count / power % 10));
             power /= 10;
         }
-        self.0("\n");
     }
 
     /// The bits of a scalar.

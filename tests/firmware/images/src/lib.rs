@@ -6,6 +6,9 @@
 
 #[cfg(target_os = "none")]
 pub mod board;
+pub mod breach;
+pub mod grid;
 pub mod journal;
 pub mod scenes;
 pub mod stages;
+pub mod tick;

@@ -13,6 +13,7 @@ macro_rules! scenes {
 }
 
 scenes! {
+    linear_f32: "linear_f32.rs",
     levee_f32: "levee_f32.rs",
     levee_f64: "levee_f64.rs",
     slab_f32: "slab_f32.rs",

@@ -118,7 +118,10 @@ fn of_cells<R: Bits>(model: &Model<R, u16>, journal: &mut Journal) -> Result<(),
 }
 
 /// The first entries of a buffer.
-pub(crate) fn cut<T>(buffer: &mut [T], length: usize) -> Result<&mut [T], Error> {
+///
+/// # Errors
+/// A buffer that is too short.
+pub fn cut<T>(buffer: &mut [T], length: usize) -> Result<&mut [T], Error> {
     let limit = buffer.len();
     let of = signorini_kernel::error::Array::Scratch;
     buffer.get_mut(..length).ok_or(Error::Capacity { of, needed: length, limit })

@@ -1,0 +1,171 @@
+//! What each stage costs: instructions in the emulator, cycles on a board with the feature `dwt`.
+//!
+//! ```text
+//!   f32 triangles | sweep | unknown | 8975 392 68      in all, units that share it, bytes of stack
+//! ```
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use signorini_firmware::board::clock::{Clock, UNIT};
+use signorini_firmware::board::{self, stack};
+use signorini_firmware::grid::{EDGES, Grid, SQUARES};
+use signorini_firmware::journal::{Bits, Journal};
+use signorini_firmware::stages::cut;
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::boundary::Boundary;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::signorini::System;
+use signorini_kernel::solver::{Settings, Solver};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::{Error, Tensor, flux, psor};
+
+/// Repetitions of a stage in one count.
+const TIMES: u32 = 20;
+/// Bytes of stack that are watched.
+const DEPTH: u32 = 8192;
+
+#[entry]
+fn main() -> ! {
+    let Some(clock) = Clock::start() else { board::end(false) };
+    board::run(|journal| {
+        let mut meter = Meter { clock, journal, kind: "" };
+        let counted = meter
+            .kind("f32 triangles")
+            .stages::<f32, TRIANGLES, { 2 * SQUARES }, 0>()
+            .and_then(|()| meter.kind("f32 quads").stages::<f32, QUADS, 0, SQUARES>())
+            .and_then(|()| {
+                meter.kind("f64 triangles").stages::<f64, TRIANGLES, { 2 * SQUARES }, 0>()
+            })
+            .and_then(|()| meter.kind("f64 quads").stages::<f64, QUADS, 0, SQUARES>());
+        if counted.is_err() {
+            board::end(false);
+        }
+    })
+}
+
+struct Meter<'a, 'j> {
+    clock: Clock,
+    journal: &'a mut Journal<'j>,
+    kind: &'static str,
+}
+
+impl Meter<'_, '_> {
+    fn kind(&mut self, kind: &'static str) -> &mut Self {
+        self.kind = kind;
+        self
+    }
+
+    /// Prints what `work` costs, by how many units it is shared, and how much stack it takes.
+    fn count(
+        &mut self,
+        stage: &str,
+        unit: &str,
+        units: usize,
+        mut work: impl FnMut() -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        work()?;
+        let repeated = || {
+            // Just seen to succeed.
+            let _ = black_box(work());
+        };
+        let total = self.clock.measure(TIMES, repeated) * UNIT / TIMES;
+        let mut last = Ok(());
+        let bytes = stack::depth(DEPTH, || last = work());
+        self.journal.row(&[self.kind, stage, unit], &[total, units as u32, bytes]);
+        last
+    }
+
+    #[inline(never)]
+    fn stages<R: Bits, const WIDTH: usize, const T: usize, const Q: usize>(
+        &mut self,
+    ) -> Result<(), Error> {
+        let mut grid = Grid::<R, T, Q>::new();
+        let (mesh, edges) = grid.number()?;
+        let (cells, unknowns) = (T + Q, edges.counts().unknowns());
+        let tensor = Tensor { xx: R::TWO, xy: R::QUARTER, yy: R::ONE };
+        let (mut triangles, mut quads) = ([[R::ZERO; 3]; T], [[R::ZERO; 6]; Q]);
+        self.count("element matrices", "cell", cells, || {
+            let coefficient = Coefficient::Uniform(black_box(tensor));
+            stiffness::fill(&mesh, coefficient, 2, &mut triangles, &mut quads)
+        })?;
+        let stiffness = Stiffness { triangles: &triangles, quads: &quads };
+        let boundary = Boundary::new(&edges, &[], &[], &[])?;
+        let sources = ([-R::ONE / R::from_count(64); T], [-R::ONE / R::from_count(32); Q]);
+        let loads = CellLoads { triangles: black_box(&sources.0), quads: black_box(&sources.1) };
+        let mut load = [R::ZERO; EDGES];
+        let load = cut(&mut load, unknowns)?;
+        self.count("load", "cell", cells, || assembly::load(&edges, loads, &boundary, load))?;
+
+        let mut rows = [Row::<R, u16, WIDTH>::EMPTY; EDGES];
+        let memory = cut(&mut rows, unknowns)?;
+        self.count("rows, pattern", "unknown", unknowns, || Rows::new(&edges, memory).map(drop))?;
+        let mut rows = Rows::new(&edges, memory)?;
+        let omega = black_box(R::ONE + R::HALF + R::QUARTER);
+        self.count("rows from cells", "unknown", unknowns, || {
+            rows.gather(&edges, stiffness, &boundary, load, omega)
+        })?;
+
+        let (mut row_ptr, mut col_idx) = ([0; EDGES + 1], [0; 7 * EDGES]);
+        let row_ptr = cut(&mut row_ptr, unknowns + 1)?;
+        let col_idx = cut(&mut col_idx, edges.nonzeros())?;
+        let mut values = [R::ZERO; 7 * EDGES];
+        let values = cut(&mut values, col_idx.len())?;
+        self.count("CSR, pattern", "unknown", unknowns, || {
+            assembly::pattern(&edges, row_ptr, col_idx)
+        })?;
+        self.count("CSR, values", "unknown", unknowns, || {
+            assembly::values(&edges, stiffness, &boundary, row_ptr, values)
+        })?;
+        let matrix = Csr::new(row_ptr, col_idx, values, edges.counts().edges())?;
+        let gap = [-R::QUARTER * R::QUARTER; 16];
+        let system = System::new(matrix, load, black_box(&gap), edges.counts())?;
+        self.count("rows from CSR", "unknown", unknowns, || rows.set(&system, omega))?;
+
+        let mut u = [R::ZERO; EDGES];
+        let u = cut(&mut u, edges.counts().edges())?;
+        self.count("sweep", "unknown", unknowns, || psor::sweep(&rows, black_box(&gap), u))?;
+        self.count("sweep over CSR", "unknown", unknowns, || {
+            by_csr(&system, u, omega);
+            Ok(())
+        })?;
+        self.count("residual", "unknown", unknowns, || {
+            black_box(system.residual(u));
+            Ok(())
+        })?;
+        let mut by_triangles = [[R::ZERO; 3]; T];
+        let mut by_quads = [[R::ZERO; 4]; Q];
+        self.count("flux by cells", "cell", cells, || {
+            flux::of_triangles(&edges, stiffness, loads.triangles, u, &mut by_triangles)?;
+            flux::of_quads(&edges, stiffness, loads.quads, u, &mut by_quads)
+        })?;
+        let mut by_edges = [R::ZERO; EDGES];
+        let by_edges = cut(&mut by_edges, u.len())?;
+        self.count("flux by edges", "cell", cells, || {
+            flux::recover(&edges, stiffness, loads, u, &[], by_edges).map(drop)
+        })?;
+        self.count("solve to the last digit", "unknown", unknowns, || {
+            u.fill(R::ZERO);
+            Solver::<R>::new(Settings::default())?.run(&system, &mut rows, u).map(drop)
+        })?;
+        Ok(())
+    }
+}
+
+/// The same sweep in plain safe code over CSR, for the record of what rows are worth.
+fn by_csr<R: Bits>(system: &System<R, u16>, u: &mut [R], omega: R) {
+    let rows = system.matrix().iter().zip(system.load()).enumerate();
+    for (i, (row, &load)) in rows {
+        let step = omega * (load - row.dot(u)) / row.diagonal();
+        let gap = i.checked_sub(system.counts().free).and_then(|at| system.lower().get(at));
+        if let Some(u) = u.get_mut(i) {
+            *u += step;
+            if let Some(&gap) = gap.filter(|&&gap| *u < gap) {
+                *u = gap;
+            }
+        }
+    }
+}
