@@ -30,10 +30,11 @@ pub fn on_quad<R: Real>(k: &[R; 6], u: &[R; 4], load: R) -> [R; 4] {
 }
 
 /// Fills `flux` with the outward fluxes through the sides of every triangle, from the iterate `u`
-/// alone: the fast way, for images without quads too. `loads` holds ∫_T f, or nothing where f = 0.
+/// alone: the fast way, for images without quads too. Not inlined: symbols tell what is there. `loads` holds ∫_T f, or nothing where f = 0.
 ///
 /// # Errors
 /// Slices of the wrong length.
+#[inline(never)]
 pub fn of_triangles<R: Real, I: Index>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
@@ -83,7 +84,7 @@ pub fn of_quads<R: Real, I: Index>(
     same_length_or_empty(Array::CellLoads, loads.len(), edges.of_quads().len())?;
     let cells = edges.of_quads().iter().zip(stiffness.quads).zip(flux);
     for (at, ((sides, k), flux)) in cells.enumerate() {
-        *flux = on_quad(k, &sides.map(|edge| read(u, edge.at())), read(loads, at));
+        *flux = on_quad(k, &pick(sides, u), read(loads, at));
     }
     Ok(())
 }
@@ -124,18 +125,25 @@ pub fn recover<R: Real, I: Index>(
         Gathered { half_edges: edges.half_edges(), flux, found: Recovered::default() };
     let mut half = 0;
     for (at, (sides, k)) in edges.of_triangles().iter().zip(stiffness.triangles).enumerate() {
-        let [high, rest] = [u, low].map(|part| sides.map(|edge| read(part, edge.at())));
-        let out = on_triangle(k, &high, read(loads.triangles, at));
-        let out = sum(out, crouzeix_raviart::product(k, &rest));
+        let mut out = on_triangle(k, &pick(sides, u), read(loads.triangles, at));
+        if !low.is_empty() {
+            out = sum(out, crouzeix_raviart::product(k, &pick(sides, low)));
+        }
         sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
     for (at, (sides, k)) in edges.of_quads().iter().zip(stiffness.quads).enumerate() {
-        let [high, rest] = [u, low].map(|part| sides.map(|edge| read(part, edge.at())));
-        let out = on_quad(k, &high, read(loads.quads, at));
-        let out = sum(out, rannacher_turek::product(k, &rest));
+        let mut out = on_quad(k, &pick(sides, u), read(loads.quads, at));
+        if !low.is_empty() {
+            out = sum(out, rannacher_turek::product(k, &pick(sides, low)));
+        }
         sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
     Ok(gathered.found)
+}
+
+/// The values on the sides of a cell.
+fn pick<R: Real, I: Index, const N: usize>(sides: &[I; N], u: &[R]) -> [R; N] {
+    sides.map(|edge| read(u, edge.at()))
 }
 
 fn sum<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {

@@ -20,6 +20,7 @@ type Outcome = (Tally, Option<String>);
 #[derive(Debug, Default)]
 pub struct Steps {
     done: Vec<Step>,
+    bless: bool,
 }
 
 #[derive(Debug)]
@@ -31,6 +32,23 @@ struct Step {
 }
 
 impl Steps {
+    /// No steps yet; with `bless`, records are written anew instead of compared.
+    pub fn new(bless: bool) -> Self {
+        Self { bless, ..Self::default() }
+    }
+
+    /// Whether records are to be written anew.
+    pub fn blesses(&self) -> bool {
+        self.bless
+    }
+
+    /// Runs a step that several verbs need once only.
+    pub fn check_once(&mut self, name: &str, check: impl FnOnce() -> Result<(), String>) {
+        if !self.done.iter().any(|step| step.name == name) {
+            self.check(name, check);
+        }
+    }
+
     /// Runs a step that is one check.
     pub fn check(&mut self, name: &str, check: impl FnOnce() -> Result<(), String>) {
         self.step(name, || match check() {

@@ -1,7 +1,9 @@
-//! The symbols of an archive, by `nm` of binutils.
+//! The symbols of an archive or an image, by `nm` of binutils.
 
 use std::path::Path;
 use std::process::Command;
+
+use crate::toolchain::output;
 
 /// The names that the members of `archive` define or ask for.
 pub fn symbols(archive: &Path) -> Result<Vec<String>, String> {
@@ -12,6 +14,16 @@ pub fn symbols(archive: &Path) -> Result<Vec<String>, String> {
     }
     let listing = String::from_utf8_lossy(&output.stdout);
     Ok(listing.lines().filter_map(name).collect())
+}
+
+/// The symbols of an ARM image, with their sizes in bytes.
+pub fn sized(image: &Path) -> Result<Vec<(String, u64)>, String> {
+    let listing = output(Command::new("arm-none-eabi-nm").arg("-P").arg(image))?;
+    let size = |line: &str| {
+        let size = line.split(' ').nth(3)?;
+        u64::from_str_radix(size, 16).ok()
+    };
+    Ok(listing.lines().filter_map(|line| Some((name(line)?, size(line).unwrap_or(0)))).collect())
 }
 
 /// A line is `NAME TYPE …`; what is not, names a member.

@@ -1,10 +1,10 @@
 //! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out.
 
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
-use crate::no_std;
 use crate::steps::{Steps, Tally};
+use crate::{audit, boards, cost, cross, no_std, size};
 
-/// Formatting, clippy, tests, documentation, the kernel without std.
+/// Formatting, clippy, tests, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
     steps.check("formatting", || {
         require("fmt", "rustfmt")?;
@@ -26,6 +26,20 @@ pub fn run(steps: &mut Steps) {
         run_cargo(doc)
     });
     no_std::run(steps);
+    steps.check("formatting, tests/firmware", || {
+        run_cargo(cargo(&[
+            "fmt",
+            "--manifest-path",
+            "tests/firmware/Cargo.toml",
+            "--all",
+            "--check",
+        ]))
+    });
+    cross::run(steps);
+    boards::run(steps);
+    audit::run(steps);
+    size::run(steps);
+    cost::run(steps);
 }
 
 /// Unit tests, integration tests and the examples in the documentation.

@@ -61,11 +61,11 @@ impl Journal<'_> {
         self.0("\n");
     }
 
-    /// Columns of text, then columns of counts.
-    pub fn row(&mut self, texts: &[&str], counts: &[u32]) {
-        for text in texts {
-            self.0(text);
-            self.0(" | ");
+    /// Words, each followed by a blank, then counts.
+    pub fn row(&mut self, words: &[&str], counts: &[u32]) {
+        for word in words {
+            self.0(word);
+            self.0(" ");
         }
         for &count in counts {
             self.decimal(count);

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   RAM = N·(row + scalar) + E·scalar + T·3·scalar + Q·4·scalar      N unknowns, E edges,
-//!         row of f32: 28 bytes on triangles, 40 elsewhere            T triangles, Q quads
-//!         row of f64: 48 bytes on triangles, 72 elsewhere
+//!         row in f32: 28 bytes on triangles, 40 elsewhere            T triangles, Q quads
+//!         row in f64: 48 bytes on triangles, 72 elsewhere
 //! ```
 
 use signorini_kernel::rows::{Row, Rows, TRIANGLES};
@@ -95,6 +95,19 @@ impl<
     const Q: usize,
 > Tick<R, WIDTH, CONTACT, N, E, T, Q>
 {
+    /// The bytes that the README promises.
+    pub fn formula() -> u32 {
+        let wide = size_of::<R>() == 8;
+        let row = match (wide, WIDTH == TRIANGLES) {
+            (false, true) => 28,
+            (false, false) => 40,
+            (true, true) => 48,
+            (true, false) => 72,
+        };
+        let scalar = if wide { 8 } else { 4 };
+        (N * (row + scalar) + E * scalar + T * 3 * scalar + Q * 4 * scalar) as u32
+    }
+
     /// Runs and prints what came of it.
     pub fn show(&mut self, model: &Model<R, u16>, journal: &mut Journal) {
         match self.run(model, R::ONE + R::HALF + R::QUARTER, 100) {
@@ -137,7 +150,7 @@ macro_rules! tick_image {
                 let mut force = Ok(0.0);
                 let run = || force = TICK.run(&MODEL, 1.75, 1);
                 journal.count("@ stack", $crate::board::stack::depth(STACK, run));
-                journal.count("@ memory", size_of::<Tick>() as u32);
+                journal.row(&["@ memory"], &[size_of::<Tick>() as u32, Tick::formula()]);
                 $crate::breach::commit(&MODEL, force.unwrap_or_default());
             })
         }

@@ -75,7 +75,7 @@ impl Meter<'_, '_> {
         let total = self.clock.measure(TIMES, repeated) * UNIT / TIMES;
         let mut last = Ok(());
         let bytes = stack::depth(DEPTH, || last = work());
-        self.journal.row(&[self.kind, stage, unit], &[total, units as u32, bytes]);
+        self.journal.row(&[self.kind, "|", stage, "|", unit, "|"], &[total, units as u32, bytes]);
         last
     }
 

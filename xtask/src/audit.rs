@@ -1,0 +1,136 @@
+//! `cargo xtask audit`: what the images do not contain, and that each breach is caught.
+//!
+//! * Panics: the images' panic handler calls a function that is defined nowhere, so an image with a
+//!   path to it does not link.
+//! * Allocation: an image is built without `alloc`; what brings it in does not build.
+//! * Formatting, f64 helpers, code for quads or contact: by the image's symbols. The features
+//!   `broken-…` bring each of them in on purpose, so that a renamed function cannot hide one.
+
+use std::path::PathBuf;
+
+use crate::board::{Build, M4F};
+use crate::export::scenes;
+use crate::setup;
+use crate::steps::Steps;
+use crate::symbols::{allocates, sized};
+use crate::toolchain::output;
+
+/// Something that an image shall not contain.
+struct Absence {
+    what: &'static str,
+    is: fn(&str) -> bool,
+}
+
+const FORMATTING: Absence = Absence { what: "formatting", is: |name| name.contains("3fmt") };
+const ALLOCATOR: Absence = Absence { what: "allocator", is: allocates };
+const PANIC: Absence = Absence { what: "panic", is: |name| name.contains("panic") };
+/// The compiler's helpers for f64, by the run-time ABI's names and by their own.
+const DOUBLE: Absence = Absence {
+    what: "f64 helper",
+    is: |name| {
+        let abi = name.strip_prefix("__aeabi_").is_some_and(|rest| {
+            rest.starts_with('d') || rest.starts_with("cd") || rest.ends_with("2d")
+        });
+        abi && !name.contains("div")
+            || ["df3", "df2", "dfsi", "sidf"].iter().any(|end| name.ends_with(end))
+    },
+};
+/// The functions that only quads need; none is inlined.
+const QUADS: Absence = Absence {
+    what: "quad code",
+    is: |name| {
+        ["of_quads", "gather_cells", "add_quads", "fill_quads"].iter().any(|f| name.contains(f))
+    },
+};
+const CONTACT: Absence =
+    Absence { what: "contact code", is: |name| name.contains("sweep_contact") };
+
+const TRIANGLES: [Absence; 5] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE, QUADS];
+const LINEAR: [Absence; 6] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE, QUADS, CONTACT];
+const GENERAL: [Absence; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
+
+/// The images, then each breach.
+pub fn run(steps: &mut Steps) {
+    setup::run(steps);
+    steps.check("triangles in f32: nothing else", || free_of("tick_triangles", &[], &TRIANGLES));
+    steps.check("linear scene: no contact code either", || free_of("tick_linear", &[], &LINEAR));
+    steps.check("mixed cells in f32", || free_of("tick_mixed", &[], &GENERAL));
+    steps.check("quads are found where they are", || {
+        caught(free_of("tick_mixed", &[], &[QUADS]), QUADS.what)
+    });
+    for (feature, absences, reason) in [
+        ("broken-double", &TRIANGLES[..], DOUBLE.what),
+        ("broken-quads", &TRIANGLES[..], QUADS.what),
+        ("broken-contact", &LINEAR[..], CONTACT.what),
+        ("broken-panic", &TRIANGLES[..], "a_panic_path_is_reachable"),
+        ("broken-format", &TRIANGLES[..], "a_panic_path_is_reachable"),
+        ("broken-alloc", &TRIANGLES[..], "alloc"),
+    ] {
+        steps.check(&format!("{feature} is caught"), || {
+            caught(free_of("tick_linear", &[feature], absences), reason)
+        });
+    }
+}
+
+/// `Err` where the image does not link, or names one of the symbols.
+fn free_of(image: &str, features: &[&str], absences: &[Absence]) -> Result<(), String> {
+    let names = symbols(image, features)?;
+    for absence in absences {
+        if let Some(name) = names.iter().find(|name| (absence.is)(name)) {
+            return Err(format!("{}: {name}", absence.what));
+        }
+    }
+    println!("{image}: {} symbols, none of: {}", names.len(), list(absences));
+    Ok(())
+}
+
+fn list(absences: &[Absence]) -> String {
+    absences.iter().map(|absence| absence.what).collect::<Vec<_>>().join(", ")
+}
+
+fn symbols(image: &str, features: &[&str]) -> Result<Vec<String>, String> {
+    let scenes = scenes()?;
+    let build = Build { package: "signorini-firmware", bins: &[image], features, scenes: &scenes };
+    let (mut command, folder): (_, PathBuf) = M4F.build(build)?;
+    output(&mut command)?;
+    let names: Vec<_> = sized(&folder.join(image))?.into_iter().map(|(name, _)| name).collect();
+    // Without the sweep the image shows nothing.
+    if names.iter().any(|name| name.contains("sweep_free")) {
+        Ok(names)
+    } else {
+        Err("no sweep in it".to_owned())
+    }
+}
+
+/// `Ok` where a check has failed for this reason.
+fn caught(found: Result<(), String>, reason: &str) -> Result<(), String> {
+    match found {
+        Err(why) if why.contains(reason) => Ok(()),
+        Err(why) => Err(format!("refused for another reason: {why}")),
+        Ok(()) => Err("not caught".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn helpers_for_f64_are_known() {
+        for name in [
+            "__aeabi_dmul",
+            "__aeabi_f2d",
+            "__aeabi_ui2d",
+            "__aeabi_cdcmple",
+            "__muldf3",
+            "__fixdfsi",
+        ] {
+            assert!((DOUBLE.is)(name), "{name}");
+        }
+        for name in
+            ["__aeabi_uldivmod", "__aeabi_memcpy", "__aeabi_fmul", "__mulsf3", "__udivmoddi4"]
+        {
+            assert!(!(DOUBLE.is)(name), "{name}");
+        }
+    }
+}

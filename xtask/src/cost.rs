@@ -1,0 +1,145 @@
+//! `cargo xtask cost`: what every stage costs, counted by the emulator, against the record in git.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::board::{Board, Build, M4, M4F, M7, emulator};
+use crate::cargo::run as run_cargo;
+use crate::export::scenes;
+use crate::record;
+use crate::setup;
+use crate::steps::Steps;
+use crate::toolchain::Toolchain;
+
+const BOARDS: [Board; 3] = [M4F, M4, M7];
+const KINDS: [&str; 4] = ["f32 triangles", "f32 quads", "f64 triangles", "f64 quads"];
+const RECORD: &str = "tests/firmware/cost.txt";
+
+/// Board, kind, what, and the count that it shall not exceed.
+type Target = (&'static str, &'static str, &'static [(&'static str, f64)], &'static str, f64);
+
+/// Unknowns a cell of the mesh that is counted on: 392 to 256.
+const UNKNOWNS: f64 = 392.0 / 256.0;
+
+/// A target bounds a sum of stages, each times a factor.
+const TARGETS: [Target; 8] = [
+    ("M4F", "f32 triangles", &[("sweep", 1.0)], "sweep an unknown", 23.5),
+    ("M4F", "f32 quads", &[("sweep", 1.0)], "sweep an unknown", 34.5),
+    ("M7", "f64 triangles", &[("sweep", 1.0)], "sweep an unknown", 21.0),
+    ("M4F", "f32 triangles", &[("flux by cells", 1.0)], "flux a cell, safe code", 42.0),
+    ("M4F", "f32 triangles", &[("element matrices", 1.0)], "element matrix", 61.0),
+    (
+        "M4F",
+        "f32 triangles",
+        &[("element matrices", 1.0), ("rows from cells", UNKNOWNS)],
+        "assembly a cell, all in",
+        125.0,
+    ),
+    ("M4F", "f32 triangles", &[("sweep, stack", 1.0)], "stack of a sweep in bytes", 256.0),
+    ("M4F", "f32 triangles", &[("flux by cells, stack", 1.0)], "stack of the flux in bytes", 256.0),
+];
+
+/// The floor of a sweep: loads of 5 row entries, 4 neighbours and u, one of offsets, 4 additions of
+/// addresses, 5 multiply-adds, a store and half of a loop.
+const FLOOR: f64 = 21.5;
+
+/// Counts by board, kind and stage.
+type Counts = BTreeMap<(&'static str, String, String), f64>;
+
+/// Counts, prints, compares.
+pub fn run(steps: &mut Steps) {
+    setup::run(steps);
+    let bless = steps.blesses();
+    steps.check("instructions of every stage", || {
+        let mut table = String::new();
+        let mut counts = Counts::new();
+        for board in BOARDS {
+            table += &measure(&board, &mut counts)?;
+        }
+        println!("{table}{}", targets(&counts));
+        let versions =
+            format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?);
+        record::compare(RECORD, &versions, &table, bless)
+    });
+}
+
+fn measure(board: &Board, counts: &mut Counts) -> Result<String, String> {
+    let scenes = scenes()?;
+    let build =
+        Build { package: "signorini-firmware", bins: &["cost"], features: &[], scenes: &scenes };
+    let (command, folder) = board.build(build)?;
+    run_cargo(command)?;
+    let said = board.run(&folder.join("cost"), true)?;
+    let mut rows: Vec<(String, String)> = Vec::new();
+    for line in said.lines() {
+        let Some((kind, stage, unit, [total, units, stack])) = parse(line) else {
+            return Err(format!("not a line of counts: `{line}`"));
+        };
+        let key = |stage: &str| (board.name, kind.to_owned(), stage.to_owned());
+        counts.insert(key(stage), total / units);
+        counts.insert(key(&format!("{stage}, stack")), stack);
+        if !rows.iter().any(|(known, _)| known == stage) {
+            rows.push((stage.to_owned(), unit.to_owned()));
+        }
+    }
+    Ok(table(board.name, &rows, counts))
+}
+
+/// A line of the image: `f32 triangles | sweep | unknown | 8984 392 64`.
+fn parse(line: &str) -> Option<(&str, &str, &str, [f64; 3])> {
+    let [kind, stage, unit, numbers] = line.split(" | ").collect::<Vec<_>>().try_into().ok()?;
+    let numbers: Option<Vec<f64>> =
+        numbers.split_whitespace().map(|number| number.parse().ok()).collect();
+    Some((kind, stage, unit, numbers?.try_into().ok()?))
+}
+
+fn table(board: &str, rows: &[(String, String)], counts: &Counts) -> String {
+    let mut text = format!("{:<32}{:<8}", format!("{board}: instructions"), "per");
+    KINDS.iter().for_each(|kind| text += &format!("{kind:>16}"));
+    text += "\n";
+    for (stage, unit) in rows {
+        let _ = write!(text, "{stage:<32}{unit:<8}");
+        for kind in KINDS {
+            let count = counts.get(&(name(board), kind.to_owned(), stage.clone()));
+            let _ =
+                write!(text, "{:>16}", count.map_or("-".to_owned(), |count| format!("{count:.2}")));
+        }
+        text += "\n";
+    }
+    text + "\n"
+}
+
+fn name(board: &str) -> &'static str {
+    BOARDS.iter().find(|known| known.name == board).map_or("", |known| known.name)
+}
+
+fn targets(counts: &Counts) -> String {
+    let mut text =
+        format!("{:<6}{:<16}{:<32}{:>10}{:>10}\n", "", "", "target", "counted", "at most");
+    for (board, kind, stages, what, most) in TARGETS {
+        let of = |stage: &str| counts.get(&(board, kind.to_owned(), stage.to_owned()));
+        let sum = stages.iter().map(|(stage, factor)| of(stage).map_or(f64::NAN, |x| x * factor));
+        let sum: f64 = sum.sum();
+        let met = if sum <= most { "" } else { "   not met" };
+        let _ = writeln!(text, "{board:<6}{kind:<16}{what:<32}{sum:>10.2}{most:>10.1}{met}");
+    }
+    let sweep = counts.get(&("M4F", KINDS[0].to_owned(), "sweep".to_owned()));
+    let over = sweep.map_or(f64::NAN, |sweep| sweep / FLOOR);
+    text + &format!(
+        "A sweep takes {over:.2} times the {FLOOR} instructions that its loads and sums need.\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_of_counts() {
+        let line = "f32 quads | rows, pattern | unknown | 85354 264 236 ";
+        let numbers = [85354.0, 264.0, 236.0];
+        assert_eq!(parse(line), Some(("f32 quads", "rows, pattern", "unknown", numbers)));
+        assert_eq!(parse("f32 quads | sweep | unknown | 85354 264"), None);
+        assert_eq!(parse(""), None);
+    }
+}

@@ -1,0 +1,83 @@
+//! A table of figures in git: the same versions must count the same, up to a tolerance.
+//!
+//! The first line names the versions that the figures belong to. With other versions the table is
+//! printed and nothing is compared, since another compiler makes other code.
+
+use std::fs;
+
+use crate::cargo::root;
+use crate::snapshot;
+
+/// What may be lost before a check fails.
+const TOLERANCE: f64 = 0.02;
+
+/// Compares `table` with the record, or writes it.
+pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<(), String> {
+    let text = format!("{versions}\n\n{table}");
+    if bless {
+        return snapshot::write(path, &text);
+    }
+    let recorded =
+        fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
+    let (of, figures) = recorded.split_once('\n').unwrap_or_default();
+    if of.trim() != versions {
+        println!("{path} is a record of `{of}`, this is `{versions}`: nothing is compared");
+        return Ok(());
+    }
+    let worse = regressions(figures, table)?;
+    if worse.is_empty() { Ok(()) } else { Err(format!("{path}: {}", worse.join("; "))) }
+}
+
+/// The figures of `new` that exceed those of `old` by more than the tolerance.
+fn regressions(old: &str, new: &str) -> Result<Vec<String>, String> {
+    let (old, new) = (lines(old), lines(new));
+    if old.len() != new.len() {
+        return Err(format!("{} lines are recorded, now there are {}", old.len(), new.len()));
+    }
+    let mut worse = Vec::new();
+    for (old, new) in old.into_iter().zip(new) {
+        let (of, figures) = cells(old);
+        let (is, now) = cells(new);
+        if of != is || figures.len() != now.len() {
+            return Err(format!("recorded is `{old}`, now `{new}`; --bless where that is meant"));
+        }
+        for (was, now) in figures.into_iter().zip(now) {
+            if now > was * (1.0 + TOLERANCE) || now.is_nan() {
+                worse.push(format!("{is}: {now}, recorded {was}"));
+            }
+        }
+    }
+    Ok(worse)
+}
+
+fn lines(table: &str) -> Vec<&str> {
+    table.lines().map(str::trim).filter(|line| !line.is_empty()).collect()
+}
+
+/// The words of a line, and the numbers.
+fn cells(line: &str) -> (String, Vec<f64>) {
+    let (numbers, words): (Vec<_>, Vec<_>) =
+        line.split_whitespace().partition(|word| word.parse::<f64>().is_ok());
+    (words.join(" "), numbers.iter().filter_map(|word| word.parse().ok()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_percent_pass_and_more_does_not() {
+        let old = "sweep unknown 22.90 34.00\n";
+        assert_eq!(regressions(old, "sweep unknown 23.30 30.00\n"), Ok(Vec::new()));
+        let worse = regressions(old, "sweep unknown 23.40 34.00\n").unwrap();
+        assert_eq!(worse, ["sweep unknown: 23.4, recorded 22.9"]);
+    }
+
+    #[test]
+    fn another_table_is_not_compared_in_silence() {
+        assert!(regressions("sweep 1.0\n", "flux 1.0\n").is_err());
+        assert!(regressions("sweep 1.0\n", "sweep 1.0 2.0\n").is_err());
+        assert!(regressions("sweep 1.0\n", "").is_err());
+        assert!(!regressions("sweep 1.0\n", "sweep NaN\n").unwrap_or_default().is_empty());
+    }
+}

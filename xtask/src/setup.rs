@@ -1,0 +1,59 @@
+//! `cargo xtask setup`: what the checks on microcontrollers need, from Debian's packages.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::board::TRIPLES;
+use crate::cargo::run as run_command;
+use crate::steps::Steps;
+use crate::toolchain::{Toolchain, output};
+
+/// A toolchain with the library's source, its linker, the emulator, and `nm` and `size` for ARM.
+const PACKAGES: [&str; 6] =
+    ["rustc-web", "cargo-web", "rust-web-src", "lld", "qemu-system-arm", "binutils-arm-none-eabi"];
+
+/// Programs that must answer, beside the toolchain.
+const PROGRAMS: [&str; 4] = ["ld.lld", "qemu-system-arm", "arm-none-eabi-nm", "arm-none-eabi-size"];
+
+/// The verb.
+pub fn run(steps: &mut Steps) {
+    steps.check_once("tools for microcontrollers", ensure);
+}
+
+/// `Ok` where all tools are there, installed just now where need be and possible.
+pub fn ensure() -> Result<(), String> {
+    let Err(why) = missing() else { return Ok(()) };
+    let line = format!("apt-get install --no-install-recommends {}", PACKAGES.join(" "));
+    if !Path::new("/etc/debian_version").exists() {
+        return Err(format!("{why}; install what Debian calls {}", PACKAGES.join(" ")));
+    }
+    let user = output(Command::new("id").arg("-u"))?;
+    if user.trim() != "0" {
+        return Err(format!("{why}; run `sudo {line}`"));
+    }
+    println!("{why}: installing Debian's packages {}", PACKAGES.join(" "));
+    install()?;
+    missing()
+}
+
+fn missing() -> Result<(), String> {
+    for triple in TRIPLES {
+        Toolchain::find(triple)?;
+    }
+    for program in PROGRAMS {
+        output(Command::new(program).arg("--version"))?;
+    }
+    Ok(())
+}
+
+fn install() -> Result<(), String> {
+    // Another apt may hold the lock for a while.
+    let apt = |words: &[&str]| {
+        let mut command = Command::new("apt-get");
+        command.env("DEBIAN_FRONTEND", "noninteractive");
+        command.args(["-o", "DPkg::Lock::Timeout=120", "-q"]).args(words);
+        run_command(command)
+    };
+    apt(&["update"])?;
+    apt(&[&["install", "-y", "--no-install-recommends"], &PACKAGES[..]].concat())
+}
