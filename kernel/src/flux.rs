@@ -46,19 +46,30 @@ pub fn of_triangles<R: Real, I: Index>(
     same_length(Array::Stiffness, stiffness.triangles.len(), edges.of_triangles().len())?;
     same_length(Array::Fluxes, flux.len(), edges.of_triangles().len())?;
     same_length_or_empty(Array::CellLoads, loads.len(), edges.of_triangles().len())?;
-    let cells = edges.of_triangles().iter().zip(stiffness.triangles).zip(flux);
     if loads.is_empty() {
-        for ((sides, k), flux) in cells {
+        for ((sides, k), flux) in edges.of_triangles().iter().zip(stiffness.triangles).zip(flux) {
             let Some(means) = on_sides(sides, u) else { break };
             *flux = crouzeix_raviart::product(k, &means);
         }
     } else {
-        for (((sides, k), flux), &load) in cells.zip(loads) {
-            let Some(means) = on_sides(sides, u) else { break };
-            *flux = on_triangle(k, &means, load);
-        }
+        loaded_triangles(u, edges.of_triangles(), stiffness.triangles, loads, flux);
     }
     Ok(())
+}
+
+/// A function of its own keeps the pointers of this loop in registers.
+#[inline(never)]
+fn loaded_triangles<R: Real, I: Index>(
+    u: &[R],
+    of_triangles: &[[I; 3]],
+    k: &[[R; 3]],
+    loads: &[R],
+    flux: &mut [[R; 3]],
+) {
+    for (((sides, k), &load), flux) in of_triangles.iter().zip(k).zip(loads).zip(flux) {
+        let Some(means) = on_sides(sides, u) else { break };
+        *flux = on_triangle(k, &means, load);
+    }
 }
 
 #[inline(always)]

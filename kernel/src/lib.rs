@@ -46,8 +46,8 @@
 //! ## The layers, in the order of use
 //!
 //! [`mesh`] → [`numbering`] and [`edges`] → [`stiffness`] of each [`element`] → [`assembly`] into [`csr`] →
-//! [`signorini`] (the contact problem) → [`psor`], one sweep, in the loop of [`solver`], corrected by
-//! [`refinement`] → [`flux`] → [`contact`]. Each works on slices and can be used alone; [`workspace`] owns
+//! [`signorini`] (the contact problem) → packed [`rows`] → [`psor`], one sweep, in the loop of [`solver`],
+//! corrected by [`refinement`] → [`flux`] → [`contact`]. Each works on slices and can be used alone; [`workspace`] owns
 //! the memory and goes the whole way. [`components`] tells beforehand whether a solution exists.
 //!
 //! ## What is absent

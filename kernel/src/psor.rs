@@ -21,16 +21,25 @@ use crate::rows::{Row, Rows};
 ///
 /// # Errors
 /// Arrays of the wrong length.
+// Neither is inlined, so that symbols tell whether an image holds code for contact.
+#[inline(never)]
+#[allow(unsafe_code)]
 pub fn sweep<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
     lower: &[R],
     u: &mut [R],
 ) -> Result<(), Error> {
-    sweep_free(rows, u)?;
-    sweep_contact(rows, lower, u)
+    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    // SAFETY: u has an entry for each edge of the rows' mesh.
+    unsafe {
+        relax_free(rows, u);
+        relax_contact(rows, lower, u);
+    }
+    Ok(())
 }
 
-/// The first part of a sweep: the free edges. It is all of it where nothing is in contact.
+/// One sweep over the free edges alone: all of it where nothing is in contact.
 ///
 /// # Errors
 /// Arrays of the wrong length.
@@ -41,36 +50,43 @@ pub fn sweep_free<R: Real, I: Index, const WIDTH: usize>(
     u: &mut [R],
 ) -> Result<(), Error> {
     same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    // SAFETY: u has an entry for each edge of the rows' mesh.
+    unsafe { relax_free(rows, u) };
+    Ok(())
+}
+
+/// # Safety
+/// `u` must have an entry for each edge of the rows' mesh.
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn relax_free<R: Real, I: Index, const WIDTH: usize>(rows: &Rows<R, I, WIDTH>, u: &mut [R]) {
     let keep = R::ONE - rows.omega();
     let u = u.as_mut_ptr();
     let mut own = u;
     for row in rows.free() {
-        // SAFETY: u has an entry for each edge, and those of the free edges come first.
+        // SAFETY: as the caller has promised, and the free edges come first in u.
         unsafe {
             own.write(relaxed(row, WIDTH, keep, *own, u));
             own = own.add(1);
         }
     }
-    Ok(())
 }
 
-/// The second part of a sweep: the contact edges. They have one cell, and half a row of neighbours.
+/// Contact edges have one cell, and half a row of neighbours.
 ///
-/// # Errors
-/// Arrays of the wrong length.
-#[inline(never)]
+/// # Safety
+/// `u` must have an entry for each edge of the rows' mesh.
+#[inline(always)]
 #[allow(unsafe_code)]
-pub fn sweep_contact<R: Real, I: Index, const WIDTH: usize>(
+unsafe fn relax_contact<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
     lower: &[R],
     u: &mut [R],
-) -> Result<(), Error> {
-    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
-    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+) {
     let keep = R::ONE - rows.omega();
     let u = u.as_mut_ptr();
-    // SAFETY: u has an entry for each edge, those of contact edges behind those of free ones.
-    let mut own = unsafe { u.add(rows.counts().free) };
+    // SAFETY: as the caller has promised, and the contact edges follow the free ones in u.
+    let mut own = unsafe { u.add(rows.free().len()) };
     for (row, &lower) in rows.contact().iter().zip(lower) {
         // SAFETY: as above, and there is a row for each contact edge.
         unsafe {
@@ -79,7 +95,6 @@ pub fn sweep_contact<R: Real, I: Index, const WIDTH: usize>(
             own = own.add(1);
         }
     }
-    Ok(())
 }
 
 /// The new value of an unknown before projection, from the first `neighbours` of its row.

@@ -52,6 +52,9 @@ pub const M7: Board = Board {
 pub const M4F_192K: Board =
     Board { name: "M4F-192K", machine: "netduinoplus2", memory: "netduinoplus2", ..M4F };
 
+/// The same part on a desk: QEMU is not asked.
+pub const HARDWARE: Board = Board { name: "STM32F407", memory: "stm32f407", ..M4F_192K };
+
 /// What is built: a package of `tests/firmware`, some of its binaries (all, where empty), features.
 #[derive(Debug, Clone, Copy)]
 pub struct Build<'a> {

@@ -34,6 +34,13 @@ pub fn run(steps: &mut Steps) {
         on_board(steps, &board, &STAGES);
     }
     on_board(steps, &M4F_192K, &TICKS);
+    steps.check("the cost image fits a part with 192 KiB", || {
+        let (package, bins) = ("signorini-firmware", &["cost"]);
+        let what = Build { package, bins, features: &[], scenes: &scenes()? };
+        let (command, folder) = M4F_192K.build(what)?;
+        run_cargo(command)?;
+        M4F_192K.run(&folder.join("cost"), true).map(drop)
+    });
     steps.check("RTIC example: no missed deadline", || rtic(&[]).map(drop));
     steps.check("RTIC example: overload is noticed", || match rtic(&["overload"]) {
         Ok(_) => Err("not noticed".to_owned()),

@@ -2,32 +2,45 @@
 //!
 //! The kernel has no features to choose among: both scalars and both square roots are in the images.
 
-use crate::board::{Board, Build, M4, M4F, M7};
-use crate::cargo::run as run_cargo;
+use std::fs;
+
+use crate::board::{Board, Build, HARDWARE, M4, M4F, M7};
+use crate::cargo::{run as run_cargo, target_dir};
 use crate::export::scenes;
 use crate::setup;
 use crate::steps::Steps;
 
 const BOARDS: [Board; 3] = [M4, M4F, M7];
 
-/// What is built: package, features, what to call it.
-const PACKAGES: [(&str, &[&str], &str); 4] = [
-    ("signorini-kernel", &[], "the kernel"),
-    ("signorini-firmware", &[], "the images"),
-    ("signorini-firmware", &["dwt"], "the images for a real board"),
-    ("signorini-rtic", &[], "the RTIC example"),
+/// Packages, and what to call them.
+const PACKAGES: [(&str, &str); 3] = [
+    ("signorini-kernel", "the kernel"),
+    ("signorini-firmware", "the images"),
+    ("signorini-rtic", "the RTIC example"),
 ];
 
-/// Builds for the M4 without and with its unit for f32, and for the M7.
+/// Builds for the M4 without and with its unit for f32, for the M7, and for a real board.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
     for board in BOARDS {
-        for (package, features, what) in PACKAGES {
+        for (package, what) in PACKAGES {
             steps.check(&format!("{what} for the {}", board.name), || {
-                let scenes = scenes()?;
-                let build = Build { package, bins: &[], features, scenes: &scenes };
-                run_cargo(board.build(build)?.0)
+                build(&board, Build { package, bins: &[], features: &[], scenes: &scenes()? })
             });
         }
     }
+    steps.check("the cost image for a real board", || {
+        let (package, bins) = ("signorini-firmware", &["cost"]);
+        let what = Build { package, bins, features: &["dwt"], scenes: &scenes()? };
+        build(&HARDWARE, what)?;
+        // Out of the way of the emulator's image of the same name.
+        let folder = target_dir("firmware").join("hardware");
+        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        let copied = fs::copy(HARDWARE.build(what)?.1.join("cost"), folder.join("cost"));
+        copied.map(drop).map_err(|error| error.to_string())
+    });
+}
+
+fn build(board: &Board, what: Build) -> Result<(), String> {
+    run_cargo(board.build(what)?.0)
 }

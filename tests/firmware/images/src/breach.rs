@@ -20,16 +20,19 @@ pub fn commit<R: Real>(model: &Model<R, u16>, force: R) {
     #[cfg(feature = "broken-double")]
     black_box(black_box(1.5_f64) * black_box(2.5_f64));
     #[cfg(feature = "broken-quads")]
-    if let Ok(edges) = model.edges() {
-        let flux = black_box(&mut [[R::ZERO; 4]; 1]);
-        let _ = signorini_kernel::flux::of_quads(&edges, model.stiffness, &[], model.start, flux);
+    if let Ok(edges) = black_box(model).edges() {
+        let (mut flux, stiffness) = ([[R::ZERO; 4]; 1], black_box(model).stiffness);
+        let start = black_box(model.start);
+        let done = signorini_kernel::flux::of_quads(&edges, stiffness, &[], start, &mut flux);
+        let _ = black_box((done, flux));
     }
     #[cfg(feature = "broken-contact")]
-    if let Ok(edges) = model.edges() {
+    if let Ok(edges) = black_box(model).edges() {
         use signorini_kernel::rows::{Row, Rows, TRIANGLES};
-        let rows = Rows::<R, u16, TRIANGLES>::new(&edges, black_box(&mut [Row::EMPTY; 1]));
-        if let Ok(rows) = rows {
-            let _ = signorini_kernel::psor::sweep_contact(&rows, &[], &mut []);
+        let (mut memory, mut u) = ([Row::EMPTY; 4], [R::ZERO; 4]);
+        if let Ok(rows) = Rows::<R, u16, TRIANGLES>::new(&edges, black_box(&mut memory)) {
+            let done = signorini_kernel::psor::sweep(&rows, black_box(model.gap), &mut u);
+            let _ = black_box((done, u));
         }
     }
     #[cfg(feature = "broken-alloc")]

@@ -53,6 +53,7 @@ impl<
     ///
     /// # Errors
     /// A model of another size.
+    #[inline(never)]
     pub fn run(&mut self, model: &Model<R, u16>, omega: R, sweeps: u32) -> Result<R, Error> {
         let (edges, boundary) = (model.edges()?, model.boundary()?);
         let u = super::stages::cut(&mut self.u, model.start.len())?;
@@ -66,9 +67,10 @@ impl<
         let mut rows = Rows::new(&edges, &mut self.rows)?;
         rows.gather(&edges, model.stiffness, &boundary, &self.load, omega)?;
         for _ in 0..sweeps {
-            psor::sweep_free(&rows, u)?;
             if CONTACT {
-                psor::sweep_contact(&rows, model.gap, u)?;
+                psor::sweep(&rows, model.gap, u)?;
+            } else {
+                psor::sweep_free(&rows, u)?;
             }
         }
         let k = model.stiffness;
