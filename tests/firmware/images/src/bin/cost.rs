@@ -68,11 +68,14 @@ impl Meter<'_, '_> {
         mut work: impl FnMut() -> Result<(), Error>,
     ) -> Result<(), Error> {
         work()?;
-        let repeated = || {
+        let mut repeated = || {
             // Just seen to succeed.
             let _ = black_box(work());
         };
-        let total = self.clock.measure(TIMES, repeated) * UNIT / TIMES;
+        // What is too long for the counter twenty times over needs no finer grain than once.
+        let often = self.clock.measure(TIMES, &mut repeated).map(|counts| counts * UNIT / TIMES);
+        let once = || self.clock.measure(1, &mut repeated).map(|counts| counts * UNIT);
+        let total = often.or_else(once).unwrap_or(u32::MAX);
         let mut last = Ok(());
         let bytes = stack::depth(DEPTH, || last = work());
         self.journal.row(&[self.kind, "|", stage, "|", unit, "|"], &[total, units as u32, bytes]);
@@ -212,11 +215,15 @@ fn by_records<R: Bits, const WIDTH: usize>(
     let (free, contact) = records.split_at_checked(free).unwrap_or((records, &[]));
     for (i, record) in free.iter().enumerate() {
         let value = relaxed(record, u, u.get(i).copied().unwrap_or_default());
-        u.get_mut(i).map_or((), |own| *own = value);
+        if let Some(own) = u.get_mut(i) {
+            *own = value;
+        }
     }
     for ((i, record), &gap) in (free.len()..).zip(contact).zip(gap) {
         let value = relaxed(record, u, u.get(i).copied().unwrap_or_default());
-        u.get_mut(i).map_or((), |own| *own = if value > gap { value } else { gap });
+        if let Some(own) = u.get_mut(i) {
+            *own = if value > gap { value } else { gap };
+        }
     }
 }
 

@@ -32,6 +32,21 @@ mod counter {
     pub fn now() -> u32 {
         BITS - SYST::get_current()
     }
+
+    /// Starts at 0 again, with nothing to tell.
+    pub fn restart() {
+        // SAFETY: the counter is this module's alone; any write sets it to 0.
+        unsafe { (*SYST::PTR).cvr.write(0) };
+        // The write takes effect with the next count.
+        while SYST::get_current() == 0 {}
+        let _ = went_round();
+    }
+
+    /// Whether the counter has gone round since it was asked last.
+    pub fn went_round() -> bool {
+        // SAFETY: reading the status has no effect but on this flag, which nobody else asks for.
+        unsafe { (*SYST::PTR).csr.read() & 1 << 16 != 0 }
+    }
 }
 
 #[cfg(feature = "dwt")]
@@ -51,6 +66,14 @@ mod counter {
     pub fn now() -> u32 {
         DWT::cycle_count()
     }
+
+    /// 32 bits go round seldom enough.
+    pub fn restart() {}
+
+    /// The counter does not tell; at 168 MHz it goes round in 25 s.
+    pub fn went_round() -> bool {
+        false
+    }
 }
 
 impl Clock {
@@ -62,11 +85,14 @@ impl Clock {
     }
 
     /// What `work` costs, done so often that the counter's grain does not matter: counts in all.
-    pub fn measure(&self, times: u32, mut work: impl FnMut()) -> u32 {
+    /// `None` where that is more than the counter holds.
+    pub fn measure(&self, times: u32, mut work: impl FnMut()) -> Option<u32> {
+        counter::restart();
         let start = counter::now();
         for _ in 0..times {
             work();
         }
-        counter::now().wrapping_sub(start) & counter::BITS
+        let end = counter::now();
+        (!counter::went_round()).then(|| end.wrapping_sub(start) & counter::BITS)
     }
 }
