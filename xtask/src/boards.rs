@@ -9,6 +9,7 @@ use std::process::Command;
 use crate::board::{Board, Build, M4, M4F, M4F_192K, M7};
 use crate::cargo::{cargo, root, run as run_cargo, target_dir};
 use crate::export::scenes;
+use crate::replay;
 use crate::setup;
 use crate::snapshot::snapshot;
 use crate::steps::Steps;
@@ -30,6 +31,7 @@ pub fn run(steps: &mut Steps) {
             snapshot(&format!("tests/firmware/expected/{name}.txt"), &readable(&desk(name)?), bless)
         });
     }
+    steps.check("signorini solve says the same", || replay::compare(&desk("scenes")?));
     for board in [M4F, M4, M7] {
         on_board(steps, &board, &STAGES);
     }

@@ -10,6 +10,7 @@ mod cross;
 mod export;
 mod no_std;
 mod record;
+mod replay;
 mod setup;
 mod size;
 mod snapshot;

@@ -94,7 +94,14 @@ fn solve<R: Real, I: Index>(
             residual: &mut [R::ZERO; UNKNOWNS],
         },
     };
-    refinement::run::<R, I, Libm, QUADS>(&system, &boundary, Settings::default(), 1, &mut u, buffers)?;
+    refinement::run::<R, I, Libm, QUADS>(
+        &system,
+        &boundary,
+        Settings::default(),
+        1,
+        &mut u,
+        buffers,
+    )?;
     Ok([u, low])
 }
 
