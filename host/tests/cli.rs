@@ -102,6 +102,32 @@ fn inputs_change_the_answer() {
 }
 
 #[test]
+fn export_writes_a_model() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("new/scene.rs");
+    let scene = meshes().join("scenes/levee.toml");
+    let arguments = |output: &Path, more: &[&'static str]| {
+        let fixed = ["export".into(), scene.clone().into_os_string(), "-o".into(), output.into()];
+        let all = fixed.into_iter().chain(more.iter().map(Into::into));
+        Command::new(env!("CARGO_BIN_EXE_signorini")).args(all).output().expect("the binary runs")
+    };
+    assert_eq!(arguments(&file, &[]).status.code(), Some(0));
+    let model = text(&file);
+    let line = |of: &str| model.lines().any(|line| line.trim_start().starts_with(of));
+    assert!(line("pub static MODEL: Model<'static, f32, u16> = Model {"));
+    assert!(line("pub const UNKNOWNS: usize = 2329;"));
+    assert!(line("counts: EdgeCounts { free: 2279, contact: 50, dirichlet: 20 },"));
+    assert!(!model.contains("4294967295") && model.contains("NONE]"), "boundary edges have one side");
+
+    assert_eq!(arguments(&file, &["--input", "rain=2", "--scalar", "f64"]).status.code(), Some(0));
+    assert_ne!(text(&file).replace("f64", "f32"), model);
+    let wrong = arguments(&folder.path().join("none.rs"), &["--input", "snow=1"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(!folder.path().join("none.rs").exists(), "nothing is left of a failure");
+    assert_eq!(arguments(&file.join("below/a/file.rs"), &[]).status.code(), Some(1));
+}
+
+#[test]
 fn help_has_examples() {
     for command in [&["--help"][..], &["solve", "--help"]] {
         let output = signorini(command);

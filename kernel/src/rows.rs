@@ -117,6 +117,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         rows: &'a mut [Row<R, I, WIDTH>],
         mut neighbours: impl FnMut(usize) -> N,
     ) -> Result<Self, Error> {
+        const { assert!(WIDTH.is_multiple_of(2), "two offsets are read as one word") };
         same_length(Array::Rows, rows.len(), counts.unknowns())?;
         let limit = (I::LIMIT - 1) / size_of::<R>();
         if counts.edges() > limit {

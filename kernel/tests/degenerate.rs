@@ -10,7 +10,7 @@ use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace};
+use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace, psor};
 
 type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200, 6>;
 
@@ -159,6 +159,43 @@ fn arrays_that_do_not_fit_are_refused() {
         assert!(Solver::new(settings).is_err());
     }
 }
+
+#[test]
+fn rows_and_sweeps_refuse_what_does_not_fit() {
+    let sides = EdgeCounts { free: 2, contact: 1, dirichlet: 1 };
+    let edges = Edges::<u16>::new(
+        &[],
+        &[[0, 1, 2, 3]],
+        &[[0, NONE], [1, NONE], [2, NONE], [3, NONE]],
+        sides,
+    )
+    .expect("a square");
+    let mut memory = [Row::<f64, u16, 6>::EMPTY; 3];
+    assert!(Rows::new(&edges, &mut memory[..2]).is_err(), "a row is missing");
+    let narrow = &mut [Row::<f64, u16, 2>::EMPTY; 3];
+    assert!(matches!(Rows::new(&edges, narrow), Err(Error::Capacity { needed: 3, limit: 2, .. })));
+    let rows = Rows::new(&edges, &mut memory).expect("fits");
+    for (lower, u) in [(1, 3), (1, 5), (0, 4), (2, 4)] {
+        let (lower, mut u) = (vec![0.0; lower], vec![0.0; u]);
+        assert!(psor::sweep(&rows, &lower, &mut u).is_err(), "{lower:?} {u:?}");
+    }
+    assert!(psor::sweep_free(&rows, &mut [0.0; 3]).is_err());
+    assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
+
+    // 8192 edges of 8 bytes are one too many for 16-bit offsets.
+    let count = 8192;
+    let cells: Vec<[u16; 4]> =
+        (0..count / 4).map(|cell| [0, 1, 2, 3].map(|k| 4 * cell + k)).collect();
+    let halves: Vec<[u16; 2]> = (0..count).map(|edge| [edge, NONE]).collect();
+    let all = EdgeCounts { free: usize::from(count), contact: 0, dirichlet: 0 };
+    let edges = Edges::new(&[], &cells, &halves, all).expect("squares apart");
+    let mut memory = vec![Row::<f64, u16, 6>::EMPTY; all.free];
+    assert!(matches!(Rows::new(&edges, &mut memory), Err(Error::Capacity { limit: 8191, .. })));
+    let mut memory = vec![Row::<f32, u16, 6>::EMPTY; all.free];
+    assert!(Rows::new(&edges, &mut memory).is_ok());
+}
+
+const NONE: u16 = u16::MAX;
 
 /// The chain −u'' = −1 over an obstacle, small enough to write down.
 fn chain<R>(work: impl FnOnce(&System<f64, u16>, &mut Rows<f64, u16, 2>) -> R) -> R {
