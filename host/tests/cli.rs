@@ -117,7 +117,10 @@ fn export_writes_a_model() {
     assert!(line("pub static MODEL: Model<'static, f32, u16> = Model {"));
     assert!(line("pub const UNKNOWNS: usize = 2329;"));
     assert!(line("counts: EdgeCounts { free: 2279, contact: 50, dirichlet: 20 },"));
-    assert!(!model.contains("4294967295") && model.contains("NONE]"), "boundary edges have one side");
+    assert!(
+        !model.contains("4294967295") && model.contains("NONE]"),
+        "boundary edges have one side"
+    );
 
     assert_eq!(arguments(&file, &["--input", "rain=2", "--scalar", "f64"]).status.code(), Some(0));
     assert_ne!(text(&file).replace("f64", "f32"), model);

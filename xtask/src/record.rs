@@ -28,6 +28,11 @@ pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<(
     if worse.is_empty() { Ok(()) } else { Err(format!("{path}: {}", worse.join("; "))) }
 }
 
+/// The figures of two tables that differ by more than the tolerance.
+pub fn differences(old: &str, new: &str) -> Result<Vec<String>, String> {
+    Ok([regressions(old, new)?, regressions(new, old)?].concat())
+}
+
 /// The figures of `new` that exceed those of `old` by more than the tolerance.
 fn regressions(old: &str, new: &str) -> Result<Vec<String>, String> {
     let (old, new) = (lines(old), lines(new));

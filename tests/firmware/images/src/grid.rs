@@ -12,8 +12,8 @@ const LINES: usize = 8;
 pub const VERTICES: usize = (COLUMNS + 1) * (LINES + 1);
 /// Squares; twice as many triangles.
 pub const SQUARES: usize = COLUMNS * LINES;
-/// Room for the edges.
-pub const EDGES: usize = 440;
+/// More edges than either kind of cells has.
+pub const EDGES: usize = 408;
 
 /// Memory of the mesh and its numbering.
 pub struct Grid<R, const T: usize, const Q: usize> {

@@ -35,12 +35,12 @@ fn main() -> ! {
         let mut meter = Meter { clock, journal, kind: "" };
         let counted = meter
             .kind("f32 triangles")
-            .stages::<f32, TRIANGLES, { 2 * SQUARES }, 0>()
-            .and_then(|()| meter.kind("f32 quads").stages::<f32, QUADS, 0, SQUARES>())
+            .stages::<f32, TRIANGLES, 5, { 2 * SQUARES }, 0, 408>()
+            .and_then(|()| meter.kind("f32 quads").stages::<f32, QUADS, 7, 0, SQUARES, 280>())
             .and_then(|()| {
-                meter.kind("f64 triangles").stages::<f64, TRIANGLES, { 2 * SQUARES }, 0>()
+                meter.kind("f64 triangles").stages::<f64, TRIANGLES, 5, { 2 * SQUARES }, 0, 408>()
             })
-            .and_then(|()| meter.kind("f64 quads").stages::<f64, QUADS, 0, SQUARES>());
+            .and_then(|()| meter.kind("f64 quads").stages::<f64, QUADS, 7, 0, SQUARES, 280>());
         if counted.is_err() {
             board::end(false);
         }
@@ -82,8 +82,16 @@ impl Meter<'_, '_> {
         last
     }
 
+    /// Rows of `WIDTH` entries, CSR rows of `ENTRIES`, T triangles, Q quads and E edges.
     #[inline(never)]
-    fn stages<R: Bits, const WIDTH: usize, const T: usize, const Q: usize>(
+    fn stages<
+        R: Bits,
+        const WIDTH: usize,
+        const ENTRIES: usize,
+        const T: usize,
+        const Q: usize,
+        const E: usize,
+    >(
         &mut self,
     ) -> Result<(), Error> {
         let mut grid = Grid::<R, T, Q>::new();
@@ -99,11 +107,11 @@ impl Meter<'_, '_> {
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
         let sources = ([-R::ONE / R::from_count(64); T], [-R::ONE / R::from_count(32); Q]);
         let loads = CellLoads { triangles: black_box(&sources.0), quads: black_box(&sources.1) };
-        let mut load = [R::ZERO; EDGES];
+        let mut load = [R::ZERO; E];
         let load = cut(&mut load, unknowns)?;
         self.count("load", "cell", cells, || assembly::load(&edges, loads, &boundary, load))?;
 
-        let mut rows = [Row::<R, u16, WIDTH>::EMPTY; EDGES];
+        let mut rows = [Row::<R, u16, WIDTH>::EMPTY; E];
         let memory = cut(&mut rows, unknowns)?;
         self.count("rows, pattern", "unknown", unknowns, || Rows::new(&edges, memory).map(drop))?;
         let mut rows = Rows::new(&edges, memory)?;
@@ -112,11 +120,11 @@ impl Meter<'_, '_> {
             rows.gather(&edges, stiffness, &boundary, load, omega)
         })?;
 
-        let (mut row_ptr, mut col_idx) = ([0; EDGES + 1], [0; 7 * EDGES]);
+        let (mut row_ptr, mut col_idx) = ([0; EDGES + 1], [[0; ENTRIES]; E]);
         let row_ptr = cut(&mut row_ptr, unknowns + 1)?;
-        let col_idx = cut(&mut col_idx, edges.nonzeros())?;
-        let mut values = [R::ZERO; 7 * EDGES];
-        let values = cut(&mut values, col_idx.len())?;
+        let col_idx = cut(col_idx.as_flattened_mut(), edges.nonzeros())?;
+        let mut values = [[R::ZERO; ENTRIES]; E];
+        let values = cut(values.as_flattened_mut(), col_idx.len())?;
         self.count("CSR, pattern", "unknown", unknowns, || {
             assembly::pattern(&edges, row_ptr, col_idx)
         })?;
@@ -128,10 +136,10 @@ impl Meter<'_, '_> {
         let system = System::new(matrix, load, black_box(&gap), edges.counts())?;
         self.count("rows from CSR", "unknown", unknowns, || rows.set(&system, omega))?;
 
-        let mut u = [R::ZERO; EDGES];
+        let mut u = [R::ZERO; E];
         let u = cut(&mut u, edges.counts().edges())?;
         self.count("sweep", "unknown", unknowns, || psor::sweep(&rows, black_box(&gap), u))?;
-        let mut records = [Record::<R, WIDTH>::EMPTY; EDGES];
+        let mut records = [Record::<R, WIDTH>::EMPTY; E];
         let records = cut(&mut records, unknowns)?;
         fill(records, &system, omega);
         let free = edges.counts().free;
@@ -156,7 +164,7 @@ impl Meter<'_, '_> {
                 flux::of_quads(&edges, stiffness, loads.quads, u, &mut by_quads)
             }
         })?;
-        let mut by_edges = [R::ZERO; EDGES];
+        let mut by_edges = [R::ZERO; E];
         let by_edges = cut(&mut by_edges, u.len())?;
         self.count("flux by edges", "cell", cells, || {
             flux::recover(&edges, stiffness, loads, u, &[], by_edges).map(drop)
