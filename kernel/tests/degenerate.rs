@@ -182,6 +182,13 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     assert!(psor::sweep_free(&rows, &mut [0.0; 3]).is_err());
     assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
 
+    // A contact edge between two triangles, which no numbering of a mesh has.
+    let inside = EdgeCounts { free: 2, contact: 1, dirichlet: 2 };
+    let pairs = [[0, NONE], [1, NONE], [2, 3], [4, NONE], [5, NONE]];
+    let edges = Edges::<u16>::new(&[[0, 1, 2], [2, 3, 4]], &[], &pairs, inside).expect("sound");
+    let memory = &mut [Row::<f64, u16, 4>::EMPTY; 3];
+    assert!(matches!(Rows::new(&edges, memory), Err(Error::Capacity { needed: 4, limit: 2, .. })));
+
     // 8192 edges of 8 bytes are one too many for 16-bit offsets.
     let count = 8192;
     let cells: Vec<[u16; 4]> =
