@@ -164,7 +164,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
     /// holds b, one entry an unknown.
     ///
     /// # Errors
-    /// Arrays of the wrong length.
+    /// Arrays of the wrong length, quads where a row has the [`TRIANGLES`] entries of triangles.
     #[inline(never)]
     pub fn gather(
         &mut self,
@@ -178,8 +178,12 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         same_length(Array::Load, load.len(), self.rows.len())?;
         same_length(Array::Stiffness, stiffness.triangles.len(), edges.of_triangles().len())?;
         same_length(Array::Stiffness, stiffness.quads.len(), edges.of_quads().len())?;
-        self.omega = omega;
         // Where there is room for triangles only, an image shall hold no code for quads.
+        if WIDTH == TRIANGLES && !edges.of_quads().is_empty() {
+            let needed = edges.of_quads().len();
+            return Err(Error::Capacity { of: Array::Quads, needed, limit: 0 });
+        }
+        self.omega = omega;
         let fill = |rows: &mut [_], half_edges: &[_], load: &[_], addend| {
             if WIDTH == TRIANGLES {
                 gather_triangles(rows, half_edges, stiffness.triangles, load, addend, omega);

@@ -9,7 +9,7 @@ use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver, Status};
-use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::stiffness::{Coefficient, Stiffness};
 use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace, psor};
 
 type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200, 6>;
@@ -181,6 +181,16 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     }
     assert!(psor::sweep_free(&rows, &mut [0.0; 3]).is_err());
     assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
+
+    // A free square fits four entries, but only the general rows know its matrix.
+    let free = EdgeCounts { free: 4, contact: 0, dirichlet: 0 };
+    let halves = [[0, NONE], [1, NONE], [2, NONE], [3, NONE]];
+    let square = Edges::<u16>::new(&[], &[[0, 1, 2, 3]], &halves, free).expect("a square");
+    let (mut memory, k) = ([Row::<f64, u16, 4>::EMPTY; 4], [[-1.0; 6]]);
+    let k = Stiffness { triangles: &[], quads: &k };
+    let nothing = Boundary::new(&square, &[], &[], &[]).expect("nothing");
+    let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
+    assert!(rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).is_err());
 
     // A contact edge between two triangles, which no numbering of a mesh has.
     let inside = EdgeCounts { free: 2, contact: 1, dirichlet: 2 };
