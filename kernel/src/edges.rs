@@ -165,6 +165,36 @@ impl<'a, I: Index> Edges<'a, I> {
         side(self.of_triangles.len(), half_edge)
     }
 
+    /// Number of cells: triangles, then quads.
+    pub fn cells(&self) -> usize {
+        self.of_triangles.len() + self.of_quads.len()
+    }
+
+    /// The cell that a half-edge is a side of, triangles first.
+    pub fn cell_of(&self, half_edge: usize) -> Option<usize> {
+        let cell = match self.side(half_edge) {
+            Side::Triangle(at, _) => at,
+            Side::Quad(at, _) => self.of_triangles.len() + at,
+        };
+        (cell < self.cells()).then_some(cell)
+    }
+
+    /// The half-edges of a cell.
+    pub fn sides_of(&self, cell: usize) -> core::ops::Range<usize> {
+        let triangles = self.of_triangles.len();
+        match cell.checked_sub(triangles) {
+            None => 3 * cell..3 * cell + 3,
+            Some(quad) => 3 * triangles + 4 * quad..3 * triangles + 4 * quad + 4,
+        }
+    }
+
+    /// The other half-edge of a half-edge's edge, and its cell; `None` on the boundary.
+    pub fn beyond(&self, half_edge: usize) -> Option<(I, usize)> {
+        let [first, second] = read(self.half_edges, self.edge_of(half_edge));
+        let other = if first.at() == half_edge { second } else { first };
+        if other == I::NONE { None } else { Some((other, self.cell_of(other.at())?)) }
+    }
+
     /// The first side of an edge: its normal points out of that cell.
     pub fn first_side(&self, edge: usize) -> Side {
         self.side(read(self.half_edges, edge)[0].at())
@@ -204,7 +234,8 @@ impl<'a, I: Index> Edges<'a, I> {
         M::sqrt(scaled_normal(a, b).norm_squared())
     }
 
-    fn edge_of(&self, half_edge: usize) -> usize {
+    /// The edge that a half-edge is one side of.
+    pub fn edge_of(&self, half_edge: usize) -> usize {
         match self.side(half_edge) {
             Side::Triangle(at, side) => read(&read(self.of_triangles, at), side).at(),
             Side::Quad(at, side) => read(&read(self.of_quads, at), side).at(),

@@ -73,6 +73,11 @@ pub enum Error {
         /// A cell of the part.
         cell: usize,
     },
+    /// A connected part has no boundary edge whose flux may change: nothing can take its surplus.
+    NoWayOut {
+        /// A cell of the part.
+        cell: usize,
+    },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
 }
@@ -148,6 +153,9 @@ impl fmt::Display for Error {
                 f,
                 "no unique solution: the loads on the part around cell {cell} balance by themselves"
             ),
+            Self::NoWayOut { cell } => {
+                write!(f, "no edge can take the surplus of the part around cell {cell}")
+            }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
         }
     }

@@ -1,0 +1,228 @@
+//! An admissible flux from any iterate, converged or not, and who is told that there is none.
+#![allow(clippy::indexing_slicing, clippy::expect_used)]
+
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::edges::{Block, Edges};
+use signorini_kernel::equilibrium::{Balance, CellFluxes, Iterate, equilibrate};
+use signorini_kernel::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::{Error, Tensor, assembly, flux, psor};
+
+const NONE: u16 = u16::MAX;
+/// Squares along x and y; every other one is cut into two triangles.
+const SQUARES: [usize; 2] = [5, 4];
+
+/// What lies on a side of the square.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Given,
+    Insulated,
+    Transfer,
+    Contact,
+}
+
+/// The domain with these sides: bottom, right, top, left.
+struct Plate {
+    vertices: Vec<[f64; 2]>,
+    triangles: Vec<[u16; 3]>,
+    quads: Vec<[u16; 4]>,
+    of_triangles: Vec<[u16; 3]>,
+    of_quads: Vec<[u16; 4]>,
+    half_edges: Vec<[u16; 2]>,
+}
+
+impl Plate {
+    fn new() -> Self {
+        let [nx, ny] = SQUARES;
+        let vertex = |i: usize, j: usize| (j * (nx + 1) + i) as u16;
+        let (mut triangles, mut quads) = (Vec::new(), Vec::new());
+        for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
+            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+            let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
+            if (i + j) % 2 == 0 {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                quads.push([a, b, c, d]);
+            }
+        }
+        let place = |at: usize| [(at % (nx + 1)) as f64, (at / (nx + 1)) as f64];
+        let sides = 3 * triangles.len() + 4 * quads.len();
+        Self {
+            vertices: (0..(nx + 1) * (ny + 1)).map(place).collect(),
+            of_triangles: vec![[NONE; 3]; triangles.len()],
+            of_quads: vec![[NONE; 4]; quads.len()],
+            half_edges: vec![[NONE; 2]; sides],
+            triangles,
+            quads,
+        }
+    }
+
+    fn side(&self, ends: [u16; 2], sides: [Side; 4]) -> Side {
+        let [p, q] = ends.map(|vertex| self.vertices[usize::from(vertex)]);
+        let [nx, ny] = SQUARES.map(|n| n as f64);
+        let on = [p[1] + q[1] == 0.0, p[0] + q[0] == 2.0 * nx, p[1] + q[1] == 2.0 * ny];
+        sides[on.iter().position(|&on| on).unwrap_or(3)]
+    }
+}
+
+/// What a run leaves behind.
+struct Run {
+    balance: Balance,
+    /// Largest |Σ τ + ∫f| of a cell, and largest jump of τ across an edge.
+    defect: [f64; 2],
+    /// Flux through the free boundary edges with a given flux, minus that flux.
+    given: f64,
+    /// Smallest τ − q on contact edges, and largest |τ − q| where open.
+    contact: [f64; 2],
+}
+
+/// Sweeps `sweeps` times from zero and equilibrates; `load` is f.
+fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
+    let mut plate = Plate::new();
+    let topology = Plate::new();
+    let mesh = Mesh::new(&topology.vertices, &topology.triangles, &topology.quads)?;
+    let buffers = NumberingBuffers {
+        of_triangles: &mut plate.of_triangles,
+        of_quads: &mut plate.of_quads,
+        half_edges: &mut plate.half_edges,
+        at_vertex: &mut vec![[NONE; 2]; mesh.vertices().len()],
+        next: &mut vec![NONE; mesh.half_edges()],
+    };
+    let numbered = number(&mesh, buffers, |ends| {
+        Some(match topology.side(ends, sides) {
+            Side::Given => Block::Dirichlet,
+            Side::Contact => Block::Contact,
+            Side::Insulated | Side::Transfer => Block::Free,
+        })
+    })?;
+    let counts = numbered.counts();
+    let half_edges = &plate.half_edges[..counts.edges()];
+    let edges = Edges::new(&plate.of_triangles, &plate.of_quads, half_edges, counts)?;
+
+    let outer: Vec<u16> =
+        (0..counts.free as u16).filter(|&e| half_edges[usize::from(e)][1] == NONE).collect();
+    let is =
+        |edge: u16, side| topology.side(edges.endpoints(&mesh, usize::from(edge)), sides) == side;
+    let insulated = outer.iter().filter(|&&edge| is(edge, Side::Insulated));
+    let neumann: Vec<_> =
+        insulated.map(|&edge| Neumann { edge, flux: 0.01 * f64::from(edge) }).collect();
+    let transfer = outer.iter().filter(|&&edge| is(edge, Side::Transfer));
+    let robin: Vec<_> =
+        transfer.map(|&edge| Robin { edge, coefficient: 0.5, ambient: 1.0 }).collect();
+    let (q, gap) = (vec![-0.3; counts.contact], vec![-0.5; counts.contact]);
+    let boundary = Boundary::new(&edges, &neumann, &robin, &q)?;
+
+    // A jump of 10⁴ between neighbours.
+    let alpha = |cell: usize| if cell % 3 == 0 { 1e4 } else { 1.0 };
+    let tensors: Vec<_> = (0..edges.cells()).map(|cell| Tensor::scalar(alpha(cell))).collect();
+    let softness: Vec<_> = (0..edges.cells()).map(|cell| 1.0 / alpha(cell)).collect();
+    let mut k = (vec![[0.0; 3]; topology.triangles.len()], vec![[0.0; 6]; topology.quads.len()]);
+    stiffness::fill(&mesh, Coefficient::PerCell(&tensors), 2, &mut k.0, &mut k.1)?;
+    let stiffness = Stiffness { triangles: &k.0, quads: &k.1 };
+    let sources = (vec![load / 2.0; k.0.len()], vec![load; k.1.len()]);
+    let loads = CellLoads { triangles: &sources.0, quads: &sources.1 };
+    let mut b = vec![0.0; counts.unknowns()];
+    assembly::load(&edges, loads, &boundary, &mut b)?;
+    let mut memory = vec![Row::<f64, u16, QUADS>::EMPTY; counts.unknowns()];
+    let mut rows = Rows::new(&edges, &mut memory)?;
+    rows.gather(&edges, stiffness, &boundary, &b, 1.5)?;
+    let mut u = vec![0.0; counts.edges()];
+    for _ in 0..sweeps {
+        psor::sweep(&rows, &gap, &mut u)?;
+    }
+
+    let roots = |edge: usize| match counts.block(edge) {
+        Block::Dirichlet => true,
+        Block::Free => robin.iter().any(|record| usize::from(record.edge) == edge),
+        Block::Contact => {
+            sides.iter().all(|&side| side == Side::Contact || side == Side::Insulated)
+        }
+    };
+    let mut scratch =
+        [vec![NONE; edges.cells()], vec![NONE; edges.cells()], vec![NONE; edges.cells()]];
+    let [order, parent, place] = &mut scratch;
+    let mut distance = vec![0.0; edges.cells()];
+    let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
+    let forest = grow(&edges, |cell| softness[cell], roots, buffers)?;
+
+    let mut by_cells = (vec![[0.0; 3]; k.0.len()], vec![[0.0; 4]; k.1.len()]);
+    flux::of_triangles(&edges, stiffness, loads.triangles, &u, &mut by_cells.0)?;
+    flux::of_quads(&edges, stiffness, loads.quads, &u, &mut by_cells.1)?;
+    let mut tau = CellFluxes { triangles: &mut by_cells.0, quads: &mut by_cells.1 };
+    let iterate = Iterate { u: &u, lower: &gap };
+    let balance = equilibrate(&edges, &forest, &softness, &boundary, loads, iterate, &mut tau)?;
+
+    let sum = |cell| edges.sides_of(cell).map(|half| tau.through(half)).sum::<f64>();
+    let source = |cell: usize| if cell < k.0.len() { load / 2.0 } else { load };
+    let defects = (0..edges.cells()).map(|cell| (sum(cell) + source(cell)).abs());
+    let inner = half_edges.iter().filter(|pair| pair[1] != NONE);
+    let jumps = inner.map(|pair| {
+        let [a, b] = pair.map(|half| tau.through(usize::from(half)));
+        (a + b).abs()
+    });
+    let first = |edge: usize| tau.through(usize::from(half_edges[edge][0]));
+    let given = neumann.iter().map(|n| (first(usize::from(n.edge)) - n.flux).abs());
+    let pressures: Vec<_> = (0..counts.contact).map(|c| first(counts.free + c) + 0.3).collect();
+    let open = pressures.iter().enumerate().filter(|(c, _)| u[counts.free + c] > -0.5);
+    Ok(Run {
+        balance,
+        defect: [defects.fold(0.0, f64::max), jumps.fold(0.0, f64::max)],
+        given: given.fold(0.0, f64::max),
+        contact: [
+            pressures.iter().copied().fold(f64::INFINITY, f64::min),
+            open.map(|(_, pressure)| pressure.abs()).fold(0.0, f64::max),
+        ],
+    })
+}
+
+#[test]
+fn any_iterate_becomes_admissible() {
+    let sides = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
+    for load in [-0.4, 0.0, 0.7] {
+        for sweeps in [0, 1, 3, 10, 100, 1000] {
+            let run = run(sides, load, sweeps).expect("roots on two sides");
+            let what = format!("f = {load} after {sweeps} sweeps");
+            assert_eq!(run.balance, Balance::Admissible, "{what}");
+            assert!(run.defect[0] < 1e-9 && run.defect[1] == 0.0, "{what}: {:?}", run.defect);
+            assert_eq!(run.given, 0.0, "{what}");
+            assert!(run.contact[0] >= 0.0 && run.contact[1] == 0.0, "{what}: {:?}", run.contact);
+        }
+    }
+}
+
+#[test]
+fn contact_alone_takes_what_pushes_and_refuses_what_pulls() {
+    let sides = [Side::Contact, Side::Insulated, Side::Insulated, Side::Insulated];
+    let pushed = run(sides, -0.4, 500).expect("contact edges are roots");
+    assert_eq!(pushed.balance, Balance::Admissible);
+    assert!(pushed.defect[0] < 1e-9 && pushed.given == 0.0 && pushed.contact[0] >= 0.0);
+    let pulled = run(sides, 0.7, 5).expect("contact edges are roots");
+    assert!(matches!(pulled.balance, Balance::PullsOnContact { .. }), "{:?}", pulled.balance);
+}
+
+#[test]
+fn a_part_without_a_way_out_is_named() {
+    assert!(matches!(run([Side::Insulated; 4], 0.0, 1), Err(Error::NoWayOut { .. })));
+}
+
+#[test]
+fn forests_that_are_none_are_refused() {
+    // Two triangles of a square; side 0 of the first is a root, side 2 of it leads to the second.
+    let counts = signorini_kernel::edges::EdgeCounts { free: 1, contact: 0, dirichlet: 4 };
+    let halves = [[2, 3], [0, NONE], [1, NONE], [4, NONE], [5, NONE]];
+    let edges = Edges::<u16>::new(&[[1, 2, 0], [0, 3, 4]], &[], &halves, counts).expect("a square");
+    let refused = |order: [u16; 2], parent: [u16; 2], place: [u16; 2]| {
+        Forest::new(&edges, &order, &parent, &place).is_err()
+    };
+    assert!(!refused([0, 1], [0, 3], [0, 1]));
+    assert!(refused([1, 0], [0, 3], [1, 0]), "the leaf before its root");
+    assert!(refused([0, 0], [0, 3], [0, 1]), "a cell twice");
+    assert!(refused([0, 1], [0, 2], [0, 1]), "the side of another cell");
+    assert!(refused([0, 1], [2, 3], [0, 1]), "in a circle");
+    assert!(refused([0, 1], [0, 9], [0, 1]), "no side");
+    assert!(Forest::new(&edges, &[0], &[0], &[0]).is_err());
+}
