@@ -117,7 +117,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     let boundary = Boundary::new(&edges, &neumann, &robin, &q)?;
 
     // A jump of 10⁴ between neighbours.
-    let alpha = |cell: usize| if cell % 3 == 0 { 1e4 } else { 1.0 };
+    let alpha = |cell: usize| if cell.is_multiple_of(3) { 1e4 } else { 1.0 };
     let tensors: Vec<_> = (0..edges.cells()).map(|cell| Tensor::scalar(alpha(cell))).collect();
     let softness: Vec<_> = (0..edges.cells()).map(|cell| 1.0 / alpha(cell)).collect();
     let mut k = (vec![[0.0; 3]; topology.triangles.len()], vec![[0.0; 6]; topology.quads.len()]);
