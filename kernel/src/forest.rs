@@ -7,7 +7,7 @@
 
 use crate::edges::Edges;
 use crate::error::{Array, Error, same_length};
-use crate::index::{Index, read};
+use crate::index::{Index, read, write};
 use crate::real::Real;
 
 /// Memory for [`grow`]; every array has one entry a cell, triangles first.
@@ -219,11 +219,5 @@ impl<I: Index> Heap<'_, I> {
             self.set(at, last);
         }
         Some(nearest)
-    }
-}
-
-fn write<T>(slice: &mut [T], position: usize, value: T) {
-    if let Some(entry) = slice.get_mut(position) {
-        *entry = value;
     }
 }

@@ -55,3 +55,11 @@ pub(crate) fn read<T: Copy + Default>(slice: &[T], position: usize) -> T {
         None => T::default(),
     }
 }
+
+/// Sets the entry at `position`; nothing where a (never validated) index points outside.
+#[inline(always)]
+pub(crate) fn write<T>(slice: &mut [T], position: usize, entry: T) {
+    if let Some(place) = slice.get_mut(position) {
+        *place = entry;
+    }
+}

@@ -60,6 +60,7 @@ pub mod assembly;
 pub mod boundary;
 pub mod components;
 pub mod condition;
+pub mod conforming;
 pub mod conjugate;
 pub mod contact;
 pub mod csr;

@@ -1,73 +1,17 @@
 //! An admissible flux from any iterate, converged or not, and who is told that there is none.
 #![allow(clippy::indexing_slicing, clippy::expect_used)]
 
+mod plate;
+
+use plate::{NONE, Plate, Side};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::equilibrium::{Balance, CellFluxes, Iterate, equilibrate};
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Tensor, assembly, flux, psor};
-
-const NONE: u16 = u16::MAX;
-/// Squares along x and y; every other one is cut into two triangles.
-const SQUARES: [usize; 2] = [5, 4];
-
-/// What lies on a side of the square.
-#[derive(Clone, Copy, PartialEq)]
-enum Side {
-    Given,
-    Insulated,
-    Transfer,
-    Contact,
-}
-
-/// The domain with these sides: bottom, right, top, left.
-struct Plate {
-    vertices: Vec<[f64; 2]>,
-    triangles: Vec<[u16; 3]>,
-    quads: Vec<[u16; 4]>,
-    of_triangles: Vec<[u16; 3]>,
-    of_quads: Vec<[u16; 4]>,
-    half_edges: Vec<[u16; 2]>,
-}
-
-impl Plate {
-    fn new() -> Self {
-        let [nx, ny] = SQUARES;
-        let vertex = |i: usize, j: usize| (j * (nx + 1) + i) as u16;
-        let (mut triangles, mut quads) = (Vec::new(), Vec::new());
-        for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
-            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
-            let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
-            if (i + j) % 2 == 0 {
-                triangles.extend([[a, b, c], [a, c, d]]);
-            } else {
-                quads.push([a, b, c, d]);
-            }
-        }
-        let place = |at: usize| [(at % (nx + 1)) as f64, (at / (nx + 1)) as f64];
-        let sides = 3 * triangles.len() + 4 * quads.len();
-        Self {
-            vertices: (0..(nx + 1) * (ny + 1)).map(place).collect(),
-            of_triangles: vec![[NONE; 3]; triangles.len()],
-            of_quads: vec![[NONE; 4]; quads.len()],
-            half_edges: vec![[NONE; 2]; sides],
-            triangles,
-            quads,
-        }
-    }
-
-    fn side(&self, ends: [u16; 2], sides: [Side; 4]) -> Side {
-        let [p, q] = ends.map(|vertex| self.vertices[usize::from(vertex)]);
-        let [nx, ny] = SQUARES.map(|n| n as f64);
-        let on = [p[1] + q[1] == 0.0, p[0] + q[0] == 2.0 * nx, p[1] + q[1] == 2.0 * ny];
-        sides[on.iter().position(|&on| on).unwrap_or(3)]
-    }
-}
 
 /// What a run leaves behind.
 struct Run {
@@ -82,31 +26,13 @@ struct Run {
 
 /// Sweeps `sweeps` times from zero and equilibrates; `load` is f.
 fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
-    let mut plate = Plate::new();
-    let topology = Plate::new();
-    let mesh = Mesh::new(&topology.vertices, &topology.triangles, &topology.quads)?;
-    let buffers = NumberingBuffers {
-        of_triangles: &mut plate.of_triangles,
-        of_quads: &mut plate.of_quads,
-        half_edges: &mut plate.half_edges,
-        at_vertex: &mut vec![[NONE; 2]; mesh.vertices().len()],
-        next: &mut vec![NONE; mesh.half_edges()],
-    };
-    let numbered = number(&mesh, buffers, |ends| {
-        Some(match topology.side(ends, sides) {
-            Side::Given => Block::Dirichlet,
-            Side::Contact => Block::Contact,
-            Side::Insulated | Side::Transfer => Block::Free,
-        })
-    })?;
-    let counts = numbered.counts();
-    let half_edges = &plate.half_edges[..counts.edges()];
-    let edges = Edges::new(&plate.of_triangles, &plate.of_quads, half_edges, counts)?;
+    let topology = Plate::new(sides)?;
+    let (mesh, edges) = (topology.mesh()?, topology.edges()?);
+    let (counts, half_edges) = (edges.counts(), edges.half_edges());
 
     let outer: Vec<u16> =
         (0..counts.free as u16).filter(|&e| half_edges[usize::from(e)][1] == NONE).collect();
-    let is =
-        |edge: u16, side| topology.side(edges.endpoints(&mesh, usize::from(edge)), sides) == side;
+    let is = |edge: u16, side| topology.side(edges.endpoints(&mesh, usize::from(edge))) == side;
     let insulated = outer.iter().filter(|&&edge| is(edge, Side::Insulated));
     let neumann: Vec<_> =
         insulated.map(|&edge| Neumann { edge, flux: 0.01 * f64::from(edge) }).collect();

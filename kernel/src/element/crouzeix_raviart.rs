@@ -29,6 +29,12 @@ pub fn product<R: Real>(&[k01, k12, k20]: &[R; 3], &[u0, u1, u2]: &[R; 3]) -> [R
     [t01 - t20, t12 - t01, t20 - t12]
 }
 
+/// u_h at vertices 0, 1, 2 from its means over the sides: side k runs from vertex k to k + 1, and a
+/// basis function is −1 at the vertex opposite of its side and 1 at the others.
+pub fn at_vertices<R: Real>(&[u0, u1, u2]: &[R; 3]) -> [R; 3] {
+    [u0 - u1 + u2, u0 + u1 - u2, u1 + u2 - u0]
+}
+
 /// ∇u_h on the triangle from the means of u_h over its sides.
 pub fn gradient<R: Real>([a, b, c]: [[R; 2]; 3], means: [R; 3]) -> Vector2<R> {
     // Written with differences, since N₀ + N₁ + N₂ = 0.

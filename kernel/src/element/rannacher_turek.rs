@@ -112,6 +112,18 @@ pub fn stiffness<R: Real>(
     k
 }
 
+/// u_h at vertices 0 to 3 from its means over the sides: at a corner, a basis function is ¾ where its
+/// side meets the corner, and −¼ elsewhere.
+pub fn at_vertices<R: Real>(&[u0, u1, u2, u3]: &[R; 4]) -> [R; 4] {
+    let corner = |near: R, far: R| R::QUARTER * (R::THREE * near - far);
+    [
+        corner(u3 + u0, u1 + u2),
+        corner(u0 + u1, u2 + u3),
+        corner(u1 + u2, u3 + u0),
+        corner(u2 + u3, u0 + u1),
+    ]
+}
+
 /// (K_T u)_i for each side i, `k` as from [`stiffness`].
 #[inline(always)]
 pub fn product<R: Real>(

@@ -1,0 +1,86 @@
+//! The continuous function of the error bound: exact where u is linear, and admissible everywhere.
+#![allow(clippy::indexing_slicing, clippy::expect_used)]
+
+mod plate;
+
+use plate::{Plate, Side};
+use signorini_kernel::Error;
+use signorini_kernel::conforming::{VertexBuffers, VertexData, fill};
+
+const SIDES: [Side; 4] = [Side::Contact, Side::Contact, Side::Insulated, Side::Given];
+
+/// s from a function whose means are those of its middle values, data ψ and u_D, and α.
+fn conforming(
+    u: fn([f64; 2]) -> f64,
+    psi: fn([f64; 2]) -> f64,
+    given: fn([f64; 2]) -> f64,
+    alpha: fn(usize) -> f64,
+) -> Result<(Plate, Vec<f64>, f64), Error> {
+    let plate = Plate::new(SIDES)?;
+    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
+    let counts = edges.counts();
+    let ends: Vec<_> =
+        (0..counts.edges()).map(|edge| plate.ends(edge)).collect::<Result<_, _>>()?;
+    let middle = |[a, b]: [[f64; 2]; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    let mut means: Vec<_> = ends.iter().map(|&ends| u(middle(ends))).collect();
+    let on_contact = &ends[counts.free..counts.unknowns()];
+    let lower: Vec<_> = on_contact.iter().map(|&ends| psi(middle(ends))).collect();
+    for (mean, &lower) in means[counts.free..].iter_mut().zip(&lower) {
+        *mean = mean.max(lower);
+    }
+    let gap: Vec<_> = on_contact.iter().map(|ends| ends.map(psi)).collect();
+    let given: Vec<_> = ends[counts.unknowns()..].iter().map(|ends| ends.map(given)).collect();
+    let alpha: Vec<_> = (0..edges.cells()).map(alpha).collect();
+    let count = plate.vertices.len();
+    let (mut values, mut weights) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+    let data = VertexData { gap: &gap, given: &given };
+    let buffers = VertexBuffers { values: &mut values, weights: &mut weights };
+    let below = fill(&mesh, &edges, &alpha, &means, &lower, data, buffers)?;
+    Ok((plate, values, below))
+}
+
+fn linear([x, y]: [f64; 2]) -> f64 {
+    3.0 + 2.0 * x - y
+}
+
+#[test]
+fn linear_functions_are_kept() {
+    let s = conforming(linear, |_| -100.0, linear, |cell| 1.0 + cell as f64);
+    let (plate, values, below) = s.expect("valid");
+    assert_eq!(below, 0.0);
+    for (at, &s) in plate.vertices.iter().zip(&values) {
+        assert!((s - linear(*at)).abs() < 1e-12, "{s} at {at:?}");
+    }
+}
+
+#[test]
+fn s_is_on_the_gap_where_u_is_and_above_it_elsewhere() {
+    // Above the gap only right of x = 2.
+    let psi = |[_, y]: [f64; 2]| 7.0 - y;
+    let (plate, values, below) = conforming(linear, psi, |_| 20.0, |_| 1.0).expect("valid");
+    assert_eq!(below, 0.0);
+    for (&[x, y], &s) in plate.vertices.iter().zip(&values) {
+        if x == 0.0 {
+            assert_eq!(s, 20.0, "D wins in the corner");
+        } else if y == 0.0 && x <= 2.0 {
+            assert_eq!(s, psi([x, y]), "active at {x}");
+        } else if y == 0.0 || x == 5.0 {
+            assert!(s >= psi([x, y]) && (s - linear([x, y])).abs() < 1e-12, "{s} at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn stiff_cells_decide_and_u_d_below_the_gap_is_told() {
+    // A kink at x = 3 that no cell crosses: stiff cells on its right.
+    let kink = |[x, _]: [f64; 2]| if x > 3.0 { 10.0 } else { 0.0 };
+    let right = |cell: usize| if cell == 0 { 1e9 } else { 1.0 };
+    let (_, even, _) = conforming(kink, |_| -100.0, |_| 0.0, |_| 1.0).expect("valid");
+    let (plate, weighted, _) = conforming(kink, |_| -100.0, |_| 0.0, right).expect("valid");
+    // Cell 0 is the triangle (0, 0), (1, 0), (1, 1), where u = 0 and s must be 0 by its weight alone.
+    let corner = plate.triangles[0].map(|vertex| weighted[usize::from(vertex)]);
+    assert!(corner.iter().all(|s| s.abs() < 1e-6), "{corner:?}");
+    assert!(even.iter().zip(&plate.vertices).any(|(s, at)| at[0] == 3.0 && *s > 1.0), "{even:?}");
+    let (_, _, below) = conforming(linear, |_| -1.0, |_| -1.5, |_| 1.0).expect("valid");
+    assert_eq!(below, 0.5, "where D and C meet");
+}
