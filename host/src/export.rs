@@ -6,7 +6,8 @@
 use std::fmt::Debug;
 use std::fmt::Write as _;
 
-use signorini_kernel::{Index, Model};
+use signorini_kernel::error::Array;
+use signorini_kernel::{Error, Index, Model};
 
 use crate::error::Result;
 use crate::problem::{Assembled, Problem};
@@ -28,18 +29,42 @@ pub struct Origin<'a> {
 /// # Errors
 /// Numbers that the scalar type cannot hold.
 pub fn export<R: Scalar>(origin: Origin) -> Result<String> {
-    let assembled = Assembled::<R>::new(origin.problem).map_err(unfit::<R>(origin.scene))?;
+    let unfit = unfit::<R>(origin.scene);
+    let assembled = Assembled::<R>::new(origin.problem).map_err(&unfit)?;
+    assembled.system().map_err(&unfit)?;
     let start = assembled.start();
     let model = assembled.model(&origin.scene.title, &start);
+    check(&model).map_err(&unfit)?;
     let half_edges = 3 * model.triangles.len() + 4 * model.quads.len();
-    let short = half_edges.max(model.vertices.len()) < u16::LIMIT;
+    let addressable = (u16::LIMIT - 1) / size_of::<R>();
+    let short =
+        half_edges.max(model.vertices.len()) < u16::LIMIT && model.counts.edges() <= addressable;
     Ok(source(origin.scene, &model, if short { "u16" } else { "u32" }))
+}
+
+/// What the kernel checks where it is used is checked here: the firmware has nobody to tell.
+fn check<R: Scalar>(model: &Model<R, u32>) -> std::result::Result<(), Error> {
+    model.boundary()?;
+    let finite = |of, numbers: &[R]| match numbers.iter().position(|x| !x.finite()) {
+        Some(at) => Err(Error::NotFinite { of, at }),
+        None => Ok(()),
+    };
+    finite(Array::Vertices, &[model.unit])?;
+    finite(Array::Unknowns, model.start)?;
+    finite(Array::CellLoads, model.loads.triangles)?;
+    finite(Array::CellLoads, model.loads.quads)?;
+    finite(Array::Stiffness, model.stiffness.triangles.as_flattened())?;
+    finite(Array::Stiffness, model.stiffness.quads.as_flattened())?;
+    match model.tensors.iter().position(|tensor| !tensor.is_positive_definite()) {
+        Some(at) => Err(Error::NotFinite { of: Array::Coefficients, at }),
+        None => Ok(()),
+    }
 }
 
 fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> String {
     let counts = model.counts;
     let half_edges = array("half_edges", model.half_edges);
-    let file = scene.path.file_name().unwrap_or_default().display();
+    let file = scene.path.file_name().unwrap_or_default();
     let fields = [
         format!("title: {:?}", model.title),
         array("vertices", model.vertices),
@@ -66,7 +91,7 @@ fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> Strin
         array("start", model.start),
     ];
     let mut text = format!(
-        "// {file} in {scalar}: {} unknowns, {} of them contact edges, {} triangles, {} quads.\n\
+        "// {file:?} in {scalar}: {} unknowns, {} of them contact edges, {} triangles, {} quads.\n\
          // Written by `signorini export` {version}; do not edit.\n\n",
         counts.unknowns(),
         counts.contact,

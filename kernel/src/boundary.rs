@@ -45,10 +45,11 @@ pub struct Boundary<'a, R, I> {
 }
 
 impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
-    /// `contact_flux` holds ∫_E q for every contact edge in order, or nothing where q = 0.
+    /// `contact_flux` holds ∫_E q for every contact edge in order, or nothing where q = 0. Transfer
+    /// laws stand in the order of their edges, one an edge.
     ///
     /// # Errors
-    /// Records of edges that are not free boundary edges, numbers that are not finite, negative
+    /// Records of edges that are not free boundary edges, transfer laws out of order, numbers that are not finite, negative
     /// Robin coefficients, a wrong number of contact fluxes.
     pub fn new(
         edges: &Edges<I>,
@@ -77,6 +78,10 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
             }
             if record.coefficient < R::ZERO {
                 return Err(Error::NegativeRobin { edge: record.edge.at() });
+            }
+            let before = at.checked_sub(1).and_then(|before| robin.get(before));
+            if before.is_some_and(|before| before.edge >= record.edge) {
+                return Err(Error::OutOfRange { of: Array::Robin, at });
             }
         }
         if !contact_flux.is_empty() {

@@ -11,7 +11,7 @@
 //! ```
 //! Every step lowers the energy. Two vectors of scratch; K p is computed twice instead of stored.
 
-use crate::error::Error;
+use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::psor;
 use crate::real::Real;
@@ -40,6 +40,9 @@ pub fn run<R: Real, I: Index, const WIDTH: usize>(
     u: &mut [R],
     buffers: &mut ConjugateBuffers<R>,
 ) -> Result<u32, Error> {
+    same_length(Array::Unknowns, u.len(), system.counts().edges())?;
+    same_length(Array::Scratch, buffers.direction.len(), u.len())?;
+    same_length(Array::Scratch, buffers.residual.len(), system.load().len())?;
     let mut used = 0;
     rows.set(system, R::ONE)?;
     while used < iterations {

@@ -14,7 +14,8 @@ use crate::real::Real;
 use crate::stiffness::Stiffness;
 use crate::tensor::Tensor;
 
-/// Mesh, numbering, element matrices and data of one problem.
+/// Mesh, numbering, element matrices and data of one problem. Its parts, where it has several that do not
+/// touch, are not told apart: [`crate::shift`] then shifts them as one.
 #[derive(Debug, Clone, Copy)]
 pub struct Model<'a, R, I> {
     /// What to call it.

@@ -98,7 +98,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
     /// The same for any matrix with a row for each of the unknowns.
     ///
     /// # Errors
-    /// As for [`Rows::new`].
+    /// As for [`Rows::new`], and columns that are no edges.
     pub fn of_matrix(
         matrix: &Csr<R, I>,
         counts: EdgeCounts,
@@ -123,14 +123,18 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         if counts.edges() > limit {
             return Err(Error::Capacity { of: Array::Edges, needed: counts.edges(), limit });
         }
-        let inside = |edge: usize| (edge < counts.edges()).then_some(edge * size_of::<R>());
-        let offset = |edge| inside(edge).and_then(I::new).unwrap_or(I::FIRST);
+        let stray = Error::OutOfRange { of: Array::ColumnIndices, at: 0 };
+        let offset = |edge: usize| {
+            let inside = (edge < counts.edges()).then_some(edge * size_of::<R>());
+            inside.and_then(I::new).ok_or(stray)
+        };
         for (i, row) in rows.iter_mut().enumerate() {
-            *row = Row { offsets: [offset(i); WIDTH], ..Row::EMPTY };
+            *row = Row { offsets: [offset(i)?; WIDTH], ..Row::EMPTY };
             let mut needed = 0;
             for edge in neighbours(i) {
+                let offset = offset(edge)?;
                 if let Some(place) = row.offsets.get_mut(needed) {
-                    *place = offset(edge);
+                    *place = offset;
                 }
                 needed += 1;
             }
@@ -160,8 +164,8 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         Ok(())
     }
 
-    /// Numeric pass without CSR: each row from the element matrices of its one or two cells. `load`
-    /// holds b, one entry an unknown.
+    /// Numeric pass without CSR: each row from the element matrices of its one or two cells, by the
+    /// same `edges` that the rows were made for. `load` holds b, one entry an unknown.
     ///
     /// # Errors
     /// Arrays of the wrong length, quads where a row has the [`TRIANGLES`] entries of triangles.

@@ -88,6 +88,7 @@ fn fill_triangles<R: Real, I: Index>(
     // Becomes NaN with the first matrix that is not finite, and stays it.
     let mut doubt = R::ZERO;
     match coefficient {
+        Coefficient::Uniform(_) if triangles.is_empty() => {}
         Coefficient::Uniform(tensor) => {
             let tensor = checked(tensor, CellId::Triangle(0))?;
             for (vertices, k) in mesh.triangles().iter().zip(triangles.iter_mut()) {
@@ -141,7 +142,7 @@ fn checked<R: Real>(tensor: Tensor<R>, cell: CellId) -> Result<Tensor<R>, Error>
     if tensor.is_positive_definite() { Ok(tensor) } else { Err(Error::NotPositiveDefinite(cell)) }
 }
 
-/// The diagonal, a sum of the entries, shall not overflow either.
+/// Infinite and NaN entries show in their sum.
 fn check_entries<R: Real>(k: &[R], at: usize) -> Result<(), Error> {
     let sum = k.iter().fold(R::ZERO, |sum, &entry| sum + entry);
     if sum.finite() { Ok(()) } else { Err(Error::NotFinite { of: Array::Stiffness, at }) }

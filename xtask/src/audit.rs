@@ -31,15 +31,18 @@ const DOUBLE: Absence = Absence {
         let abi = name.strip_prefix("__aeabi_").is_some_and(|rest| {
             rest.starts_with('d') || rest.starts_with("cd") || rest.ends_with("2d")
         });
-        abi && !name.contains("div")
-            || ["df3", "df2", "dfsi", "sidf"].iter().any(|end| name.ends_with(end))
+        abi || ["df3", "df2", "dfsf2", "dfsi", "dfdi", "sidf", "didf"]
+            .iter()
+            .any(|end| name.ends_with(end))
     },
 };
 /// The functions that only quads need; none is inlined.
 const QUADS: Absence = Absence {
     what: "quad code",
     is: |name| {
-        ["of_quads", "gather_cells", "add_quads", "fill_quads"].iter().any(|f| name.contains(f))
+        ["of_quads", "gather_cells", "add_quads", "fill_quads", "7recover", "rannacher"]
+            .iter()
+            .any(|f| name.contains(f))
     },
 };
 /// `psor::sweep` as its mangled name has it, and not `psor::sweep_free`.
@@ -126,6 +129,8 @@ mod tests {
     fn helpers_for_f64_are_known() {
         for name in [
             "__aeabi_dmul",
+            "__aeabi_ddiv",
+            "__truncdfsf2",
             "__aeabi_f2d",
             "__aeabi_ui2d",
             "__aeabi_cdcmple",

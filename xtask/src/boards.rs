@@ -18,7 +18,7 @@ use crate::toolchain::output;
 const STAGES: [&str; 5] = ["elements", "assembly", "sweeps", "flux", "scenes"];
 const TICKS: [&str; 4] = ["tick_linear", "tick_triangles", "tick_quads", "tick_mixed"];
 
-/// Bytes of stack that a tick may use, assembly and output of the flux included.
+/// Bytes of stack that a tick may use, assembly and recovery of the flux included.
 const STACK: u32 = 512;
 
 /// All images on all boards.

@@ -1,10 +1,12 @@
 //! `cargo xtask cost`: what every stage costs, counted by the emulator, against the record in git.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::fs;
 
 use crate::board::{Board, Build, M4, M4F, M7, emulator};
-use crate::cargo::run as run_cargo;
+use crate::cargo::{root, run as run_cargo};
 use crate::export::scenes;
 use crate::record;
 use crate::setup;
@@ -43,6 +45,9 @@ const TARGETS: [Target; 8] = [
 /// addresses, 5 multiply-adds, a store and half of a loop.
 const FLOOR: f64 = 21.5;
 
+/// What the image counts last.
+const LAST: &str = "solve to the last digit";
+
 /// Counts by board, kind and stage.
 type Counts = BTreeMap<(&'static str, String, String), f64>;
 
@@ -59,7 +64,10 @@ pub fn run(steps: &mut Steps) {
         println!("{table}{}", targets(&counts));
         let versions =
             format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?);
-        record::compare(RECORD, &versions, &table, bless)
+        if record::compare(RECORD, &versions, &table, bless)? {
+            quoted(&counts)?;
+        }
+        missed(&counts)
     });
 }
 
@@ -75,12 +83,19 @@ fn measure(board: &Board, counts: &mut Counts) -> Result<String, String> {
         let Some((kind, stage, unit, [total, units, stack])) = parse(line) else {
             return Err(format!("not a line of counts: `{line}`"));
         };
+        if total >= f64::from(u32::MAX) {
+            return Err(format!("{kind}, {stage}: too long for the counter"));
+        }
         let key = |stage: &str| (board.name, kind.to_owned(), stage.to_owned());
         counts.insert(key(stage), total / units);
         counts.insert(key(&format!("{stage}, stack")), stack);
         if !rows.iter().any(|(known, _)| known == stage) {
             rows.push((stage.to_owned(), unit.to_owned()));
         }
+    }
+    let all = |kind: &str| counts.contains_key(&(board.name, kind.to_owned(), LAST.to_owned()));
+    if !KINDS.into_iter().all(all) {
+        return Err(format!("the image on the {} has not counted everything", board.name));
     }
     Ok(table(board.name, &rows, counts))
 }
@@ -113,21 +128,61 @@ fn name(board: &str) -> &'static str {
     BOARDS.iter().find(|known| known.name == board).map_or("", |known| known.name)
 }
 
+/// The target's count; NaN where a stage was not counted.
+fn counted(counts: &Counts, (board, kind, stages, _, _): &Target) -> f64 {
+    let of = |stage: &str| counts.get(&(*board, (*kind).to_owned(), stage.to_owned()));
+    stages.iter().map(|(stage, factor)| of(stage).map_or(f64::NAN, |x| x * factor)).sum()
+}
+
 fn targets(counts: &Counts) -> String {
-    let mut text =
-        format!("{:<6}{:<16}{:<32}{:>10}{:>10}\n", "", "", "target", "counted", "at most");
-    for (board, kind, stages, what, most) in TARGETS {
-        let of = |stage: &str| counts.get(&(board, kind.to_owned(), stage.to_owned()));
-        let sum = stages.iter().map(|(stage, factor)| of(stage).map_or(f64::NAN, |x| x * factor));
-        let sum: f64 = sum.sum();
-        let met = if sum <= most { "" } else { "   not met" };
-        let _ = writeln!(text, "{board:<6}{kind:<16}{what:<32}{sum:>10.2}{most:>10.1}{met}");
+    let mut text = format!("{:<22}{:<32}{:>10}{:>10}\n", "", "target", "counted", "at most");
+    for target in TARGETS {
+        let (board, kind, _, what, most) = target;
+        let count = counted(counts, &target);
+        let met = if count <= most { "" } else { "   not met" };
+        let _ = writeln!(text, "{board:<6}{kind:<16}{what:<32}{count:>10.2}{most:>10.1}{met}");
     }
     let sweep = counts.get(&("M4F", KINDS[0].to_owned(), "sweep".to_owned()));
     let over = sweep.map_or(f64::NAN, |sweep| sweep / FLOOR);
     text + &format!(
         "A sweep takes {over:.2} times the {FLOOR} instructions that its loads and sums need.\n"
     )
+}
+
+/// `Ok` where the README names these counts.
+fn quoted(counts: &Counts) -> Result<(), String> {
+    let of = |kind: usize, stage: &str| {
+        let key = ("M4F", KINDS[kind].to_owned(), stage.to_owned());
+        counts.get(&key).copied().unwrap_or(f64::NAN)
+    };
+    let sweep = of(0, "sweep");
+    let phrases = [
+        format!("{sweep:.1} instructions an unknown"),
+        format!("(quads {:.1})", of(1, "sweep")),
+        format!("{:.2} times", sweep / FLOOR),
+        format!("takes {:.0}.", of(0, "sweep over CSR")),
+    ];
+    let readme = fs::read_to_string(root().join("README.md")).map_err(|error| error.to_string())?;
+    match phrases.iter().find(|phrase| !readme.contains(*phrase)) {
+        Some(phrase) => Err(format!("README.md does not say `{phrase}`")),
+        None => Ok(()),
+    }
+}
+
+/// Not reached, and known: ARCHITECTURE.md says what was tried.
+const OPEN: &str = "assembly a cell, all in";
+
+/// `Err` where a target is missed that has been met before.
+fn missed(counts: &Counts) -> Result<(), String> {
+    let misses = |target: &&Target| {
+        target.3 != OPEN
+            && !matches!(
+                counted(counts, target).partial_cmp(&target.4),
+                Some(Ordering::Less | Ordering::Equal)
+            )
+    };
+    let names: Vec<_> = TARGETS.iter().filter(misses).map(|target| target.3).collect();
+    if names.is_empty() { Ok(()) } else { Err(format!("missed: {}", names.join(", "))) }
 }
 
 #[cfg(test)]

@@ -11,21 +11,24 @@ use crate::snapshot;
 /// What may be lost before a check fails.
 const TOLERANCE: f64 = 0.02;
 
-/// Compares `table` with the record, or writes it.
-pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<(), String> {
+/// Compares `table` with the record, or writes it. `false`: the record is one of other versions.
+pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<bool, String> {
     let text = format!("{versions}\n\n{table}");
     if bless {
-        return snapshot::write(path, &text);
+        return snapshot::write(path, &text).map(|()| true);
     }
     let recorded =
         fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let (of, figures) = recorded.split_once('\n').unwrap_or_default();
+    if !(of.starts_with("rustc ") && of.contains(", QEMU ")) {
+        return Err(format!("{path} does not begin with versions; --bless writes it anew"));
+    }
     if of.trim() != versions {
         println!("{path} is a record of `{of}`, this is `{versions}`: nothing is compared");
-        return Ok(());
+        return Ok(false);
     }
     let worse = regressions(figures, table)?;
-    if worse.is_empty() { Ok(()) } else { Err(format!("{path}: {}", worse.join("; "))) }
+    if worse.is_empty() { Ok(true) } else { Err(format!("{path}: {}", worse.join("; "))) }
 }
 
 /// The figures of two tables that differ by more than the tolerance.

@@ -20,7 +20,11 @@ const FIGURES: [(&str, &str); 5] = [
 
 /// `Ok` where the command agrees with `journal`, the desk's output of the stage `scenes`.
 pub fn compare(journal: &str) -> Result<(), String> {
-    for (name, section) in SCENES.iter().zip(journal.split("# ").skip(1)) {
+    let sections: Vec<_> = journal.split("# ").skip(1).collect();
+    if sections.len() != 2 * SCENES.len() {
+        return Err(format!("{} scenes on the desk", sections.len()));
+    }
+    for (name, section) in SCENES.iter().zip(sections) {
         let folder = target_dir("firmware").join("solve").join(name);
         let scene = format!("meshes/scenes/{name}.toml");
         let mut command =

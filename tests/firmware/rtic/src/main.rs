@@ -8,7 +8,7 @@
 //! ```
 //! A tick never waits for the solver: between blocks of sweeps it looks at the clock, and whatever the
 //! temperatures are then is feasible, can be acted on, and is where the next tick goes on.
-//! `cargo xtask firmware-test` runs it in QEMU; with `--features overload` it has to miss its
+//! `cargo xtask boards` runs it in QEMU; with `--features overload` it has to miss its
 //! deadlines and fail.
 
 mod clock;

@@ -25,6 +25,8 @@ use signorini_kernel::{Error, Tensor, flux, psor};
 
 /// Repetitions of a stage in one count.
 const TIMES: u32 = 20;
+/// Printed where the counter goes round; whoever reads the lines refuses it.
+const TOO_LONG: u32 = u32::MAX;
 /// Bytes of stack that are watched.
 const DEPTH: u32 = 8192;
 
@@ -75,7 +77,7 @@ impl Meter<'_, '_> {
         // What is too long for the counter twenty times over needs no finer grain than once.
         let often = self.clock.measure(TIMES, &mut repeated).map(|counts| counts * UNIT / TIMES);
         let once = || self.clock.measure(1, &mut repeated).map(|counts| counts * UNIT);
-        let total = often.or_else(once).unwrap_or(u32::MAX);
+        let total = often.or_else(once).unwrap_or(TOO_LONG);
         let mut last = Ok(());
         let bytes = stack::depth(DEPTH, || last = work());
         self.journal.row(&[self.kind, "|", stage, "|", unit, "|"], &[total, units as u32, bytes]);

@@ -1,4 +1,4 @@
-//! The stage `flux` on the board; `cargo xtask firmware-test` compares its lines with the desk's.
+//! The stage `flux` on the board; `cargo xtask boards` compares its lines with the desk's.
 #![no_std]
 #![no_main]
 
