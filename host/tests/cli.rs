@@ -126,6 +126,8 @@ fn export_writes_a_model() {
     assert_ne!(text(&file).replace("f64", "f32"), model);
     let wrong = arguments(&folder.path().join("none.rs"), &["--input", "snow=1"]);
     assert_eq!(wrong.status.code(), Some(2));
+    let huge = arguments(&folder.path().join("none.rs"), &["--input", "river=-1e300"]);
+    assert_eq!(huge.status.code(), Some(2), "f32 has no such number");
     assert!(!folder.path().join("none.rs").exists(), "nothing is left of a failure");
     assert_eq!(arguments(&file.join("below/a/file.rs"), &[]).status.code(), Some(1));
 }

@@ -1,6 +1,6 @@
 //! The smallest and strangest problems first: what they answer, and how they are refused.
 
-use signorini_kernel::boundary::Boundary;
+use signorini_kernel::boundary::{Boundary, Robin};
 use signorini_kernel::components::{Part, PartCounts, examine};
 use signorini_kernel::condition::{BoundaryEdge, Condition};
 use signorini_kernel::csr::Csr;
@@ -193,6 +193,10 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     let (mut memory, k) = ([Row::<f64, u16, 4>::EMPTY; 4], [[-1.0; 6]]);
     let k = Stiffness { triangles: &[], quads: &k };
     let nothing = Boundary::new(&square, &[], &[], &[]).expect("nothing");
+    let law = |edge| Robin { edge, coefficient: 1.0, ambient: 0.0 };
+    assert!(Boundary::new(&square, &[], &[law(0), law(2)], &[]).is_ok());
+    assert!(Boundary::new(&square, &[], &[law(2), law(0)], &[]).is_err(), "out of order");
+    assert!(Boundary::new(&square, &[], &[law(2), law(2)], &[]).is_err(), "two on one edge");
     let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
     assert!(rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).is_err());
 
