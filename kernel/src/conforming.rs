@@ -9,11 +9,19 @@
 //! ```
 //! With the chord of ψ for the gap and that of u_D for the boundary value, s is admissible; what lies
 //! between a curved gap and its chord is another term of the bound.
+//!
+//! On triangles s is linear. On quads the bilinear s is the weak part of the bound, so every edge
+//! between quads gets a bubble 4t(1 − t) d that gives s the mean of u_h there:
+//! ```text
+//!   d = 3/2 (u_E − mean of s)              inside, on N and on R;   0 on D and on active edges,
+//!   d = 3/2 (u_E − ψ_E − (e_a + e_b)/2)    elsewhere on C, e = s − ψ ≥ 0 at the ends a and b,
+//!       but not below −(√e_a + √e_b)²/4, so that s ≥ ψ stays true inside the edge.
+//! ```
 
 use crate::contact::is_active;
-use crate::edges::Edges;
+use crate::edges::{Block, Edges};
 use crate::element::{crouzeix_raviart, rannacher_turek};
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::index::{Index, read, write};
 use crate::mesh::Mesh;
 use crate::real::Real;
@@ -27,17 +35,18 @@ pub struct VertexData<'a, R> {
     pub given: &'a [[R; 2]],
 }
 
-/// Memory for [`fill`]; both arrays have one entry a vertex.
+/// Memory for [`fill`].
 #[derive(Debug)]
 pub struct VertexBuffers<'a, R> {
-    /// Becomes s.
+    /// Becomes s, one entry a vertex.
     pub values: &'a mut [R],
-    /// Scratch.
+    /// Scratch, one entry a vertex.
     pub weights: &'a mut [R],
 }
 
-/// Fills in s; `alpha` is positive, one a cell, triangles first. Returns by how much u_D lies below ψ
-/// where D and C meet, at most 0 for admissible data up to rounding.
+/// Fills in s at the vertices; `alpha` holds ½ tr A > 0 of every cell, triangles first, or nothing
+/// where it is the same everywhere. Returns by how much u_D lies below ψ where D and C meet, at most 0
+/// for admissible data up to rounding.
 ///
 /// # Errors
 /// Arrays of the wrong length.
@@ -56,7 +65,7 @@ pub fn fill<R: Real, I: Index>(
     same_length(Array::Vertices, weights.len(), values.len())?;
     same_length(Array::Triangles, mesh.triangles().len(), edges.of_triangles().len())?;
     same_length(Array::Quads, mesh.quads().len(), edges.of_quads().len())?;
-    same_length(Array::Coefficients, alpha.len(), mesh.cells())?;
+    same_length_or_empty(Array::Coefficients, alpha.len(), mesh.cells())?;
     same_length(Array::Unknowns, u.len(), counts.edges())?;
     same_length(Array::LowerBounds, lower.len(), counts.contact)?;
     same_length(Array::Contact, data.gap.len(), counts.contact)?;
@@ -107,21 +116,79 @@ fn average<R: Real, I: Index>(
             write(weights, vertex.at(), weight);
         }
     };
-    let triangles = mesh.triangles().iter().zip(edges.of_triangles());
-    for ((vertices, sides), &alpha) in triangles.zip(alpha) {
+    let alpha = |cell: usize| alpha.get(cell).copied().unwrap_or(R::ONE);
+    for (at, (vertices, sides)) in mesh.triangles().iter().zip(edges.of_triangles()).enumerate() {
         let means = sides.map(|edge| read(u, edge.at()));
-        add(vertices, &crouzeix_raviart::at_vertices(&means), alpha);
+        add(vertices, &crouzeix_raviart::at_vertices(&means), alpha(at));
     }
-    let quads = mesh.quads().iter().zip(edges.of_quads());
-    for ((vertices, sides), &alpha) in quads.zip(alpha.iter().skip(mesh.triangles().len())) {
+    let triangles = mesh.triangles().len();
+    for (at, (vertices, sides)) in mesh.quads().iter().zip(edges.of_quads()).enumerate() {
         let means = sides.map(|edge| read(u, edge.at()));
-        add(vertices, &rannacher_turek::at_vertices(&means), alpha);
+        add(vertices, &rannacher_turek::at_vertices(&means), alpha(triangles + at));
     }
     for (value, &weight) in values.iter_mut().zip(weights.iter()) {
         if weight > R::ZERO {
             *value /= weight;
         }
     }
+}
+
+/// Fills in d for every edge, 0 where a cell of the edge is a triangle; `values` as from [`fill`].
+/// Where the mesh has no quads, `bubbles` may be empty.
+///
+/// # Errors
+/// Arrays of the wrong length.
+pub fn bubbles<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    edges: &Edges<I>,
+    u: &[R],
+    lower: &[R],
+    data: VertexData<R>,
+    values: &[R],
+    bubbles: &mut [R],
+) -> Result<(), Error> {
+    let counts = edges.counts();
+    if mesh.quads().is_empty() {
+        bubbles.fill(R::ZERO);
+        return same_length_or_empty(Array::Scratch, bubbles.len(), counts.edges());
+    }
+    same_length(Array::Scratch, bubbles.len(), counts.edges())?;
+    same_length(Array::Unknowns, u.len(), counts.edges())?;
+    same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+    same_length(Array::Contact, data.gap.len(), counts.contact)?;
+    let triangles = 3 * mesh.triangles().len();
+    for (at, (pair, bubble)) in edges.half_edges().iter().zip(bubbles).enumerate() {
+        let of_quads = pair.iter().all(|half| half.at() >= triangles);
+        let ends = edges.endpoints(mesh, at).map(|vertex| read(values, vertex.at()));
+        *bubble = match counts.block(at) {
+            Block::Free if of_quads => missing(read(u, at), ends),
+            Block::Contact if of_quads => {
+                let contact = at - counts.free;
+                let [gap_a, gap_b] = read(data.gap, contact);
+                let opening = read(u, at) - read(lower, contact);
+                lift(opening, [ends[0] - gap_a, ends[1] - gap_b])
+            }
+            _ => R::ZERO,
+        };
+    }
+    Ok(())
+}
+
+/// The d that gives a linear function with these end values the mean `mean`.
+fn missing<R: Real>(mean: R, [a, b]: [R; 2]) -> R {
+    (R::ONE + R::HALF) * (mean - R::HALF * (a + b))
+}
+
+/// The same for an excess that must stay ≥ 0; `opening` is 0 on active edges.
+fn lift<R: Real>(opening: R, excess: [R; 2]) -> R {
+    if !(opening > R::ZERO) {
+        return R::ZERO;
+    }
+    let [a, b] = excess.map(|e| e.or_larger(R::ZERO));
+    let roots = a + b + R::TWO * (a * b).rounded_sqrt();
+    // A shade above the limit, for the rounding of all this.
+    let limit = -R::QUARTER * roots * (R::ONE - R::from_count(8) * R::EPSILON);
+    missing(opening, [a, b]).or_larger(limit)
 }
 
 fn each_end<R: Real, I: Index>(

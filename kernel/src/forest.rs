@@ -65,6 +65,17 @@ impl<'a, I: Index> Forest<'a, I> {
         self.order.iter().rev().map(move |cell| (cell.at(), read(parent, cell.at()).at()))
     }
 
+    /// Cell and parent side, roots before leaves.
+    pub fn from_roots(&self) -> impl Iterator<Item = (usize, usize)> + use<'a, I> {
+        let parent = self.parent;
+        self.order.iter().map(move |cell| (cell.at(), read(parent, cell.at()).at()))
+    }
+
+    /// The half-edge through which a cell's surplus leaves.
+    pub fn parent(&self, cell: usize) -> usize {
+        read(self.parent, cell).at()
+    }
+
     /// The place of a cell in the order.
     pub fn place(&self, cell: usize) -> usize {
         read(self.place, cell).at()

@@ -58,6 +58,7 @@
 
 pub mod assembly;
 pub mod boundary;
+pub mod certificate;
 pub mod components;
 pub mod condition;
 pub mod conforming;

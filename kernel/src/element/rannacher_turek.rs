@@ -46,6 +46,12 @@ pub fn place<R: Real>([a, b, c, d]: [[R; 2]; 4], [x, y]: [R; 2]) -> Place<R> {
 }
 
 impl<R: Real> Place<R> {
+    /// The columns of DF here: along x̂, along ŷ.
+    pub fn directions(&self) -> [[R; 2]; 2] {
+        let [along_x, along_y] = [self.jacobian.column(0), self.jacobian.column(1)];
+        [[along_x.x, along_x.y], [along_y.x, along_y.y]]
+    }
+
     /// φ₀ … φ₃ here.
     pub fn basis(&self) -> [R; 4] {
         let [x, y] = self.reference;

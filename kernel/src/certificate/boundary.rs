@@ -1,0 +1,192 @@
+//! What the boundary adds to the bound: contact, transfer laws, curved data.
+
+use super::sum::Sum;
+use super::{Continuous, Given, Ground, Parts};
+use crate::edges::{Edges, Side};
+use crate::element::{crouzeix_raviart, rannacher_turek};
+use crate::index::{Index, read};
+use crate::real::Real;
+
+/// An edge on which ψ or u_D differs from the chord w of its end values by more than rounding.
+///
+/// In the edge's cell s gets the extension v = (1 − η) w(t), with t along the edge and η away from it:
+/// 0 on all other sides. Its integrals hold for this w and grow with it, `energy` with its square.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Curved<R, I> {
+    /// The edge, on C or D.
+    pub edge: I,
+    /// ∫₀¹ w dt
+    pub mean: R,
+    /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v' for an earlier curved edge of the same cell.
+    pub energy: R,
+    /// ∫_T A∇v·∇N for the (bi)linear function N of each vertex of the cell and then, on quads, for the
+    /// bubble of each side.
+    pub coupling: [R; 8],
+}
+
+/// Adds it all to the sums and to the indicators of the cells.
+pub(super) fn add<R: Real, I: Index>(
+    ground: &Ground<R, I>,
+    given: &Given<R, I>,
+    s: Continuous<R>,
+    tau: &[R],
+    indicators: &mut [R],
+    parts: &mut Parts<R>,
+) {
+    let edges = &ground.edges;
+    let counts = edges.counts();
+    let mut take = |edge: usize, term: R, terms: R| {
+        parts.gap.add(term);
+        parts.direct += R::from_count(8) * R::EPSILON * terms;
+        let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
+        if let Some(indicator) = cell.and_then(|cell| indicators.get_mut(cell)) {
+            *indicator += term;
+        }
+    };
+    for (at, gap) in given.ends.gap.iter().enumerate() {
+        let edge = counts.free + at;
+        let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
+        let excess = R::TWO * excess(ground, s, edge, gap);
+        take(edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
+    }
+    for (at, law) in given.boundary.robin().iter().enumerate() {
+        let edge = law.edge.at();
+        let transfer = Transfer {
+            flux: read(tau, edge),
+            s: ends(ground, s, edge),
+            bubble: read(s.bubbles, edge),
+        };
+        let term = match given.transfer.get(at) {
+            Some(points) => transfer.at_points(points),
+            None => transfer.constant(law.coefficient, law.ambient),
+        };
+        take(edge, term, R::ZERO);
+    }
+    for curved in given.curved {
+        let (term, terms) = extension(ground, given, s, tau, curved);
+        take(curved.edge.at(), term, terms);
+    }
+    parts.rounding += ripple(ground, given);
+}
+
+fn ends<R: Real, I: Index>(ground: &Ground<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
+    s.at(&ground.edges.endpoints(&ground.mesh, edge))
+}
+
+/// Mean of s − ψ over a contact edge: (e_a + e_b)/2 + 2d/3.
+fn excess<R: Real, I: Index>(
+    ground: &Ground<R, I>,
+    s: Continuous<R>,
+    edge: usize,
+    gap: &[R; 2],
+) -> R {
+    let [a, b] = ends(ground, s, edge);
+    let (a, b) = ((a - gap[0]).or_larger(R::ZERO), (b - gap[1]).or_larger(R::ZERO));
+    let mean = R::HALF * (a + b) + R::TWO * R::THIRD * read(s.bubbles, edge);
+    mean.or_larger(R::ZERO)
+}
+
+/// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
+struct Transfer<R> {
+    flux: R,
+    s: [R; 2],
+    bubble: R,
+}
+
+impl<R: Real> Transfer<R> {
+    /// ∫ r²/H with H and u_ext constant, `ambient` = ∫h u_ext: Simpson's rule for the linear part of r,
+    /// and what the bubble H·4t(1 − t)d adds.
+    fn constant(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            return R::ZERO;
+        }
+        let [a, b] = self.s.map(|s| self.flux + (h * s - ambient));
+        let bubble = h * self.bubble;
+        let linear = (a * a + a * b + b * b) * R::THIRD;
+        let cross = R::TWO * R::THIRD * bubble * (a + b);
+        let square = R::from_count(8) / R::from_count(15) * bubble * bubble;
+        (linear + cross + square) / h
+    }
+
+    /// The same from H and u_ext at the 8 Gauss points.
+    fn at_points(&self, points: &[[R; 2]; 8]) -> R {
+        let [a, b] = self.s;
+        let rule = R::GAUSS[7].iter().zip(points);
+        rule.fold(R::ZERO, |sum, (&[t, weight], &[h, ambient])| {
+            let arch = (R::TWO + R::TWO) * t * (R::ONE - t);
+            let s = a * (R::ONE - t) + b * t + arch * self.bubble;
+            let r = self.flux + h * (s - ambient);
+            // Where nothing passes the law asks for τ·n = 0; a flux there has no finite bound.
+            let term = if r == R::ZERO { R::ZERO } else { r * r / h };
+            sum + weight * term
+        })
+    }
+}
+
+/// The extension's energy and twice its product with A∇s − τ:
+/// ```text
+///   ∫_T ∇v·τ = w̄ (τ_E + κ∫f),      κ = 2/3 on triangles, 1/2 on quads.
+/// ```
+/// Returns the term and the size of what it was summed from.
+fn extension<R: Real, I: Index>(
+    ground: &Ground<R, I>,
+    given: &Given<R, I>,
+    s: Continuous<R>,
+    tau: &[R],
+    curved: &Curved<R, I>,
+) -> (R, R) {
+    let (edges, loads) = (&ground.edges, given.loads);
+    let with_s = |vertices: &[R], bubbles: &[R]| {
+        let base = read(vertices, 0);
+        let differences = vertices.iter().map(|&value| value - base);
+        let all = differences.chain(bubbles.iter().copied()).zip(curved.coupling);
+        all.fold((R::ZERO, R::ZERO), |(sum, terms), (value, coupling)| {
+            (sum + value * coupling, terms + (value * coupling).magnitude())
+        })
+    };
+    let ((product, terms), source) = match edges.first_side(curved.edge.at()) {
+        Side::Triangle(at, _) => {
+            let corners = s.at(&read(ground.mesh.triangles(), at));
+            (with_s(&corners, &[]), R::TWO * R::THIRD * read(loads.triangles, at))
+        }
+        Side::Quad(at, _) => {
+            let corners = s.at(&read(ground.mesh.quads(), at));
+            let bubbles = s.on(&read(edges.of_quads(), at));
+            (with_s(&corners, &bubbles), R::HALF * read(loads.quads, at))
+        }
+    };
+    let flux = curved.mean * (read(tau, curved.edge.at()) + source);
+    let size = R::TWO * (terms + flux.magnitude()) + curved.energy.magnitude();
+    (R::TWO * (product - flux) + curved.energy, size)
+}
+
+/// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
+/// ripple's energy in the cells along the boundary is at most four times K_EE of each square.
+fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>) -> R {
+    let edges = &ground.edges;
+    let counts = edges.counts();
+    let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
+    let mut sum = Sum::default();
+    for (at, pair) in pairs {
+        let value = pair[0].magnitude().or_larger(pair[1].magnitude());
+        let moved = R::TWO * R::EPSILON * value;
+        sum.add(diagonal(ground, edges, counts.free + at) * moved * moved);
+    }
+    sum.value()
+}
+
+fn diagonal<R: Real, I: Index>(ground: &Ground<R, I>, edges: &Edges<I>, edge: usize) -> R {
+    let unit = |k: usize, side: usize| if k == side { R::ONE } else { R::ZERO };
+    match edges.first_side(edge) {
+        Side::Triangle(at, side) => {
+            let k = read(ground.stiffness.triangles, at);
+            let means = [0, 1, 2].map(|k| unit(k, side));
+            read(&crouzeix_raviart::product(&k, &means), side)
+        }
+        Side::Quad(at, side) => {
+            let k = read(ground.stiffness.quads, at);
+            let means = [0, 1, 2, 3].map(|k| unit(k, side));
+            read(&rannacher_turek::product(&k, &means), side)
+        }
+    }
+}

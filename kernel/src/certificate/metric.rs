@@ -1,0 +1,95 @@
+//! The coefficient A in reference coordinates: all that the bound needs of geometry.
+//!
+//! With F the map from the reference cell (the triangle (0,0), (1,0), (0,1) or the square \[0, 1\]²) and
+//! C the cofactor matrix of DF, gradients and Raviart–Thomas fluxes pull back so that
+//! ```text
+//!   ∫_T |A^½∇s − A^{−½}τ|² = ∫ (B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) dx̂ dŷ,      B = CᵀAC / det DF.
+//! ```
+//! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
+//! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
+
+use crate::element::rannacher_turek::Place;
+use crate::geometry::doubled_area;
+use crate::index::read;
+use crate::real::Real;
+use crate::tensor::Tensor;
+
+/// Gauss points a direction where B varies.
+pub const POINTS: usize = 8;
+
+/// B of every cell (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Metric<'a, R> {
+    /// 1 / (4 det A) of every triangle with constant A, one entry a triangle.
+    pub compliance: &'a [R],
+    /// B at the 64 points of every cell where it varies, one such cell after the other.
+    pub at_points: &'a [[Tensor<R>; POINTS * POINTS]],
+    /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
+    /// empty: B is constant everywhere then.
+    pub place: &'a [u32],
+}
+
+/// B of one cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Local<'a, R, K> {
+    Constant(K),
+    AtPoints(&'a [Tensor<R>; POINTS * POINTS]),
+}
+
+impl<'a, R: Real> Metric<'a, R> {
+    fn varying(&self, cell: usize) -> Option<&'a [Tensor<R>; POINTS * POINTS]> {
+        self.at_points.get(*self.place.get(cell)? as usize)
+    }
+
+    /// 1/(4 det A), or B at the points.
+    #[inline(always)]
+    pub(super) fn of_triangle(&self, cell: usize) -> Local<'a, R, R> {
+        match self.varying(cell) {
+            None => Local::Constant(read(self.compliance, cell)),
+            Some(points) => Local::AtPoints(points),
+        }
+    }
+
+    /// B from the element matrix, or at the points.
+    pub(super) fn of_quad(&self, cell: usize, k: &[R; 6]) -> Local<'a, R, Tensor<R>> {
+        match self.varying(cell) {
+            None => Local::Constant(of_parallelogram(k)),
+            Some(points) => Local::AtPoints(points),
+        }
+    }
+}
+
+/// B of a parallelogram with constant A, from its element matrix:
+/// K₀₂ = ¾B₁₁ − ¼B₂₂, K₁₃ = ¾B₂₂ − ¼B₁₁, K₁₂ − K₀₁ = 2B₁₂.
+fn of_parallelogram<R: Real>(&[k01, k02, _, k12, k13, _]: &[R; 6]) -> Tensor<R> {
+    let half = |x: R| R::HALF * x;
+    Tensor { xx: half(R::THREE * k02 + k13), xy: half(k12 - k01), yy: half(k02 + R::THREE * k13) }
+}
+
+/// B of a triangle at a point where its coefficient is `a`.
+pub fn of_triangle<R: Real>([p, q, r]: [[R; 2]; 3], a: Tensor<R>) -> Tensor<R> {
+    let (along, across) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
+    pulled_back(along, across, doubled_area(p, q, r), a)
+}
+
+/// B of a quad at a point where its coefficient is `a`.
+pub fn of_quad<R: Real>(place: &Place<R>, a: Tensor<R>) -> Tensor<R> {
+    let [along, across] = place.directions();
+    pulled_back(along, across, place.determinant, a)
+}
+
+/// CᵀAC / det with the columns of DF: C's columns are those turned by ∓90°.
+fn pulled_back<R: Real>(along: [R; 2], across: [R; 2], det: R, a: Tensor<R>) -> Tensor<R> {
+    let (c1, c2) = ([across[1], -across[0]], [-along[1], along[0]]);
+    let form = |v: [R; 2], w: [R; 2]| {
+        let image = [a.xx * w[0] + a.xy * w[1], a.xy * w[0] + a.yy * w[1]];
+        (v[0] * image[0] + v[1] * image[1]) / det
+    };
+    Tensor { xx: form(c1, c1), xy: form(c1, c2), yy: form(c2, c2) }
+}
+
+/// r·B^{−1}r
+pub(super) fn inverse_form<R: Real>(b: Tensor<R>, [x, y]: [R; 2]) -> R {
+    let det = b.xx * b.yy - b.xy * b.xy;
+    (b.yy * x * x - R::TWO * b.xy * x * y + b.xx * y * y) / det
+}
