@@ -88,6 +88,7 @@ pub mod signorini;
 pub mod solver;
 pub mod stiffness;
 mod tensor;
+pub mod tick;
 pub mod workspace;
 
 pub use error::Error;

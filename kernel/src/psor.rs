@@ -57,6 +57,53 @@ pub fn sweep_free<R: Real, I: Index, const WIDTH: usize>(
     Ok(())
 }
 
+/// How far an iterate is from complementarity, measured with the rows of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Defect<R> {
+    /// max |r_i|/K_ii, on contact edges |min(u_i − ψ_i, −r_i/K_ii)|; NaN where anything is.
+    pub largest: R,
+    /// The sum of the same over all unknowns.
+    pub sum: R,
+}
+
+/// Measures `u` at the cost of a sweep; the solver's residual without CSR ([`crate::signorini`]).
+///
+/// # Errors
+/// Arrays of the wrong length.
+#[inline(never)]
+#[allow(unsafe_code)]
+pub fn defect<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &[R],
+) -> Result<Defect<R>, Error> {
+    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    let (keep, per_omega) = (R::ONE - rows.omega(), R::ONE / rows.omega());
+    let step = |row: &Row<R, I, WIDTH>, neighbours: usize, own: R| {
+        // SAFETY: u has an entry for each edge of the rows' mesh.
+        (unsafe { relaxed(row, neighbours, keep, own, u.as_ptr()) } - own) * per_omega
+    };
+    let mut defect = Defect::default();
+    let mut include = |size: R| {
+        // Written so that a NaN is taken over and then stays.
+        let is_nan = !(defect.largest >= R::ZERO);
+        if !(size <= defect.largest || is_nan) {
+            defect.largest = size;
+        }
+        defect.sum += size;
+    };
+    for (row, &own) in rows.free().iter().zip(u) {
+        include(step(row, WIDTH, own).magnitude());
+    }
+    let on_contact = u.iter().skip(rows.free().len());
+    for ((row, &own), &lower) in rows.contact().iter().zip(on_contact).zip(lower) {
+        let step = step(row, WIDTH / 2, own);
+        include(if own - lower < -step { own - lower } else { step }.magnitude());
+    }
+    Ok(defect)
+}
+
 /// # Safety
 /// `u` must have an entry for each edge of the rows' mesh.
 #[inline(always)]

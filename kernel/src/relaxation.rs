@@ -17,6 +17,7 @@
 //! may have. Any ω in (0, 2) converges, and ω moves a bounded number of times, so convergence is
 //! never at stake. The memory is a handful of scalars.
 
+use crate::error::Error;
 use crate::math::Math;
 use crate::real::Real;
 
@@ -59,7 +60,7 @@ const MOVES: u32 = 64;
 
 impl<R: Real> Search<R> {
     /// A search; with a fixed ω, one that is over.
-    pub(crate) fn new(relaxation: Relaxation<R>) -> Self {
+    fn new(relaxation: Relaxation<R>) -> Self {
         let (omega, moves) = match relaxation {
             Relaxation::Fixed(omega) => (omega, MOVES),
             Relaxation::Adaptive(start) => (start, 0),
@@ -77,6 +78,25 @@ impl<R: Real> Search<R> {
             time *= R::TWO;
         }
         sweeps
+    }
+
+    /// The same, for an ω that may start there: inside (0, 2), an adaptive one in [1, 2).
+    pub(crate) fn checked(relaxation: Relaxation<R>) -> Result<Self, Error> {
+        let valid = match relaxation {
+            Relaxation::Fixed(omega) => omega > R::ZERO && omega < R::TWO,
+            Relaxation::Adaptive(start) => start >= R::ONE && start < R::TWO,
+        };
+        if valid { Ok(Self::new(relaxation)) } else { Err(Error::Relaxation) }
+    }
+
+    /// Whether ω moves no more.
+    pub(crate) fn is_over(&self) -> bool {
+        self.moves >= MOVES
+    }
+
+    /// Other data: what was seen last says nothing of the next blocks.
+    pub(crate) fn disturb(&mut self) {
+        *self = Self { previous: None, factor: None, ..*self };
     }
 
     /// Looks at the size of the residual after a block of `sweeps` (a power of two).

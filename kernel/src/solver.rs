@@ -136,14 +136,7 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
     /// # Errors
     /// As for [`Solver::new`].
     pub fn with_math(settings: Settings<R>) -> Result<Self, Error> {
-        let valid = match settings.relaxation {
-            Relaxation::Fixed(omega) => omega > R::ZERO && omega < R::TWO,
-            Relaxation::Adaptive(start) => start >= R::ONE && start < R::TWO,
-        };
-        if !valid {
-            return Err(Error::Relaxation);
-        }
-        let search = Search::new(settings.relaxation);
+        let search = Search::checked(settings.relaxation)?;
         let best = Best { largest: None, sweeps: 0 };
         let next_look = search.block();
         Ok(Self { settings, search, sweeps: 0, next_look, last_look: 0, best, math: PhantomData })

@@ -1,0 +1,193 @@
+//! Contact in a control loop: new data every tick, an answer with its error bound at the deadline.
+//!
+//! ```text
+//!   Tick ── begin(data) ─► Running ── advance(limits, deadline) ─► Report      as often as time allows
+//!    ▲                        │
+//!    └──── the next tick starts from this one's iterate and active set
+//! ```
+//! Mesh, A and forest stay ([`Ground`]); loads, gaps and Dirichlet values change with every tick, and
+//! nothing is built anew but the rows. Data that are not finite are refused before anything changes:
+//! the last answer and its report stay.
+//!
+//! Sweeps alternate with certificates. How many sweeps lie between them follows from the algebraic
+//! part: two certificates tell how fast it falls, and the next is due when it should be small enough.
+
+mod report;
+mod running;
+
+pub use report::{Deadline, Ended, Limits, Report};
+pub use running::Running;
+
+use crate::assembly;
+use crate::certificate::{Given, Ground};
+use crate::edges::EdgeCounts;
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::index::Index;
+use crate::real::Real;
+use crate::relaxation::{Relaxation, Search};
+use crate::rows::Rows;
+
+/// Memory of a [`Tick`] (borrowed).
+#[derive(Debug)]
+pub struct Memory<'a, R, I, const WIDTH: usize> {
+    /// Packed rows of all unknowns.
+    pub rows: Rows<'a, R, I, WIDTH>,
+    /// The load, one entry an unknown.
+    pub load: &'a mut [R],
+    /// Whether a contact edge was active, one entry each.
+    pub active: &'a mut [bool],
+    /// s at the vertices.
+    pub vertices: &'a mut [R],
+    /// Scratch, one entry a vertex.
+    pub weights: &'a mut [R],
+    /// The bubbles of s, one entry an edge; may be empty where there are no quads.
+    pub bubbles: &'a mut [R],
+    /// τ, one entry an edge.
+    pub tau: &'a mut [R],
+    /// Means of u, one entry an edge: where the first tick starts.
+    pub u: &'a mut [R],
+}
+
+/// A contact problem whose data change from tick to tick.
+#[derive(Debug)]
+pub struct Tick<'a, R: Real, I, const WIDTH: usize> {
+    ground: Ground<'a, R, I>,
+    memory: Memory<'a, R, I, WIDTH>,
+    search: Search<R>,
+    report: Option<Report<R>>,
+}
+
+/// Data of one tick (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Data<'a, R, I> {
+    /// Loads and boundary data, as the certificate takes them.
+    pub given: Given<'a, R, I>,
+    /// Means of ψ, one a contact edge.
+    pub lower: &'a [R],
+    /// Means of u_D, one a Dirichlet edge.
+    pub dirichlet: &'a [R],
+}
+
+impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
+    /// Takes mesh and memory; `relaxation` is where ω starts.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length, a start that is not finite, an ω outside (0, 2).
+    pub fn new(
+        ground: Ground<'a, R, I>,
+        memory: Memory<'a, R, I, WIDTH>,
+        relaxation: Relaxation<R>,
+    ) -> Result<Self, Error> {
+        let counts = ground.edges.counts();
+        let vertices = ground.mesh.vertices().len();
+        same_length(Array::Rows, memory.rows.counts().edges(), counts.edges())?;
+        same_length(Array::Load, memory.load.len(), counts.unknowns())?;
+        same_length(Array::Contact, memory.active.len(), counts.contact)?;
+        same_length(Array::Vertices, memory.vertices.len(), vertices)?;
+        same_length(Array::Vertices, memory.weights.len(), vertices)?;
+        same_length(Array::Fluxes, memory.tau.len(), counts.edges())?;
+        same_length(Array::Unknowns, memory.u.len(), counts.edges())?;
+        all_finite(Array::Unknowns, memory.u)?;
+        memory.active.fill(false);
+        let search = Search::checked(relaxation)?;
+        Ok(Self { ground, memory, search, report: None })
+    }
+
+    /// Takes the data of a tick. Where an edge was in contact it starts on the new gap, and everything
+    /// else where it was, lifted onto the gap where needed.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length and numbers that are not finite: nothing is changed then.
+    pub fn begin<'t>(
+        &'t mut self,
+        data: Data<'t, R, I>,
+    ) -> Result<Running<'t, 'a, R, I, WIDTH>, Error> {
+        check(&data, &self.ground)?;
+        let (edges, given) = (&self.ground.edges, &data.given);
+        let memory = &mut self.memory;
+        assembly::load(edges, given.loads, &given.boundary, memory.load)?;
+        self.search.disturb();
+        let stiffness = self.ground.stiffness;
+        memory.rows.gather(edges, stiffness, &given.boundary, memory.load, self.search.omega)?;
+        memory.carry_over(edges.counts(), &data);
+        Ok(Running::new(self, data))
+    }
+
+    /// Means of u over the edges, as the last [`Running::advance`] left them.
+    pub fn u(&self) -> &[R] {
+        self.memory.u
+    }
+
+    /// s at the vertices, as last certified.
+    pub fn vertices(&self) -> &[R] {
+        self.memory.vertices
+    }
+
+    /// The bubbles of s, as last certified.
+    pub fn bubbles(&self) -> &[R] {
+        self.memory.bubbles
+    }
+
+    /// ∫_E τ·n of every edge along its direction, as last certified.
+    pub fn tau(&self) -> &[R] {
+        self.memory.tau
+    }
+
+    /// The last answer, where there has been one.
+    pub fn report(&self) -> Option<&Report<R>> {
+        self.report.as_ref()
+    }
+}
+
+impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
+    fn carry_over(&mut self, counts: EdgeCounts, data: &Data<R, I>) {
+        let given = self.u.iter_mut().skip(counts.unknowns());
+        given.zip(data.dirichlet).for_each(|(u, &value)| *u = value);
+        let on_contact = self.u.iter_mut().skip(counts.free);
+        for ((u, &lower), &active) in on_contact.zip(data.lower).zip(self.active.iter()) {
+            if active || !(*u >= lower) {
+                *u = lower;
+            }
+        }
+        // An overflow of the last tick: start anew.
+        let free = self.u.iter_mut().take(counts.unknowns());
+        free.filter(|u| !u.finite()).for_each(|u| *u = R::ZERO);
+    }
+}
+
+/// Lengths and finiteness of everything that a tick may change.
+fn check<R: Real, I: Index>(data: &Data<R, I>, ground: &Ground<R, I>) -> Result<(), Error> {
+    let counts = ground.edges.counts();
+    let Data { given, lower, dirichlet } = data;
+    same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+    same_length(Array::Dirichlet, dirichlet.len(), counts.dirichlet)?;
+    same_length(Array::Contact, given.ends.gap.len(), counts.contact)?;
+    same_length(Array::Dirichlet, given.ends.given.len(), counts.dirichlet)?;
+    all_finite(Array::LowerBounds, lower)?;
+    all_finite(Array::Dirichlet, dirichlet)?;
+    all_finite(Array::Contact, given.ends.gap.as_flattened())?;
+    all_finite(Array::Dirichlet, given.ends.given.as_flattened())?;
+    all_finite(Array::CellLoads, given.loads.triangles)?;
+    all_finite(Array::CellLoads, given.loads.quads)?;
+    all_finite(Array::Robin, given.transfer.as_flattened().as_flattened())?;
+    all_finite(Array::Load, &[given.oscillation])?;
+    for (at, curved) in given.curved.iter().enumerate() {
+        let numbers = [curved.mean, curved.energy];
+        let known = numbers.iter().chain(&curved.coupling).all(|number| number.finite());
+        if !known {
+            return Err(Error::NotFinite { of: Array::Edges, at });
+        }
+    }
+    Ok(())
+}
+
+/// Active edges, and how many of them differ from `before`.
+fn contact_state<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], before: &[bool]) -> (u32, u32) {
+    let (mut active, mut changes) = (0, 0);
+    for (at, &was) in before.iter().enumerate() {
+        let is = crate::contact::is_active(counts, lower, u, at);
+        active += u32::from(is);
+        changes += u32::from(is != was);
+    }
+    (active, changes)
+}

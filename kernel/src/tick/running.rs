@@ -1,0 +1,185 @@
+//! A tick in progress.
+
+use super::{Data, Deadline, Ended, Limits, Report, Tick, contact_state};
+use crate::certificate::{Buffers, Certificate, Verdict, certify};
+use crate::contact;
+use crate::equilibrium::Iterate;
+use crate::error::Error;
+use crate::index::Index;
+use crate::math::Libm;
+use crate::psor;
+use crate::real::Real;
+
+/// Sweeps before the first certificate of a tick, and at least between two.
+const FEWEST: u32 = 4;
+
+/// A tick with its data: [`Running::advance`] it as often as there is time.
+#[derive(Debug)]
+pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
+    tick: &'t mut Tick<'a, R, I, WIDTH>,
+    data: Data<'t, R, I>,
+    sweeps: u32,
+    /// Sweeps at the last measurement of the defect.
+    measured: u32,
+    next_certificate: u32,
+    /// Sweeps and algebraic part at the last certificate.
+    earlier: Option<(u32, R)>,
+    /// The verdict on the present iterate, where it is known.
+    verdict: Option<Verdict<R>>,
+}
+
+impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH> {
+    pub(super) fn new(tick: &'t mut Tick<'a, R, I, WIDTH>, data: Data<'t, R, I>) -> Self {
+        Self {
+            tick,
+            data,
+            sweeps: 0,
+            measured: 0,
+            next_certificate: FEWEST,
+            earlier: None,
+            verdict: None,
+        }
+    }
+
+    /// Sweeps until one of the limits or the deadline ends it, and certifies what it then has.
+    ///
+    /// # Errors
+    /// Never for a tick that has begun.
+    pub fn advance<F: FnMut() -> u32>(
+        &mut self,
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<Report<R>, Error> {
+        let last = self.sweeps.saturating_add(limits.sweeps);
+        loop {
+            let cut = if self.sweeps >= last {
+                Some(Ended::OutOfSweeps)
+            } else if deadline.allows_a_sweep() {
+                None
+            } else {
+                Some(Ended::OutOfTime)
+            };
+            if cut.is_some() || self.sweeps >= self.next_certificate {
+                let verdict = self.certified()?;
+                if let Some(ended) = judge(&verdict, &limits).or(cut) {
+                    return self.report(ended, verdict);
+                }
+                self.schedule(&verdict, &limits);
+                if !deadline.allows_a_sweep() {
+                    return self.report(Ended::OutOfTime, verdict);
+                }
+            }
+            self.sweep()?;
+        }
+    }
+
+    fn sweep(&mut self) -> Result<(), Error> {
+        let memory = &mut self.tick.memory;
+        psor::sweep(&memory.rows, self.data.lower, memory.u)?;
+        self.sweeps += 1;
+        self.verdict = None;
+        if self.tick.search.is_over() || self.sweeps < self.measured + self.tick.search.block() {
+            return Ok(());
+        }
+        let (defect, active) = self.measure()?;
+        let before = self.tick.search.omega;
+        self.tick.search.look::<Libm>(defect.sum, active, self.sweeps - self.measured);
+        self.measured = self.sweeps;
+        if self.tick.search.omega == before { Ok(()) } else { self.relax_anew() }
+    }
+
+    fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
+        let (memory, lower) = (&self.tick.memory, self.data.lower);
+        let defect = psor::defect(&memory.rows, lower, memory.u)?;
+        let counts = self.tick.ground.edges.counts();
+        let (active, _) = contact_state(counts, lower, memory.u, memory.active);
+        Ok((defect, active))
+    }
+
+    /// Another ω asks for other rows.
+    fn relax_anew(&mut self) -> Result<(), Error> {
+        let Tick { ground, memory, search, .. } = &mut *self.tick;
+        let boundary = &self.data.given.boundary;
+        memory.rows.gather(&ground.edges, ground.stiffness, boundary, memory.load, search.omega)
+    }
+
+    fn certified(&mut self) -> Result<Verdict<R>, Error> {
+        if let Some(verdict) = self.verdict {
+            return Ok(verdict);
+        }
+        let Tick { ground, memory, .. } = &mut *self.tick;
+        let buffers = Buffers {
+            vertices: memory.vertices,
+            weights: memory.weights,
+            bubbles: memory.bubbles,
+            tau: memory.tau,
+            indicators: &mut [],
+        };
+        let iterate = Iterate { u: memory.u, lower: self.data.lower };
+        let verdict = certify(ground, &self.data.given, iterate, buffers)?;
+        self.verdict = Some(verdict);
+        Ok(verdict)
+    }
+
+    /// When the algebraic part, falling on as it did, should be small enough.
+    fn schedule(&mut self, verdict: &Verdict<R>, limits: &Limits<R>) {
+        let wait = match (verdict, self.earlier) {
+            (Verdict::Certified(now), Some((at, before))) if now.algebraic < before => {
+                let since = self.sweeps - at;
+                since * blocks(now, before, limits)
+            }
+            _ => self.sweeps,
+        };
+        if let Verdict::Certified(now) = verdict {
+            self.earlier = Some((self.sweeps, now.algebraic));
+        }
+        let wait = wait.clamp(FEWEST, self.sweeps.saturating_mul(2).max(FEWEST));
+        self.next_certificate = self.sweeps.saturating_add(wait);
+    }
+
+    fn report(&mut self, ended: Ended, verdict: Verdict<R>) -> Result<Report<R>, Error> {
+        let residual = self.measure()?.0.largest;
+        let counts = self.tick.ground.edges.counts();
+        let Tick { memory, search, report, .. } = &mut *self.tick;
+        let lower = self.data.lower;
+        let (active, changes) = contact_state(counts, lower, memory.u, memory.active);
+        for (at, was) in memory.active.iter_mut().enumerate() {
+            *was = contact::is_active(counts, lower, memory.u, at);
+        }
+        let found = Report {
+            ended: if residual.finite() { ended } else { Ended::NotFinite },
+            sweeps: self.sweeps,
+            residual,
+            active,
+            changes,
+            force: contact::force(counts, &self.data.given.boundary, memory.tau),
+            verdict,
+            omega: search.omega,
+        };
+        *report = Some(found);
+        Ok(found)
+    }
+}
+
+fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
+    match verdict {
+        Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
+        Verdict::Certified(now) if now.algebraic <= limits.share * now.total => {
+            Some(Ended::Settled)
+        }
+        Verdict::Certified(_) | Verdict::Pulled { .. } => None,
+        Verdict::NotFinite => Some(Ended::NotFinite),
+    }
+}
+
+/// How often the algebraic part has still to fall by the same factor, at most 8.
+fn blocks<R: Real>(now: &Certificate<R>, before: R, limits: &Limits<R>) -> u32 {
+    let (factor, target) = (now.algebraic / before, limits.share * now.total);
+    let mut rest = now.algebraic;
+    (1..8)
+        .find(|_| {
+            rest *= factor;
+            rest <= target
+        })
+        .unwrap_or(8)
+}
