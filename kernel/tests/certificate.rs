@@ -3,21 +3,12 @@
 
 mod plate;
 
-use plate::{NONE, Plate, Side};
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::certificate::{self, Buffers, Curved, Given, Ground, Metric, Verdict};
-use signorini_kernel::conforming::VertexData;
+use plate::Side;
+use plate::foundation::{A, Foundation, GAP, LAW};
+use signorini_kernel::certificate::{Buffers, Curved, Given, Ground, Verdict, certify};
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
-use signorini_kernel::equilibrium::{Cell, Iterate, is_root};
-use signorini_kernel::forest::{ForestBuffers, grow};
-use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::{Error, Real, Tensor};
-
-const A: Tensor<f64> = Tensor { xx: 3.0, xy: -1.2, yy: 1.5 };
-const LOAD: f64 = -0.8;
-const GAP: f64 = -0.5;
-const LAW: [f64; 2] = [0.7, 0.4];
+use signorini_kernel::equilibrium::{Cell, Iterate};
+use signorini_kernel::{Error, Real};
 
 struct Found {
     verdict: Verdict<f64>,
@@ -39,70 +30,15 @@ fn iterate(edges: usize, free: usize) -> Vec<f64> {
 }
 
 fn run(sides: [Side; 4], at_points: bool, curved: &[Curved<f64, u16>]) -> Result<Found, Error> {
-    let plate = Plate::new(sides)?;
-    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
-    let (counts, halves) = (edges.counts(), edges.half_edges());
-    let free = 0..counts.free as u16;
-    let on = |side: Side| {
-        let (plate, mesh) = (&plate, mesh);
-        free.clone().filter(move |&edge| {
-            let ends = edges.endpoints(&mesh, usize::from(edge));
-            halves[usize::from(edge)][1] == NONE && plate.side(ends) == side
-        })
-    };
-    let neumann: Vec<_> = on(Side::Insulated).map(|edge| Neumann { edge, flux: 0.3 }).collect();
-    let law = |edge| Robin { edge, coefficient: LAW[0], ambient: LAW[0] * LAW[1] };
-    let robin: Vec<_> = on(Side::Transfer).map(law).collect();
-    let q = vec![-0.2; counts.contact];
-    let boundary = Boundary::new(&edges, &neumann, &robin, &q)?;
-    let mut k = (vec![[0.0; 3]; plate.triangles.len()], vec![[0.0; 6]; plate.quads.len()]);
-    stiffness::fill(&mesh, Coefficient::Uniform(A), 2, &mut k.0, &mut k.1)?;
-    let stiffness = Stiffness { triangles: &k.0, quads: &k.1 };
-    let compliance = vec![0.25 / (A.xx * A.yy - A.xy * A.xy); k.0.len()];
-    let corner = |vertex: u16| plate.vertices[usize::from(vertex)];
-    let of_triangles = plate.triangles.iter().map(|cell| {
-        let b = certificate::of_triangle(cell.map(corner), A);
-        [b; 64]
-    });
-    let of_quads = plate.quads.iter().map(|cell| {
-        let corners = cell.map(corner);
-        let at = |k: usize| f64::GAUSS[7][k][0];
-        std::array::from_fn(|p| {
-            let place = rannacher_turek::place(corners, [at(p % 8), at(p / 8)]);
-            certificate::of_quad(&place, A)
-        })
-    });
-    let points: Vec<_> = of_triangles.chain(of_quads).collect();
-    let place: Vec<u32> = (0..edges.cells() as u32).collect();
-    let metric = Metric {
-        compliance: &compliance,
-        at_points: &points,
-        place: if at_points { &place } else { &[] },
-    };
-    let mut ways = [(); 3].map(|()| vec![NONE; edges.cells()]);
-    let [order, parent, place] = &mut ways;
-    let mut distance = vec![0.0; edges.cells()];
-    let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
-    let forest = grow(&edges, |_| 1.0, |edge| is_root(&edges, &boundary, edge), buffers)?;
-    let mut way = vec![0.0; edges.cells()];
-    let reach = certificate::reach(&edges, stiffness, metric, &forest, &mut way)?;
-    let ground = Ground { mesh, edges, stiffness, metric, alpha: &[], forest, reach };
-
-    let loads = (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]);
-    let (gap, given) = (vec![[GAP; 2]; counts.contact], vec![[0.9; 2]; counts.dirichlet]);
-    let given = Given {
-        loads: CellLoads { triangles: &loads.0, quads: &loads.1 },
-        boundary,
-        ends: VertexData { gap: &gap, given: &given },
-        curved,
-        transfer: &[],
-        oscillation: 0.0,
-    };
-    let (u, lower) = (iterate(counts.edges(), counts.free), vec![GAP; counts.contact]);
-    let vertices = plate.vertices.len();
+    let foundation = Foundation::new(sides, at_points)?;
+    let ground = foundation.ground()?;
+    let given = Given { curved, ..foundation.given()? };
+    let counts = ground.edges.counts();
+    let u = iterate(counts.edges(), counts.free);
+    let vertices = foundation.plate.vertices.len();
     let (mut s, mut weights) = (vec![f64::NAN; vertices], vec![f64::NAN; vertices]);
     let (mut d, mut tau) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; counts.edges()]);
-    let mut indicators = vec![f64::NAN; edges.cells()];
+    let mut indicators = vec![f64::NAN; ground.edges.cells()];
     let buffers = Buffers {
         vertices: &mut s,
         weights: &mut weights,
@@ -110,7 +46,8 @@ fn run(sides: [Side; 4], at_points: bool, curved: &[Curved<f64, u16>]) -> Result
         tau: &mut tau,
         indicators: &mut indicators,
     };
-    let verdict = certificate::certify(&ground, &given, Iterate { u: &u, lower: &lower }, buffers)?;
+    let iterate = Iterate { u: &u, lower: &foundation.lower };
+    let verdict = certify(&ground, &given, iterate, buffers)?;
     let expected =
         from_coordinates(&ground, &s, &d, &tau) + on_boundary(&ground, &given, &s, &d, &tau);
     Ok(Found { verdict, expected, indicators: indicators.iter().sum() })

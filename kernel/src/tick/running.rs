@@ -59,7 +59,8 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
             } else {
                 Some(Ended::OutOfTime)
             };
-            if cut.is_some() || self.sweeps >= self.next_certificate {
+            let known = self.verdict.is_some();
+            if cut.is_some() || known || self.sweeps >= self.next_certificate {
                 let verdict = self.certified()?;
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);

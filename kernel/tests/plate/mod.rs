@@ -1,6 +1,8 @@
 //! A small plate that several tests share.
 #![allow(dead_code)]
 
+pub mod foundation;
+
 use signorini_kernel::Error;
 use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;

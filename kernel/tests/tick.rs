@@ -1,0 +1,163 @@
+//! Ticks: warm starts, what ends them, and input that is refused.
+#![allow(clippy::indexing_slicing, clippy::expect_used)]
+
+mod plate;
+
+use std::cell::Cell;
+
+use plate::Side;
+use plate::foundation::{Foundation, GAP};
+use signorini_kernel::certificate::{Certificate, Given};
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Report, Tick};
+use signorini_kernel::{Error, Relaxation};
+
+const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
+
+/// Arrays of a tick, owned.
+struct Store {
+    rows: Vec<Row<f64, u16, QUADS>>,
+    active: Vec<bool>,
+    /// load, s, weights, bubbles, τ, u
+    numbers: [Vec<f64>; 6],
+}
+
+impl Store {
+    fn new(foundation: &Foundation) -> Result<Self, Error> {
+        let counts = foundation.plate.edges()?.counts();
+        let vertices = foundation.plate.vertices.len();
+        let (unknowns, edges) = (counts.unknowns(), counts.edges());
+        let lengths = [unknowns, vertices, vertices, edges, edges, edges];
+        Ok(Self {
+            rows: vec![Row::EMPTY; unknowns],
+            active: vec![true; counts.contact],
+            numbers: lengths.map(|length| vec![0.0; length]),
+        })
+    }
+
+    fn tick<'a>(
+        &'a mut self,
+        foundation: &'a Foundation,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
+        let ground = foundation.ground()?;
+        let [load, vertices, weights, bubbles, tau, u] = &mut self.numbers;
+        let rows = Rows::new(&ground.edges, &mut self.rows)?;
+        let active = &mut self.active;
+        let memory = Memory { rows, load, active, vertices, weights, bubbles, tau, u };
+        Tick::new(ground, memory, Relaxation::Adaptive(1.0))
+    }
+}
+
+fn data(foundation: &Foundation) -> Result<Data<'_, f64, u16>, Error> {
+    let given = foundation.given()?;
+    Ok(Data { given, lower: &foundation.lower, dirichlet: &foundation.dirichlet })
+}
+
+fn certificate(report: &Report<f64>) -> Certificate<f64> {
+    *report.verdict.certificate().expect("a bound")
+}
+
+#[test]
+fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let cold =
+        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    assert_eq!(cold.ended, Ended::Settled);
+    assert!(certificate(&cold).algebraic <= 0.1 * certificate(&cold).total);
+    assert!(cold.active > 0 && cold.changes == cold.active && cold.sweeps > 8, "{cold:?}");
+    let warm =
+        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    assert!(warm.sweeps <= 4 && warm.changes == 0, "{warm:?}");
+    assert_eq!(tick.report(), Some(&warm));
+    let counts = foundation.plate.edges()?.counts();
+    assert!(tick.u()[counts.free..counts.unknowns()].iter().all(|&u| u >= GAP));
+    Ok(())
+}
+
+#[test]
+fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let mut running = tick.begin(data(&foundation)?)?;
+    let limits = Limits { share: 0.0, error: 0.0, sweeps: 3 };
+    let first = running.advance(limits, &mut Deadline::never())?;
+    assert_eq!((first.ended, first.sweeps), (Ended::OutOfSweeps, 3));
+    let second = running.advance(limits, &mut Deadline::never())?;
+    assert_eq!((second.ended, second.sweeps), (Ended::OutOfSweeps, 6));
+    assert!(certificate(&second).algebraic < certificate(&first).algebraic);
+
+    // 100 units of time, of which a sweep takes 10 and the certificate 25: 7 sweeps.
+    let left = Cell::new(100_u32);
+    let remaining = || {
+        let now = left.get();
+        left.set(now - 10);
+        now
+    };
+    let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
+    let limits = Limits { share: 0.0, ..Limits::default() };
+    let third = running.advance(limits, &mut deadline)?;
+    assert_eq!(third.ended, Ended::OutOfTime);
+    assert!(left.get() >= 15 && third.sweeps > 6, "{third:?}, {left:?}");
+
+    let wanted = certificate(&third).total;
+    let limits = Limits { share: 0.0, error: wanted, ..Limits::default() };
+    let fourth = running.advance(limits, &mut Deadline::never())?;
+    assert_eq!((fourth.ended, fourth.sweeps), (Ended::Accurate, third.sweeps));
+    Ok(())
+}
+
+#[test]
+fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let before =
+        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    // The gap falls: what was in contact stays, though nothing but the bound pushes it down.
+    let counts = foundation.plate.edges()?.counts();
+    let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
+    let data = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..data.given.ends };
+    let data = Data { given: Given { ends, ..data.given }, lower: &lower, ..data };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    let after = tick.begin(data)?.advance(none, &mut Deadline::never())?;
+    assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
+    Ok(())
+}
+
+#[test]
+fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let good =
+        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    let u = tick.u().to_vec();
+    let good_data = data(&foundation)?;
+    for poison in [f64::NAN, f64::INFINITY] {
+        let lower = vec![poison; foundation.lower.len()];
+        let dirichlet = vec![poison; foundation.dirichlet.len()];
+        let cells = vec![poison; foundation.loads.0.len()];
+        let mut loads = good_data.given.loads;
+        loads.triangles = &cells;
+        let ends = vec![[poison; 2]; lower.len()];
+        let gap = VertexData { gap: &ends, ..good_data.given.ends };
+        let given = good_data.given;
+        let refused = [
+            Data { lower: &lower, ..good_data },
+            Data { dirichlet: &dirichlet, ..good_data },
+            Data { given: Given { loads, ..given }, ..good_data },
+            Data { given: Given { ends: gap, ..given }, ..good_data },
+            Data { given: Given { oscillation: poison, ..given }, ..good_data },
+        ];
+        for data in refused {
+            assert!(matches!(tick.begin(data), Err(Error::NotFinite { .. })));
+            assert_eq!((tick.u(), tick.report()), (&u[..], Some(&good)));
+        }
+    }
+    Ok(())
+}
