@@ -1,7 +1,7 @@
 //! A continuous, admissible function near u_h: the s of the error bound, by its vertex values.
 //!
-//! u_h jumps across edges. At each vertex its values from the cells around are averaged, weighted by
-//! α = ½ tr A: without weights a jump of 10⁴ in A costs a factor of 12 in the bound. Then
+//! u_h jumps across edges. At each vertex its values from the cells around are averaged
+//! ([`crate::averages`]). Then
 //! ```text
 //!   s = ψ              at a vertex of an active contact edge (u = ψ there),
 //!   s = max(ψ, mean)   at the other vertices of contact edges,
@@ -20,7 +20,6 @@
 
 use crate::contact::is_active;
 use crate::edges::{Block, Edges};
-use crate::element::{crouzeix_raviart, rannacher_turek};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::index::{Index, read, write};
 use crate::mesh::Mesh;
@@ -35,43 +34,25 @@ pub struct VertexData<'a, R> {
     pub given: &'a [[R; 2]],
 }
 
-/// Memory for [`fill`].
-#[derive(Debug)]
-pub struct VertexBuffers<'a, R> {
-    /// Becomes s, one entry a vertex.
-    pub values: &'a mut [R],
-    /// Scratch, one entry a vertex.
-    pub weights: &'a mut [R],
-}
-
-/// Fills in s at the vertices; `alpha` holds ½ tr A > 0 of every cell, triangles first, or nothing
-/// where it is the same everywhere. Returns by how much u_D lies below ψ where D and C meet, at most 0
-/// for admissible data up to rounding.
+/// Imposes what the boundary asks on `values`, the means at the vertices. Returns by how much u_D lies
+/// below ψ where D and C meet, at most 0 for admissible data up to rounding.
 ///
 /// # Errors
 /// Arrays of the wrong length.
-pub fn fill<R: Real, I: Index>(
+pub fn impose<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
-    alpha: &[R],
     u: &[R],
     lower: &[R],
     data: VertexData<R>,
-    buffers: VertexBuffers<R>,
+    values: &mut [R],
 ) -> Result<R, Error> {
-    let VertexBuffers { values, weights } = buffers;
     let counts = edges.counts();
     same_length(Array::Vertices, values.len(), mesh.vertices().len())?;
-    same_length(Array::Vertices, weights.len(), values.len())?;
-    same_length(Array::Triangles, mesh.triangles().len(), edges.of_triangles().len())?;
-    same_length(Array::Quads, mesh.quads().len(), edges.of_quads().len())?;
-    same_length_or_empty(Array::Coefficients, alpha.len(), mesh.cells())?;
     same_length(Array::Unknowns, u.len(), counts.edges())?;
     same_length(Array::LowerBounds, lower.len(), counts.contact)?;
     same_length(Array::Contact, data.gap.len(), counts.contact)?;
     same_length(Array::Dirichlet, data.given.len(), counts.dirichlet)?;
-    average(mesh, edges, alpha, u, values, weights);
-
     let on_contact = || data.gap.iter().enumerate().map(|(at, gap)| (at, counts.free + at, gap));
     for (at, edge, gap) in on_contact() {
         if is_active(counts, lower, u, at) {
@@ -97,43 +78,7 @@ pub fn fill<R: Real, I: Index>(
     Ok(below)
 }
 
-/// The weighted means of u_h at the vertices; 0 at a vertex without cells.
-fn average<R: Real, I: Index>(
-    mesh: &Mesh<R, I>,
-    edges: &Edges<I>,
-    alpha: &[R],
-    u: &[R],
-    values: &mut [R],
-    weights: &mut [R],
-) {
-    values.fill(R::ZERO);
-    weights.fill(R::ZERO);
-    let mut add = |vertices: &[I], at_vertices: &[R], alpha: R| {
-        for (vertex, &value) in vertices.iter().zip(at_vertices) {
-            let sum = read(values, vertex.at()) + alpha * value;
-            write(values, vertex.at(), sum);
-            let weight = read(weights, vertex.at()) + alpha;
-            write(weights, vertex.at(), weight);
-        }
-    };
-    let alpha = |cell: usize| alpha.get(cell).copied().unwrap_or(R::ONE);
-    for (at, (vertices, sides)) in mesh.triangles().iter().zip(edges.of_triangles()).enumerate() {
-        let means = sides.map(|edge| read(u, edge.at()));
-        add(vertices, &crouzeix_raviart::at_vertices(&means), alpha(at));
-    }
-    let triangles = mesh.triangles().len();
-    for (at, (vertices, sides)) in mesh.quads().iter().zip(edges.of_quads()).enumerate() {
-        let means = sides.map(|edge| read(u, edge.at()));
-        add(vertices, &rannacher_turek::at_vertices(&means), alpha(triangles + at));
-    }
-    for (value, &weight) in values.iter_mut().zip(weights.iter()) {
-        if weight > R::ZERO {
-            *value /= weight;
-        }
-    }
-}
-
-/// Fills in d for every edge, 0 where a cell of the edge is a triangle; `values` as from [`fill`].
+/// Fills in d for every edge, 0 where a cell of the edge is a triangle; `values` as from [`impose`].
 /// Where the mesh has no quads, `bubbles` may be empty.
 ///
 /// # Errors

@@ -76,6 +76,11 @@ impl<'a, I: Index> Forest<'a, I> {
         read(self.parent, cell).at()
     }
 
+    /// The cells, roots before leaves.
+    pub fn order(&self) -> &'a [I] {
+        self.order
+    }
+
     /// The place of a cell in the order.
     pub fn place(&self, cell: usize) -> usize {
         read(self.place, cell).at()

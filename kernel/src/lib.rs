@@ -57,7 +57,9 @@
 //! order: the same bits on every machine.
 
 pub mod assembly;
+pub mod averages;
 pub mod boundary;
+pub mod cells;
 pub mod certificate;
 pub mod components;
 pub mod condition;

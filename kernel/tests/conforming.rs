@@ -5,7 +5,12 @@ mod plate;
 
 use plate::{Plate, Side};
 use signorini_kernel::Error;
-use signorini_kernel::conforming::{VertexBuffers, VertexData, fill};
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::averages;
+use signorini_kernel::cells::{CellBuffers, Quad, Triangle, pack};
+use signorini_kernel::conforming::{VertexData, impose};
+use signorini_kernel::forest::{ForestBuffers, grow};
+use signorini_kernel::stiffness::Stiffness;
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Contact, Side::Insulated, Side::Given];
 
@@ -30,13 +35,34 @@ fn conforming(
     }
     let gap: Vec<_> = on_contact.iter().map(|ends| ends.map(psi)).collect();
     let given: Vec<_> = ends[counts.unknowns()..].iter().map(|ends| ends.map(given)).collect();
-    let alpha: Vec<_> = (0..edges.cells()).map(alpha).collect();
-    let count = plate.vertices.len();
-    let (mut values, mut weights) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+    let mut values = averages(&plate, &(0..edges.cells()).map(alpha).collect::<Vec<_>>(), &means)?;
     let data = VertexData { gap: &gap, given: &given };
-    let buffers = VertexBuffers { values: &mut values, weights: &mut weights };
-    let below = fill(&mesh, &edges, &alpha, &means, &lower, data, buffers)?;
+    let below = impose(&mesh, &edges, &means, &lower, data, &mut values)?;
     Ok((plate, values, below))
+}
+
+/// The weighted means at the vertices.
+fn averages(plate: &Plate, alpha: &[f64], means: &[f64]) -> Result<Vec<f64>, Error> {
+    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
+    let mut ways = [(); 3].map(|()| vec![plate::NONE; edges.cells()]);
+    let [order, parent, place] = &mut ways;
+    let mut distance = vec![0.0; edges.cells()];
+    let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
+    let root = |edge| edge >= edges.counts().unknowns();
+    let forest = grow(&edges, |_| 1.0, root, buffers)?;
+    let (t, q) = (plate.triangles.len(), plate.quads.len());
+    let stiffness = Stiffness { triangles: &vec![[0.0; 3]; t], quads: &vec![[0.0; 6]; q] };
+    let (mut values, mut tau) = (vec![f64::NAN; plate.vertices.len()], vec![0.0; means.len()]);
+    let buffers = CellBuffers {
+        triangles: &mut vec![Triangle::EMPTY; t],
+        quads: &mut vec![Quad::EMPTY; q],
+        of_vertices: &mut vec![0.0; values.len()],
+        of_edges: &mut vec![0.0; tau.len()],
+    };
+    let cells = pack(&mesh, &edges, stiffness, alpha, &vec![1.0; t], &forest, buffers)?;
+    let loads = CellLoads { triangles: &[], quads: &[] };
+    averages::fill(&cells, loads, means, &mut values, &mut tau)?;
+    Ok(values)
 }
 
 fn linear([x, y]: [f64; 2]) -> f64 {

@@ -5,9 +5,11 @@ mod plate;
 
 use plate::{NONE, Plate, Side};
 use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::averages;
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::cells::{CellBuffers, Either, Quad, Triangle, pack};
 use signorini_kernel::edges::{Block, Edges};
-use signorini_kernel::equilibrium::{Cell, Iterate, agree, pulled, walk};
+use signorini_kernel::equilibrium::{Iterate, impose, pulled, walk};
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
@@ -75,21 +77,25 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
     let forest = grow(&edges, |cell| 1.0 / alpha(cell), roots, buffers)?;
 
-    let mut tau = vec![f64::NAN; counts.edges()];
+    let (mut tau, mut s) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; mesh.vertices().len()]);
     let alphas: Vec<_> = (0..edges.cells()).map(alpha).collect();
-    let iterate = Iterate { u: &u, lower: &gap };
-    agree(&edges, stiffness, &alphas, &boundary, loads, iterate, &mut tau)?;
-    walk(&edges, &forest, loads, &mut tau);
+    let compliance = vec![0.25; k.0.len()];
+    let buffers = CellBuffers {
+        triangles: &mut vec![Triangle::EMPTY; k.0.len()],
+        quads: &mut vec![Quad::EMPTY; k.1.len()],
+        of_vertices: &mut vec![0.0; s.len()],
+        of_edges: &mut vec![0.0; tau.len()],
+    };
+    let cells = pack(&mesh, &edges, stiffness, &alphas, &compliance, &forest, buffers)?;
+    averages::fill(&cells, loads, &u, &mut s, &mut tau)?;
+    impose(&edges, &boundary, Iterate { u: &u, lower: &gap }, &mut tau);
+    walk(&cells, loads, &mut tau);
 
-    let triangles = edges.of_triangles().iter().enumerate();
-    let of_triangles = triangles
-        .map(|(at, &sides)| Cell::new(3 * at, sides).outward(half_edges, &tau).iter().sum::<f64>());
-    let quads = edges.of_quads().iter().enumerate().map(|(at, &sides)| {
-        let cell = Cell::new(3 * edges.of_triangles().len() + 4 * at, sides);
-        cell.outward(half_edges, &tau).iter().sum::<f64>() + load / 2.0
+    let defects = cells.from_leaves().map(|cell| match cell {
+        Either::Triangle(cell) => cell.outward(&tau).iter().sum::<f64>() + load / 2.0,
+        Either::Quad(cell) => cell.outward(&tau).iter().sum::<f64>() + load,
     });
-    let defect = of_triangles.chain(quads).map(|sum| (sum + load / 2.0).abs());
-    let defect = defect.fold(0.0, f64::max);
+    let defect = defects.map(f64::abs).fold(0.0, f64::max);
     let first = |edge: usize| tau[edge];
     let given = neumann.iter().map(|n| (first(usize::from(n.edge)) - n.flux).abs());
     let pressures: Vec<_> = (0..counts.contact).map(|c| first(counts.free + c) + 0.3).collect();

@@ -19,8 +19,8 @@ const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::
 struct Store {
     rows: Vec<Row<f64, u16, QUADS>>,
     active: Vec<bool>,
-    /// load, s, weights, bubbles, τ, u
-    numbers: [Vec<f64>; 6],
+    /// load, s, bubbles, τ, u
+    numbers: [Vec<f64>; 5],
 }
 
 impl Store {
@@ -28,7 +28,7 @@ impl Store {
         let counts = foundation.plate.edges()?.counts();
         let vertices = foundation.plate.vertices.len();
         let (unknowns, edges) = (counts.unknowns(), counts.edges());
-        let lengths = [unknowns, vertices, vertices, edges, edges, edges];
+        let lengths = [unknowns, vertices, edges, edges, edges];
         Ok(Self {
             rows: vec![Row::EMPTY; unknowns],
             active: vec![true; counts.contact],
@@ -41,10 +41,10 @@ impl Store {
         foundation: &'a Foundation,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
         let ground = foundation.ground()?;
-        let [load, vertices, weights, bubbles, tau, u] = &mut self.numbers;
+        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
         let rows = Rows::new(&ground.edges, &mut self.rows)?;
         let active = &mut self.active;
-        let memory = Memory { rows, load, active, vertices, weights, bubbles, tau, u };
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
         Tick::new(ground, memory, Relaxation::Adaptive(1.0))
     }
 }

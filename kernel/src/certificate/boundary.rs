@@ -1,9 +1,7 @@
 //! What the boundary adds to the bound: contact, transfer laws, curved data.
 
-use super::sum::Sum;
 use super::{Continuous, Given, Ground, Parts};
-use crate::edges::{Edges, Side};
-use crate::element::{crouzeix_raviart, rannacher_turek};
+use crate::edges::Side;
 use crate::index::{Index, read};
 use crate::real::Real;
 
@@ -66,7 +64,7 @@ pub(super) fn add<R: Real, I: Index>(
         let (term, terms) = extension(ground, given, s, tau, curved);
         take(curved.edge.at(), term, terms);
     }
-    parts.rounding += ripple(ground, given);
+    parts.ripple += ripple(ground, given);
 }
 
 fn ends<R: Real, I: Index>(ground: &Ground<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
@@ -161,32 +159,15 @@ fn extension<R: Real, I: Index>(
 }
 
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
-/// ripple's energy in the cells along the boundary is at most four times K_EE of each square.
+/// ripple's energy in the cells along the boundary is at most 4α for each square.
 fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>) -> R {
-    let edges = &ground.edges;
-    let counts = edges.counts();
+    let (edges, softness) = (&ground.edges, ground.cells.of_edges);
     let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
-    let mut sum = Sum::default();
-    for (at, pair) in pairs {
+    pairs.fold(R::ZERO, |sum, (at, pair)| {
         let value = pair[0].magnitude().or_larger(pair[1].magnitude());
         let moved = R::TWO * R::EPSILON * value;
-        sum.add(diagonal(ground, edges, counts.free + at) * moved * moved);
-    }
-    sum.value()
-}
-
-fn diagonal<R: Real, I: Index>(ground: &Ground<R, I>, edges: &Edges<I>, edge: usize) -> R {
-    let unit = |k: usize, side: usize| if k == side { R::ONE } else { R::ZERO };
-    match edges.first_side(edge) {
-        Side::Triangle(at, side) => {
-            let k = read(ground.stiffness.triangles, at);
-            let means = [0, 1, 2].map(|k| unit(k, side));
-            read(&crouzeix_raviart::product(&k, &means), side)
-        }
-        Side::Quad(at, side) => {
-            let k = read(ground.stiffness.quads, at);
-            let means = [0, 1, 2, 3].map(|k| unit(k, side));
-            read(&rannacher_turek::product(&k, &means), side)
-        }
-    }
+        // 1/Σ(1/α) of an edge with one cell is the α of that cell.
+        let alpha = read(softness, edges.counts().free + at);
+        sum + R::from_count(4) * alpha * moved * moved
+    })
 }

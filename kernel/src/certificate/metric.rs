@@ -10,18 +10,15 @@
 
 use crate::element::rannacher_turek::Place;
 use crate::geometry::doubled_area;
-use crate::index::read;
 use crate::real::Real;
 use crate::tensor::Tensor;
 
 /// Gauss points a direction where B varies.
 pub const POINTS: usize = 8;
 
-/// B of every cell (borrowed).
-#[derive(Debug, Clone, Copy)]
+/// B where it varies (borrowed).
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Metric<'a, R> {
-    /// 1 / (4 det A) of every triangle with constant A, one entry a triangle.
-    pub compliance: &'a [R],
     /// B at the 64 points of every cell where it varies, one such cell after the other.
     pub at_points: &'a [[Tensor<R>; POINTS * POINTS]],
     /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
@@ -29,39 +26,17 @@ pub struct Metric<'a, R> {
     pub place: &'a [u32],
 }
 
-/// B of one cell.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Local<'a, R, K> {
-    Constant(K),
-    AtPoints(&'a [Tensor<R>; POINTS * POINTS]),
-}
-
 impl<'a, R: Real> Metric<'a, R> {
-    fn varying(&self, cell: usize) -> Option<&'a [Tensor<R>; POINTS * POINTS]> {
-        self.at_points.get(*self.place.get(cell)? as usize)
-    }
-
-    /// 1/(4 det A), or B at the points.
+    /// B at the points, or `None` where it is constant.
     #[inline(always)]
-    pub(super) fn of_triangle(&self, cell: usize) -> Local<'a, R, R> {
-        match self.varying(cell) {
-            None => Local::Constant(read(self.compliance, cell)),
-            Some(points) => Local::AtPoints(points),
-        }
-    }
-
-    /// B from the element matrix, or at the points.
-    pub(super) fn of_quad(&self, cell: usize, k: &[R; 6]) -> Local<'a, R, Tensor<R>> {
-        match self.varying(cell) {
-            None => Local::Constant(of_parallelogram(k)),
-            Some(points) => Local::AtPoints(points),
-        }
+    pub(super) fn varying(&self, cell: usize) -> Option<&'a [Tensor<R>; POINTS * POINTS]> {
+        self.at_points.get(*self.place.get(cell)? as usize)
     }
 }
 
 /// B of a parallelogram with constant A, from its element matrix:
 /// K₀₂ = ¾B₁₁ − ¼B₂₂, K₁₃ = ¾B₂₂ − ¼B₁₁, K₁₂ − K₀₁ = 2B₁₂.
-fn of_parallelogram<R: Real>(&[k01, k02, _, k12, k13, _]: &[R; 6]) -> Tensor<R> {
+pub(super) fn of_parallelogram<R: Real>(&[k01, k02, _, k12, k13, _]: &[R; 6]) -> Tensor<R> {
     let half = |x: R| R::HALF * x;
     Tensor { xx: half(R::THREE * k02 + k13), xy: half(k12 - k01), yy: half(k02 + R::THREE * k13) }
 }

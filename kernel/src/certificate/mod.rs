@@ -17,8 +17,8 @@
 //! * s and τ are *defined* by the floating-point numbers at vertices and on edges.
 //! * The walk leaves ∇·τ + f = ρ/|T| with |ρ| of a few ε times the terms of a cell. Sending each ρ
 //!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Ground::reach`] Σ|ρ|.
-//! * The small difference A∇s − τ is formed from large terms M: its error, at most 8 ε M, goes through
-//!   the same quadratic form, and the root of the sum is added.
+//! * The small difference A∇s − τ is formed from large terms: its error, at most 8 ε times their sum,
+//!   goes through the same quadratic form, and the root of the sum is added.
 //! * Data are rounded once when they are stored: a boundary value moves by ε|u_D|, and the energy of
 //!   such a ripple on the cells along the boundary is added too.
 //!
@@ -34,16 +34,19 @@ pub use boundary::Curved;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 
 use crate::assembly::CellLoads;
+use crate::averages;
 use crate::boundary::Boundary;
-use crate::conforming::{self, VertexBuffers, VertexData};
+use crate::cells::{Cell, Cells, Either, Quad, Triangle};
+use crate::conforming::{self, VertexData};
 use crate::edges::Edges;
-use crate::equilibrium::{self, Cell, Iterate};
+use crate::equilibrium::{self, Iterate};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::forest::Forest;
 use crate::index::{Index, read, write};
 use crate::mesh::Mesh;
 use crate::real::Real;
 use crate::stiffness::Stiffness;
+use quad::Values;
 use sum::Sum;
 
 /// What stays from one certificate to the next: mesh, A and the ways out (borrowed).
@@ -53,14 +56,12 @@ pub struct Ground<'a, R, I> {
     pub mesh: Mesh<'a, R, I>,
     /// Its numbered edges.
     pub edges: Edges<'a, I>,
-    /// Element matrices.
+    /// Element matrices in the order of the mesh, from which a tick lays out its rows.
     pub stiffness: Stiffness<'a, R>,
-    /// A in reference coordinates.
+    /// Cells with their element matrices, from leaves to roots.
+    pub cells: Cells<'a, R, I>,
+    /// A in reference coordinates where it varies inside a cell.
     pub metric: Metric<'a, R>,
-    /// ½ tr A of every cell, triangles first, or nothing where it is the same everywhere.
-    pub alpha: &'a [R],
-    /// The way on which surplus leaves.
-    pub forest: Forest<'a, I>,
     /// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell to its root: [`reach`].
     pub reach: R,
 }
@@ -88,8 +89,6 @@ pub struct Given<'a, R, I> {
 pub struct Buffers<'a, R> {
     /// Becomes s at the vertices.
     pub vertices: &'a mut [R],
-    /// Scratch, one entry a vertex.
-    pub weights: &'a mut [R],
     /// Becomes the bubbles of s, one entry an edge; may be empty where there are no quads.
     pub bubbles: &'a mut [R],
     /// Becomes τ: ∫_E τ·n of every edge, along its direction.
@@ -147,23 +146,24 @@ pub fn certify<R: Real, I: Index>(
     iterate: Iterate<R>,
     buffers: Buffers<R>,
 ) -> Result<Verdict<R>, Error> {
-    let Ground { mesh, edges, stiffness, alpha, .. } = ground;
-    let Buffers { vertices, weights, bubbles, tau, indicators } = buffers;
+    let Ground { mesh, edges, cells, .. } = ground;
+    let Buffers { vertices, bubbles, tau, indicators } = buffers;
+    let (u, lower) = (iterate.u, iterate.lower);
+    same_length(Array::Triangles, cells.triangles.len(), edges.of_triangles().len())?;
+    same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
-    same_length(Array::Fluxes, tau.len(), edges.counts().edges())?;
-    let values = VertexBuffers { values: vertices, weights };
-    let (u, lower) = (iterate.u, iterate.lower);
-    conforming::fill(mesh, edges, alpha, u, lower, given.ends, values)?;
+    averages::fill(cells, given.loads, u, vertices, tau)?;
+    conforming::impose(mesh, edges, u, lower, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
-    equilibrium::agree(edges, *stiffness, alpha, &given.boundary, given.loads, iterate, tau)?;
+    equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
     let mut parts = over_cells(ground, given, u, s, tau, indicators);
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
     boundary::add(ground, given, s, tau, indicators, &mut parts);
-    Ok(parts.conclude(ground.reach, given.oscillation))
+    Ok(parts.conclude(cells.len(), ground.reach, given.oscillation))
 }
 
 /// The function s: vertex values and bubbles of edges.
@@ -190,9 +190,9 @@ struct Share<R> {
     gap: R,
     /// ‖A^{−½}(τ − σ_h)‖²
     algebraic: R,
-    /// The square of what rounding can have done to the root of `gap`.
-    rounding: R,
-    /// |∫f| + Σ|τ|, the terms of the balance.
+    /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
+    doubt: R,
+    /// (∫f)² + Στ², the terms of the balance.
     terms: R,
 }
 
@@ -200,8 +200,10 @@ struct Share<R> {
 #[derive(Debug, Clone, Copy, Default)]
 struct Parts<R> {
     gap: Sum<R>,
-    algebraic: Sum<R>,
-    rounding: R,
+    algebraic: R,
+    doubt: R,
+    /// The square of what storing the data has done.
+    ripple: R,
     /// What rounding can have done to `gap` itself.
     direct: R,
     terms: R,
@@ -211,24 +213,28 @@ impl<R: Real> Parts<R> {
     #[inline(always)]
     fn add(&mut self, share: Share<R>) {
         self.gap.add(share.gap);
-        self.algebraic.add(share.algebraic);
-        self.rounding += share.rounding;
+        self.algebraic += share.algebraic;
+        self.doubt += share.doubt;
         self.terms += share.terms;
     }
 
-    fn conclude(&self, reach: R, oscillation: R) -> Verdict<R> {
-        let gap = self.gap.value().or_larger(R::ZERO).rounded_sqrt();
-        let few = R::from_count(16) * R::EPSILON;
-        let unbalanced = R::TWO * R::EPSILON * self.terms;
-        let lifted = (gap * gap + self.direct).rounded_sqrt().or_larger(gap) - gap;
-        let rounding = self.rounding.rounded_sqrt() + lifted + reach * unbalanced + few * gap;
-        let both = (gap * gap + oscillation * oscillation).rounded_sqrt();
+    /// `cells`: how many there are.
+    fn conclude(&self, cells: usize, reach: R, oscillation: R) -> Verdict<R> {
+        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+        let gap = root(self.gap.value());
+        let times = |count: u32| R::from_count(count) * R::EPSILON;
+        // Of 8 terms at most: (Σ|x|)² ≤ 8 Σx². Of all cells: (Σ|ρ|)² ≤ cells · Σρ².
+        let doubt = times(8) * root(R::from_count(8) * self.doubt);
+        let unbalanced = times(2) * root(R::from_count(8 * cells as u32) * self.terms);
+        let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
+        let rounding = doubt + reach * unbalanced + root(self.ripple) + lifted + times(16) * gap;
+        let both = root(gap * gap + oscillation * oscillation);
         let certificate = Certificate {
             gap,
-            algebraic: self.algebraic.value().or_larger(R::ZERO).rounded_sqrt(),
+            algebraic: root(self.algebraic),
             oscillation,
             rounding,
-            // √(gap²) under- or overflows before gap does.
+            // √(gap²) underflows before gap does.
             total: oscillation + both.or_larger(gap) + rounding,
         };
         let known = certificate.total.finite() && certificate.algebraic.finite();
@@ -245,32 +251,75 @@ fn over_cells<R: Real, I: Index>(
     tau: &mut [R],
     indicators: &mut [R],
 ) -> Parts<R> {
-    let (edges, loads) = (&ground.edges, given.loads);
-    let (halves, triangles) = (edges.half_edges(), edges.of_triangles().len());
+    let cells = &ground.cells;
     let mut parts = Parts::default();
-    for (cell, parent) in ground.forest.from_leaves() {
-        let share = if let Some(sides) = edges.of_triangles().get(cell) {
-            let load = read(loads.triangles, cell);
-            let out = Cell::new(3 * cell, *sides).settle(halves, parent, load, tau);
-            let means = sides.map(|edge| read(u, edge.at()));
-            let k = read(ground.stiffness.triangles, cell);
-            let at = s.at(&read(ground.mesh.triangles(), cell));
-            triangle::share(ground.metric.of_triangle(cell), &k, at, out, means, load)
-        } else {
-            let at = cell - triangles;
-            let (sides, load) = (read(edges.of_quads(), at), read(loads.quads, at));
-            let first = 3 * triangles + 4 * at;
-            let out = Cell::new(first, sides).settle(halves, parent, load, tau);
-            let means = sides.map(|edge| read(u, edge.at()));
-            let k = read(ground.stiffness.quads, at);
-            let corners = s.at(&read(ground.mesh.quads(), at));
-            let metric = ground.metric.of_quad(cell, &k);
-            quad::share(metric, &k, corners, s.on(&sides), out, means, load)
-        };
-        write(indicators, cell, share.gap);
+    let mut take = |number: I, share: Share<R>| {
+        write(indicators, number.at(), share.gap);
         parts.add(share);
+    };
+    let triangle = |cell: &Triangle<R, I>, tau: &mut [R]| {
+        let load = read(given.loads.triangles, cell.number.at());
+        let out = cell.settle(load, tau);
+        of_triangle_cell(ground.metric, cell, s, u, out, load)
+    };
+    // Nothing of quads where there are none.
+    if cells.quads.is_empty() {
+        cells.triangles.iter().for_each(|cell| take(cell.number, triangle(cell, tau)));
+        return parts;
+    }
+    for cell in cells.from_leaves() {
+        match cell {
+            Either::Triangle(cell) => take(cell.number, triangle(cell, tau)),
+            Either::Quad(cell) => {
+                let number = cell.number.at().wrapping_sub(cells.triangles.len());
+                let load = read(given.loads.quads, number);
+                let out = cell.settle(load, tau);
+                take(cell.number, of_quad_cell(ground.metric, cell, s, u, out, load));
+            }
+        }
     }
     parts
+}
+
+#[inline(always)]
+fn of_triangle_cell<R: Real, I: Index>(
+    metric: Metric<R>,
+    cell: &Triangle<R, I>,
+    s: Continuous<R>,
+    u: &[R],
+    tau: [R; 3],
+    load: R,
+) -> Share<R> {
+    let (s, u) = (s.at(&cell.vertices), Cell::<R, I, 3, 3>::pick(&cell.edges, u));
+    match metric.varying(cell.number.at()) {
+        None => triangle::share(cell, s, tau, u, load),
+        Some(points) => {
+            let [k, s, tau, u] = [cell.k, s, tau, u].map(|packed| cell.as_in_mesh(packed));
+            triangle::share_at_points(points, &k, s, tau, u, load)
+        }
+    }
+}
+
+fn of_quad_cell<R: Real, I: Index>(
+    metric: Metric<R>,
+    cell: &Quad<R, I>,
+    s: Continuous<R>,
+    u: &[R],
+    tau: [R; 4],
+    load: R,
+) -> Share<R> {
+    let values = Values { corners: s.at(&cell.vertices), bubbles: s.on(&cell.edges) };
+    let u = Cell::<R, I, 4, 6>::pick(&cell.edges, u);
+    match metric.varying(cell.number.at()) {
+        None => quad::share(cell, values, tau, u, load),
+        Some(points) => {
+            let difference = cell.as_in_mesh(quad::difference(cell, tau, u, load));
+            let [corners, bubbles] =
+                [values.corners, values.bubbles].map(|packed| cell.as_in_mesh(packed));
+            let tau = cell.as_in_mesh(tau);
+            quad::share_at_points(points, Values { corners, bubbles }, tau, difference, load)
+        }
+    }
 }
 
 /// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell along the forest to its root;
@@ -280,41 +329,63 @@ fn over_cells<R: Real, I: Index>(
 /// A scratch of the wrong length.
 pub fn reach<R: Real, I: Index>(
     edges: &Edges<I>,
-    stiffness: Stiffness<R>,
+    cells: &Cells<R, I>,
     metric: Metric<R>,
     forest: &Forest<I>,
     way: &mut [R],
 ) -> Result<R, Error> {
     same_length(Array::Scratch, way.len(), edges.cells())?;
-    let energy = |cell: usize, through: &dyn Fn(usize) -> R| {
-        let sides = edges.sides_of(cell);
-        if sides.len() == 3 {
-            let out = [0, 1, 2].map(|k| through(sides.start + k));
-            let k = read(stiffness.triangles, cell);
-            triangle::energy(metric.of_triangle(cell), &k, out)
-        } else {
-            let out = [0, 1, 2, 3].map(|k| through(sides.start + k));
-            let k = read(stiffness.quads, cell - edges.of_triangles().len());
-            quad::energy(metric.of_quad(cell, &k), out)
-        }
-    };
-    let mut farthest = R::ZERO;
-    for (cell, parent) in forest.from_roots() {
-        let on = match edges.beyond(parent) {
-            None => R::ZERO,
-            Some((entry, next)) => {
-                let leaves = forest.parent(next);
-                let passing = |half: usize| match half {
-                    _ if half == entry.at() => -R::ONE,
-                    _ if half == leaves => R::ONE,
-                    _ => R::ZERO,
-                };
-                read(way, next) + energy(next, &passing)
-            }
+    way.fill(R::ZERO);
+    // From the leaves: a cell does not know yet what its way costs, so each writes what passing it from
+    // each side costs into the cell on that side; then from the roots these costs add up.
+    for cell in cells.from_leaves() {
+        let (number, sides) = match cell {
+            Either::Triangle(cell) => (cell.number, 3),
+            Either::Quad(cell) => (cell.number, 4),
         };
-        write(way, cell, on);
-        let leaving = |half: usize| if half == parent { R::ONE } else { R::ZERO };
-        farthest = farthest.or_larger(on + energy(cell, &leaving));
+        let start = edges.sides_of(number.at()).start;
+        for packed in 0..sides - 1 {
+            let side = (forest.parent(number.at()) - start + 1 + packed) % sides;
+            let Some((entry, behind)) = edges.beyond(start + side) else { continue };
+            if forest.parent(behind) != entry.at() {
+                continue;
+            }
+            let through = |k: usize| match k {
+                _ if k == packed => -R::ONE,
+                _ if k == sides - 1 => R::ONE,
+                _ => R::ZERO,
+            };
+            write(way, behind, energy(metric, cell, through));
+        }
+    }
+    for (number, parent) in forest.from_roots() {
+        if let Some((_, next)) = edges.beyond(parent) {
+            let sum = read(way, number) + read(way, next);
+            write(way, number, sum);
+        }
+    }
+    let mut farthest = R::ZERO;
+    for cell in cells.from_leaves() {
+        let (number, last) = match cell {
+            Either::Triangle(cell) => (cell.number, 2),
+            Either::Quad(cell) => (cell.number, 3),
+        };
+        let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
+        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
     }
     Ok(farthest.rounded_sqrt())
+}
+
+/// ‖A^{−½}·‖² of the field with these outward fluxes through the packed sides of a cell.
+fn energy<R: Real, I: Index>(metric: Metric<R>, cell: Either<R, I>, out: impl Fn(usize) -> R) -> R {
+    match cell {
+        Either::Triangle(cell) => {
+            let points = metric.varying(cell.number.at());
+            triangle::energy(cell, points, [0, 1, 2].map(out))
+        }
+        Either::Quad(cell) => {
+            let points = metric.varying(cell.number.at());
+            quad::energy(cell, points, [0, 1, 2, 3].map(out))
+        }
+    }
 }

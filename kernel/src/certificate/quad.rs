@@ -1,85 +1,163 @@
-//! A quad's share of the bound, by quadrature over the reference square: 3×3 Gauss points are exact
-//! where B is constant, 8×8 are taken where it varies.
+//! A quad's share of the bound.
 //!
 //! ```text
 //!   ŝ = bilinear + Σ_k d_k 4t_k(1 − t_k)(1 − η_k)      t_k along side k, η_k the distance from it
 //!   τ̂ = (τ₃(x̂ − 1) + τ₁x̂, τ₀(ŷ − 1) + τ₂ŷ)
 //! ```
+//! With X = x̂ − ½, Y = ŷ − ½ and P(Z) = Z² − 1/12, both ∇̂ŝ and τ̂ are combinations of 1, X, Y, XY, P(X)
+//! and P(Y), orthogonal functions with the squares 1, 1/12, 1/12, 1/144, 1/180, 1/180. Where B is
+//! constant, ∫(B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) is a sum over these six. Elsewhere it is taken at points.
 
 use super::Share;
-use super::metric::{Local, POINTS, inverse_form};
+use super::metric::{POINTS, inverse_form, of_parallelogram};
+use crate::cells::Quad;
 use crate::element::rannacher_turek::product;
+use crate::index::Index;
 use crate::real::Real;
 use crate::tensor::Tensor;
 
-/// `corners`: s at the vertices; `bubbles`: d of the sides; `tau`: outward fluxes through them; `u`:
-/// means over them.
-pub(super) fn share<R: Real>(
-    metric: Local<R, Tensor<R>>,
-    k: &[R; 6],
-    corners: [R; 4],
-    bubbles: [R; 4],
+/// s on a quad: values at the vertices, bubbles of the sides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Values<R> {
+    pub corners: [R; 4],
+    pub bubbles: [R; 4],
+}
+
+/// `tau`: outward fluxes through the sides; `u`: means over them.
+pub(super) fn share<R: Real, I: Index>(
+    cell: &Quad<R, I>,
+    s: Values<R>,
     tau: [R; 4],
     u: [R; 4],
     load: R,
 ) -> Share<R> {
-    let quarter = load * R::QUARTER;
-    let own = product(k, &u).map(|flow| flow - quarter);
-    let [t0, t1, t2, t3] = tau;
-    let difference = [t0 - own[0], t1 - own[1], t2 - own[2], t3 - own[3]];
-    let (mut gap, mut algebraic, mut rounding) = (R::ZERO, R::ZERO, R::ZERO);
-    each_point(metric, |at, weight, b| {
-        let [gx, gy] = gradient(corners, bubbles, at);
-        let field = raviart_thomas(tau, at);
-        let flow = [[b.xx * gx, b.xy * gy], [b.xy * gx, b.yy * gy]];
-        let residual = [flow[0][0] + flow[0][1] - field[0], flow[1][0] + flow[1][1] - field[1]];
-        gap += weight * inverse_form(b, residual);
-        algebraic += weight * inverse_form(b, raviart_thomas(difference, at));
-        let large = flow.as_flattened().iter().chain(&field);
-        let large = large.fold(R::ZERO, |sum, term| sum + term.magnitude());
-        let delta = R::from_count(8) * R::EPSILON * large;
-        rounding += weight * delta * delta * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
-    });
-    let terms = tau.iter().fold(load.magnitude(), |sum, flux| sum + flux.magnitude());
-    Share { gap, algebraic, rounding, terms }
+    let b = of_parallelogram(&cell.k);
+    let [constant, along_x, along_y, rest] = modes(s);
+    let (flux, flux_x, flux_y) = flux_modes(tau);
+    let residual = [
+        minus(apply(b, constant), flux),
+        minus(apply(b, along_x), [flux_x, R::ZERO]),
+        minus(apply(b, along_y), [R::ZERO, flux_y]),
+    ];
+    let [e, c] = rest;
+    let twelfth = R::ONE / R::from_count(12);
+    // XY has the vector −8(e, c), P(Y) has −4(c, 0), P(X) has −4(0, e).
+    let mixed = R::from_count(4) / R::from_count(9) * form(b, rest);
+    let arches = R::from_count(4) / R::from_count(45) * (b.xx * c * c + b.yy * e * e);
+    let gap = inverse_form(b, residual[0])
+        + twelfth * (inverse_form(b, residual[1]) + inverse_form(b, residual[2]))
+        + mixed
+        + arches;
+    let large = form(b, constant) + twelfth * (form(b, along_x) + form(b, along_y));
+    let spread = b.xx + b.yy;
+    let terms = squares(tau, load);
+    let compliance = R::ONE / (b.xx * b.yy - b.xy * b.xy);
+    let algebraic = flux_energy(b, difference(cell, tau, u, load));
+    Share { gap, algebraic, doubt: spread * compliance * (spread * large + terms), terms }
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
-pub(super) fn energy<R: Real>(metric: Local<R, Tensor<R>>, out: [R; 4]) -> R {
-    let mut energy = R::ZERO;
-    each_point(metric, |at, weight, b| {
-        energy += weight * inverse_form(b, raviart_thomas(out, at));
-    });
-    energy
-}
-
-/// Calls `take` with every quadrature point, its weight and B there.
-#[inline(always)]
-fn each_point<R: Real>(metric: Local<R, Tensor<R>>, mut take: impl FnMut([R; 2], R, Tensor<R>)) {
-    match metric {
-        Local::Constant(b) => {
-            for &[y, weight_y] in R::GAUSS[2] {
-                for &[x, weight_x] in R::GAUSS[2] {
-                    take([x, y], weight_x * weight_y, b);
-                }
-            }
-        }
-        Local::AtPoints(points) => {
-            let mut tensors = points.iter();
-            for &[y, weight_y] in R::GAUSS[POINTS - 1] {
-                for &[x, weight_x] in R::GAUSS[POINTS - 1] {
-                    let Some(&b) = tensors.next() else { break };
-                    take([x, y], weight_x * weight_y, b);
-                }
-            }
+pub(super) fn energy<R: Real, I: Index>(
+    cell: &Quad<R, I>,
+    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+    out: [R; 4],
+) -> R {
+    match points {
+        None => flux_energy(of_parallelogram(&cell.k), out),
+        Some(points) => {
+            let s = Values { corners: [R::ZERO; 4], bubbles: [R::ZERO; 4] };
+            share_at_points(points, s, cell.as_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
         }
     }
 }
 
+/// τ − σ_h through the sides.
+pub(super) fn difference<R: Real, I: Index>(
+    cell: &Quad<R, I>,
+    tau: [R; 4],
+    u: [R; 4],
+    load: R,
+) -> [R; 4] {
+    let quarter = load * R::QUARTER;
+    let [o0, o1, o2, o3] = product(&cell.k, &u).map(|flow| flow - quarter);
+    let [t0, t1, t2, t3] = tau;
+    [t0 - o0, t1 - o1, t2 - o2, t3 - o3]
+}
+
+/// ∇̂ŝ: its constant, X and Y parts, and (e, c) = (d₂ − d₀, d₁ − d₃), which makes all others.
+fn modes<R: Real>(s: Values<R>) -> [[R; 2]; 4] {
+    let ([s0, s1, s2, s3], [d0, d1, d2, d3]) = (s.corners, s.bubbles);
+    let (bottom, top, left, right) = (s1 - s0, s2 - s3, s3 - s0, s2 - s1);
+    let (e, c, twist) = (d2 - d0, d1 - d3, top - bottom);
+    let (two_thirds, four) = (R::TWO * R::THIRD, R::TWO + R::TWO);
+    [
+        [R::HALF * (bottom + top) + two_thirds * c, R::HALF * (left + right) + two_thirds * e],
+        [-four * (d0 + d2), twist],
+        [twist, -four * (d1 + d3)],
+        [e, c],
+    ]
+}
+
+/// τ̂: its constant part, what X has in x̂ and what Y has in ŷ.
+fn flux_modes<R: Real>([t0, t1, t2, t3]: [R; 4]) -> ([R; 2], R, R) {
+    ([R::HALF * (t1 - t3), R::HALF * (t2 - t0)], t1 + t3, t0 + t2)
+}
+
+fn flux_energy<R: Real>(b: Tensor<R>, out: [R; 4]) -> R {
+    let (flux, x, y) = flux_modes(out);
+    let determinant = b.xx * b.yy - b.xy * b.xy;
+    let linear = (b.yy * x * x + b.xx * y * y) / (R::from_count(12) * determinant);
+    inverse_form(b, flux) + linear
+}
+
+fn apply<R: Real>(b: Tensor<R>, [x, y]: [R; 2]) -> [R; 2] {
+    [b.xx * x + b.xy * y, b.xy * x + b.yy * y]
+}
+
+fn minus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// v·Bv
+fn form<R: Real>(b: Tensor<R>, v: [R; 2]) -> R {
+    let image = apply(b, v);
+    v[0] * image[0] + v[1] * image[1]
+}
+
+fn squares<R: Real>([t0, t1, t2, t3]: [R; 4], load: R) -> R {
+    t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + load * load
+}
+
+/// The same by quadrature; everything in the order of the mesh, `difference` = τ − σ_h.
+#[inline(never)]
+pub(super) fn share_at_points<R: Real>(
+    points: &[Tensor<R>; POINTS * POINTS],
+    s: Values<R>,
+    tau: [R; 4],
+    difference: [R; 4],
+    load: R,
+) -> Share<R> {
+    let terms = squares(tau, load);
+    let (mut gap, mut algebraic, mut doubt) = (R::ZERO, R::ZERO, R::ZERO);
+    let mut tensors = points.iter();
+    for &[y, weight_y] in R::GAUSS[POINTS - 1] {
+        for &[x, weight_x] in R::GAUSS[POINTS - 1] {
+            let Some(&b) = tensors.next() else { break };
+            let weight = weight_x * weight_y;
+            let flow = apply(b, gradient(s, [x, y]));
+            gap += weight * inverse_form(b, minus(flow, raviart_thomas(tau, [x, y])));
+            algebraic += weight * inverse_form(b, raviart_thomas(difference, [x, y]));
+            let large = terms + flow[0] * flow[0] + flow[1] * flow[1];
+            doubt += weight * large * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
+        }
+    }
+    Share { gap, algebraic, doubt, terms }
+}
+
 /// ∇̂ŝ
-fn gradient<R: Real>([s0, s1, s2, s3]: [R; 4], [d0, d1, d2, d3]: [R; 4], [x, y]: [R; 2]) -> [R; 2] {
-    let (across_x, across_y) = (R::ONE - x, R::ONE - y);
-    let four = R::TWO + R::TWO;
+fn gradient<R: Real>(s: Values<R>, [x, y]: [R; 2]) -> [R; 2] {
+    let ([s0, s1, s2, s3], [d0, d1, d2, d3]) = (s.corners, s.bubbles);
+    let (across_x, across_y, four) = (R::ONE - x, R::ONE - y, R::TWO + R::TWO);
     let (arch_x, arch_y) = (four * x * across_x, four * y * across_y);
     let (slope_x, slope_y) = (four * (across_x - x), four * (across_y - y));
     [

@@ -8,49 +8,36 @@
 //! the last term for the linear part of τ. Elsewhere the integral is taken at points.
 
 use super::Share;
-use super::metric::{Local, POINTS, inverse_form};
+use super::metric::{POINTS, inverse_form};
+use crate::cells::Triangle;
 use crate::element::crouzeix_raviart::product;
+use crate::index::Index;
 use crate::real::Real;
 use crate::tensor::Tensor;
 
 /// `s`: values at the vertices; `tau`: outward fluxes through the sides; `u`: means over the sides.
 #[inline(always)]
-pub(super) fn share<R: Real>(
-    metric: Local<R, R>,
-    k: &[R; 3],
+pub(super) fn share<R: Real, I: Index>(
+    cell: &Triangle<R, I>,
     s: [R; 3],
     tau: [R; 3],
     u: [R; 3],
     load: R,
 ) -> Share<R> {
-    match metric {
-        Local::Constant(compliance) => constant(compliance, k, s, tau, u, load),
-        Local::AtPoints(points) => at_points(points, k, s, tau, u, load),
-    }
-}
-
-#[inline(always)]
-fn constant<R: Real>(
-    compliance: R,
-    k: &[R; 3],
-    s: [R; 3],
-    tau: [R; 3],
-    u: [R; 3],
-    load: R,
-) -> Share<R> {
-    let share = load * R::THIRD;
+    let k = &cell.k;
+    let third = load * R::THIRD;
     let flows = flows(k, s);
     let [t01, t12, t20] = flows;
-    let of_tau = tau.map(|flux| flux + share);
-    let gap = [t01 - t20 - of_tau[0], t12 - t01 - of_tau[1], t20 - t12 - of_tau[2]];
+    let tau_middle = tau.map(|flux| flux + third);
+    let gap = [t01 - t20 - tau_middle[0], t12 - t01 - tau_middle[1], t20 - t12 - tau_middle[2]];
     let own = product(k, &u);
-    let algebraic = [of_tau[0] - own[0], of_tau[1] - own[1], of_tau[2] - own[2]];
-    let linear = -R::HALF * (k[0] + k[1] + k[2]) * share * share;
-    let terms = terms(tau, load);
+    let algebraic = [tau_middle[0] - own[0], tau_middle[1] - own[1], tau_middle[2] - own[2]];
+    let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
+    let terms = squares(tau, load);
     Share {
-        gap: compliance * (form(k, gap) + linear),
-        algebraic: compliance * form(k, algebraic),
-        rounding: compliance * doubt(k, flows, terms),
+        gap: cell.compliance * (form(k, gap) - linear),
+        algebraic: cell.compliance * form(k, algebraic),
+        doubt: cell.compliance * doubt(k, flows, terms),
         terms,
     }
 }
@@ -58,8 +45,7 @@ fn constant<R: Real>(
 /// K_ij (mean of s on j − mean of s on i) for 01, 12, 20, from the vertex values of s.
 #[inline(always)]
 fn flows<R: Real>(k: &[R; 3], [s0, s1, s2]: [R; 3]) -> [R; 3] {
-    let half = |x: R| R::HALF * x;
-    [k[0] * half(s2 - s0), k[1] * half(s0 - s1), k[2] * half(s1 - s2)]
+    [k[0] * (R::HALF * (s2 - s0)), k[1] * (R::HALF * (s0 - s1)), k[2] * (R::HALF * (s1 - s2))]
 }
 
 /// 4 det A · ‖A^{−½}·‖² of the constant field with these fluxes, which add up to 0.
@@ -69,27 +55,37 @@ fn form<R: Real>(&[k01, k12, k20]: &[R; 3], [d0, d1, d2]: [R; 3]) -> R {
 }
 
 #[inline(always)]
-fn terms<R: Real>(tau: [R; 3], load: R) -> R {
-    tau[0].magnitude() + tau[1].magnitude() + tau[2].magnitude() + load.magnitude()
+fn squares<R: Real>(tau: [R; 3], load: R) -> R {
+    tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2] + load * load
 }
 
-/// The same form of an error of 8 ε M in each flux.
+/// Σ|K| times the sum of the squares of all terms of D.
 #[inline(always)]
-fn doubt<R: Real>(k: &[R; 3], flows: [R; 3], terms: R) -> R {
-    let large = flows[0].magnitude() + flows[1].magnitude() + flows[2].magnitude() + terms;
-    let delta = R::from_count(8) * R::EPSILON * large;
-    (k[0].magnitude() + k[1].magnitude() + k[2].magnitude()) * delta * delta
+fn doubt<R: Real>(k: &[R; 3], [t01, t12, t20]: [R; 3], terms: R) -> R {
+    let size = k[0].magnitude() + k[1].magnitude() + k[2].magnitude();
+    size * (terms + t01 * t01 + t12 * t12 + t20 * t20)
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
-pub(super) fn energy<R: Real>(metric: Local<R, R>, k: &[R; 3], out: [R; 3]) -> R {
-    let load = -(out[0] + out[1] + out[2]);
-    share(metric, k, [R::ZERO; 3], out, [R::ZERO; 3], load).gap
+pub(super) fn energy<R: Real, I: Index>(
+    cell: &Triangle<R, I>,
+    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+    out: [R; 3],
+) -> R {
+    let (none, load) = ([R::ZERO; 3], -(out[0] + out[1] + out[2]));
+    match points {
+        None => share(cell, none, out, none, load).gap,
+        Some(points) => {
+            let (k, out) = (cell.as_in_mesh(cell.k), cell.as_in_mesh(out));
+            share_at_points(points, &k, none, out, none, load).gap
+        }
+    }
 }
 
-/// By quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η.
+/// The same by quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η; everything in the order of
+/// the mesh.
 #[inline(never)]
-fn at_points<R: Real>(
+pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],
     k: &[R; 3],
     s: [R; 3],
@@ -97,11 +93,11 @@ fn at_points<R: Real>(
     u: [R; 3],
     load: R,
 ) -> Share<R> {
-    let share = load * R::THIRD;
-    let own = product(k, &u).map(|flow| flow - share);
+    let third = load * R::THIRD;
+    let own = product(k, &u).map(|flow| flow - third);
     let difference = [tau[0] - own[0], tau[1] - own[1], tau[2] - own[2]];
     let gradient = [s[1] - s[0], s[2] - s[0]];
-    let (mut gap, mut algebraic) = (R::ZERO, R::ZERO);
+    let (mut gap, mut algebraic, mut compliance) = (R::ZERO, R::ZERO, R::ZERO);
     let mut tensors = points.iter();
     for &[y, weight_y] in R::GAUSS[POINTS - 1] {
         for &[x, weight_x] in R::GAUSS[POINTS - 1] {
@@ -115,12 +111,11 @@ fn at_points<R: Real>(
             ];
             gap += weight * inverse_form(b, residual);
             algebraic += weight * inverse_form(b, raviart_thomas(difference, at));
+            compliance += weight / (R::TWO * (b.xx * b.yy - b.xy * b.xy));
         }
     }
-    let terms = terms(tau, load);
-    let middle = points.get(POINTS * POINTS / 2).copied().unwrap_or_default();
-    let compliance = R::QUARTER / (middle.xx * middle.yy - middle.xy * middle.xy);
-    Share { gap, algebraic, rounding: compliance * doubt(k, flows(k, s), terms), terms }
+    let terms = squares(tau, load);
+    Share { gap, algebraic, doubt: compliance * doubt(k, flows(k, s), terms), terms }
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.

@@ -17,7 +17,7 @@ use crate::real::Real;
 
 /// Where entry (i, j), i ≠ j, of an element matrix with `sides` rows stands.
 #[inline(always)]
-fn entry(sides: usize, i: usize, j: usize) -> usize {
+pub(crate) fn entry(sides: usize, i: usize, j: usize) -> usize {
     let (low, high) = if i < j { (i, j) } else { (j, i) };
     match sides {
         3 if high - low == 1 => low,

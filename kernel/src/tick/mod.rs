@@ -38,8 +38,6 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
     pub active: &'a mut [bool],
     /// s at the vertices.
     pub vertices: &'a mut [R],
-    /// Scratch, one entry a vertex.
-    pub weights: &'a mut [R],
     /// The bubbles of s, one entry an edge; may be empty where there are no quads.
     pub bubbles: &'a mut [R],
     /// τ, one entry an edge.
@@ -84,7 +82,6 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
         same_length(Array::Load, memory.load.len(), counts.unknowns())?;
         same_length(Array::Contact, memory.active.len(), counts.contact)?;
         same_length(Array::Vertices, memory.vertices.len(), vertices)?;
-        same_length(Array::Vertices, memory.weights.len(), vertices)?;
         same_length(Array::Fluxes, memory.tau.len(), counts.edges())?;
         same_length(Array::Unknowns, memory.u.len(), counts.edges())?;
         all_finite(Array::Unknowns, memory.u)?;

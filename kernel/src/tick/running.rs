@@ -111,7 +111,6 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let Tick { ground, memory, .. } = &mut *self.tick;
         let buffers = Buffers {
             vertices: memory.vertices,
-            weights: memory.weights,
             bubbles: memory.bubbles,
             tau: memory.tau,
             indicators: &mut [],

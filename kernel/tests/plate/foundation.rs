@@ -2,6 +2,7 @@
 
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{self, Given, Ground, Metric};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::element::rannacher_turek;
@@ -30,6 +31,8 @@ pub struct Foundation {
     points: Vec<[Tensor<f64>; 64]>,
     place: Vec<u32>,
     ways: [Vec<u16>; 3],
+    cells: (Vec<Triangle<f64, u16>>, Vec<Quad<f64, u16>>),
+    weights: [Vec<f64>; 2],
     reach: f64,
     pub loads: (Vec<f64>, Vec<f64>),
     gap: Vec<[f64; 2]>,
@@ -58,6 +61,8 @@ impl Foundation {
             points: if at_points { metric(&plate) } else { Vec::new() },
             place: (0..cells as u32).collect(),
             ways: [(); 3].map(|()| vec![NONE; cells]),
+            cells: (vec![Triangle::EMPTY; k.0.len()], vec![Quad::EMPTY; k.1.len()]),
+            weights: [vec![0.0; plate.vertices.len()], vec![0.0; counts.edges()]],
             reach: 0.0,
             loads: (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]),
             gap: vec![[GAP; 2]; counts.contact],
@@ -67,19 +72,27 @@ impl Foundation {
             stiffness: k,
             plate,
         };
-        let mut ways = foundation.ways.clone();
-        foundation.reach = foundation.find_ways(&mut ways)?;
-        foundation.ways = ways;
+        foundation.find_ways()?;
         Ok(foundation)
     }
 
-    fn find_ways(&self, [order, parent, place]: &mut [Vec<u16>; 3]) -> Result<f64, Error> {
-        let (edges, boundary) = (self.plate.edges()?, self.boundary()?);
+    fn find_ways(&mut self) -> Result<(), Error> {
+        let Self { plate, neumann, robin, flux, stiffness, compliance, points, place, .. } = self;
+        let (mesh, edges) = (plate.mesh()?, plate.edges()?);
+        let boundary = Boundary::new(&edges, neumann, robin, flux)?;
         let mut distance = vec![0.0; edges.cells()];
-        let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
+        let [order, parent, places] = &mut self.ways;
+        let buffers = ForestBuffers { order, parent, place: places, distance: &mut distance };
         let forest = grow(&edges, |_| 1.0, |edge| is_root(&edges, &boundary, edge), buffers)?;
+        let stiffness = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
+        let [of_vertices, of_edges] = &mut self.weights;
+        let (triangles, quads) = (&mut self.cells.0, &mut self.cells.1);
+        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
+        let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
+        let metric = Metric { at_points: points, place };
         let mut way = vec![0.0; edges.cells()];
-        certificate::reach(&edges, self.stiffness(), self.metric(), &forest, &mut way)
+        self.reach = certificate::reach(&edges, &cells, metric, &forest, &mut way)?;
+        Ok(())
     }
 
     pub fn boundary(&self) -> Result<Boundary<'_, f64, u16>, Error> {
@@ -91,19 +104,20 @@ impl Foundation {
     }
 
     fn metric(&self) -> Metric<'_, f64> {
-        Metric { compliance: &self.compliance, at_points: &self.points, place: &self.place }
+        Metric { at_points: &self.points, place: &self.place }
     }
 
     pub fn ground(&self) -> Result<Ground<'_, f64, u16>, Error> {
         let edges = self.plate.edges()?;
         let [order, parent, place] = &self.ways;
+        let forest = Forest::new(&edges, order, parent, place)?;
+        let [of_vertices, of_edges] = &self.weights;
         Ok(Ground {
             mesh: self.plate.mesh()?,
             edges,
             stiffness: self.stiffness(),
+            cells: Cells::new(&self.cells.0, &self.cells.1, of_vertices, of_edges, &forest)?,
             metric: self.metric(),
-            alpha: &[],
-            forest: Forest::new(&edges, order, parent, place)?,
             reach: self.reach,
         })
     }
