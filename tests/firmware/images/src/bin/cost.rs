@@ -11,17 +11,23 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use signorini_firmware::board::clock::{Clock, UNIT};
 use signorini_firmware::board::{self, stack};
-use signorini_firmware::grid::{EDGES, Grid, SQUARES};
+use signorini_firmware::grid::{EDGES, Grid, SQUARES, VERTICES};
 use signorini_firmware::journal::{Bits, Journal};
 use signorini_firmware::stages::cut;
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::Boundary;
+use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::certificate::{self, Buffers, Given, Ground, Metric, certify};
+use signorini_kernel::conforming::VertexData;
 use signorini_kernel::csr::Csr;
+use signorini_kernel::edges::Edges;
+use signorini_kernel::equilibrium::{Iterate, is_root};
+use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::{Error, Tensor, flux, psor};
+use signorini_kernel::{Error, Mesh, Tensor, flux, psor};
 
 /// Repetitions of a stage in one count.
 const TIMES: u32 = 20;
@@ -171,11 +177,85 @@ impl Meter<'_, '_> {
         self.count("flux by edges", "cell", cells, || {
             flux::recover(&edges, stiffness, loads, u, &[], by_edges).map(drop)
         })?;
+        self.certificate::<R, T, Q, E>(mesh, edges, stiffness, boundary, loads, u)?;
         self.count("solve to the last digit", "unknown", unknowns, || {
             u.fill(R::ZERO);
             Solver::<R>::new(Settings::default())?.run(&system, &mut rows, u).map(drop)
         })?;
         Ok(())
+    }
+}
+
+impl Meter<'_, '_> {
+    /// The forest and the packed cells, found once, and the certificate of an iterate.
+    #[inline(never)]
+    fn certificate<R: Bits, const T: usize, const Q: usize, const E: usize>(
+        &mut self,
+        mesh: Mesh<R, u16>,
+        edges: Edges<u16>,
+        stiffness: Stiffness<R>,
+        boundary: Boundary<R, u16>,
+        loads: CellLoads<R>,
+        u: &[R],
+    ) -> Result<(), Error> {
+        let cells = edges.cells();
+        let mut ways = [[0_u16; 2 * SQUARES]; 3];
+        let [order, parent, place] = &mut ways;
+        let (order, parent, place) = (cut(order, cells)?, cut(parent, cells)?, cut(place, cells)?);
+        let mut way = [R::ZERO; 2 * SQUARES];
+        let way = cut(&mut way, cells)?;
+        self.count("forest", "cell", cells, || {
+            let buffers = ForestBuffers {
+                order: &mut *order,
+                parent: &mut *parent,
+                place: &mut *place,
+                distance: &mut *way,
+            };
+            grow(&edges, |_| R::ONE, |edge| is_root(&edges, &boundary, edge), buffers).map(drop)
+        })?;
+        let forest = Forest::new(&edges, order, parent, place)?;
+        let compliance = [R::QUARTER / (R::TWO - R::QUARTER * R::QUARTER); T];
+        let (mut triangles, mut quads) = ([Triangle::EMPTY; T], [Quad::EMPTY; Q]);
+        let (mut of_vertices, mut of_edges) = ([R::ZERO; VERTICES], [R::ZERO; E]);
+        let of_edges = cut(&mut of_edges, u.len())?;
+        self.count("packed cells", "cell", cells, || {
+            let buffers = CellBuffers {
+                triangles: &mut triangles,
+                quads: &mut quads,
+                of_vertices: &mut of_vertices,
+                of_edges: &mut *of_edges,
+            };
+            pack(&mesh, &edges, stiffness, &[], &compliance, &forest, buffers).map(drop)
+        })?;
+        let packed = Cells::new(&triangles, &quads, &of_vertices, of_edges, &forest)?;
+        let metric = Metric::default();
+        let reach = certificate::reach(&edges, &packed, metric, &forest, way)?;
+        let ground = Ground { mesh, edges, stiffness, cells: packed, metric, reach };
+        let gap = -R::QUARTER * R::QUARTER;
+        let (at_gap, given, lower) = ([[gap; 2]; 16], [[R::ZERO; 2]; 16], [gap; 16]);
+        let given = Given {
+            loads,
+            boundary,
+            ends: VertexData { gap: black_box(&at_gap), given: black_box(&given) },
+            curved: &[],
+            transfer: &[],
+            oscillation: R::ZERO,
+        };
+        let (mut vertices, mut bubbles, mut tau) =
+            ([R::ZERO; VERTICES], [R::ZERO; E], [R::ZERO; E]);
+        let bubbles = cut(&mut bubbles, if Q > 0 { u.len() } else { 0 })?;
+        let tau = cut(&mut tau, u.len())?;
+        self.count("certificate", "cell", cells, || {
+            let buffers = Buffers {
+                vertices: &mut vertices,
+                bubbles: &mut *bubbles,
+                tau: &mut *tau,
+                indicators: &mut [],
+            };
+            let iterate = Iterate { u, lower: black_box(&lower) };
+            black_box(certify(&ground, &given, iterate, buffers)?);
+            Ok(())
+        })
     }
 }
 
