@@ -87,8 +87,7 @@ impl Solution {
 
     /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
-        let gap = problem.loads.gap[at];
-        if self.scalar == ScalarKind::F32 { f64::from(gap as f32) } else { gap }
+        self.scalar.round(problem.loads.gap[at])
     }
 
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
