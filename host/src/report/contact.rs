@@ -2,10 +2,13 @@
 //! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0.
 
 use super::scale::{Scale, extent};
-use super::strip::{LEFT, RIGHT, WIDTH, across, frame, heading, vertical};
+use super::strip::{across, frame, heading, vertical};
 use super::svg::{Path, Svg};
 use super::{ContactEdge, ScenePanel};
 
+const LEFT: f64 = 58.0;
+const RIGHT: f64 = 538.0;
+const WIDTH: f64 = 642.0;
 /// Top and bottom of the two diagrams.
 const MULTIPLIER: [f64; 2] = [24.0, 164.0];
 const OPENING: [f64; 2] = [196.0, 250.0];
@@ -29,7 +32,7 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     }
     let multiplier = |edge: &ContactEdge| edge.multiplier;
     let up = vertical(multiplier_range(&edges), MULTIPLIER);
-    frame(&mut svg, &up, 4, MULTIPLIER);
+    frame(&mut svg, &up, 4, [LEFT, RIGHT], MULTIPLIER);
     heading(&mut svg, LEFT, MULTIPLIER[0], "λ = σ·n − q");
     steps(&mut svg, ["multiplier-area", "multiplier"], &edges, &along, &up, multiplier);
     svg.path("exact", &exact(&edges, &along, &up));
@@ -37,11 +40,11 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     let opening = |edge: &ContactEdge| edge.opening;
     let range = extent(edges.iter().map(|edge| edge.opening)).unwrap_or_default();
     let up = vertical(range, OPENING);
-    frame(&mut svg, &up, 2, OPENING);
+    frame(&mut svg, &up, 2, [LEFT, RIGHT], OPENING);
     heading(&mut svg, LEFT, OPENING[0], "u − ψ");
     steps(&mut svg, ["opening-area", "opening"], &edges, &along, &up, opening);
 
-    across(&mut svg, &along, OPENING[1], "arc length along C");
+    across(&mut svg, &along, [RIGHT, OPENING[1]], "arc length along C");
     Some(svg.finish())
 }
 

@@ -5,10 +5,12 @@ use super::convergence::marker;
 use super::page::STYLE;
 use super::scale::{Scale, extent};
 use super::simplify::simplify;
-use super::strip::{LEFT, RIGHT, across, frame, heading, vertical};
+use super::strip::{across, frame, heading, vertical};
 use super::svg::{Anchor, Path, Svg};
 use super::{Curve, History, Strip};
 
+const LEFT: f64 = 66.0;
+const RIGHT: f64 = 736.0;
 const WIDTH: f64 = RIGHT + 24.0;
 /// Top of the first diagram, height of each, and from one to the next.
 const TOP: f64 = 66.0;
@@ -37,7 +39,7 @@ pub fn history(history: &History) -> String {
         let top = TOP + STEP * at as f64;
         draw(&mut svg, strip, &history.time, &along, [top, top + HEIGHT]);
     }
-    across(&mut svg, &along, bottom, "t");
+    across(&mut svg, &along, [RIGHT, bottom], "t");
     svg.finish()
 }
 
@@ -67,12 +69,11 @@ fn upwards(strip: &Strip, [top, bottom]: [f64; 2]) -> Scale {
 
 fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]: [f64; 2]) {
     let up = upwards(strip, [top, bottom]);
-    frame(svg, &up, 3, [top, bottom]);
-    if let Some((name, value)) = &strip.limit {
-        let y = up.at(*value);
-        svg.line("limit", [LEFT, y], [RIGHT, y]);
-        svg.text("limit-label", [RIGHT, top - 8.0], Anchor::End, name);
+    for (time, _) in along.ticks(6) {
+        svg.line("grid", [along.at(time), top], [along.at(time), bottom]);
     }
+    frame(svg, &up, 4, [LEFT, RIGHT], [top, bottom]);
+    svg.line("frame", [LEFT, bottom], [RIGHT, bottom]);
     let shown = |curve: &&Curve| curve.values.iter().any(Option::is_some);
     let curves: Vec<&Curve> = strip.curves.iter().filter(shown).collect();
     for (at, curve) in curves.iter().enumerate() {
@@ -85,6 +86,11 @@ fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]
             markers(svg, look, &[[left + 4.0, top - 12.0]]);
             heading(svg, left + 14.0, top, &curve.label);
         }
+    }
+    if let Some((name, value)) = &strip.limit {
+        let y = up.at(*value);
+        svg.line("limit", [LEFT, y], [RIGHT, y]);
+        svg.text("limit-label", [RIGHT, top - 8.0], Anchor::End, name);
     }
 }
 

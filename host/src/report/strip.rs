@@ -3,13 +3,6 @@
 use super::scale::Scale;
 use super::svg::{Anchor, Svg};
 
-/// Left end of the horizontal axis.
-pub const LEFT: f64 = 58.0;
-/// Right end of it.
-pub const RIGHT: f64 = 538.0;
-/// Width of the picture.
-pub const WIDTH: f64 = 642.0;
-
 /// An axis that shows 0 and a little more than the range.
 pub fn vertical([low, high]: [f64; 2], [top, bottom]: [f64; 2]) -> Scale {
     let [low, high] = [low.min(0.0), high.max(0.0)];
@@ -24,26 +17,32 @@ pub fn heading(svg: &mut Svg, left: f64, top: f64, quantity: &str) {
 }
 
 /// Grid lines with their values; 0 is drawn as an axis where it is in sight.
-pub fn frame(svg: &mut Svg, up: &Scale, ticks: usize, [top, bottom]: [f64; 2]) {
+pub fn frame(
+    svg: &mut Svg,
+    up: &Scale,
+    ticks: usize,
+    [left, right]: [f64; 2],
+    [top, bottom]: [f64; 2],
+) {
     let visible = |y: f64| (top - 0.5..=bottom + 0.5).contains(&y);
     for (value, label) in up.ticks(ticks) {
         let y = up.at(value);
         if visible(y) {
-            svg.line("grid", [LEFT, y], [RIGHT, y]);
-            svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
+            svg.line("grid", [left, y], [right, y]);
+            svg.text("tick", [left - 8.0, y + 4.0], Anchor::End, &label);
         }
     }
     if visible(up.at(0.0)) {
-        svg.line("axis", [LEFT, up.at(0.0)], [RIGHT, up.at(0.0)]);
+        svg.line("axis", [left, up.at(0.0)], [right, up.at(0.0)]);
     }
 }
 
-/// The horizontal axis below the lowest diagram, which ends at `bottom`.
-pub fn across(svg: &mut Svg, along: &Scale, bottom: f64, quantity: &str) {
+/// The horizontal axis below the lowest diagram, whose lower right corner is given.
+pub fn across(svg: &mut Svg, along: &Scale, [right, bottom]: [f64; 2], quantity: &str) {
     for (value, label) in along.ticks(6) {
         let x = along.at(value);
         svg.line("axis", [x, bottom], [x, bottom + 4.0]);
         svg.text("tick", [x, bottom + 18.0], Anchor::Middle, &label);
     }
-    svg.text("quantity", [RIGHT, bottom + 35.0], Anchor::End, quantity);
+    svg.text("quantity", [right, bottom + 35.0], Anchor::End, quantity);
 }
