@@ -98,7 +98,7 @@ impl Solution {
 }
 
 /// A part held by nothing is determined up to a constant: the one with ∫u = 0 is given.
-pub(super) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
+pub(crate) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
     let Ok(edges) = problem.topology.edges() else { return };
     let mesh = &problem.mesh;
     let corner = |vertex: u32| mesh.vertices[vertex as usize];

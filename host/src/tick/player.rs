@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{Options, status_name, unfit};
+use crate::solve::{Options, centre_floating, status_name, unfit};
 
 /// Everything that stays from tick to tick.
 #[derive(Debug)]
@@ -70,8 +70,13 @@ impl<'p, R: Scalar> Player<'p, R> {
     /// # Errors
     /// No solution, numbers that the scalar type cannot hold.
     pub fn tick(&mut self, problem: &Problem) -> Result<Answer> {
-        self.assembled.set_parts(&Parts::examine(self.scene, problem)?);
-        self.solve(problem).map_err(unfit::<R>(self.scene))
+        let parts = Parts::examine(self.scene, problem)?;
+        self.assembled.set_parts(&parts);
+        let mut answer = self.solve(problem).map_err(unfit::<R>(self.scene))?;
+        if parts.counts.floating > 0 {
+            centre_floating(problem, &parts, &mut answer.u);
+        }
+        Ok(answer)
     }
 
     fn solve(&mut self, problem: &Problem) -> std::result::Result<Answer, KernelError> {
