@@ -139,6 +139,14 @@ impl Error {
         move |cause| Self::Io { path, cause }
     }
 
+    /// Adds at which time of a scene the input is wrong.
+    pub fn at_time(mut self, time: f64) -> Self {
+        if let Self::Input(error) = &mut self {
+            error.message = format!("{} (at t = {time})", error.message);
+        }
+        self
+    }
+
     /// The exit status that this failure ends in.
     pub fn exit_status(&self) -> u8 {
         match self {

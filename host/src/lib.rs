@@ -19,3 +19,4 @@ pub mod scalar;
 pub mod scene;
 pub mod solve;
 pub mod study;
+pub mod tick;

@@ -7,7 +7,20 @@ use crate::field::CellField;
 use crate::problem::{EdgeKind, Problem};
 use crate::quadrature::Point;
 use crate::scene::{Output, Quantity, Scene};
-use crate::solve::Solution;
+use crate::solve::{ScalarKind, Solution};
+
+/// What outputs are read off.
+#[derive(Debug, Clone, Copy)]
+pub struct Reading<'a> {
+    /// The scalar type it was computed in.
+    pub scalar: ScalarKind,
+    /// Mean of u_h over each edge.
+    pub u: &'a [f64],
+    /// ∫_E σ·n of each edge.
+    pub flux: &'a [f64],
+    /// The bound on its error, where there is one.
+    pub bound: Option<f64>,
+}
 
 /// Every declared output; without any, contact force and length. `None` where a quantity has no value.
 ///
@@ -23,9 +36,20 @@ pub fn outputs(
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
     }
+    let Solution { scalar, u, flux, .. } = solution;
+    let values = declared(scene, problem, Reading { scalar: *scalar, u, flux, bound: None })?;
+    let names = scene.outputs.iter().map(|output| output.name.value.clone());
+    Ok(names.zip(values).collect())
+}
+
+/// The values of the declared outputs, in the order of the scene.
+///
+/// # Errors
+/// A probe outside the mesh.
+pub fn declared(scene: &Scene, problem: &Problem, reading: Reading) -> Result<Vec<Option<f64>>> {
     let evaluated = scene.outputs.iter().map(|output| {
-        let value = evaluate(scene, problem, solution, output)?;
-        Ok((output.name.value.clone(), value.filter(|value| value.is_finite())))
+        let value = evaluate(scene, problem, reading, output)?;
+        Ok(value.filter(|value| value.is_finite()))
     });
     evaluated.collect()
 }
@@ -33,7 +57,7 @@ pub fn outputs(
 fn evaluate(
     scene: &Scene,
     problem: &Problem,
-    solution: &Solution,
+    reading: Reading,
     output: &Output,
 ) -> Result<Option<f64>> {
     let free = problem.topology.counts.free;
@@ -45,18 +69,19 @@ fn evaluate(
     });
     let contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
     Ok(match output.quantity {
-        Quantity::Flux => Some(edges.fold(0.0, |sum, edge| sum + solution.flux[edge])),
+        Quantity::Flux => Some(edges.fold(0.0, |sum, edge| sum + reading.flux[edge])),
         Quantity::Force => {
-            let force = |edge| solution.flux[edge] - problem.loads.contact_flux[edge - free];
+            let force = |edge| reading.flux[edge] - problem.loads.contact_flux[edge - free];
             Some(edges.filter(contact).map(force).fold(0.0, |sum, force| sum + force))
         }
         Quantity::Length => {
-            let active = |edge: &usize| solution.u[*edge] == solution.gap(problem, *edge - free);
+            let gap = |edge: usize| reading.scalar.round(problem.loads.gap[edge - free]);
+            let active = |edge: &usize| reading.u[*edge] == gap(*edge);
             let touching = edges.filter(contact).filter(active);
             Some(touching.fold(0.0, |sum, edge| sum + problem.lengths[edge]))
         }
-        Quantity::Probe { at } => Some(probe(scene, problem, solution, output, at)?),
-        Quantity::Bound => None,
+        Quantity::Probe { at } => Some(probe(scene, problem, reading, output, at)?),
+        Quantity::Bound => reading.bound,
     })
 }
 
@@ -64,13 +89,13 @@ fn evaluate(
 fn probe(
     scene: &Scene,
     problem: &Problem,
-    solution: &Solution,
+    reading: Reading,
     output: &Output,
     at: [f64; 2],
 ) -> Result<f64> {
     let cells = problem.mesh.triangles.len() + problem.mesh.quads.len();
     let found = (0..cells).find_map(|cell| {
-        let field = CellField::new(problem, cell, &solution.u, &solution.flux);
+        let field = CellField::new(problem, cell, reading.u, reading.flux);
         let reference = field.locate(at)?;
         Some(field.sample(&Point { x: at, reference, weight: 0.0 }).u)
     });

@@ -134,7 +134,7 @@ fn export_writes_a_model() {
 
 #[test]
 fn help_has_examples() {
-    for command in [&["--help"][..], &["solve", "--help"]] {
+    for command in [&["--help"][..], &["solve", "--help"], &["tick", "--help"]] {
         let output = signorini(command);
         assert!(String::from_utf8_lossy(&output.stdout).contains("Examples:"), "{command:?}");
     }

@@ -143,6 +143,9 @@ def scene(title, mesh, case):
     text += ["[source]", f'f = "{case["f"]}"', ""]
     text += ["[boundary.dirichlet]", 'kind = "dirichlet"', f'value = "{case["u"]}"', ""]
     text += ["[boundary.contact]", 'kind = "contact"', f'gap = "{case.get("gap", "0")}"', ""]
+    if "time" in case:
+        step, end = case["time"]
+        text += ["[time]", f"step = {step}", f"end = {end}", ""]
     gx, gy = case["gradient"]
     text += ["[exact]", f'u = "{case["u"]}"', f'gradient = ["{gx}", "{gy}"]', ""]
     return "\n".join(text)
@@ -152,6 +155,8 @@ def main():
     for kind in ("tri", "quad", "mixed"):
         (HERE / f"square-{kind}-16.msh").write_text(msh22(*grid(16, kind)))
     a, b, h = case_a("x", "y"), case_b("x", "y"), case_h("x", "y")
+    # The free points move by up to 0.03 from tick to tick.
+    moving = {**case_h("x", "y", "(0.55 + 0.1*sin(2*pi*t))"), "time": (0.05, 1)}
     hg = plus(h, "-x^2 + y^2", ("-2*x", "2*y"), "0")
     hg["gap"] = "-x^2"
     ag = plus(a, "0.1*cos(pi*x)*(1 + y^2)",
@@ -167,6 +172,7 @@ def main():
         ("h-tri", "H(0.55): punch, two free points", "tri", h),
         ("h-quad", "H(0.55): punch, two free points", "quad", h),
         ("h-mixed", "H(0.55): punch, triangles and quads", "mixed", h),
+        ("moving-tri", "H(a(t)): punch, two free points that move", "tri", moving),
         ("hg-tri", "H_g(0.55): concave gap", "tri", hg),
         ("hg-quad", "H_g(0.55): concave gap", "quad", hg),
         ("ag-mixed", "A + G: arbitrary gap and source", "mixed", ag),

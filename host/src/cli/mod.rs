@@ -1,7 +1,9 @@
 //! The command line.
 
 mod export;
+mod place;
 mod solve;
+mod tick;
 
 use clap::{Parser, Subcommand};
 
@@ -12,6 +14,7 @@ Examples:
   signorini                                         all standard scenes, table and report
   signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
+  signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
   signorini export my.toml -o my.rs --scalar f32    the scene as data for its firmware
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
@@ -32,6 +35,8 @@ pub struct Cli {
 enum Command {
     /// Solve one scene and write edges.csv, summary.json and solution.vtu
     Solve(solve::Arguments),
+    /// Solve a scene over time, each tick from the last one's answer; write ticks.csv and ticks.svg
+    Tick(tick::Arguments),
     /// Write a scene as static data of a Rust program for a microcontroller
     Export(export::Arguments),
 }
@@ -44,6 +49,7 @@ impl Cli {
     pub fn run(self) -> Result<u8> {
         match self.command {
             Some(Command::Solve(arguments)) => arguments.run(),
+            Some(Command::Tick(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),
         }

@@ -1,10 +1,11 @@
 //! `signorini solve`: one scene, its files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
-use crate::error::{Error, InputError, Result};
+use super::place::Place;
+use crate::error::{Error, Result};
 use crate::field::{CellField, vertex_values};
 use crate::mesh::gmsh;
 use crate::norms::{Errors, errors};
@@ -28,11 +29,8 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// The scene file (TOML)
-    scene: PathBuf,
-    /// Another mesh than the scene names (Gmsh MSH 2.2 or 4.1)
-    #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
+    #[command(flatten)]
+    place: Place,
     /// Scalar type of the kernel
     #[arg(long, value_enum, default_value = "f64")]
     scalar: ScalarKind,
@@ -45,12 +43,6 @@ pub struct Arguments {
     /// Most sweeps allowed
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
     max_sweeps: u32,
-    /// Set an input of the scene; repeatable
-    #[arg(long, value_name = "NAME=VALUE")]
-    input: Vec<String>,
-    /// Where the files go [default: out/SCENE]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -62,15 +54,8 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        let mut scene = Scene::read(&self.scene)?;
-        if let Some(mesh) = &self.mesh {
-            scene.mesh.value.clone_from(mesh);
-        }
-        for input in &self.input {
-            scene.set_input(input)?;
-        }
-        let out = self.out.clone().unwrap_or_else(|| default_directory(&self.scene));
-        check_directory(&out)?;
+        let scene = self.place.scene()?;
+        let out = self.place.out()?;
         let mesh = gmsh::read(&scene.mesh.value)?;
         let problem = Problem::new(&scene, mesh)?;
         let options = Options {
@@ -103,21 +88,6 @@ impl Arguments {
         report(&scene, &problem, &solution, errors, &out);
         Ok(if solution.converged() { 0 } else { 3 })
     }
-}
-
-fn default_directory(scene: &Path) -> PathBuf {
-    Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
-}
-
-fn check_directory(out: &Path) -> Result<()> {
-    let is_file = out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir());
-    if is_file {
-        let message = format!("--out {}: is a file, expected a directory", out.display());
-        return Err(InputError::new(message)
-            .hint("name a directory, or one that does not exist yet")
-            .into());
-    }
-    Ok(())
 }
 
 fn picture(problem: &Problem, solution: &Solution) -> String {

@@ -3,4 +3,5 @@
 pub mod atomic;
 pub mod edges;
 pub mod summary;
+pub mod ticks;
 pub mod vtu;

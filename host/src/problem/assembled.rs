@@ -120,6 +120,15 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.parts = numbers.len();
     }
 
+    /// Takes the loads of another time; the matrix stays.
+    ///
+    /// # Errors
+    /// Loads that the scalar type cannot hold.
+    pub fn set_loads(&mut self, loads: &Loads) -> Result<(), Error> {
+        self.loads = Narrowed::new(loads);
+        self.fill_load()
+    }
+
     /// The numeric pass over the matrix.
     ///
     /// # Errors
@@ -197,6 +206,11 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// ψ on the contact edges.
     pub fn lower(&self) -> &[R] {
         &self.loads.gap
+    }
+
+    /// u_D on the Dirichlet edges.
+    pub fn dirichlet(&self) -> &[R] {
+        &self.loads.dirichlet
     }
 
     /// Matrix, load and bounds.

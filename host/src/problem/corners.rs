@@ -11,11 +11,11 @@ use crate::scene::{Condition, Field, Scene};
 /// expression is −1.8e−16.
 const ROUNDING: f64 = 1e-9;
 
-/// Checks every vertex between a Dirichlet and a contact edge at time `time`.
+/// Checks every vertex between a Dirichlet and a contact edge at the time of the problem.
 ///
 /// # Errors
 /// The first vertex where u_D < ψ beyond rounding, with both values.
-pub(super) fn check(scene: &Scene, problem: &Problem, time: f64) -> Result<()> {
+pub(super) fn check(scene: &Scene, problem: &Problem) -> Result<()> {
     let counts = problem.topology.counts;
     let contact = counts.free..counts.unknowns();
     let touched: HashMap<u32, usize> =
@@ -27,8 +27,8 @@ pub(super) fn check(scene: &Scene, problem: &Problem, time: f64) -> Result<()> {
         for vertex in problem.ends[edge] {
             let Some(&neighbour) = touched.get(&vertex) else { continue };
             let [x, y] = problem.mesh.vertices[vertex as usize];
-            let value = at_vertex(scene, problem, edge, [x, y], time);
-            let gap = at_vertex(scene, problem, neighbour, [x, y], time);
+            let value = at_vertex(scene, problem, edge, [x, y]);
+            let gap = at_vertex(scene, problem, neighbour, [x, y]);
             let (Some((value, key)), Some((gap, _))) = (value, gap) else { continue };
             if gap - value > ROUNDING * (high - low) {
                 let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
@@ -48,7 +48,6 @@ fn at_vertex<'s>(
     problem: &Problem,
     edge: usize,
     [x, y]: [f64; 2],
-    time: f64,
 ) -> Option<(f64, Located<'s>)> {
     let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
     let (field, key) = match (&boundary.condition, problem.kinds[edge]) {
@@ -56,5 +55,5 @@ fn at_vertex<'s>(
         (Condition::Contact { gap, .. }, EdgeKind::Contact) => (Field::Gap, gap),
         _ => return None,
     };
-    Some((Sum::new(scene, &boundary.name.value, field, key, time).at(x, y), key))
+    Some((Sum::new(scene, &boundary.name.value, field, key, problem.time).at(x, y), key))
 }

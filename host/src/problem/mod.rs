@@ -119,8 +119,10 @@ pub struct Problem {
     pub binding: Binding,
     /// A.
     pub coefficients: Coefficients,
-    /// Loads, gaps and boundary values at the start time.
+    /// Loads, gaps and boundary values at `time`.
     pub loads: Loads,
+    /// The time t of the loads and of the exact solution.
+    pub time: f64,
 }
 
 impl Problem {
@@ -156,10 +158,20 @@ impl Problem {
             binding,
             coefficients,
             loads: Loads::default(),
+            time: 0.0,
         };
-        problem.loads = Loads::at_time(scene, &problem, 0.0)?;
-        corners::check(scene, &problem, 0.0)?;
+        problem.set_time(scene, 0.0)?;
         Ok(problem)
+    }
+
+    /// Integrates the data of `scene` at time `time`; mesh, edges and A stay.
+    ///
+    /// # Errors
+    /// Data that are not finite or not admissible at that time.
+    pub fn set_time(&mut self, scene: &Scene, time: f64) -> Result<()> {
+        self.loads = Loads::at_time(scene, self, time)?;
+        self.time = time;
+        corners::check(scene, self)
     }
 
     /// The largest entry of an element matrix.

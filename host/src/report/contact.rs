@@ -2,7 +2,8 @@
 //! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0.
 
 use super::scale::{Scale, extent};
-use super::svg::{Anchor, Path, Svg};
+use super::strip::{across, frame, heading, vertical};
+use super::svg::{Path, Svg};
 use super::{ContactEdge, ScenePanel};
 
 const LEFT: f64 = 58.0;
@@ -31,22 +32,19 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     }
     let multiplier = |edge: &ContactEdge| edge.multiplier;
     let up = vertical(multiplier_range(&edges), MULTIPLIER);
-    frame(&mut svg, &up, 4, MULTIPLIER, "λ = σ·n − q");
+    frame(&mut svg, &up, 4, [LEFT, RIGHT], MULTIPLIER);
+    heading(&mut svg, LEFT, MULTIPLIER[0], "λ = σ·n − q");
     steps(&mut svg, ["multiplier-area", "multiplier"], &edges, &along, &up, multiplier);
     svg.path("exact", &exact(&edges, &along, &up));
 
     let opening = |edge: &ContactEdge| edge.opening;
     let range = extent(edges.iter().map(|edge| edge.opening)).unwrap_or_default();
     let up = vertical(range, OPENING);
-    frame(&mut svg, &up, 2, OPENING, "u − ψ");
+    frame(&mut svg, &up, 2, [LEFT, RIGHT], OPENING);
+    heading(&mut svg, LEFT, OPENING[0], "u − ψ");
     steps(&mut svg, ["opening-area", "opening"], &edges, &along, &up, opening);
 
-    for (value, label) in along.ticks(6) {
-        let x = along.at(value);
-        svg.line("axis", [x, OPENING[1]], [x, OPENING[1] + 4.0]);
-        svg.text("tick", [x, OPENING[1] + 18.0], Anchor::Middle, &label);
-    }
-    svg.text("quantity", [RIGHT, OPENING[1] + 35.0], Anchor::End, "arc length along C");
+    across(&mut svg, &along, [RIGHT, OPENING[1]], "arc length along C");
     Some(svg.finish())
 }
 
@@ -76,26 +74,6 @@ fn multiplier_range(edges: &[&ContactEdge]) -> [f64; 2] {
     let room = TALLEST * low.abs().max(high.abs());
     let [exact_low, exact_high] = exact.unwrap_or([low, high]);
     [low.min(exact_low.max(-room)), high.max(exact_high.min(room))]
-}
-
-/// An axis that shows 0 and a little more than the range.
-fn vertical([low, high]: [f64; 2], [top, bottom]: [f64; 2]) -> Scale {
-    let [low, high] = [low.min(0.0), high.max(0.0)];
-    let high = if low == high { 1.0 } else { high };
-    let room = 0.06 * (high - low);
-    Scale::linear([if low < 0.0 { low - room } else { 0.0 }, high + room], [bottom, top])
-}
-
-fn frame(svg: &mut Svg, up: &Scale, ticks: usize, [top, bottom]: [f64; 2], quantity: &str) {
-    for (value, label) in up.ticks(ticks) {
-        let y = up.at(value);
-        if (top - 0.5..=bottom + 0.5).contains(&y) {
-            svg.line("grid", [LEFT, y], [RIGHT, y]);
-            svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
-        }
-    }
-    svg.line("axis", [LEFT, up.at(0.0)], [RIGHT, up.at(0.0)]);
-    svg.text("quantity", [LEFT, top - 8.0], Anchor::Start, quantity);
 }
 
 /// A value that is constant on each edge: the area down to 0, and its upper end as a line.

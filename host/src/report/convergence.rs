@@ -127,7 +127,7 @@ pub fn rate_label(rate: f64) -> String {
 }
 
 /// Square, diamond or triangle, so that colour is not the only difference.
-fn marker(look: usize, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+pub(super) fn marker(look: usize, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
     let r = MARKER;
     let offsets: &[[f64; 2]] = match look % 3 {
         0 => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],

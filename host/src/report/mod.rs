@@ -4,6 +4,7 @@
 //! Report ─► page (HTML) ─┬─► field        u as colour ◄ isobands, colormap; the flux ◄ arrows
 //!                        ├─► contact      λ and the opening along C
 //!                        └─► convergence  error over mesh width, log-log
+//! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
 //! ```
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
 //! The report knows no solver: [`Report`] is plain data, filled by whoever ran one. Values that are
@@ -14,16 +15,19 @@ mod colormap;
 mod contact;
 mod convergence;
 mod field;
+mod history;
 mod isobands;
 mod page;
 mod scale;
 mod simplify;
+mod strip;
 mod svg;
 #[cfg(test)]
 mod tests;
 mod view;
 
 pub use convergence::measured_rate;
+pub use history::history;
 pub use page::html;
 
 /// Everything the page shows, in the order it shows it.
@@ -119,6 +123,37 @@ pub struct ScenePanel {
     pub boundary: Vec<BoundaryEdge>,
     /// Numbers worth knowing: name and value.
     pub facts: Vec<(String, String)>,
+}
+
+/// What changed over time: diagrams on top of each other.
+#[derive(Debug, Clone, Default)]
+pub struct History {
+    /// The heading.
+    pub title: String,
+    /// The time of each tick, increasing.
+    pub time: Vec<f64>,
+    /// The diagrams.
+    pub strips: Vec<Strip>,
+}
+
+/// One diagram over time.
+#[derive(Debug, Clone, Default)]
+pub struct Strip {
+    /// What it shows.
+    pub curves: Vec<Curve>,
+    /// Whether its axis is logarithmic.
+    pub logarithmic: bool,
+    /// A value that should not be exceeded, and what to call it.
+    pub limit: Option<(String, f64)>,
+}
+
+/// One quantity over time.
+#[derive(Debug, Clone, Default)]
+pub struct Curve {
+    /// Its name.
+    pub label: String,
+    /// Its value at each tick, if it has one there.
+    pub values: Vec<Option<f64>>,
 }
 
 /// An edge of the contact boundary.

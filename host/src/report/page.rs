@@ -8,7 +8,7 @@ use super::field::{class, field};
 use super::svg::escape;
 use super::{BoundaryKind, Check, ConvergencePlot, Report, ScenePanel, Table};
 
-const STYLE: &str = include_str!("style.css");
+pub(super) const STYLE: &str = include_str!("style.css");
 
 /// The whole page as one file, complete in itself.
 pub fn html(report: &Report) -> String {

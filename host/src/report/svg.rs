@@ -35,6 +35,11 @@ impl Svg {
         Self { text }
     }
 
+    /// Carries a style sheet inside, for a picture that stands outside of a page.
+    pub fn style(&mut self, sheet: &str) {
+        let _ = writeln!(self.text, "<style><![CDATA[\n{sheet}]]></style>");
+    }
+
     /// A path in the look of `class`.
     pub fn path(&mut self, class: &str, path: &Path) {
         if !path.0.is_empty() {

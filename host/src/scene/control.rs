@@ -114,12 +114,17 @@ fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
 }
 
 impl Scene {
-    /// Sets the default of an input from `NAME=VALUE`, as on the command line.
-    pub fn set_input(&mut self, assignment: &str) -> Result<()> {
-        let known = match list(self.inputs.iter().map(|input| &input.name)) {
+    /// The names of its inputs, as a hint.
+    pub fn known_inputs(&self) -> String {
+        match list(self.inputs.iter().map(|input| &input.name)) {
             none if none.is_empty() => "the scene has no inputs".to_owned(),
             names => format!("inputs of the scene: {names}"),
-        };
+        }
+    }
+
+    /// Sets the default of an input from `NAME=VALUE`, as on the command line.
+    pub fn set_input(&mut self, assignment: &str) -> Result<()> {
+        let known = self.known_inputs();
         let error = |message: String| {
             InputError::new(format!("--input {assignment}: {message}")).hint(known.clone())
         };

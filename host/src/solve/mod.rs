@@ -22,7 +22,7 @@ use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use solution::centre_floating;
+pub(crate) use solution::centre_floating;
 
 /// Solves `problem`.
 ///

@@ -17,6 +17,16 @@ pub enum ScalarKind {
     F32,
 }
 
+impl ScalarKind {
+    /// The nearest number of this type.
+    pub fn round(self, x: f64) -> f64 {
+        match self {
+            Self::F64 => x,
+            Self::F32 => f64::from(x as f32),
+        }
+    }
+}
+
 /// Who solves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -64,7 +74,7 @@ impl Options {
     /// The kernel's settings. The default in f64 bounds the residual by 1e−13, two digits below the
     /// 1e−11 that is promised, so that fluxes too agree to 1e−6 where A jumps by 10⁴, and the error
     /// that may hide behind it by 1e−10. The default in f32 is the last digit of u.
-    pub(super) fn settings<R: Scalar>(&self) -> Settings<R> {
+    pub(crate) fn settings<R: Scalar>(&self) -> Settings<R> {
         let (tolerance, accuracy) = match (self.tolerance, self.scalar) {
             _ if self.to_the_floor => (0.0, R::EPSILON.wide()),
             (Some(tolerance), _) => (tolerance, f64::INFINITY),

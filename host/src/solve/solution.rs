@@ -87,8 +87,7 @@ impl Solution {
 
     /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
-        let gap = problem.loads.gap[at];
-        if self.scalar == ScalarKind::F32 { f64::from(gap as f32) } else { gap }
+        self.scalar.round(problem.loads.gap[at])
     }
 
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
@@ -99,7 +98,7 @@ impl Solution {
 }
 
 /// A part held by nothing is determined up to a constant: the one with ∫u = 0 is given.
-pub(super) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
+pub(crate) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
     let Ok(edges) = problem.topology.edges() else { return };
     let mesh = &problem.mesh;
     let corner = |vertex: u32| mesh.vertices[vertex as usize];

@@ -74,10 +74,10 @@ fn exact_multiplier(
     let at = |sample: usize| {
         let t = sample as f64 / (SAMPLES - 1) as f64;
         let [x, y] = [0, 1].map(|k| ends[0][k] + t * (ends[1][k] - ends[0][k]));
-        let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
+        let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, problem.time));
         let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
         let outward = (xx * ux + xy * uy) * normal[0] + (xy * ux + yy * uy) * normal[1];
-        outward - flux.value.eval(x, y, 0.0)
+        outward - flux.value.eval(x, y, problem.time)
     };
     Some((0..SAMPLES).map(at).collect())
 }

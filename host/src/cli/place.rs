@@ -1,0 +1,50 @@
+//! Where a command finds its scene and leaves its files.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::error::{InputError, Result};
+use crate::scene::Scene;
+
+/// The scene with what the command line changes in it, and the folder of the files.
+#[derive(Debug, Args)]
+pub(super) struct Place {
+    /// The scene file (TOML)
+    scene: PathBuf,
+    /// Another mesh than the scene names (Gmsh MSH 2.2 or 4.1)
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    /// Set an input of the scene; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    input: Vec<String>,
+    /// Where the files go [default: out/SCENE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Place {
+    /// Reads the scene and sets mesh and inputs.
+    pub fn scene(&self) -> Result<Scene> {
+        let mut scene = Scene::read(&self.scene)?;
+        if let Some(mesh) = &self.mesh {
+            scene.mesh.value.clone_from(mesh);
+        }
+        for input in &self.input {
+            scene.set_input(input)?;
+        }
+        Ok(scene)
+    }
+
+    /// The folder of the files, which need not exist yet.
+    pub fn out(&self) -> Result<PathBuf> {
+        let default = || Path::new("out").join(self.scene.file_stem().unwrap_or_default());
+        let out = self.out.clone().unwrap_or_else(default);
+        if out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
+            let message = format!("--out {}: is a file, expected a directory", out.display());
+            let hint = "name a directory, or one that does not exist yet";
+            return Err(InputError::new(message).hint(hint).into());
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,114 @@
+//! `signorini tick`: one scene over time, its files.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::place::Place;
+use crate::error::{Error, Result};
+use crate::mesh::gmsh;
+use crate::output::atomic::write_atomically;
+use crate::output::ticks::ticks_csv;
+use crate::problem::Problem;
+use crate::progress::{say, steps};
+use crate::report::history;
+use crate::scene::Scene;
+use crate::solve::{Options, ScalarKind};
+use crate::tick::{Tick, log, picture, play, schedule};
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini tick meshes/catalogue/moving-tri.toml
+  signorini tick meshes/scenes/levee.toml --budget-sweeps 40 --scalar f32
+  signorini tick meshes/scenes/levee.toml --log inputs.csv
+
+A log replays what a device was given, one tick a line; inputs without a column keep their values:
+  t,rain,river
+  0,0,0
+  0.01,2,0.5
+
+A tick that its budget cuts off is normal: its status says so, and the exit status is 0.";
+
+/// Arguments of `tick`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    place: Place,
+    /// Number of ticks from t = 0, by the step of the scene or, without [time], by 1 [default: to the
+    /// end of the scene]
+    #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
+    ticks: Option<u32>,
+    /// Most sweeps of one tick
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
+    budget_sweeps: Option<u32>,
+    /// Scalar type of the kernel
+    #[arg(long, value_enum, default_value = "f64")]
+    scalar: ScalarKind,
+    /// Times and inputs from a CSV file with the columns t and names of inputs
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(super) fn run(self) -> Result<u8> {
+        let scene = self.place.scene()?;
+        let out = self.place.out()?;
+        let moments = match &self.log {
+            Some(path) => log::read(path, &scene)?,
+            None => schedule::moments(&scene, self.ticks)?,
+        };
+        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let bar = steps(moments.len());
+        let ticks = play(&scene, &problem, &moments, &self.options(), |tick| {
+            bar.set_message(format!("t = {}", tick.time));
+            bar.inc(1);
+        });
+        bar.finish_and_clear();
+        let ticks = ticks?;
+        let table = ticks_csv(&scene, &ticks).map_err(|error| Error::Check(error.to_string()))?;
+        let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
+        write_atomically(&out.join("ticks.csv"), &table)?;
+        write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
+        report(&scene, &problem, &ticks, &out);
+        Ok(if ticks.iter().any(Tick::failed) { 3 } else { 0 })
+    }
+
+    fn options(&self) -> Options {
+        let unlimited = Options::default();
+        Options {
+            scalar: self.scalar,
+            max_sweeps: self.budget_sweeps.unwrap_or(unlimited.max_sweeps),
+            ..unlimited
+        }
+    }
+}
+
+fn report(scene: &Scene, problem: &Problem, ticks: &[Tick], out: &Path) {
+    let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
+    let unknowns = problem.topology.counts.unknowns();
+    say(format_args!("{}", scene.title));
+    say(format_args!("  {unknowns} unknowns, {} ticks from t = {first} to {last}", ticks.len()));
+    let mut sweeps: Vec<u32> = ticks.iter().map(|tick| tick.sweeps).collect();
+    let cold = sweeps.first().copied().unwrap_or(0);
+    sweeps.sort_unstable();
+    let (median, most) = (sweeps[sweeps.len() / 2], sweeps[sweeps.len() - 1]);
+    say(format_args!(
+        "  sweeps a tick: {cold} at the first, {median} in the median, {most} at most"
+    ));
+    say(format_args!("  {}", endings(ticks)));
+    say(format_args!("  written to {}", out.display()));
+}
+
+/// How many ticks ended in which way, in the order of their first.
+fn endings(ticks: &[Tick]) -> String {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for tick in ticks {
+        match counts.iter_mut().find(|(status, _)| *status == tick.status) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((tick.status, 1)),
+        }
+    }
+    let parts = counts.iter().map(|(status, count)| format!("{count} {status}"));
+    parts.collect::<Vec<_>>().join(", ")
+}

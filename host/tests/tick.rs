@@ -1,0 +1,229 @@
+//! `signorini tick` as users and scripts meet it: its table, its logs, its messages.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use signorini_host::mesh::structured::{Cells, grid};
+use signorini_host::norms::errors;
+use signorini_host::problem::Problem;
+use signorini_host::scene::Scene;
+use signorini_host::solve::{Options, solve};
+
+const MOVING: &str = "catalogue/moving-tri.toml";
+const LEVEE: &str = "scenes/levee.toml";
+
+fn meshes(scene: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes").join(scene)
+}
+
+fn tick(scene: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+    command.arg("tick").arg(scene).arg("--out").arg(out).args(more);
+    command.output().expect("the binary runs")
+}
+
+/// `ticks.csv`: the names of its columns, and the fields of each line.
+struct Table {
+    header: Vec<String>,
+    lines: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(path: &Path) -> Self {
+        let mut reader = csv::Reader::from_path(path).expect("ticks.csv");
+        let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let header = fields(reader.headers().expect("a header"));
+        let lines = reader.records().map(|record| fields(&record.expect("a line"))).collect();
+        Self { header, lines }
+    }
+
+    fn column(&self, name: &str) -> Vec<&str> {
+        let at = self.header.iter().position(|column| column == name).expect("a column");
+        self.lines.iter().map(|line| line[at].as_str()).collect()
+    }
+
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        self.column(name).iter().map(|field| field.parse().expect("a number")).collect()
+    }
+}
+
+/// Plays a scene of the repository, which must end with status 0.
+fn played(scene: &str, more: &[&str]) -> Table {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = tick(&meshes(scene), folder.path(), more);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "quiet in a pipe");
+    let picture = std::fs::read_to_string(folder.path().join("ticks.svg")).expect("a picture");
+    assert!(picture.starts_with("<svg ") && !picture.contains("NaN"));
+    Table::read(&folder.path().join("ticks.csv"))
+}
+
+#[test]
+fn a_line_a_tick_and_a_column_an_output() {
+    let levee = played(LEVEE, &["--ticks", "3"]);
+    let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
+    assert_eq!(levee.header, [&fixed[..], &["seepage", "wet", "head"]].concat());
+    assert_eq!(levee.column("t"), ["0.0", "0.01", "0.02"]);
+    let moving = played(MOVING, &[]);
+    assert_eq!(moving.header, [&fixed[..], &["error_combined"]].concat());
+    assert_eq!(moving.lines.len(), 21);
+    assert_eq!(moving.numbers("t")[20], 1.0);
+}
+
+#[test]
+fn the_force_of_a_moving_contact_is_pi_a_squared() {
+    for scalar in ["f64", "f32"] {
+        let table = played(MOVING, &["--scalar", scalar]);
+        for (t, force) in table.numbers("t").into_iter().zip(table.numbers("contact_force")) {
+            let a = 0.55 + 0.1 * (2.0 * std::f64::consts::PI * t).sin();
+            let exact = std::f64::consts::PI * a * a;
+            assert!((force / exact - 1.0).abs() < 0.02, "{scalar}, t = {t}: {force}, not {exact}");
+        }
+    }
+}
+
+#[test]
+fn ticks_start_from_the_last_answer() {
+    let sweeps = played(LEVEE, &["--ticks", "4"]).numbers("sweeps");
+    assert!(sweeps[0] > 100.0 && sweeps[1..].iter().all(|&sweeps| sweeps < 20.0), "{sweeps:?}");
+    let moving = played(MOVING, &[]).numbers("sweeps");
+    assert!(moving[1..].iter().all(|&warm| warm < 0.8 * moving[0]), "{moving:?}");
+}
+
+#[test]
+fn a_budget_cuts_off_and_is_carried_on() {
+    let table = played(LEVEE, &["--ticks", "80", "--budget-sweeps", "50"]);
+    assert!(table.numbers("sweeps").iter().all(|&sweeps| sweeps <= 50.0));
+    let status = table.column("status");
+    assert_eq!((status[0], status[79]), ("out-of-sweeps", "converged"));
+}
+
+#[test]
+fn a_log_replays_what_inputs_say() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("inputs.csv");
+    std::fs::write(&log, "t,rain,river\n-1,2,0.5\n0.25, 2, 0.5\n").expect("a log");
+    let log = log.to_str().expect("UTF-8");
+    let replayed = played(LEVEE, &["--log", log]);
+    let set = played(LEVEE, &["--ticks", "1", "--input", "rain=2", "--input", "river=0.5"]);
+    assert_eq!(replayed.column("t"), ["-1.0", "0.25"]);
+    assert_eq!(replayed.lines[0][1..], set.lines[0][1..]);
+    assert_eq!(replayed.lines[1][3..], set.lines[0][3..], "nothing changed, so no sweep is needed");
+
+    std::fs::write(log, "t,rain\n0,2\n").expect("a log");
+    let rest = played(LEVEE, &["--log", log, "--input", "river=0.5"]);
+    assert_eq!(rest.lines[0][1..], set.lines[0][1..]);
+}
+
+/// A log, the line that is wrong in it, and a part of the message.
+const WRONG_LOGS: &[(&str, &str, &str)] = &[
+    ("", "1", "`t`"),
+    ("t,rain\n", "1", "no tick"),
+    ("t,snow\n0,1\n", "1", "`snow`"),
+    ("t,snow\n0,1\n", "1", "rain, river"),
+    ("t,rain,rain\n0,1,1\n", "1", "twice"),
+    ("rain,t\n1,0\n", "1", "`rain`"),
+    ("t,rain\n0,1\n1,much\n", "3", "rain: `much`"),
+    ("t,rain\n0,1\n1,\n", "3", "rain"),
+    ("t,rain\n0,1\n1,inf\n", "3", "not finite"),
+    ("t,rain\nNaN,1\n", "2", "not finite"),
+    ("t,rain\n0,1\n1,1\n1,1\n", "4", "does not come after 1"),
+    ("t,rain\n0,1\n1\n", "3", "1 fields, expected 2"),
+];
+
+/// Runs `tick`, which must refuse its input; returns the message.
+fn refused(scene: &Path, out: &Path, more: &[&str]) -> String {
+    let output = tick(scene, out, more);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{more:?}: {message}");
+    assert!(!message.contains("panicked") && !out.exists(), "{more:?}: {message}");
+    message
+}
+
+#[test]
+fn wrong_logs_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (log, out) = (folder.path().join("inputs.csv"), folder.path().join("out"));
+    for (text, line, expected) in WRONG_LOGS {
+        std::fs::write(&log, text).expect("a log");
+        let message = refused(&meshes(LEVEE), &out, &["--log", log.to_str().expect("UTF-8")]);
+        assert!(message.contains(&format!("inputs.csv:{line}:")), "{text:?}: {message}");
+        assert!(message.contains(expected), "{text:?}: {message}");
+    }
+    std::fs::write(&log, b"t,rain\n0,\xff\n").expect("a log");
+    let message = refused(&meshes(LEVEE), &out, &["--log", log.to_str().expect("UTF-8")]);
+    assert!(message.contains("inputs.csv:2: not UTF-8"), "{message}");
+    let message = refused(&meshes(LEVEE), &out, &["--log", "nowhere.csv"]);
+    assert!(message.contains("nowhere.csv"), "{message}");
+}
+
+#[test]
+fn a_scene_without_time_needs_a_number_of_ticks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let message = refused(&meshes("catalogue/h-tri.toml"), &folder.path().join("out"), &[]);
+    assert!(message.contains("h-tri.toml: time:") && message.contains("--ticks"), "{message}");
+    let table = played("catalogue/h-tri.toml", &["--ticks", "2"]);
+    assert_eq!(table.column("t"), ["0.0", "1.0"]);
+}
+
+/// What to put for the Dirichlet value and the gap of a scene, further sections, and parts of the
+/// message.
+const WRONG_IN_TIME: &[(&str, &str, &str, &[&str])] = &[
+    ("1/(2 - t)", "0", "", &["boundary.dirichlet.value", "a.toml:7:", "t = 2"]),
+    ("1 - t", "0", "", &["below the gap", "t = 2"]),
+    ("1", "ln(2.5 - t)", "", &["boundary.contact.gap", "t = 3"]),
+    ("1", "0", "[time]\nstep = 1e-9\nend = 1e9\n", &["time", "--ticks"]),
+];
+
+#[test]
+fn data_that_turn_wrong_are_refused_with_their_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (folder.path().join("a.toml"), folder.path().join("out"));
+    let mesh = meshes("catalogue/square-tri-16.msh");
+    for (value, gap, more, expected) in WRONG_IN_TIME {
+        let text = format!(
+            "mesh = {mesh:?}\n[material.default]\nconductivity = 1\n\n[boundary.dirichlet]\n\
+             kind = \"dirichlet\"\nvalue = \"{value}\"\n[boundary.contact]\nkind = \"contact\"\n\
+             gap = \"{gap}\"\n{more}"
+        );
+        std::fs::write(&scene, text).expect("a scene");
+        let count: &[&str] = if more.is_empty() { &["--ticks", "4"] } else { &[] };
+        let message = refused(&scene, &out, count);
+        expected.iter().for_each(|part| assert!(message.contains(part), "{part}: {message}"));
+    }
+}
+
+#[test]
+fn wrong_arguments_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    for (arguments, expected) in [
+        (&["--ticks", "0"][..], "--ticks"),
+        (&["--ticks", "1000001"], "--ticks"),
+        (&["--budget-sweeps", "0"], "--budget-sweeps"),
+        (&["--ticks", "2", "--log", "inputs.csv"], "--log"),
+        (&["--input", "snow=1"], "snow"),
+    ] {
+        let message = refused(&meshes(LEVEE), &out, arguments);
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn errors_are_measured_at_the_time_of_the_problem() {
+    let scene = Scene::read(&meshes(MOVING)).expect("a scene");
+    let exact = scene.exact.as_ref().expect("an exact solution");
+    let mut problem = Problem::new(&scene, grid(8, Cells::Triangles)).expect("a problem");
+    let error = |problem: &Problem| {
+        let solution = solve(&scene, problem, &Options::default()).expect("a solution");
+        errors(&scene, exact, problem, &solution.u, &solution.flux).expect("errors").l2
+    };
+    let at_start = error(&problem);
+    problem.set_time(&scene, 0.25).expect("loads");
+    assert!(error(&problem) < 2.0 * at_start);
+    problem.time = 0.0;
+    assert!(
+        error(&problem) > 10.0 * at_start,
+        "the error against another time's solution is large"
+    );
+}
