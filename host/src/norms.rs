@@ -11,7 +11,7 @@ use crate::quadrature::{Point, gauss, on_quad, on_triangle};
 use crate::scene::{Exact, Scene};
 
 /// Points a direction.
-const POINTS: usize = 16;
+pub(crate) const POINTS: usize = 16;
 
 /// Distances between the discrete and the exact solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -24,6 +24,13 @@ pub struct Errors {
     pub flux: f64,
     /// ‖A^½ ∇_h(u − u_h)‖
     pub energy: f64,
+    /// Distance of the error bound's S and τ to the solution, for whoever has them: see
+    /// [`crate::certify::exact`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub combined: Option<f64>,
+    /// What the bound should be, from the same place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identity: Option<f64>,
 }
 
 /// Integrates the errors of edge means `u` and edge fluxes `flux`.
@@ -53,8 +60,25 @@ pub fn errors(
             on_quad(corners, &rule).try_for_each(&mut add)?;
         }
     }
-    let Errors { h1, l2, flux, energy } = sums;
-    Ok(Errors { h1: h1.sqrt(), l2: l2.sqrt(), flux: flux.sqrt(), energy: energy.sqrt() })
+    let Errors { h1, l2, flux, energy, .. } = sums;
+    let [h1, l2, flux, energy] = [h1, l2, flux, energy].map(f64::sqrt);
+    Ok(Errors { h1, l2, flux, energy, ..Errors::default() })
+}
+
+/// u and ∇u of the exact solution at a point and t = 0.
+///
+/// # Errors
+/// A value that is not finite.
+pub(crate) fn exact_at(scene: &Scene, exact: &Exact, [x, y]: [f64; 2]) -> Result<(f64, [f64; 2])> {
+    let u = exact.u.value.eval(x, y, 0.0);
+    let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
+    for (value, key) in [(u, &exact.u), (ux, &exact.gradient[0]), (uy, &exact.gradient[1])] {
+        if !value.is_finite() {
+            let message = format!("not finite at ({x}, {y})");
+            return Err(scene.error(key, message).hint("see [exact]").into());
+        }
+    }
+    Ok((u, [ux, uy]))
 }
 
 impl Errors {
@@ -68,14 +92,7 @@ impl Errors {
         point: &Point,
     ) -> Result<()> {
         let [x, y] = point.x;
-        let u = exact.u.value.eval(x, y, 0.0);
-        let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, 0.0));
-        for (value, key) in [(u, &exact.u), (ux, &exact.gradient[0]), (uy, &exact.gradient[1])] {
-            if !value.is_finite() {
-                let message = format!("not finite at ({x}, {y})");
-                return Err(scene.error(key, message).hint("see [exact]").into());
-            }
-        }
+        let (u, [ux, uy]) = exact_at(scene, exact, point.x)?;
         let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
         let sample = field.sample(point);
         let (ex, ey) = (ux - sample.gradient[0], uy - sample.gradient[1]);
