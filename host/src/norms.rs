@@ -4,6 +4,7 @@
 
 use serde::Serialize;
 
+use crate::certify::exact::Distance;
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 use crate::field::CellField;
@@ -12,7 +13,7 @@ use crate::quadrature::{Point, gauss, on_quad, on_triangle};
 use crate::scene::{Exact, Located, Material, Scene};
 
 /// Points a direction.
-const POINTS: usize = 16;
+pub(crate) const POINTS: usize = 16;
 
 /// Distances between the discrete and the exact solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -25,6 +26,13 @@ pub struct Errors {
     pub flux: f64,
     /// ‖A^½ ∇_h(u − u_h)‖
     pub energy: f64,
+    /// Distance of the error bound's S and τ to the solution, for whoever has them: see
+    /// [`crate::certify::exact`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub combined: Option<f64>,
+    /// What the bound should be, from the same place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identity: Option<f64>,
 }
 
 /// Integrates the errors of edge means `u` and edge fluxes `flux`.
@@ -58,8 +66,31 @@ pub fn errors(
             on_quad(corners, &rule).try_for_each(&mut add)?;
         }
     }
-    let Errors { h1, l2, flux, energy } = sums;
-    Ok(Errors { h1: h1.sqrt(), l2: l2.sqrt(), flux: flux.sqrt(), energy: energy.sqrt() })
+    let Errors { h1, l2, flux, energy, .. } = sums;
+    let [h1, l2, flux, energy] = [h1, l2, flux, energy].map(f64::sqrt);
+    Ok(Errors { h1, l2, flux, energy, ..Errors::default() })
+}
+
+/// u and ∇u of the exact solution at a point and a time.
+///
+/// # Errors
+/// A value that is not finite.
+pub(crate) fn exact_at(
+    scene: &Scene,
+    exact: &Exact,
+    [x, y]: [f64; 2],
+    time: f64,
+) -> Result<(f64, [f64; 2])> {
+    let value = |key: &Located<Expression>| {
+        let value = key.value.eval(x, y, time);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let message = format!("not finite at ({x}, {y})");
+        Err(Error::from(scene.error(key, message).hint("see [exact]")))
+    };
+    let [along_x, along_y] = &exact.gradient;
+    Ok((value(&exact.u)?, [value(along_x)?, value(along_y)?]))
 }
 
 /// The exact solution and A at one point.
@@ -77,24 +108,19 @@ impl Values {
         [x, y]: [f64; 2],
         time: f64,
     ) -> Result<Self> {
-        let value = |key: &Located<Expression>| {
-            let value = key.value.eval(x, y, time);
-            if value.is_finite() {
-                return Ok(value);
-            }
-            let message = format!("not finite at ({x}, {y})");
-            Err(Error::from(scene.error(key, message).hint("see [exact]")))
-        };
-        let [along_x, along_y] = &exact.gradient;
-        Ok(Self {
-            u: value(&exact.u)?,
-            gradient: [value(along_x)?, value(along_y)?],
-            tensor: material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0)),
-        })
+        let (u, gradient) = exact_at(scene, exact, [x, y], time)?;
+        let tensor = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
+        Ok(Self { u, gradient, tensor })
     }
 }
 
 impl Errors {
+    /// With the distance of S and τ.
+    #[must_use]
+    pub fn with(self, Distance { combined, identity }: Distance) -> Self {
+        Self { combined: Some(combined), identity: Some(identity), ..self }
+    }
+
     /// Adds one point's squares.
     fn add(&mut self, exact: &Values, field: &CellField, point: &Point) {
         let ([ux, uy], [xx, xy, yy]) = (exact.gradient, exact.tensor);

@@ -33,6 +33,15 @@ pub fn gauss(points: usize) -> Vec<[f64; 2]> {
     (0..points).map(root).collect()
 }
 
+/// A rule on \[0, 1\] repeated on equal panels: for integrands with a kink somewhere.
+pub fn on_panels(panels: u32, rule: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let width = 1.0 / f64::from(panels);
+    let shifted = |panel: u32| {
+        rule.iter().map(move |[t, weight]| [width * (f64::from(panel) + t), width * weight])
+    };
+    (0..panels).flat_map(shifted).collect()
+}
+
 /// (P_n, P_{n−1}) at x by the three-term recurrence.
 fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut value, mut previous) = (1.0, 0.0);

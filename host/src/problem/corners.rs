@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::loads::Sum;
-use super::{EdgeKind, Problem};
+use super::{Problem, Sum};
 use crate::error::Result;
-use crate::scene::{Condition, Field, Scene};
+use crate::scene::{Field, Scene};
 
 /// What rounding may leave of u_D = ψ, relative to the range of the boundary data: cos(1.5π) in an
 /// expression is −1.8e−16.
@@ -27,33 +26,16 @@ pub(super) fn check(scene: &Scene, problem: &Problem) -> Result<()> {
         for vertex in problem.ends[edge] {
             let Some(&neighbour) = touched.get(&vertex) else { continue };
             let [x, y] = problem.mesh.vertices[vertex as usize];
-            let value = at_vertex(scene, problem, edge, [x, y]);
-            let gap = at_vertex(scene, problem, neighbour, [x, y]);
-            let (Some((value, key)), Some((gap, _))) = (value, gap) else { continue };
+            let given = Sum::on_edge(scene, problem, edge, Field::Value, problem.time);
+            let gap = Sum::on_edge(scene, problem, neighbour, Field::Gap, problem.time);
+            let (Some(given), Some(gap)) = (given, gap) else { continue };
+            let (value, gap) = (given.at(x, y), gap.at(x, y));
             if gap - value > ROUNDING * (high - low) {
                 let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
                 let hint = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
-                return Err(scene.error(key, message).hint(hint).into());
+                return Err(scene.error(given.key(), message).hint(hint).into());
             }
         }
     }
     Ok(())
-}
-
-type Located<'s> = &'s crate::scene::Located<crate::expression::Expression>;
-
-/// u_D or ψ of the boundary that an edge belongs to.
-fn at_vertex<'s>(
-    scene: &'s Scene,
-    problem: &Problem,
-    edge: usize,
-    [x, y]: [f64; 2],
-) -> Option<(f64, Located<'s>)> {
-    let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
-    let (field, key) = match (&boundary.condition, problem.kinds[edge]) {
-        (Condition::Dirichlet { value }, EdgeKind::Dirichlet) => (Field::Value, value),
-        (Condition::Contact { gap, .. }, EdgeKind::Contact) => (Field::Gap, gap),
-        _ => return None,
-    };
-    Some((Sum::new(scene, &boundary.name.value, field, key, problem.time).at(x, y), key))
 }

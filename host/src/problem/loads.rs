@@ -1,15 +1,12 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
-//!
-//! A field of the scene is its own expression plus, for every `[input.…]` that refers to it, the
-//! input's value times its pattern.
 
 use signorini_kernel::Real;
 use signorini_kernel::boundary::{Neumann, Robin};
 
-use super::{EdgeKind, Problem};
+use super::{EdgeKind, Problem, Sum};
 use crate::error::Result;
 use crate::expression::Expression;
-use crate::quadrature::{DATA_POINTS, TRIANGLE_POINTS, mean_on_edge, on_quad, on_triangle};
+use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use crate::scene::{Condition, Field, Located, Scene};
 
 /// Everything on the right-hand side.
@@ -31,66 +28,13 @@ pub struct Loads {
     pub dirichlet: Vec<f64>,
 }
 
-/// A field with its inputs: Σ weight · expression.
-pub(super) struct Sum<'s> {
-    scene: &'s Scene,
-    base: &'s Located<Expression>,
-    inputs: Vec<(f64, &'s Located<Expression>)>,
-    time: f64,
-}
-
-impl<'s> Sum<'s> {
-    pub(super) fn new(
-        scene: &'s Scene,
-        of: &str,
-        field: Field,
-        base: &'s Located<Expression>,
-        time: f64,
-    ) -> Self {
-        let refers = |input: &&'s crate::scene::Input| {
-            input.of.value == of && input.field.value == field && input.default != 0.0
-        };
-        let inputs = scene.inputs.iter().filter(refers);
-        let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
-        Self { scene, base, inputs, time }
-    }
-
-    fn is_zero(&self) -> bool {
-        self.base.value.is_zero() && self.inputs.is_empty()
-    }
-
-    pub(super) fn at(&self, x: f64, y: f64) -> f64 {
-        let base = self.base.value.eval(x, y, self.time);
-        self.inputs
-            .iter()
-            .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
-    }
-
-    fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
-        if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
-            return self.finite(constant, segment[0]);
-        }
-        let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
-        self.finite(mean_on_edge(segment, |x, y| self.at(x, y)), middle)
-    }
-
-    fn finite(&self, value: f64, [x, y]: [f64; 2]) -> Result<f64> {
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let message = format!("{} is not finite near ({x}, {y})", self.base.value);
-        let hint = "the expression must be finite wherever it is used";
-        Err(self.scene.error(self.base, message).hint(hint).into())
-    }
-}
-
 impl Loads {
     /// Integrates all data of `scene` at time `time`.
     ///
     /// # Errors
     /// Data that are not finite, a negative Robin coefficient.
     pub fn at_time(scene: &Scene, problem: &Problem, time: f64) -> Result<Self> {
-        let source = Sum::new(scene, "source", Field::Source, &scene.source, time);
+        let source = Sum::source(scene, time);
         let mut loads = Self::default();
         if !source.is_zero() {
             loads.integrate_source(&source, problem)?;
@@ -103,20 +47,20 @@ impl Loads {
         Ok(loads)
     }
 
+    /// ∫_T f of a cell, triangles first.
+    pub fn of_cell(&self, cell: usize) -> f64 {
+        let all = self.triangles.iter().chain(&self.quads);
+        all.copied().nth(cell).unwrap_or(0.0)
+    }
+
     fn integrate_source(&mut self, f: &Sum, problem: &Problem) -> Result<()> {
         let mesh = &problem.mesh;
         let corner = |vertex: u32| mesh.vertices[vertex as usize];
-        let integral =
-            |sum: f64, p: crate::quadrature::Point| sum + p.weight * f.at(p.x[0], p.x[1]);
         for vertices in &mesh.triangles {
-            let corners = vertices.map(corner);
-            let points = on_triangle(corners, f64::GAUSS[TRIANGLE_POINTS - 1]);
-            self.triangles.push(f.finite(points.fold(0.0, integral), corners[0])?);
+            self.triangles.push(f.over_triangle(vertices.map(corner))?);
         }
         for vertices in &mesh.quads {
-            let corners = vertices.map(corner);
-            let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
-            self.quads.push(f.finite(points.fold(0.0, integral), corners[0])?);
+            self.quads.push(f.over_quad(vertices.map(corner))?);
         }
         Ok(())
     }
@@ -139,7 +83,7 @@ impl Loads {
             }
             Condition::Robin { coefficient, ambient } => {
                 let (h, outside) = (
-                    Sum { scene, base: coefficient, inputs: Vec::new(), time },
+                    Sum::alone(scene, coefficient, time),
                     Sum::new(scene, name, Field::Ambient, ambient, time),
                 );
                 nowhere_negative(scene, coefficient, segment, &h)?;

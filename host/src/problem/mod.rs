@@ -10,12 +10,14 @@ mod corners;
 mod integrals;
 mod loads;
 mod solvability;
+mod sum;
 mod unit_box;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use loads::Loads;
 pub use solvability::Parts;
+pub(crate) use sum::Sum;
 
 use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh as KernelMesh;
@@ -197,6 +199,17 @@ impl Topology {
     /// Never for a topology that [`Problem::new`] made.
     pub fn edges(&self) -> std::result::Result<Edges<'_, u32>, KernelError> {
         Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+
+    /// The cell (triangles first) and the side of it that an edge is directed along; its normal
+    /// points out of that cell.
+    pub fn first_side(&self, edge: usize) -> (usize, usize) {
+        let triangles = self.of_triangles.len();
+        let half = self.half_edges[edge][0] as usize;
+        match half.checked_sub(3 * triangles) {
+            None => (half / 3, half % 3),
+            Some(rest) => (triangles + rest / 4, rest % 4),
+        }
     }
 }
 

@@ -1,0 +1,185 @@
+//! Edges whose boundary data are not affine, and what carrying them inside costs.
+//!
+//! s follows the chords of ψ and u_D; between chord and data lies w(t). s + Σ v_E with the extensions
+//! v_E = (1 − η) w(t) of `cell` is admissible again, and with σ the gradient part of the bound,
+//! ```text
+//!   ‖A^½∇(s + v) − A^{−½}τ‖² = ‖A^½∇s − A^{−½}τ‖² + 2∫A∇v·∇s + ∫A∇v·∇v − 2∫∇v·τ.
+//! ```
+//! The last integral needs only w̄ and fluxes: ∫∇v·τ = w̄ τ_E + ∫v f̄. The other two are here, so that
+//! nobody downstream needs a quadrature: s is a sum of vertex functions and bubbles.
+
+#[cfg(test)]
+mod tests;
+
+use super::cell::{Cell, Local};
+use super::conductivity::{Conductivity, product};
+use super::deviation::{Deviation, Deviations};
+use crate::error::Result;
+use crate::problem::Problem;
+use crate::quadrature::{gauss, on_panels};
+use crate::scene::Scene;
+
+/// Panels along an edge, for data with a kink there.
+const PANELS: u32 = 4;
+/// Gauss points a panel, and away from the edge.
+const POINTS: usize = 8;
+
+/// The extension v of one edge's deviation w = data − chord into the edge's cell T.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curved {
+    /// A contact or Dirichlet edge.
+    pub edge: u32,
+    /// ∫₀¹ w dt, in the unit of u.
+    pub mean: f64,
+    /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v′ for each earlier record v′ in the same cell: the sum over a
+    /// cell's records is the energy of the sum of their extensions.
+    pub energy: f64,
+    /// ∫_T A∇v·∇N_k. Triangles: k = 0, 1, 2 the barycentric functions of the cell's vertices. Quads:
+    /// 0 to 3 the bilinear functions of the vertices, 4 to 7 the bubbles 4t(1 − t)(1 − η) of the
+    /// sides. The rest is 0.
+    pub coupling: [f64; 8],
+}
+
+/// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
+///
+/// # Errors
+/// Data that are not finite or not differentiable at a quadrature point.
+pub fn curved(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<Curved>> {
+    let deviations = Deviations::at_time(scene, problem, time)?.0;
+    let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
+    let mut records = Vec::with_capacity(deviations.len());
+    for deviation in &deviations {
+        let extension = Extension::new(scene, problem, deviation);
+        let mut record = extension.integrate()?;
+        // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
+        for earlier in extensions.iter().filter(|other| other.at == extension.at) {
+            record.energy += 2.0 * extension.cross(earlier)?;
+        }
+        records.push(record);
+        extensions.push(extension);
+    }
+    Ok(records)
+}
+
+/// v_E with its cell.
+struct Extension<'d, 's> {
+    deviation: &'d Deviation<'s>,
+    at: usize,
+    side: usize,
+    cell: Cell,
+    conductivity: Conductivity<'s>,
+}
+
+impl<'d, 's> Extension<'d, 's> {
+    fn new(scene: &'s Scene, problem: &Problem, deviation: &'d Deviation<'s>) -> Self {
+        let (at, side) = problem.topology.first_side(deviation.edge);
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        Self { deviation, at, side, cell, conductivity }
+    }
+
+    /// ∇v at a point of its cell.
+    fn gradient(&self, local: &Local) -> Result<[f64; 2]> {
+        let side = &local.sides[self.side];
+        let [w, slope] = self.deviation.at(side.t)?;
+        Ok(side.extension(w, slope).gradient)
+    }
+
+    /// The record, cross terms still missing.
+    fn integrate(&self) -> Result<Curved> {
+        let mut record =
+            Curved { edge: self.deviation.edge as u32, mean: 0.0, energy: 0.0, coupling: [0.0; 8] };
+        let away = self.rule_away();
+        for [t, weight] in on_panels(PANELS, &gauss(POINTS)) {
+            let [w, slope] = self.deviation.at(t)?;
+            record.mean += weight * w;
+            for &[eta, weight_away] in &away {
+                let local = self.cell.local(self.cell.side_point(self.side, t, eta));
+                let gradient = local.sides[self.side].extension(w, slope).gradient;
+                let weight = weight * weight_away * self.area_element(&local, eta);
+                self.add(&mut record, &local, gradient, weight);
+            }
+        }
+        Ok(record)
+    }
+
+    /// The rule in η: on triangles ∇v does not depend on it, so that with constant A one point for
+    /// the area element 2|T|(1 − η) is exact.
+    fn rule_away(&self) -> Vec<[f64; 2]> {
+        match self.cell {
+            Cell::Triangle(_) if self.conductivity.is_constant() => gauss(1),
+            _ => gauss(POINTS),
+        }
+    }
+
+    /// dx dy per dt dη
+    fn area_element(&self, local: &Local, eta: f64) -> f64 {
+        match self.cell {
+            Cell::Triangle(_) => local.determinant * (1.0 - eta),
+            Cell::Quad(_) => local.determinant,
+        }
+    }
+
+    fn add(&self, record: &mut Curved, local: &Local, gradient: [f64; 2], weight: f64) {
+        let a = self.conductivity.at(local.x);
+        record.energy += weight * product(&a, gradient, gradient);
+        let bubbles = match self.cell {
+            Cell::Triangle(_) => 0,
+            Cell::Quad(_) => 4,
+        };
+        let vertices = local.vertices.iter().copied();
+        let sides = local.sides[..bubbles].iter().map(|side| side.bubble());
+        for (entry, function) in record.coupling.iter_mut().zip(vertices.chain(sides)) {
+            *entry += weight * product(&a, gradient, function.gradient);
+        }
+    }
+
+    /// ∫_T A∇v·∇v′
+    fn cross(&self, other: &Self) -> Result<f64> {
+        let mut sum = 0.0;
+        for (reference, weight) in self.cross_points(other) {
+            let local = self.cell.local(reference);
+            let (mine, its) = (self.gradient(&local)?, other.gradient(&local)?);
+            let a = self.conductivity.at(local.x);
+            sum += weight * local.determinant * product(&a, mine, its);
+        }
+        Ok(sum)
+    }
+
+    /// Reference points with their weights, to be multiplied by the area element.
+    fn cross_points(&self, other: &Self) -> Vec<([f64; 3], f64)> {
+        let along = on_panels(PANELS, &gauss(POINTS));
+        match self.cell {
+            Cell::Triangle(_) => {
+                let apices = [(self.side + 2) % 3, (other.side + 2) % 3];
+                let [mine, its] = apices;
+                let mut points = half_triangle(mine, its, &along);
+                points.extend(half_triangle(its, mine, &along));
+                points
+            }
+            Cell::Quad(_) => {
+                let rows = along.iter();
+                let square =
+                    rows.flat_map(|&[y, wy]| along.iter().map(move |&[x, wx]| (x, y, wx * wy)));
+                square.map(|(x, y, weight)| ([x, y, 0.0], weight)).collect()
+            }
+        }
+    }
+}
+
+/// The half of a triangle at vertex `apex`, cut off by the median that parts it from vertex `other`.
+///
+/// The gradient of an extension depends on the direction in which one comes to its apex; collapsed
+/// there, and with the other's apex in the other half, the integrand is as smooth as the data.
+fn half_triangle(apex: usize, other: usize, along: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let third = 3 - apex - other;
+    let away = gauss(POINTS);
+    let point = |[t, along]: [f64; 2], [eta, weight]: [f64; 2]| {
+        let mut lambda = [0.0; 3];
+        lambda[third] = (1.0 - eta) * (1.0 - t);
+        lambda[other] = (1.0 - eta) * 0.5 * t;
+        lambda[apex] = (1.0 - eta) * 0.5 * t + eta;
+        (lambda, 0.5 * along * weight * (1.0 - eta))
+    };
+    let rows = along.iter();
+    rows.flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
+}

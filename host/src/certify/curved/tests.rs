@@ -1,0 +1,150 @@
+//! Against the definition of v by differences of its values, and in closed form.
+
+use super::*;
+use crate::certify::conductivity::Conductivity;
+use crate::certify::fixtures::{self, CURVED};
+use crate::mesh::Mesh;
+use crate::mesh::structured::{Cells, grid};
+
+/// v of an edge as a function of the point, by its definition and without its gradient.
+fn value(cell: &Cell, side: usize, deviation: &Deviation, reference: [f64; 3]) -> f64 {
+    let side = cell.local(reference).sides[side];
+    side.height * deviation.at(side.t).expect("finite data")[0]
+}
+
+/// ∫_T A∇v·∇N by differences of values: no formula for a gradient is used.
+fn by_differences(
+    cell: &Cell,
+    a: &Conductivity,
+    functions: [&dyn Fn([f64; 3]) -> f64; 2],
+    points: usize,
+) -> f64 {
+    let step = 1e-5;
+    let gradient = |function: &dyn Fn([f64; 3]) -> f64, reference: [f64; 3]| {
+        // Derivatives in two reference directions, then the chain rule backwards.
+        let move_by = |direction: usize, by: f64| {
+            let mut moved = reference;
+            match cell {
+                Cell::Triangle(_) => {
+                    moved[direction + 1] += by;
+                    moved[0] -= by;
+                }
+                Cell::Quad(_) => moved[direction] += by,
+            }
+            moved
+        };
+        let slope = |f: &dyn Fn([f64; 3]) -> f64, k| {
+            (f(move_by(k, step)) - f(move_by(k, -step))) / (2.0 * step)
+        };
+        let x = |k: usize| move |reference: [f64; 3]| cell.local(reference).x[k];
+        let [xs, ys] = [[0, 1].map(|k| slope(&x(0), k)), [0, 1].map(|k| slope(&x(1), k))];
+        let [fs, ft] = [0, 1].map(|k| slope(function, k));
+        let determinant = xs[0] * ys[1] - xs[1] * ys[0];
+        [(fs * ys[1] - ft * ys[0]) / determinant, (ft * xs[0] - fs * xs[1]) / determinant]
+    };
+    let sum = cell.points(&gauss(points)).into_iter().map(|point| {
+        let [v, w] = functions.map(|function| gradient(function, point.reference));
+        point.weight * product(&a.at(point.x), v, w)
+    });
+    sum.sum()
+}
+
+fn check_against_differences(mesh: Mesh, scene: &str, tolerance: f64) -> Result<usize> {
+    let (scene, problem) = fixtures::on_grid(scene, mesh)?;
+    let records = curved(&scene, &problem, 0.0)?;
+    let deviations = Deviations::at_time(&scene, &problem, 0.0)?;
+    let mut energies = std::collections::HashMap::new();
+    for record in &records {
+        let deviation = deviations.on(record.edge as usize).expect("a curved edge");
+        let (at, side) = problem.topology.first_side(deviation.edge);
+        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+        *energies.entry(at).or_insert(0.0) += record.energy;
+        let v = |reference: [f64; 3]| value(&cell, side, deviation, reference);
+        for (k, &found) in record.coupling.iter().enumerate() {
+            let n = |reference: [f64; 3]| {
+                let local = cell.local(reference);
+                match (cell.corners().len(), k) {
+                    (_, 0..4) => local.vertices[k].value,
+                    (4, _) => {
+                        let side = local.sides[k - 4];
+                        4.0 * side.t * (1.0 - side.t) * side.height
+                    }
+                    _ => 0.0,
+                }
+            };
+            let expected = by_differences(&cell, &a, [&v, &n], 24);
+            assert!((found - expected).abs() < tolerance, "{record:?} {k}: {expected}");
+        }
+    }
+    for (&at, &energy) in &energies {
+        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+        let all = |reference: [f64; 3]| {
+            let sides = deviations.0.iter().map(|d| (d, problem.topology.first_side(d.edge)));
+            let here = sides.filter(|&(_, (cell, _))| cell == at);
+            here.map(|(deviation, (_, side))| value(&cell, side, deviation, reference)).sum()
+        };
+        let expected = by_differences(&cell, &a, [&all, &all], 40);
+        assert!((energy - expected).abs() < tolerance, "cell {at}: {energy} {expected}");
+    }
+    Ok(records.len() - energies.len())
+}
+
+#[test]
+fn triangles_agree_with_differences_of_values() -> Result<()> {
+    // The twin's rule collapses at one vertex, not at the apex of the side.
+    let corners = check_against_differences(grid(2, Cells::Triangles), CURVED, 2e-5)?;
+    assert!(corners > 0, "no cell with two curved edges was tried");
+    Ok(())
+}
+
+#[test]
+fn distorted_quads_agree_with_differences_of_values() -> Result<()> {
+    let mesh = fixtures::distorted(grid(2, Cells::Quads));
+    let corners = check_against_differences(mesh, CURVED, 1e-6)?;
+    assert!(corners > 0, "no cell with two curved edges was tried");
+    Ok(())
+}
+
+#[test]
+fn a_tensor_that_varies_in_the_cell_is_taken_where_it_is() -> Result<()> {
+    let scene = CURVED.replace("[\"2\", \"0.5\", \"1\"]", "[\"2+x\", \"0.5*y\", \"1+x^2\"]");
+    assert_ne!(scene, CURVED);
+    check_against_differences(grid(2, Cells::Triangles), &scene, 2e-5)?;
+    check_against_differences(fixtures::distorted(grid(2, Cells::Quads)), &scene, 1e-6)?;
+    Ok(())
+}
+
+#[test]
+fn a_parabola_over_its_chord() -> Result<()> {
+    // ψ = −x² on an edge of length l: w = l² t(1 − t), mean l²/6. On the right isosceles triangle
+    // below a cut square (E the bottom, A = I): ∇λ_b + t∇λ_c = (1/l)(1, t − 1) for the apex above b.
+    let scene = fixtures::PARABOLA;
+    let n = 4;
+    let (scene, problem) = fixtures::on_grid(scene, grid(n, Cells::Triangles))?;
+    let records = curved(&scene, &problem, 0.0)?;
+    let length = 1.0 / f64::from(n);
+    assert_eq!(records.len(), 2 * n as usize);
+    // |T| ∫ |w′ ∇λ_b + (t w′ − w) ∇λ_c|² with ∇λ_b = (1, −1)/l, ∇λ_c = (0, 1)/l, w′ = l²(1 − 2t):
+    // l⁴/2 ∫ (1 − 2t)² + ((1 − 2t)(t − 1) − t(1 − t))² dt = l⁴/2 (1/3 + ∫ (1 − t)⁴ dt) = 4l⁴/15.
+    for record in &records {
+        assert!((record.mean - length.powi(2) / 6.0).abs() < 1e-16);
+        assert!((record.energy - 4.0 * length.powi(4) / 15.0).abs() < 1e-15, "{record:?}");
+        // ∫∇v = |E| w̄ n, n = (0, −1), and ∇λ = (−1, 0), (1, −1), (0, 1) over l.
+        let integral = [0.0, -length.powi(3) / 6.0 / length];
+        let expected = [0.0, -integral[1], integral[1], 0.0, 0.0, 0.0, 0.0, 0.0];
+        for (found, expected) in record.coupling.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-16, "{record:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn affine_data_leave_no_record() -> Result<()> {
+    let affine = fixtures::PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (scene, problem) = fixtures::on_grid(&affine, grid(7, cells))?;
+        assert_eq!(curved(&scene, &problem, 0.0)?, []);
+    }
+    Ok(())
+}

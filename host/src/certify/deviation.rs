@@ -1,0 +1,80 @@
+//! Where ψ or u_D leaves its chord: w(t) = data − chord of the end values, t along the edge.
+
+use signorini_kernel::Real;
+
+use super::ends::Ends;
+use crate::error::Result;
+use crate::problem::{Problem, Sum};
+use crate::quadrature::DATA_POINTS;
+use crate::scene::{Field, Scene};
+
+/// A deviation below this part of the largest boundary datum is the rounding of an affine one.
+const ROUNDING: f64 = 1e-14;
+
+/// w on one edge.
+pub(crate) struct Deviation<'s> {
+    /// The edge.
+    pub(crate) edge: usize,
+    data: Sum<'s>,
+    segment: [[f64; 2]; 2],
+    ends: [f64; 2],
+}
+
+/// The edges whose data are not affine, ascending.
+pub(crate) struct Deviations<'s>(pub(crate) Vec<Deviation<'s>>);
+
+impl<'s> Deviations<'s> {
+    /// Finds them at time `time`.
+    pub(crate) fn at_time(scene: &'s Scene, problem: &Problem, time: f64) -> Result<Self> {
+        let ends = Ends::at_time(scene, problem, time)?;
+        let counts = problem.topology.counts;
+        let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
+        let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
+        let threshold = ROUNDING * ends.scale();
+        let mut found = Vec::new();
+        for (edge, (field, ends)) in contact.chain(given) {
+            let data = Sum::on_edge(scene, problem, edge, field, time);
+            let segment = problem.segment(edge);
+            let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
+            let deviation = Deviation { edge, data, segment, ends };
+            if deviation.exceeds(threshold)? {
+                found.push(deviation);
+            }
+        }
+        Ok(Self(found))
+    }
+
+    /// That of an edge.
+    pub(crate) fn on(&self, edge: usize) -> Option<&Deviation<'s>> {
+        let at = self.0.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
+        Some(&self.0[at])
+    }
+}
+
+impl Deviation<'_> {
+    /// w and w′ = dw/dt at t.
+    ///
+    /// # Errors
+    /// Data that are not finite or not differentiable there.
+    pub(crate) fn at(&self, t: f64) -> Result<[f64; 2]> {
+        let [a, b] = self.segment;
+        let direction = [b[0] - a[0], b[1] - a[1]];
+        let x = [a[0] + t * direction[0], a[1] + t * direction[1]];
+        let chord = self.ends[0] + t * (self.ends[1] - self.ends[0]);
+        let gradient = self.data.gradient_at(x[0], x[1]);
+        let slope = gradient[0] * direction[0] + gradient[1] * direction[1];
+        Ok([
+            self.data.finite(self.data.at(x[0], x[1]) - chord, x)?,
+            self.data.finite(slope - (self.ends[1] - self.ends[0]), x)?,
+        ])
+    }
+
+    fn exceeds(&self, threshold: f64) -> Result<bool> {
+        for point in f64::GAUSS[DATA_POINTS - 1] {
+            if self.at(point[0])?[0].abs() > threshold {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}

@@ -1,0 +1,109 @@
+//! Scenes and meshes for the tests of this folder.
+
+use std::path::Path;
+
+use crate::error::Result;
+use crate::mesh::{Curve, Mesh};
+use crate::problem::Problem;
+use crate::scene::Scene;
+
+/// Smooth and exact, with a full tensor and every kind of condition; contact everywhere (u = ψ).
+///
+/// u = x²y + y² + x³, A = \[2, ½; ½, 1\]: f = −(4y + 14x + 2) and on the sides of (−1, 1) × (0, 1)
+/// σ·n = −2.5x² (bottom), 5y + 6.5 (right), 3y − 6.5 (left).
+pub(super) const SMOOTH: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "-(4*y + 14*x + 2)"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "x^2*y + y^2 + x^3"
+[boundary.left]
+kind = "robin"
+coefficient = "2+y"
+ambient = "y + y^2 - 1 + (3*y - 6.5)/(2+y)"
+[boundary.right]
+kind = "neumann"
+flux = "5*y + 6.5"
+[boundary.contact]
+kind = "contact"
+gap = "x^3"
+flux = "-3.5*x^2 - 1"
+[exact]
+u = "x^2*y + y^2 + x^3"
+gradient = ["2*x*y + 3*x^2", "x^2 + 2*y"]
+"#;
+
+/// Curved data on two sides of corner cells, a full tensor.
+pub(super) const CURVED: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "0"
+[boundary.default]
+kind = "dirichlet"
+value = "sin(2*x) + y^3 - 0.3*x*y^2"
+[boundary.contact]
+kind = "contact"
+gap = "-2 + exp(x)*(1 + x^2)/20"
+"#;
+
+/// A parabola for a gap, all else affine.
+pub(super) const PARABOLA: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[source]
+f = "0"
+[boundary.default]
+kind = "dirichlet"
+value = "20 + 1e6*y"
+[boundary.contact]
+kind = "contact"
+gap = "-x^2"
+"#;
+
+/// Reads a scene from its text.
+pub(super) fn scene(text: &str) -> Result<Scene> {
+    Scene::parse(text, Path::new("test.toml"))
+}
+
+/// A scene on a grid whose sides `left`, `right` and `dirichlet` (the top) are told apart where the
+/// scene does so.
+pub(super) fn on_grid(text: &str, mesh: Mesh) -> Result<(Scene, Problem)> {
+    let scene = scene(text)?;
+    let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
+    let mesh = if four { with_four_sides(mesh) } else { mesh };
+    let problem = Problem::new(&scene, mesh)?;
+    Ok((scene, problem))
+}
+
+/// Parts the catalogue grid's curve `dirichlet` into the sides of the rectangle.
+pub(super) fn with_four_sides(mut mesh: Mesh) -> Mesh {
+    let contact = mesh.curves.remove(0);
+    let rest = mesh.curves.remove(0).edges;
+    let lies =
+        |edge: &[u32; 2], x: f64| edge.iter().all(|&vertex| mesh.vertices[vertex as usize][0] == x);
+    let left: Vec<_> = rest.iter().copied().filter(|edge| lies(edge, -1.0)).collect();
+    let right: Vec<_> = rest.iter().copied().filter(|edge| lies(edge, 1.0)).collect();
+    let top = rest.iter().copied().filter(|edge| !lies(edge, -1.0) && !lies(edge, 1.0)).collect();
+    let curve = |name: &str, edges| Curve { name: name.to_owned(), edges };
+    let sides = [curve("dirichlet", top), curve("left", left), curve("right", right)];
+    mesh.curves = [contact].into_iter().chain(sides).collect();
+    mesh
+}
+
+/// Moves the vertices inside and along the bottom, so that no quad is a parallelogram.
+pub(super) fn distorted(mut mesh: Mesh) -> Mesh {
+    for (at, [x, y]) in mesh.vertices.iter_mut().enumerate() {
+        let (old_x, old_y) = (*x, *y);
+        let scatter = (at as f64 * 1.7).sin();
+        let inside = |t: f64| (t * (1.0 - t)).max(0.0);
+        *x += 0.2 * scatter * inside(0.5 * (1.0 + old_x)) * (1.0 - old_y);
+        *y += 0.3 * (scatter + 0.4) * inside(old_y) * (1.0 - old_x * old_x);
+    }
+    mesh
+}

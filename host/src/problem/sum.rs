@@ -1,0 +1,131 @@
+//! A field of the scene at one time: its own expression plus, for every `[input.…]` that refers to
+//! it, the input's value times its pattern.
+
+use signorini_kernel::Real;
+
+use super::Problem;
+use crate::error::Result;
+use crate::expression::Expression;
+use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, mean_on_edge, on_quad, on_triangle};
+use crate::scene::{Condition, Field, Input, Located, Scene};
+
+/// A field with its inputs: Σ weight · expression.
+pub(crate) struct Sum<'s> {
+    scene: &'s Scene,
+    base: &'s Located<Expression>,
+    inputs: Vec<(f64, &'s Located<Expression>)>,
+    time: f64,
+}
+
+impl<'s> Sum<'s> {
+    /// `field` of the boundary `of`, or of the source.
+    pub(crate) fn new(
+        scene: &'s Scene,
+        of: &str,
+        field: Field,
+        base: &'s Located<Expression>,
+        time: f64,
+    ) -> Self {
+        let refers = |input: &&'s Input| {
+            input.of.value == of && input.field.value == field && input.default != 0.0
+        };
+        let inputs = scene.inputs.iter().filter(refers);
+        let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
+        Self { scene, base, inputs, time }
+    }
+
+    /// An expression to which no input adds.
+    pub(crate) fn alone(scene: &'s Scene, base: &'s Located<Expression>, time: f64) -> Self {
+        Self { scene, base, inputs: Vec::new(), time }
+    }
+
+    /// The load f.
+    pub(crate) fn source(scene: &'s Scene, time: f64) -> Self {
+        Self::new(scene, "source", Field::Source, &scene.source, time)
+    }
+
+    /// `field` of the boundary that an edge lies on, where its condition has such a field.
+    pub(crate) fn on_edge(
+        scene: &'s Scene,
+        problem: &Problem,
+        edge: usize,
+        field: Field,
+        time: f64,
+    ) -> Option<Self> {
+        let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+        let base = match (&boundary.condition, field) {
+            (Condition::Dirichlet { value }, Field::Value) => value,
+            (Condition::Contact { gap, .. }, Field::Gap) => gap,
+            (Condition::Neumann { flux } | Condition::Contact { flux, .. }, Field::Flux) => flux,
+            (Condition::Robin { ambient, .. }, Field::Ambient) => ambient,
+            _ => return None,
+        };
+        Some(Self::new(scene, &boundary.name.value, field, base, time))
+    }
+
+    /// Where the field stands in the scene file.
+    pub(crate) fn key(&self) -> &'s Located<Expression> {
+        self.base
+    }
+
+    pub(crate) fn is_zero(&self) -> bool {
+        self.base.value.is_zero() && self.inputs.is_empty()
+    }
+
+    /// The value, if it is the same everywhere.
+    pub(crate) fn constant(&self) -> Option<f64> {
+        let inputs = self.inputs.iter().map(|(weight, at)| Some(weight * at.value.is_constant()?));
+        inputs.fold(self.base.value.is_constant(), |sum, input| Some(sum? + input?))
+    }
+
+    pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
+        let base = self.base.value.eval(x, y, self.time);
+        self.inputs
+            .iter()
+            .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
+    }
+
+    /// (∂/∂x, ∂/∂y)
+    pub(crate) fn gradient_at(&self, x: f64, y: f64) -> [f64; 2] {
+        let (_, base) = self.base.value.gradient(x, y, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            let (_, slope) = pattern.value.gradient(x, y, self.time);
+            [sum[0] + weight * slope[0], sum[1] + weight * slope[1]]
+        })
+    }
+
+    /// The mean over a segment, by the rule for edge data.
+    pub(crate) fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
+        if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
+            return self.finite(constant, segment[0]);
+        }
+        let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
+        self.finite(mean_on_edge(segment, |x, y| self.at(x, y)), middle)
+    }
+
+    /// The integral over a triangle, by the rule for its data.
+    pub(crate) fn over_triangle(&self, corners: [[f64; 2]; 3]) -> Result<f64> {
+        let points = on_triangle(corners, f64::GAUSS[TRIANGLE_POINTS - 1]);
+        self.finite(self.integral(points), corners[0])
+    }
+
+    /// The integral over a quad, by the rule for its data.
+    pub(crate) fn over_quad(&self, corners: [[f64; 2]; 4]) -> Result<f64> {
+        let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
+        self.finite(self.integral(points), corners[0])
+    }
+
+    fn integral(&self, points: impl Iterator<Item = Point>) -> f64 {
+        points.fold(0.0, |sum, point| sum + point.weight * self.at(point.x[0], point.x[1]))
+    }
+
+    /// `value`, found near a point; an error at the field's place in the file if it is not finite.
+    pub(crate) fn finite(&self, value: f64, [x, y]: [f64; 2]) -> Result<f64> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let message = format!("{} is not finite near ({x}, {y})", self.base.value);
+        let hint = "the expression must be finite wherever it is used";
+        Err(self.scene.error(self.base, message).hint(hint).into())
+    }
+}
