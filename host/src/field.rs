@@ -1,10 +1,9 @@
 //! u_h and σ_h inside the cells, from edge means and edge fluxes.
 
-use signorini_kernel::Real;
 use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
 use signorini_kernel::geometry::doubled_area;
 
-use crate::problem::{Problem, QuadCoefficient};
+use crate::problem::Problem;
 
 /// The discrete solution on one cell.
 #[derive(Debug, Clone, Copy)]
@@ -110,20 +109,6 @@ impl CellField {
             Self::Quad(_, means, _) => means.iter().sum::<f64>() / 4.0,
         }
     }
-
-    fn at_corners(&self) -> Vec<f64> {
-        match *self {
-            Self::Triangle(_, means, _) => {
-                let corner = |k: usize| std::array::from_fn(|j| f64::from(u8::from(j == k)));
-                (0..3).map(|k| dot(crouzeix_raviart::basis(corner(k)), means)).collect()
-            }
-            Self::Quad(corners, means, _) => {
-                let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-                let value = |at| dot(rannacher_turek::place(corners, at).basis(), means);
-                places.map(value).to_vec()
-            }
-        }
-    }
 }
 
 /// F⁻¹ on a convex quad by Newton's iteration from the middle; far outside it may not converge, and
@@ -150,41 +135,4 @@ fn inverse_bilinear(corners: [[f64; 2]; 4], x: [f64; 2]) -> [f64; 2] {
 
 fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// A conforming picture of u_h: at each vertex the mean over its cells, weighted by ½ tr A so that
-/// across a jump the stiff side decides.
-pub fn vertex_values(problem: &Problem, u: &[f64], flux: &[f64]) -> Vec<f64> {
-    let vertices = problem.mesh.vertices.len();
-    let (mut sums, mut weights) = (vec![0.0; vertices], vec![0.0; vertices]);
-    let cells = problem.mesh.triangles.len() + problem.mesh.quads.len();
-    for cell in 0..cells {
-        let weight = half_trace(problem, cell);
-        let values = CellField::new(problem, cell, u, flux).at_corners();
-        for (&vertex, value) in corners(problem, cell).iter().zip(values) {
-            sums[vertex as usize] += weight * value;
-            weights[vertex as usize] += weight;
-        }
-    }
-    sums.iter().zip(&weights).map(|(sum, &weight)| sum / weight.max(f64::TINY)).collect()
-}
-
-fn corners(problem: &Problem, cell: usize) -> &[u32] {
-    let triangles = &problem.mesh.triangles;
-    match triangles.get(cell) {
-        Some(vertices) => vertices,
-        None => &problem.mesh.quads[cell - triangles.len()],
-    }
-}
-
-fn half_trace(problem: &Problem, cell: usize) -> f64 {
-    let triangles = &problem.coefficients.triangles;
-    let tensor = match triangles.get(cell) {
-        Some(tensor) => tensor,
-        None => match &problem.coefficients.quads[cell - triangles.len()] {
-            QuadCoefficient::Constant(tensor) => tensor,
-            QuadCoefficient::AtPoints(tensors) => &tensors[tensors.len() / 2],
-        },
-    };
-    0.5 * (tensor.xx + tensor.yy)
 }

@@ -4,13 +4,14 @@
 
 use serde::Serialize;
 
-use crate::certify::exact::Distance;
+use crate::certify::exact::{Distance, distance};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 use crate::field::CellField;
 use crate::problem::Problem;
 use crate::quadrature::{Point, gauss, on_quad, on_triangle};
 use crate::scene::{Exact, Located, Material, Scene};
+use crate::solve::Solution;
 
 /// Points a direction.
 pub(crate) const POINTS: usize = 16;
@@ -33,6 +34,23 @@ pub struct Errors {
     /// What the bound should be, from the same place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub identity: Option<f64>,
+}
+
+/// All errors of a solution, where the scene has an exact one.
+///
+/// # Errors
+/// An exact solution that is not finite at a quadrature point.
+pub fn of_solution(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+) -> Result<Option<Errors>> {
+    let Some(exact) = &scene.exact else { return Ok(None) };
+    let errors = errors(scene, exact, problem, &solution.u, &solution.flux)?;
+    if solution.bound.is_none() {
+        return Ok(Some(errors));
+    }
+    Ok(Some(errors.with(distance(scene, exact, problem, &solution.certified.admissible())?)))
 }
 
 /// Integrates the errors of edge means `u` and edge fluxes `flux`.

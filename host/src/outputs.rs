@@ -36,8 +36,9 @@ pub fn outputs(
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
     }
-    let Solution { scalar, u, flux, .. } = solution;
-    let values = declared(scene, problem, Reading { scalar: *scalar, u, flux, bound: None })?;
+    let Solution { scalar, u, flux, bound, .. } = solution;
+    let bound = bound.map(|bound| bound.total);
+    let values = declared(scene, problem, Reading { scalar: *scalar, u, flux, bound })?;
     let names = scene.outputs.iter().map(|output| output.name.value.clone());
     Ok(names.zip(values).collect())
 }

@@ -1,19 +1,23 @@
-//! What the error bound needs beyond the solver's own data, and the exact norms it is checked by.
+//! The guaranteed error bound on a scene, and the exact norms that it is checked by.
 //!
-//! The kernel holds vertex values, edge fluxes and element integrals. Here are the numbers that only
-//! the scene's expressions can give:
+//! The kernel bounds the error of any iterate ([`signorini_kernel::certificate`]) from vertex values, edge
+//! fluxes and element integrals. Here are the numbers that only the scene's expressions can give:
 //! ```text
-//!   ends         ψ and u_D at the ends of edges      ─┐
-//!   deviation ─► curved   what lies above their chords ├─► the bound
-//!   oscillation  what the means of f, g, q leave out  ─┤
-//!   robin        h and u_ext at points of edges       ─┘
+//!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐
+//!   ends         ψ and u_D at the ends of edges      ─┐                                        │
+//!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
+//!   oscillation  what the means of f, g, q leave out  ─┤                                       │
+//!   robin        h and u_ext at points of edges       ─┘                                     bound
 //!   admissible ─► exact   the true distance to s and τ, from an exact solution
 //! ```
 
 pub mod admissible;
+mod bound;
 mod cell;
+mod certifier;
 mod conductivity;
 pub mod curved;
+mod data;
 mod deviation;
 pub mod ends;
 pub mod exact;
@@ -21,5 +25,11 @@ pub mod exact;
 mod fixtures;
 #[cfg(test)]
 mod identity;
+mod metric;
 pub mod oscillation;
 pub mod robin;
+mod ways;
+
+pub use bound::{Certified, ErrorBound};
+pub use certifier::{Answer, Certifier};
+pub use data::Data;

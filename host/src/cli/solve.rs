@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::place::Place;
 use crate::error::{Error, Result};
-use crate::field::{CellField, vertex_values};
+use crate::field::CellField;
 use crate::mesh::gmsh;
-use crate::norms::{Errors, errors};
+use crate::norms::{Errors, of_solution};
 use crate::output::atomic::write_atomically;
 use crate::output::edges::edges_csv;
 use crate::output::summary::Summary;
@@ -68,10 +68,7 @@ impl Arguments {
         let unknowns = problem.topology.counts.unknowns();
         let solution =
             waiting(&format!("solving {unknowns} unknowns"), || solve(&scene, &problem, &options))?;
-        let errors = match &scene.exact {
-            Some(exact) => Some(errors(&scene, exact, &problem, &solution.u, &solution.flux)?),
-            None => None,
-        };
+        let errors = of_solution(&scene, &problem, &solution)?;
         let declared = outputs(&scene, &problem, &solution)?;
         let summary = Summary::new(&scene, &problem, self.solver, &solution, errors, declared);
         let files = [
@@ -102,7 +99,7 @@ fn picture(problem: &Problem, solution: &Solution) -> String {
         cell_u: &fields.iter().map(CellField::mean).collect::<Vec<_>>(),
         cell_flux: &fields.iter().map(CellField::middle_flux).collect::<Vec<_>>(),
         region: &problem.binding.materials,
-        vertex_u: &vertex_values(problem, &solution.u, &solution.flux),
+        vertex_u: &solution.certified.vertices,
     })
 }
 
@@ -131,6 +128,13 @@ fn report(
         "  contact force {}, contact length {}",
         solution.contact_force, solution.contact_length
     ));
+    match solution.bound {
+        Some(bound) => say(format_args!(
+            "  error at most {:.4e} in the energy norm, {:.1e} of it by unfinished sweeps",
+            bound.total, bound.algebraic
+        )),
+        None => say(format_args!("  no error bound: nothing can take the surplus of a part")),
+    }
     if let Some(errors) = errors {
         say(format_args!(
             "  errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}",

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::certify::ErrorBound;
 use crate::norms::Errors;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -31,6 +32,8 @@ pub struct Summary {
     contact_length: f64,
     /// Connected parts: held by Dirichlet or Robin edges, by contact alone, by nothing.
     parts: PartNames,
+    /// null where nothing can take the surplus of an iterate.
+    error_bound: Option<ErrorBound>,
     #[serde(skip_serializing_if = "Option::is_none")]
     errors: Option<Errors>,
     outputs: BTreeMap<String, Option<f64>>,
@@ -77,6 +80,7 @@ impl Summary {
                 contact_only: parts.contact,
                 up_to_a_constant: parts.floating,
             },
+            error_bound: solution.bound,
             errors,
             outputs,
             seconds: solution.seconds,

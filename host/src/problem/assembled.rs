@@ -179,6 +179,15 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         }
     }
 
+    /// The mesh, in the unit box.
+    ///
+    /// # Errors
+    /// Never after [`Assembled::new`].
+    pub fn mesh(&self) -> Result<Mesh<'_, R, u32>, Error> {
+        let mesh = &self.problem.mesh;
+        Mesh::new(&self.vertices, &mesh.triangles, &mesh.quads)
+    }
+
     /// Edge numbering.
     pub fn edges(&self) -> &Edges<'p, u32> {
         &self.edges

@@ -176,6 +176,11 @@ impl Problem {
         corners::check(scene, self)
     }
 
+    /// Number of cells: triangles, then quads.
+    pub fn cells(&self) -> usize {
+        self.mesh.triangles.len() + self.mesh.quads.len()
+    }
+
     /// The largest entry of an element matrix.
     pub fn stiffest(&self) -> f64 {
         Assembled::<f64>::new(self).map_or(0.0, |assembled| {

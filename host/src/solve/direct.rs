@@ -7,6 +7,7 @@ use signorini_kernel::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
 use super::{Clock, Fluxes, Found, ScalarKind, Seconds, Solution, finish, unfit};
+use crate::certify::{Certified, Data};
 use crate::error::{InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::reference::{self, Factor, ReferenceError};
@@ -32,8 +33,12 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
     let outcome = Outcome { status: Status::Converged, sweeps, conjugate: 0, residual, omega: 0.0 };
     let solve = clock.lap();
     let fluxes = Fluxes::recover(&assembled, &u, &[]).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux: clock.lap() };
-    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, ScalarKind::F64))
+    let flux = clock.lap();
+    let data = Data::new(scene, problem)?;
+    let certified = Certified::new(scene, problem, parts, &assembled, &data, &u).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
+    let found = Found { outcome, u, fluxes, certified, seconds };
+    Ok(finish(problem, parts, &assembled, found, ScalarKind::F64))
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

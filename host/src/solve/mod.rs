@@ -18,6 +18,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
 
+use crate::certify::{Certified, Data};
 use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
@@ -87,8 +88,12 @@ fn by_kernel<R: Scalar>(
     }
     let solve = clock.lap();
     let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux: clock.lap() };
-    Ok(finish(problem, parts, &assembled, Found { outcome, u, fluxes, seconds }, options.scalar))
+    let flux = clock.lap();
+    let data = Data::new(scene, problem)?;
+    let certified = Certified::new(scene, problem, parts, &assembled, &data, &u).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
+    let found = Found { outcome, u, fluxes, certified, seconds };
+    Ok(finish(problem, parts, &assembled, found, options.scalar))
 }
 
 /// Sweeps with rows of `WIDTH` entries and refines; `low` becomes the low part of `u`.
@@ -156,6 +161,7 @@ struct Found<R> {
     outcome: Outcome<R>,
     u: Vec<R>,
     fluxes: Fluxes<R>,
+    certified: Certified,
     seconds: Seconds,
 }
 
@@ -166,7 +172,7 @@ fn finish<R: Scalar>(
     found: Found<R>,
     scalar: ScalarKind,
 ) -> Solution {
-    let Found { outcome, u, fluxes, seconds } = found;
+    let Found { outcome, u, fluxes, certified, seconds } = found;
     let counts = problem.topology.counts;
     let lower = assembled.lower();
     let active = (0..counts.contact).filter(|&at| contact::is_active(counts, lower, &u, at));
@@ -185,10 +191,13 @@ fn finish<R: Scalar>(
         contact_length: active.iter().fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
         contact_active: active.len(),
         parts: parts.counts,
+        bound: certified.bound,
+        certified: certified.answer,
         seconds,
     };
     if parts.counts.floating > 0 {
-        centre_floating(problem, parts, &mut solution.u);
+        let (u, vertices) = (&mut solution.u, &mut solution.certified.vertices);
+        centre_floating(problem, parts, u, vertices);
     }
     solution
 }

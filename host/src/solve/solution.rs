@@ -9,6 +9,7 @@ use signorini_kernel::geometry::{quad_area, triangle_area};
 use signorini_kernel::solver::Status;
 
 use super::ScalarKind;
+use crate::certify::{Answer, ErrorBound};
 use crate::field::CellField;
 use crate::problem::{Parts, Problem};
 
@@ -41,6 +42,10 @@ pub struct Solution {
     pub contact_active: usize,
     /// Connected parts of the domain.
     pub parts: PartCounts,
+    /// How wrong it can be; `None` where there is no bound.
+    pub bound: Option<ErrorBound>,
+    /// The continuous function and the flux that the bound is about.
+    pub certified: Answer,
     /// Wall-clock seconds.
     pub seconds: Seconds,
 }
@@ -54,6 +59,8 @@ pub struct Seconds {
     pub solve: f64,
     /// Flux recovery.
     pub flux: f64,
+    /// The error bound, with the integrals of data that it needs.
+    pub certificate: f64,
 }
 
 impl Solution {
@@ -98,7 +105,12 @@ impl Solution {
 }
 
 /// A part held by nothing is determined up to a constant: the one with ∫u = 0 is given.
-pub(crate) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
+pub(crate) fn centre_floating(
+    problem: &Problem,
+    parts: &Parts,
+    u: &mut [f64],
+    vertices: &mut [f64],
+) {
     let Ok(edges) = problem.topology.edges() else { return };
     let mesh = &problem.mesh;
     let corner = |vertex: u32| mesh.vertices[vertex as usize];
@@ -113,11 +125,20 @@ pub(crate) fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64]) {
         let sums = means.entry(parts.of_cell(cell)).or_default();
         *sums = (sums.0 + area * mean, sums.1 + area);
     }
+    let shift = |part: usize| match parts.support(part) {
+        Support::None => means[&part].0 / means[&part].1,
+        Support::Contact | Support::Held => 0.0,
+    };
     for (edge, u) in u.iter_mut().enumerate() {
-        let part = parts.of_edge(&edges, edge);
-        if parts.support(part) == Support::None {
-            let (integral, area) = means[&part];
-            *u -= integral / area;
+        *u -= shift(parts.of_edge(&edges, edge));
+    }
+    let cells = mesh.triangles.iter().map(|cell| cell.as_slice());
+    let cells = cells.chain(mesh.quads.iter().map(|cell| cell.as_slice())).enumerate();
+    let of_vertex: HashMap<u32, usize> =
+        cells.flat_map(|(cell, corners)| corners.iter().map(move |&v| (v, cell))).collect();
+    for (&vertex, &cell) in &of_vertex {
+        if let Some(value) = vertices.get_mut(vertex as usize) {
+            *value -= shift(parts.of_cell(cell));
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::checks::Check;
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
-use crate::norms::{Errors, errors};
+use crate::norms::{Errors, of_solution};
 use crate::problem::Problem;
 use crate::report::{ConvergencePlot, ConvergenceSeries, measured_rate};
 use crate::scene::Scene;
@@ -91,9 +91,7 @@ impl Plan {
             let problem = Problem::new(&scene, grid(n, self.cells))?;
             let options = Options { solver: SolverKind::Kernel, ..Options::default() };
             let solution = solve(&scene, &problem, &options)?;
-            if let Some(exact) = &scene.exact {
-                found.push(errors(&scene, exact, &problem, &solution.u, &solution.flux)?);
-            }
+            found.extend(of_solution(&scene, &problem, &solution)?);
             force.push(solution.contact_force);
         }
         let rates = QUANTITIES

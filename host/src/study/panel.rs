@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::contact_line::{Place, walk};
-use crate::field::{CellField, vertex_values};
+use crate::field::CellField;
 use crate::problem::{EdgeKind, Problem};
 use crate::report::{BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
 use crate::scene::Scene;
@@ -22,7 +22,7 @@ pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case)
         vertices: problem.mesh.vertices.clone(),
         triangles: problem.mesh.triangles.clone(),
         quads: problem.mesh.quads.clone(),
-        vertex_u: vertex_values(problem, &solution.u, &solution.flux),
+        vertex_u: solution.certified.vertices.clone(),
         cell_flux: cells.map(flux).collect(),
         contact: walk(problem)
             .iter()

@@ -74,7 +74,7 @@ impl<'p, R: Scalar> Player<'p, R> {
         self.assembled.set_parts(&parts);
         let mut answer = self.solve(problem).map_err(unfit::<R>(self.scene))?;
         if parts.counts.floating > 0 {
-            centre_floating(problem, &parts, &mut answer.u);
+            centre_floating(problem, &parts, &mut answer.u, &mut []);
         }
         Ok(answer)
     }

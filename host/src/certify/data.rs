@@ -1,0 +1,73 @@
+//! Loads and boundary data of one time as the kernel's certificate takes them.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::certificate::{Curved, Given};
+use signorini_kernel::conforming::VertexData;
+
+use super::curved::curved;
+use super::ends::Ends;
+use super::oscillation::oscillation;
+use super::robin::robin;
+use crate::error::Result;
+use crate::problem::{Assembled, Problem};
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+
+/// What the certificate needs of the data beyond [`Assembled`], in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Data<R> {
+    gap: Vec<[R; 2]>,
+    given: Vec<[R; 2]>,
+    curved: Vec<Curved<R, u32>>,
+    transfer: Vec<[[R; 2]; 8]>,
+    oscillation: R,
+}
+
+impl<R: Scalar> Data<R> {
+    /// Evaluates the data of `scene` at the time of `problem`.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let time = problem.time;
+        let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
+        let ends = Ends::at_time(scene, problem, time)?;
+        let curved = curved(scene, problem, time)?.into_iter().map(|of| Curved {
+            edge: of.edge,
+            mean: R::narrow(of.mean),
+            energy: R::narrow(of.energy),
+            coupling: of.coupling.map(R::narrow),
+        });
+        let of_cells = oscillation(scene, problem, time)?;
+        let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
+        let mut transfer = robin(scene, problem, time)?;
+        if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
+            transfer.clear();
+        }
+        Ok(Self {
+            gap: pairs(&ends.gap),
+            given: pairs(&ends.given),
+            curved: curved.collect(),
+            transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
+            oscillation: R::narrow(squares.sqrt()),
+        })
+    }
+
+    /// Together with the loads of `assembled`.
+    ///
+    /// # Errors
+    /// Boundary records that are not admissible in this scalar.
+    pub fn given<'a>(
+        &'a self,
+        assembled: &'a Assembled<R>,
+    ) -> std::result::Result<Given<'a, R, u32>, KernelError> {
+        Ok(Given {
+            loads: assembled.cells(),
+            boundary: assembled.boundary()?,
+            ends: VertexData { gap: &self.gap, given: &self.given },
+            curved: &self.curved,
+            transfer: &self.transfer,
+            oscillation: self.oscillation,
+        })
+    }
+}
