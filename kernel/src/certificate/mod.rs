@@ -17,7 +17,7 @@
 //! * s and τ are *defined* by the floating-point numbers at vertices and on edges.
 //! * The walk leaves ∇·τ + f = ρ/|T| with |ρ| of a few ε times the terms of a cell. Sending each ρ
 //!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Ground::reach`] Σ|ρ|.
-//! * The small difference A∇s − τ is formed from large terms: its error, at most 8 ε times their sum,
+//! * The small difference A∇s − τ is formed from large terms: its error, at most 2 ε times their sum,
 //!   goes through the same quadratic form, and the root of the sum is added.
 //! * Data are rounded once when they are stored: a boundary value moves by ε|u_D|, and the energy of
 //!   such a ripple on the cells along the boundary is added too.
@@ -223,9 +223,10 @@ impl<R: Real> Parts<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
-        // Of 8 terms at most: (Σ|x|)² ≤ 8 Σx². Of all cells: (Σ|ρ|)² ≤ cells · Σρ².
-        let doubt = times(8) * root(R::from_count(8) * self.doubt);
-        let unbalanced = times(2) * root(R::from_count(8 * cells as u32) * self.terms);
+        // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
+        let doubt = times(4) * root(self.doubt);
+        // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
+        let unbalanced = times(2) * root(R::from_count(cells as u32) * self.terms);
         let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
         let rounding = doubt + reach * unbalanced + root(self.ripple) + lifted + times(16) * gap;
         let both = root(gap * gap + oscillation * oscillation);
