@@ -60,4 +60,19 @@ mod tests {
         }
         Ok(())
     }
+
+    #[test]
+    fn the_points_run_in_the_direction_of_the_edge() -> Result<()> {
+        let (scene, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
+        for (record, points) in problem.loads.robin.iter().zip(robin(&scene, &problem, 0.0)?) {
+            let [[_, start], [_, end]] = problem.segment(record.edge as usize);
+            for ([h, ambient], [t, _]) in points.into_iter().zip(f64::GAUSS[DATA_POINTS - 1]) {
+                let y = start + t * (end - start);
+                let outside = y + y * y - 1.0 + (3.0 * y - 6.5) / (2.0 + y);
+                assert!((h - 0.25 * (2.0 + y)).abs() < 1e-15);
+                assert!((ambient - outside).abs() < 1e-14);
+            }
+        }
+        Ok(())
+    }
 }

@@ -140,6 +140,23 @@ fn a_parabola_over_its_chord() -> Result<()> {
 }
 
 #[test]
+fn an_input_bends_an_edge_like_its_boundarys_own_expression() -> Result<()> {
+    let (input, own) = ("sin(2*x) - 0.3*x*y^2", "sin(2*x) + y^3 - 0.3*x*y^2");
+    let text = CURVED.replace(own, input)
+        + "[input.lift]\nof = \"default\"\nfield = \"value\"\npattern = \"2*y^3\"\ndefault = 0.5\n";
+    let (scene, problem) = fixtures::on_grid(&text, grid(2, Cells::Mixed))?;
+    let with_input = curved(&scene, &problem, 0.0)?;
+    let (scene, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Mixed))?;
+    let expected = curved(&scene, &problem, 0.0)?;
+    assert_eq!(with_input.len(), expected.len());
+    for (found, expected) in with_input.iter().zip(&expected) {
+        assert!((found.mean - expected.mean).abs() < 1e-15, "{found:?} {expected:?}");
+        assert!((found.energy - expected.energy).abs() < 1e-14, "{found:?} {expected:?}");
+    }
+    Ok(())
+}
+
+#[test]
 fn affine_data_leave_no_record() -> Result<()> {
     let affine = fixtures::PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
     for cells in [Cells::Triangles, Cells::Quads] {
