@@ -31,7 +31,8 @@ pub struct Foundation {
     points: Vec<[Tensor<f64>; 64]>,
     place: Vec<u32>,
     ways: [Vec<u16>; 3],
-    cells: (Vec<Triangle<f64, u16>>, Vec<Quad<f64, u16>>),
+    triangles: Vec<Triangle<f64, u16>>,
+    quads: Vec<Quad<f64, u16>>,
     weights: [Vec<f64>; 2],
     reach: f64,
     pub loads: (Vec<f64>, Vec<f64>),
@@ -61,7 +62,8 @@ impl Foundation {
             points: if at_points { metric(&plate) } else { Vec::new() },
             place: (0..cells as u32).collect(),
             ways: [(); 3].map(|()| vec![NONE; cells]),
-            cells: (vec![Triangle::EMPTY; k.0.len()], vec![Quad::EMPTY; k.1.len()]),
+            triangles: vec![Triangle::EMPTY; k.0.len()],
+            quads: vec![Quad::EMPTY; k.1.len()],
             weights: [vec![0.0; plate.vertices.len()], vec![0.0; counts.edges()]],
             reach: 0.0,
             loads: (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]),
@@ -86,7 +88,7 @@ impl Foundation {
         let forest = grow(&edges, |_| 1.0, |edge| is_root(&edges, &boundary, edge), buffers)?;
         let stiffness = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
         let [of_vertices, of_edges] = &mut self.weights;
-        let (triangles, quads) = (&mut self.cells.0, &mut self.cells.1);
+        let (triangles, quads) = (&mut self.triangles, &mut self.quads);
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
         let metric = Metric { at_points: points, place };
@@ -116,7 +118,7 @@ impl Foundation {
             mesh: self.plate.mesh()?,
             edges,
             stiffness: self.stiffness(),
-            cells: Cells::new(&self.cells.0, &self.cells.1, of_vertices, of_edges, &forest)?,
+            cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
             metric: self.metric(),
             reach: self.reach,
         })
