@@ -28,8 +28,10 @@ impl Judge {
     /// this too.
     pub fn include(&mut self, answer: &Answer) {
         let feasible = answer.surface.iter().all(|&u| u.is_finite() && u >= MINIMUM);
+        // The wind never rests, so heat flows.
+        let sound = answer.force.is_finite() && answer.energy > 0.0;
         match answer.verdict.certificate() {
-            Some(bound) if feasible && answer.force.is_finite() && bound.total.is_finite() => {
+            Some(bound) if feasible && sound && bound.total.is_finite() => {
                 let thousandths = relative(bound, answer.energy);
                 self.worst = self.worst.max(thousandths);
                 self.sum += thousandths;
