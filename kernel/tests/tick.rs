@@ -111,6 +111,21 @@ fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
 }
 
 #[test]
+fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    // The first one is good enough, whatever it says.
+    let limits = Limits { share: f64::MAX, ..Limits::default() };
+    for (sweep, certificate, sweeps) in [(0, 0, 4), (10, 25, 4), (10, 125, 12)] {
+        let mut deadline = Deadline { remaining: || u32::MAX, sweep, certificate };
+        let report = tick.begin(data(&foundation)?)?.advance(limits, &mut deadline)?;
+        assert_eq!((report.ended, report.sweeps), (Ended::Settled, sweeps));
+    }
+    Ok(())
+}
+
+#[test]
 fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;

@@ -10,7 +10,8 @@
 //! the last answer and its report stay.
 //!
 //! Sweeps alternate with certificates. How many sweeps lie between them follows from the algebraic
-//! part: two certificates tell how fast it falls, and the next is due when it should be small enough.
+//! part: two certificates tell how fast it falls, and the next is due when it should be small enough,
+//! though not before the sweeps since the last one have taken as long as a certificate does.
 
 mod report;
 mod running;

@@ -48,6 +48,11 @@ impl<F: FnMut() -> u32> Deadline<F> {
     pub(super) fn allows_a_sweep(&mut self) -> bool {
         (self.remaining)() >= self.sweep.saturating_add(self.certificate)
     }
+
+    /// Sweeps that take as long as a certificate; 0 where nobody has told what either costs.
+    pub(super) fn sweeps_a_certificate(&self) -> u32 {
+        self.certificate.checked_div(self.sweep).unwrap_or(0)
+    }
 }
 
 /// What ended a call of [`super::Running::advance`].

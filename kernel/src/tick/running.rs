@@ -60,7 +60,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 Some(Ended::OutOfTime)
             };
             let known = self.verdict.is_some();
-            if cut.is_some() || known || self.sweeps >= self.next_certificate {
+            if cut.is_some() || known || self.is_due(deadline.sweeps_a_certificate()) {
                 let verdict = self.certified()?;
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);
@@ -72,6 +72,12 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
             }
             self.sweep()?;
         }
+    }
+
+    /// Whether to certify now: not more often than leaves half of the time to the sweeps.
+    fn is_due(&self, worth: u32) -> bool {
+        let since = self.sweeps - self.earlier.map_or(0, |(at, _)| at);
+        self.sweeps >= self.next_certificate && since >= worth
     }
 
     fn sweep(&mut self) -> Result<(), Error> {

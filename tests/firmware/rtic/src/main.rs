@@ -3,36 +3,44 @@
 //! The kernel in a control loop under RTIC 2.
 //!
 //! ```text
-//!   SysTick, priority 2, tick     read the loads, sweep until solved or out of time, publish
+//!   SysTick, priority 2, tick     read the losses, sweep until solved or out of time, publish
 //!   SSI0,    priority 1, check    judge what was published; report after the last tick
 //! ```
-//! A tick never waits for the solver: between blocks of sweeps it looks at the clock, and whatever the
-//! temperatures are then is feasible, can be acted on, and is where the next tick goes on.
-//! `cargo xtask boards` runs it in QEMU; with `--features overload` it has to miss its
-//! deadlines and fail.
+//! A tick never waits for the solver: before each sweep it looks at the clock, and whatever the
+//! temperatures are when time is up is feasible, has a bound of its error, can be acted on, and is where
+//! the next tick goes on. `cargo xtask boards` runs it in QEMU; with `--features overload` it has
+//! to miss its deadlines and fail.
 
+mod budget;
 mod clock;
 mod console;
+mod judge;
 mod log;
+mod mesh;
 mod plant;
 mod sensor;
+mod start;
 
-use clock::{PERIOD, elapsed};
-use plant::{COLUMNS, Plant};
+use signorini_kernel::Error;
+use signorini_kernel::tick::Deadline;
 
-/// Counts that the solver may use; the rest is for publishing and for the task below.
-const BUDGET: u32 = if cfg!(feature = "overload") { PERIOD / 2 * 3 } else { PERIOD / 4 * 3 };
-/// Most blocks of sweeps a tick, should the clock ever stand still.
-const BLOCKS: u32 = 16;
-const TICKS: u32 = 1000;
+use budget::{BUDGET, CERTIFICATE, SWEEP};
+use clock::elapsed;
+use log::Times;
+use mesh::COLUMNS;
+use plant::{Answer, LIMITS, Plant};
+
+const TICKS: u32 = 10_000;
 
 #[rtic::app(device = lm3s6965, peripherals = false)]
 mod app {
     use cortex_m::peripheral::SYST;
 
     use super::*;
-    use crate::log::{Answer, Log};
-    use crate::plant::Memory;
+    use crate::budget::Costs;
+    use crate::judge::Judge;
+    use crate::log::Log;
+    use crate::start::Memory;
 
     #[shared]
     struct Shared {
@@ -44,30 +52,33 @@ mod app {
     struct Local {
         plant: Plant,
         systick: SYST,
+        costs: Costs,
     }
 
     #[init(local = [memory: Memory = Memory::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
-        let Ok(plant) = Plant::new(cx.local.memory) else { console::end(false) };
         let mut systick = cx.core.SYST;
+        let built = Plant::new(cx.local.memory).and_then(|mut plant| {
+            let costs = Costs::measure(&mut systick, &mut plant)?;
+            Ok((plant, costs))
+        });
+        let Ok((plant, costs)) = built else { console::end(false) };
         clock::start(&mut systick);
-        (Shared { log: Log::default(), mailbox: None }, Local { plant, systick })
+        (Shared { log: Log::EMPTY, mailbox: None }, Local { plant, systick, costs })
     }
 
     #[task(binds = SysTick, priority = 2, local = [plant, systick, seed: u32 = 1],
            shared = [log, mailbox])]
     fn tick(cx: tick::Context) {
         let tick::LocalResources { plant, systick, seed, .. } = cx.local;
-        let (sweeps, solved) = solve(plant, &sensor::read(seed));
-        let answer = Answer { force: plant.force(), surface: plant.surface() };
+        let Ok((answer, mut times)) = answer(plant, &sensor::read(seed)) else {
+            // The kernel refuses losses that are not finite.
+            console::end(false)
+        };
         (cx.shared.log, cx.shared.mailbox).lock(|log, mailbox| {
             log.unread += u32::from(mailbox.replace(answer).is_some());
-            log.sweeps += sweeps;
-            log.cut += u32::from(!solved);
-            log.ticks += 1;
-            let time = elapsed();
-            log.longest = log.longest.max(time);
-            log.misses += u32::from(time >= PERIOD);
+            times.ended = elapsed();
+            log.include(&answer, times);
             if log.ticks == TICKS {
                 clock::stop(systick);
             }
@@ -75,39 +86,31 @@ mod app {
         rtic::pend(lm3s6965::Interrupt::SSI0);
     }
 
-    #[task(binds = SSI0, priority = 1, local = [wrong: u32 = 0], shared = [log, mailbox])]
+    #[task(binds = SSI0, priority = 1, local = [costs, judge: Judge = Judge::NEW],
+           shared = [log, mailbox])]
     fn check(cx: check::Context) {
         // Taken out in a moment and judged with the lock released: the tick does not wait.
         let (answer, log) =
             (cx.shared.mailbox, cx.shared.log).lock(|mailbox, log| (mailbox.take(), *log));
         let Some(answer) = answer else { return };
-        *cx.local.wrong += u32::from(!answer.is_usable());
+        cx.local.judge.include(&answer);
         if log.ticks == TICKS {
-            log.report(&answer, *cx.local.wrong);
+            cx.local.judge.conclude(&log, cx.local.costs, &answer);
         }
     }
 }
 
-/// Sweeps until the solve has ended or another block could exceed the budget: how many sweeps, and
-/// whether it has ended. Loads that the kernel refuses leave a solve without an end.
-fn solve(plant: &mut Plant, losses: &[f32; COLUMNS]) -> (u32, bool) {
-    if plant.set_losses(losses).is_err() {
-        return (0, false);
-    }
-    let (mut sweeps, mut longest, mut now) = (0, 0, elapsed());
-    for _ in 0..BLOCKS {
-        if now + longest > BUDGET {
-            break;
-        }
-        let Ok(block) = plant.advance() else { break };
-        sweeps += block.sweeps;
-        if block.solved {
-            return (sweeps, true);
-        }
-        let before = core::mem::replace(&mut now, elapsed());
-        longest = longest.max(now - before);
-    }
-    (sweeps, false)
+/// Sweeps until that buys nothing more or the budget does not cover another one.
+fn answer(plant: &mut Plant, losses: &[f32; COLUMNS]) -> Result<(Answer, Times), Error> {
+    let mut looked = 0;
+    let remaining = || {
+        looked = elapsed();
+        BUDGET.saturating_sub(looked)
+    };
+    let mut deadline = Deadline { remaining, sweep: SWEEP, certificate: CERTIFICATE };
+    let answer = plant.answer(losses, LIMITS, &mut deadline)?;
+    let answered = elapsed();
+    Ok((answer, Times { looked, answered, ended: answered }))
 }
 
 unsafe extern "C" {

@@ -8,134 +8,132 @@
 //! ```
 //! u is the temperature and A∇u·n the heat that flows in, so the wind is q = −loss and the multiplier
 //! A∇u·n − q is what the heater has to give: the contact force is its power, in W per metre of span.
+//! A is the same everywhere, and loss and gap are constant along each segment: the bound of the error
+//! leaves nothing out.
 
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::edges::Block;
-use signorini_kernel::solver::{Settings, Status};
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Mesh, Relaxation, Tensor, Workspace};
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::boundary::Boundary;
+use signorini_kernel::certificate::{Given, Verdict};
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::edges::{Block, Edges};
+use signorini_kernel::rows;
+use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Tick};
+use signorini_kernel::{Error, Relaxation};
 
-/// Squares along the surface and across the skin; each is cut into two triangles.
-pub const COLUMNS: usize = 8;
-const ROWS: usize = 4;
-/// m
-const SIDE: f32 = 0.005;
+use crate::mesh::{COLUMNS, SIDE};
+use crate::start::{self, Memory};
+
 /// W/mK
-const CONDUCTIVITY: f32 = 15.0;
+pub const CONDUCTIVITY: f32 = 15.0;
 /// °C
 const STRUCTURE: f32 = 5.0;
 /// °C
 pub const MINIMUM: f32 = 2.0;
 
-/// Sweeps between two looks at the clock.
-const SWEEPS: u32 = 16;
-/// The best relaxation factor for this mesh, found by trying; new loads hardly move it.
-const OMEGA: f32 = 1.75;
-/// Residual relative to the range of temperatures: so tight that a few ticks are cut short. With 0, an
-/// overloaded tick never ends by itself.
-const TOLERANCE: f32 = if cfg!(feature = "overload") { 0.0 } else { 5e-7 };
+/// The best relaxation factor for this mesh, found by trying; new losses hardly move it.
+const OMEGA: f32 = 1.8;
 
-const TRIANGLES: usize = 2 * COLUMNS * ROWS;
-const NODES: usize = (COLUMNS + 1) * (ROWS + 1);
-const BOUNDARY: usize = 2 * (COLUMNS + ROWS);
-const EDGES: usize = (3 * TRIANGLES + BOUNDARY) / 2;
+/// A tick goes on until more sweeps would buy nothing, or the bound is 0.1 √(WK/m), less than a
+/// hundredth of what the energy norm mostly is: a surface that the heater holds everywhere is solved
+/// exactly, and there a share would never be small. Sweeps end a tick only should the clock stand still.
+pub const LIMITS: Limits<f32> = Limits { error: 0.1, share: 0.1, sweeps: 256 };
 
-/// The kernel's memory.
-pub type Memory =
-    Workspace<f32, u16, NODES, TRIANGLES, 0, BOUNDARY, { EDGES + 1 }, { 5 * EDGES }, 4>;
+static GAP: [f32; COLUMNS] = [MINIMUM; COLUMNS];
+static GAP_AT_ENDS: [[f32; 2]; COLUMNS] = [[MINIMUM; 2]; COLUMNS];
+static GIVEN: [f32; COLUMNS] = [STRUCTURE; COLUMNS];
+static GIVEN_AT_ENDS: [[f32; 2]; COLUMNS] = [[STRUCTURE; 2]; COLUMNS];
 
-/// Computed by the compiler: the mesh lies in flash.
-static VERTICES: [[f32; 2]; NODES] = {
-    let mut vertices = [[0.0; 2]; NODES];
-    let mut at = 0;
-    while at < NODES {
-        let (column, row) = (at % (COLUMNS + 1), at / (COLUMNS + 1));
-        vertices[at] = [SIDE * column as f32, SIDE * row as f32];
-        at += 1;
-    }
-    vertices
-};
-
-static CELLS: [[u16; 3]; TRIANGLES] = {
-    let mut cells = [[0; 3]; TRIANGLES];
-    let mut square = 0;
-    while square < COLUMNS * ROWS {
-        let (column, row) = (square % COLUMNS, square / COLUMNS);
-        let left = (row * (COLUMNS + 1) + column) as u16;
-        let above = left + COLUMNS as u16 + 1;
-        cells[2 * square] = [left, left + 1, above + 1];
-        cells[2 * square + 1] = [left, above + 1, above];
-        square += 1;
-    }
-    cells
-};
-
-/// What a block of sweeps came to.
-pub struct Progress {
-    /// Sweeps done.
+/// The result of one tick.
+#[derive(Clone, Copy)]
+pub struct Answer {
+    /// What ended it.
+    pub ended: Ended,
+    /// Sweeps that it took.
     pub sweeps: u32,
-    /// Whether no more are needed.
-    pub solved: bool,
+    /// Power of the heater in W/m.
+    pub force: f32,
+    /// How wrong the temperatures can be, in the energy norm.
+    pub verdict: Verdict<f32>,
+    /// ∫τ·∇u, with the flux τ of the certificate: the square of the energy norm, once solved.
+    pub energy: f32,
+    /// Temperatures of the heated segments in °C.
+    pub surface: [f32; COLUMNS],
 }
 
-/// The skin with its present loads and temperatures.
+/// The skin with its present losses and temperatures.
 pub struct Plant {
-    memory: &'static mut Memory,
-    mesh: Mesh<'static, f32, u16>,
-    /// Where the heated segments begin among the edges.
-    first: usize,
+    tick: Tick<'static, f32, u16, { rows::TRIANGLES }>,
+    edges: Edges<'static, u16>,
 }
 
 impl Plant {
-    /// Numbers and assembles: once, before the ticks.
+    /// Numbers and fills in all that stays: once, before the ticks.
     pub fn new(memory: &'static mut Memory) -> Result<Self, Error> {
-        let mesh = Mesh::new(&VERTICES, &CELLS, &[])?;
-        let coefficient = Coefficient::Uniform(Tensor::scalar(CONDUCTIVITY));
-        let counts =
-            memory.build(&mesh, coefficient, |edge| Some(condition(edge, &[0.0; COLUMNS])))?;
-        Ok(Self { memory, mesh, first: counts.start(Block::Contact) })
+        let (ground, memory) = start::build(memory)?;
+        let tick = Tick::new(ground, memory, Relaxation::Fixed(OMEGA))?;
+        Ok(Self { tick, edges: ground.edges })
     }
 
-    /// New heat losses in W/m², one a segment; the temperatures stay, so the solve starts warm.
-    pub fn set_losses(&mut self, losses: &[f32; COLUMNS]) -> Result<(), Error> {
-        self.memory.set_conditions(&self.mesh, |edge| Some(condition(edge, losses)))
+    /// Nothing but the start of an answer.
+    pub fn begin(&mut self, losses: &[f32; COLUMNS]) -> Result<(), Error> {
+        let flux = fluxes(losses);
+        self.tick.begin(data(&self.edges, &flux)?).map(drop)
     }
 
-    /// A few more sweeps, which leave temperatures that are feasible in any case.
-    pub fn advance(&mut self) -> Result<Progress, Error> {
-        let outcome = self.memory.solve(Settings {
-            relaxation: Relaxation::Fixed(OMEGA),
-            tolerance: TOLERANCE,
-            max_sweeps: SWEEPS,
-            ..Settings::default()
-        })?;
-        let solved = matches!(outcome.status, Status::Converged | Status::RoundingLimit);
-        Ok(Progress { sweeps: outcome.sweeps, solved })
-    }
-
-    /// What the heater gives, in W/m.
-    pub fn force(&self) -> f32 {
-        self.memory.contact_force()
+    /// The answer to new losses in W/m², one a segment, from where the last one was.
+    pub fn answer(
+        &mut self,
+        losses: &[f32; COLUMNS],
+        limits: Limits<f32>,
+        deadline: &mut Deadline<impl FnMut() -> u32>,
+    ) -> Result<Answer, Error> {
+        let flux = fluxes(losses);
+        let report = self.tick.begin(data(&self.edges, &flux)?)?.advance(limits, deadline)?;
+        Ok(Answer {
+            ended: report.ended,
+            sweeps: report.sweeps,
+            force: report.force,
+            verdict: report.verdict,
+            energy: self.energy(),
+            surface: self.surface(),
+        })
     }
 
     /// Temperatures of the heated segments.
-    pub fn surface(&self) -> [f32; COLUMNS] {
+    fn surface(&self) -> [f32; COLUMNS] {
         let mut surface = [f32::NAN; COLUMNS];
-        for (mean, &u) in surface.iter_mut().zip(self.memory.u().iter().skip(self.first)) {
+        let first = self.edges.counts().start(Block::Contact);
+        for (mean, &u) in surface.iter_mut().zip(self.tick.u().iter().skip(first)) {
             *mean = u;
         }
         surface
     }
+
+    /// By Green's formula: nothing is lost inside or at the sides, so that all heat from the
+    /// structure leaves through the surface.
+    fn energy(&self) -> f32 {
+        let first = self.edges.counts().start(Block::Contact);
+        let on_surface = self.tick.u().iter().zip(self.tick.tau()).skip(first).take(COLUMNS);
+        on_surface.fold(0.0, |sum, (&u, &tau)| sum + (u - STRUCTURE) * tau)
+    }
 }
 
-fn condition(edge: &BoundaryEdge<f32, u16>, losses: &[f32; COLUMNS]) -> Condition<f32> {
-    const TOP: f32 = SIDE * ROWS as f32;
-    match edge.middle() {
-        [_, 0.0] => Condition::Dirichlet { value: STRUCTURE },
-        [x, TOP] => {
-            let loss = losses.get((x / SIDE) as usize).copied().unwrap_or_default();
-            Condition::Contact { gap: MINIMUM, flux: -loss }
-        }
-        _ => Condition::Neumann { flux: 0.0 },
-    }
+/// ∫q of the contact edges, which are numbered as the cells are: from left to right.
+fn fluxes(losses: &[f32; COLUMNS]) -> [f32; COLUMNS] {
+    losses.map(|loss| -SIDE * loss)
+}
+
+fn data<'a>(
+    edges: &Edges<'static, u16>,
+    flux: &'a [f32; COLUMNS],
+) -> Result<Data<'a, f32, u16>, Error> {
+    let given = Given {
+        loads: CellLoads { triangles: &[], quads: &[] },
+        boundary: Boundary::new(edges, &[], &[], flux)?,
+        ends: VertexData { gap: &GAP_AT_ENDS, given: &GIVEN_AT_ENDS },
+        curved: &[],
+        transfer: &[],
+        oscillation: 0.0,
+    };
+    Ok(Data { given, lower: &GAP, dirichlet: &GIVEN })
 }

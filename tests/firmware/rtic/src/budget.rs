@@ -1,0 +1,53 @@
+//! The time of a tick, in counts of the clock: what there is, and what the kernel's steps take of it.
+
+use cortex_m::peripheral::SYST;
+use signorini_kernel::Error;
+use signorini_kernel::tick::{Deadline, Limits};
+
+use crate::clock::count;
+use crate::mesh::COLUMNS;
+use crate::plant::Plant;
+
+/// A sweep of this mesh: 8 600 instructions on a Cortex-M4F are 215 counts, and a few for the clock.
+/// Every run counts it before the first tick ([`Costs::measure`]), and fails where it is more.
+pub const SWEEP: u32 = 220;
+
+/// A certificate of this mesh and the report after it: 188 600 instructions are 4 715 counts. Counted
+/// like a sweep and, from the last look at the clock to the answer, in every tick.
+pub const CERTIFICATE: u32 = 4800;
+
+/// From one tick to the next: so short that the deadline ends one tick in three. An overloaded tick
+/// has no time for a certificate, let alone a sweep.
+pub const PERIOD: u32 = if cfg!(feature = "overload") { CERTIFICATE / 2 } else { 16_000 };
+
+/// What the kernel may use; the rest is for publishing and for the task that checks.
+pub const BUDGET: u32 = PERIOD / 16 * 15;
+
+/// Costs as counted.
+pub struct Costs {
+    pub sweep: u32,
+    pub certificate: u32,
+}
+
+impl Costs {
+    /// Counts the kernel's steps while there are no ticks yet.
+    pub fn measure(systick: &mut SYST, plant: &mut Plant) -> Result<Self, Error> {
+        let losses = [0.0; COLUMNS];
+        let (begin, begun) = count(systick, || plant.begin(&losses));
+        begun?;
+        let mut after = |sweeps| {
+            let limits = Limits { error: 0.0, share: 0.0, sweeps };
+            let work = || plant.answer(&losses, limits, &mut Deadline::never());
+            let (counts, answer) = count(systick, work);
+            answer.map(|_| counts)
+        };
+        // Few enough for a single certificate.
+        let (none, three) = (after(0)?, after(3)?);
+        Ok(Self { sweep: (three - none).div_ceil(3), certificate: none - begin })
+    }
+
+    /// Whether the deadlines were told no less; `unwatched` as the ticks saw it.
+    pub fn are_covered(&self, unwatched: u32) -> bool {
+        self.sweep <= SWEEP && self.certificate.max(unwatched) <= CERTIFICATE
+    }
+}
