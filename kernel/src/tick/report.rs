@@ -9,7 +9,8 @@ pub struct Limits<R> {
     /// The certified error that is small enough; 0 leaves it to the others.
     pub error: R,
     /// What the algebraic part may be of the whole: below a tenth, more sweeps buy nothing. 0 leaves it
-    /// to the others.
+    /// to the others. Where the mesh holds the solution exactly, all of the error is algebraic and the
+    /// share never falls: `error` ends it.
     pub share: R,
     /// Most sweeps of this call.
     pub sweeps: u32,
@@ -31,7 +32,8 @@ impl<R: Real> Default for Limits<R> {
 pub struct Deadline<F> {
     /// Time left now.
     pub remaining: F,
-    /// Most that a sweep takes.
+    /// Most that a sweep takes: with an adaptive ω that of two sweeps more and of laying out the rows, all
+    /// of which may follow one.
     pub sweep: u32,
     /// Most that a certificate and the report take.
     pub certificate: u32,
@@ -47,6 +49,12 @@ impl Deadline<fn() -> u32> {
 impl<F: FnMut() -> u32> Deadline<F> {
     pub(super) fn allows_a_sweep(&mut self) -> bool {
         (self.remaining)() >= self.sweep.saturating_add(self.certificate)
+    }
+
+    /// Whether there is time for a certificate, a sweep and the certificate after it.
+    pub(super) fn allows_to_look(&mut self) -> bool {
+        let both = self.certificate.saturating_mul(2);
+        (self.remaining)() >= self.sweep.saturating_add(both)
     }
 
     /// Sweeps that take as long as a certificate; 0 where nobody has told what either costs.

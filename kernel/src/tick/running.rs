@@ -60,7 +60,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 Some(Ended::OutOfTime)
             };
             let known = self.verdict.is_some();
-            if cut.is_some() || known || self.is_due(deadline.sweeps_a_certificate()) {
+            if cut.is_some() || known || self.is_due(deadline) {
                 let verdict = self.certified()?;
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);
@@ -74,10 +74,13 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         }
     }
 
-    /// Whether to certify now: not more often than leaves half of the time to the sweeps.
-    fn is_due(&self, worth: u32) -> bool {
+    /// Whether to certify now, if it need not be: not more often than leaves half of the time to the
+    /// sweeps, and not where it would leave time for nothing else.
+    fn is_due<F: FnMut() -> u32>(&self, deadline: &mut Deadline<F>) -> bool {
         let since = self.sweeps - self.earlier.map_or(0, |(at, _)| at);
-        self.sweeps >= self.next_certificate && since >= worth
+        self.sweeps >= self.next_certificate
+            && since >= deadline.sweeps_a_certificate()
+            && deadline.allows_to_look()
     }
 
     fn sweep(&mut self) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! Memory of the skin, and what the kernel builds in it before the first tick.
 
 use signorini_kernel::boundary::Boundary;
+use signorini_kernel::cells::{CellBuffers, Triangle, pack};
 use signorini_kernel::certificate::{Ground, Metric, reach};
 use signorini_kernel::edges::Edges;
 use signorini_kernel::equilibrium::is_root;
@@ -20,7 +21,15 @@ pub struct Memory {
     forest: [[u16; TRIANGLES]; 3],
     /// Scratch of the start.
     way: [f32; TRIANGLES],
+    cells: Packed,
     tick: Changing,
+}
+
+/// The cells in the order of the certificate.
+struct Packed {
+    triangles: [Triangle<f32, u16>; TRIANGLES],
+    of_vertices: [f32; NODES],
+    of_edges: [f32; EDGES],
 }
 
 /// The edges of the mesh.
@@ -39,7 +48,6 @@ struct Changing {
     load: [f32; UNKNOWNS],
     active: [bool; COLUMNS],
     vertices: [f32; NODES],
-    weights: [f32; NODES],
     tau: [f32; EDGES],
     u: [f32; EDGES],
 }
@@ -57,12 +65,16 @@ impl Memory {
             stiffness: [[0.0; 3]; TRIANGLES],
             forest: [[0; TRIANGLES]; 3],
             way: [0.0; TRIANGLES],
+            cells: Packed {
+                triangles: [Triangle::EMPTY; TRIANGLES],
+                of_vertices: [0.0; NODES],
+                of_edges: [0.0; EDGES],
+            },
             tick: Changing {
                 rows: [Row::EMPTY; UNKNOWNS],
                 load: [0.0; UNKNOWNS],
                 active: [false; COLUMNS],
                 vertices: [0.0; NODES],
-                weights: [0.0; NODES],
                 tau: [0.0; EDGES],
                 u: [0.0; EDGES],
             },
@@ -75,16 +87,19 @@ type Built = (Ground<'static, f32, u16>, tick::Memory<'static, f32, u16, { rows:
 /// Numbers the edges, fills the element matrices, finds the ways out: what stays, and the memory of
 /// what does not.
 pub fn build(memory: &'static mut Memory) -> Result<Built, Error> {
-    let Memory { mesh: numbered, stiffness, forest, way, tick } = memory;
+    let Memory { mesh: numbered, stiffness, forest, way, cells, tick } = memory;
     let mesh = Mesh::new(&VERTICES, &CELLS, &[])?;
     let edges = numbered.number(&mesh)?;
     let coefficient = Coefficient::Uniform(Tensor::scalar(CONDUCTIVITY));
     stiffness::fill(&mesh, coefficient, 1, stiffness, &mut [])?;
     let stiffness = Stiffness { triangles: stiffness, quads: &[] };
-    let metric = Metric { compliance: &COMPLIANCE, at_points: &[], place: &[] };
     let forest = ways(&edges, forest, way)?;
-    let reach = reach(&edges, stiffness, metric, &forest, way)?;
-    let ground = Ground { mesh, edges, stiffness, metric, alpha: &[], forest, reach };
+    let Packed { triangles, of_vertices, of_edges } = cells;
+    let buffers = CellBuffers { triangles, quads: &mut [], of_vertices, of_edges };
+    let cells = pack(&mesh, &edges, stiffness, &[], &COMPLIANCE, &forest, buffers)?;
+    let metric = Metric::default();
+    let reach = reach(&edges, &cells, metric, &forest, way)?;
+    let ground = Ground { mesh, edges, stiffness, cells, metric, reach };
     Ok((ground, tick.lend(&edges)?))
 }
 
@@ -118,8 +133,8 @@ impl Changing {
         &'static mut self,
         edges: &Edges<u16>,
     ) -> Result<tick::Memory<'static, f32, u16, { rows::TRIANGLES }>, Error> {
-        let Self { rows, load, active, vertices, weights, tau, u } = self;
+        let Self { rows, load, active, vertices, tau, u } = self;
         let rows = Rows::new(edges, rows)?;
-        Ok(tick::Memory { rows, load, active, vertices, weights, bubbles: &mut [], tau, u })
+        Ok(tick::Memory { rows, load, active, vertices, bubbles: &mut [], tau, u })
     }
 }
