@@ -1,11 +1,14 @@
 //! Packed cells: mesh and element matrices in the order in which the error bound walks over them.
 //!
 //! ```text
-//!   K without its diagonal | α | 1/α | 1/(4 det A) | edges | vertices | number, signs, parent
+//!   K without its diagonal | signs of the sides | α | 1/α | 1/(4 det A) | ... | edges | vertices | number
 //! ```
 //! Cells stand from the leaves of the forest to its roots, and each is turned so that the side through
 //! which its surplus leaves comes last: a walk needs neither an order nor a parent, and what belongs to
-//! a cell lies together. Like packed rows they cost memory, and a certificate half of its time.
+//! a cell lies together. Like packed rows they cost memory, and halve the time of a certificate.
+//!
+//! A triangle is also mirrored, where needed, so that the side before the last leads towards a root too:
+//! half of the surplus leaves there, and flows that spread cost less.
 //!
 //! Means at vertices are weighted by α = ½ tr A, so that the stiff cell decides there, means on edges
 //! by 1/α, so that the soft one does: without weights a jump of 10⁴ in A costs a factor of 12 in the
@@ -24,19 +27,22 @@ use crate::stiffness::Stiffness;
 #[derive(Debug, Clone, Copy)]
 pub struct Cell<R, I, const SIDES: usize, const ENTRIES: usize> {
     pub(crate) k: [R; ENTRIES],
+    /// 1 where an edge is directed out of this cell, else −1.
+    signs: [R; SIDES],
     pub(crate) alpha: R,
     pub(crate) softness: R,
     /// Of triangles: 1/(4 det A).
     pub(crate) compliance: R,
+    /// Of triangles: the same times Σ|K|.
+    pub(crate) doubt: R,
+    /// What the side before the last takes of the surplus: ½ or 0.
+    spread: R,
     pub(crate) edges: [I; SIDES],
     pub(crate) vertices: [I; SIDES],
     pub(crate) number: I,
-    /// Bit k: edge k is directed out of this cell.
-    outward: u8,
     /// The side that stands last, as the mesh numbers it.
     parent: u8,
-    /// Another side that leads towards a root, or the last one again.
-    second: u8,
+    mirrored: bool,
 }
 
 /// A packed triangle.
@@ -44,105 +50,138 @@ pub type Triangle<R, I> = Cell<R, I, 3, 3>;
 /// A packed quad.
 pub type Quad<R, I> = Cell<R, I, 4, 6>;
 
+/// The numbers at these places; `None` where a (never validated) one points outside.
+#[inline(always)]
+pub(crate) fn pick<R: Real, I: Index, const N: usize>(
+    places: &[I; N],
+    numbers: &[R],
+) -> Option<[R; N]> {
+    let mut picked = [R::ZERO; N];
+    for (value, place) in picked.iter_mut().zip(places) {
+        *value = *numbers.get(place.at())?;
+    }
+    Some(picked)
+}
+
 impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SIDES, ENTRIES> {
     /// A cell of zeros.
     pub const EMPTY: Self = Self {
         k: [R::ZERO; ENTRIES],
+        signs: [R::ZERO; SIDES],
         alpha: R::ZERO,
         softness: R::ZERO,
         compliance: R::ZERO,
+        doubt: R::ZERO,
+        spread: R::ZERO,
         edges: [I::FIRST; SIDES],
         vertices: [I::FIRST; SIDES],
         number: I::FIRST,
-        outward: 0,
         parent: 0,
-        second: 0,
+        mirrored: false,
     };
-
-    /// The numbers at these places.
-    #[inline(always)]
-    pub(crate) fn pick(places: &[I; SIDES], numbers: &[R]) -> [R; SIDES] {
-        places.map(|place| read(numbers, place.at()))
-    }
 
     /// Values along the edges as values out of the cell, or back.
     #[inline(always)]
-    pub(crate) fn turned(&self, along: [R; SIDES]) -> [R; SIDES] {
-        let mut bit = 1;
-        along.map(|flux| {
-            let out = if self.outward & bit != 0 { flux } else { -flux };
-            bit <<= 1;
-            out
-        })
+    pub(crate) fn turned(&self, mut along: [R; SIDES]) -> [R; SIDES] {
+        along.iter_mut().zip(self.signs).for_each(|(flux, sign)| *flux *= sign);
+        along
     }
 
     /// ∫τ·n over the sides, outward; `tau` has one value an edge along its direction.
     #[inline(always)]
-    pub fn outward(&self, tau: &[R]) -> [R; SIDES] {
-        self.turned(Self::pick(&self.edges, tau))
+    pub fn outward(&self, tau: &[R]) -> Option<[R; SIDES]> {
+        Some(self.turned(pick(&self.edges, tau)?))
     }
 
-    /// Balances the cell through its last side and returns ∫τ·n over all sides. Where another side leads
-    /// towards a root too, it takes half of the surplus: flows that spread cost less.
+    /// Balances the cell through its last side and returns ∫τ·n over all sides.
     #[inline(always)]
-    pub fn settle(&self, load: R, tau: &mut [R]) -> [R; SIDES] {
-        let mut out = self.outward(tau);
-        let second = usize::from(self.second);
-        if second + 1 < SIDES {
-            let surplus = out.iter().fold(-load, |rest, &flux| rest - flux);
-            let flux = read(&out, second) + R::HALF * surplus;
-            self.send(second, flux, &mut out, tau);
-        }
+    pub fn settle(&self, load: R, tau: &mut [R]) -> Option<[R; SIDES]> {
+        let mut out = self.outward(tau)?;
+        let surplus = out.iter().fold(-load, |rest, &flux| rest - flux);
+        *out.get_mut(SIDES - 2)? += self.spread * surplus;
         let others = out.iter().take(SIDES - 1);
-        let rest = others.fold(-load, |rest, &flux| rest - flux);
-        self.send(SIDES - 1, rest, &mut out, tau);
-        out
+        *out.get_mut(SIDES - 1)? = others.fold(-load, |rest, &flux| rest - flux);
+        for side in [SIDES - 2, SIDES - 1] {
+            *tau.get_mut(self.edges.get(side)?.at())? = *out.get(side)? * *self.signs.get(side)?;
+        }
+        Some(out)
     }
 
-    #[inline(always)]
-    fn send(&self, side: usize, flux: R, out: &mut [R; SIDES], tau: &mut [R]) {
-        write(out, side, flux);
-        let along = self.outward & (1 << side) != 0;
-        write(tau, read(&self.edges, side).at(), if along { flux } else { -flux });
+    /// What belongs to the sides, in the order of the mesh.
+    pub(crate) fn sides_in_mesh(&self, mut packed: [R; SIDES]) -> [R; SIDES] {
+        if self.mirrored {
+            packed.swap(0, 1);
+        }
+        self.turned_back(packed)
     }
 
-    /// What belongs to the sides (or vertices), in the order of the mesh.
-    pub(crate) fn as_in_mesh(&self, packed: [R; SIDES]) -> [R; SIDES] {
-        let mut unpacked = packed;
-        unpacked.rotate_right((usize::from(self.parent) + 1) % SIDES);
-        unpacked
+    /// What belongs to the vertices, in the order of the mesh.
+    pub(crate) fn vertices_in_mesh(&self, mut packed: [R; SIDES]) -> [R; SIDES] {
+        if self.mirrored {
+            packed.swap(0, 2);
+        }
+        self.turned_back(packed)
     }
 
-    /// Fills in everything but numbers of the material; `half` is the first half-edge.
+    fn turned_back(&self, mut packed: [R; SIDES]) -> [R; SIDES] {
+        packed.rotate_right((usize::from(self.parent) + 1) % SIDES);
+        packed
+    }
+
+    /// Fills in edges, vertices and signs, from the first half-edge and the side of the parent.
     fn place(&mut self, edges: &Edges<I>, half: usize, parent: usize, corners: &[I; SIDES]) {
-        self.parent = parent as u8;
-        self.outward = 0;
+        (self.parent, self.mirrored, self.spread) = (parent as u8, false, R::ZERO);
         for k in 0..SIDES {
             let side = (parent + 1 + k) % SIDES;
             let edge = edges.edge_of(half + side);
             write(&mut self.edges, k, I::new(edge).unwrap_or(I::NONE));
             write(&mut self.vertices, k, read(corners, side));
             let along = read(edges.half_edges(), edge)[0].at() == half + side;
-            self.outward |= u8::from(along) << k;
+            write(&mut self.signs, k, if along { R::ONE } else { -R::ONE });
         }
     }
 
-    /// Finds the other side behind which the cell nearest to a root lies.
-    fn find_second(&mut self, edges: &Edges<I>, half: usize, own: usize, forest: &Forest<I>) {
-        let mut nearest = forest.place(own);
-        self.second = (SIDES - 1) as u8;
-        for k in 0..SIDES - 1 {
-            let side = (usize::from(self.parent) + 1 + k) % SIDES;
-            let place = edges.beyond(half + side).map(|(_, cell)| forest.place(cell));
-            if let Some(place) = place.filter(|&place| place < nearest) {
-                (nearest, self.second) = (place, k as u8);
-            }
-        }
-    }
-
-    fn set_material(&mut self, number: usize, alpha: R, compliance: R) {
+    fn set_material(&mut self, number: usize, alpha: R) {
         self.number = I::new(number).unwrap_or(I::NONE);
-        (self.alpha, self.softness, self.compliance) = (alpha, R::ONE / alpha, compliance);
+        (self.alpha, self.softness) = (alpha, R::ONE / alpha);
+    }
+}
+
+impl<R: Real, I: Index> Triangle<R, I> {
+    /// Mirrors the cell, where needed, so that its middle side leads towards a root, if one does.
+    fn find_second(&mut self, edges: &Edges<I>, own: usize, forest: &Forest<I>) {
+        let behind = |k: usize| {
+            let side = (usize::from(self.parent) + 1 + k) % 3;
+            edges.beyond(3 * own + side).map(|(_, cell)| forest.place(cell))
+        };
+        let nearer = |place: Option<usize>| place.filter(|&place| place < forest.place(own));
+        let (first, second) = (nearer(behind(0)), nearer(behind(1)));
+        self.mirrored = match (first, second) {
+            (Some(first), Some(second)) => first < second,
+            (first, _) => first.is_some(),
+        };
+        self.spread = if first.or(second).is_some() { R::HALF } else { R::ZERO };
+        if self.mirrored {
+            // Vertex k + 2 stays opposite of side k, and K_ij goes with the sides.
+            self.edges.swap(0, 1);
+            self.signs.swap(0, 1);
+            self.vertices.swap(0, 2);
+            self.k.swap(1, 2);
+        }
+    }
+
+    /// K in the order of the mesh.
+    pub(crate) fn stiffness_in_mesh(&self) -> [R; 3] {
+        let mut k = self.k;
+        if self.mirrored {
+            k.swap(1, 2);
+        }
+        self.turned_back(k)
+    }
+
+    fn set_compliance(&mut self, compliance: R) {
+        let size = self.k.iter().fold(R::ZERO, |sum, entry| sum + entry.magnitude());
+        (self.compliance, self.doubt) = (compliance, compliance * size);
     }
 }
 
@@ -155,7 +194,7 @@ pub struct CellBuffers<'a, R, I> {
     pub quads: &'a mut [Quad<R, I>],
     /// Becomes 1/Σα of the cells at each vertex.
     pub of_vertices: &'a mut [R],
-    /// Becomes 1/Σ(1/α) of the cells of each edge.
+    /// Becomes 1/Σ(1/α) of the cells of each edge, but 0 on N and R.
     pub of_edges: &'a mut [R],
 }
 
@@ -256,28 +295,23 @@ pub fn pack<'a, R: Real, I: Index>(
             cell.place(edges, half, parent.wrapping_sub(half), &read(mesh.triangles(), number));
             cell.k = read(stiffness.triangles, number);
             cell.k.rotate_left((parent.wrapping_sub(half) + 1) % 3);
-            cell.find_second(edges, half, number, forest);
-            cell.set_material(number, alpha(number), read(compliance, number));
+            cell.find_second(edges, number, forest);
+            cell.set_material(number, alpha(number));
+            cell.set_compliance(read(compliance, number));
         } else {
+            // Halves that go sideways cost quads up to 1.4 times more: no second side there.
             let Some(cell) = to_quads.next() else { break };
-            let half = 3 * t + 4 * (number.wrapping_sub(t));
-            cell.place(
-                edges,
-                half,
-                parent.wrapping_sub(half),
-                &read(mesh.quads(), number.wrapping_sub(t)),
-            );
-            cell.k = turned(
-                &read(stiffness.quads, number.wrapping_sub(t)),
-                parent.wrapping_sub(half) + 1,
-            );
-            // On quads that costs up to 1.4 times more: halves go sideways.
-            cell.second = 3;
-            cell.set_material(number, alpha(number), R::ZERO);
+            let (quad, half) = (number - t, 3 * t + 4 * (number - t));
+            cell.place(edges, half, parent.wrapping_sub(half), &read(mesh.quads(), quad));
+            cell.k = turned(&read(stiffness.quads, quad), parent.wrapping_sub(half) + 1);
+            cell.set_material(number, alpha(number));
         }
     }
     let cells = Cells { triangles, quads, of_vertices: &[], of_edges: &[], order: forest.order() };
     weigh(&cells, of_vertices, of_edges);
+    // What the cells say of the flux through N and R does not count: the conditions decide.
+    let free = of_edges.iter_mut().zip(edges.half_edges()).take(edges.counts().free);
+    free.filter(|(_, pair)| pair[1] == I::NONE).for_each(|(weight, _)| *weight = R::ZERO);
     Ok(Cells { of_vertices, of_edges, ..cells })
 }
 

@@ -25,7 +25,7 @@ pub struct Iterate<'a, R> {
     pub lower: &'a [R],
 }
 
-/// Sets τ on the boundary, but for D, as the conditions there ask.
+/// Sets τ on the boundary, but for D, as the conditions there ask; it is 0 on N and R so far.
 pub fn impose<R: Real, I: Index>(
     edges: &Edges<I>,
     boundary: &Boundary<R, I>,
@@ -33,8 +33,6 @@ pub fn impose<R: Real, I: Index>(
     tau: &mut [R],
 ) {
     let counts = edges.counts();
-    let free = tau.iter_mut().zip(edges.half_edges()).take(counts.free);
-    free.filter(|(_, pair)| pair[1] == I::NONE).for_each(|(tau, _)| *tau = R::ZERO);
     for record in boundary.neumann() {
         let sum = read(tau, record.edge.at()) + record.flux;
         write(tau, record.edge.at(), sum);

@@ -45,9 +45,7 @@ pub trait Real: RealField + Copy + Default + sealed::Sealed {
     fn finite(self) -> bool;
 
     /// |x|, and NaN for NaN.
-    fn magnitude(self) -> Self {
-        if self < Self::ZERO { -self } else { self }
-    }
+    fn magnitude(self) -> Self;
 
     /// The larger of two numbers; `self` where they do not compare.
     fn or_larger(self, other: Self) -> Self {
@@ -80,6 +78,10 @@ macro_rules! real {
 
             fn finite(self) -> bool {
                 self.is_finite()
+            }
+
+            fn magnitude(self) -> Self {
+                $scalar::abs(self)
             }
 
             fn rounded_sqrt(self) -> Self {

@@ -92,8 +92,10 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     walk(&cells, loads, &mut tau);
 
     let defects = cells.from_leaves().map(|cell| match cell {
-        Either::Triangle(cell) => cell.outward(&tau).iter().sum::<f64>() + load / 2.0,
-        Either::Quad(cell) => cell.outward(&tau).iter().sum::<f64>() + load,
+        Either::Triangle(cell) => {
+            cell.outward(&tau).expect("a cell").iter().sum::<f64>() + load / 2.0
+        }
+        Either::Quad(cell) => cell.outward(&tau).expect("a cell").iter().sum::<f64>() + load,
     });
     let defect = defects.map(f64::abs).fold(0.0, f64::max);
     let first = |edge: usize| tau[edge];

@@ -36,7 +36,7 @@ pub use metric::{Metric, POINTS, of_quad, of_triangle};
 use crate::assembly::CellLoads;
 use crate::averages;
 use crate::boundary::Boundary;
-use crate::cells::{Cell, Cells, Either, Quad, Triangle};
+use crate::cells::{Cells, Either, Quad, Triangle, pick};
 use crate::conforming::{self, VertexData};
 use crate::edges::Edges;
 use crate::equilibrium::{self, Iterate};
@@ -253,52 +253,68 @@ fn over_cells<R: Real, I: Index>(
     indicators: &mut [R],
 ) -> Parts<R> {
     let cells = &ground.cells;
-    let mut parts = Parts::default();
-    let mut take = |number: I, share: Share<R>| {
-        write(indicators, number.at(), share.gap);
-        parts.add(share);
-    };
-    let triangle = |cell: &Triangle<R, I>, tau: &mut [R]| {
-        let load = read(given.loads.triangles, cell.number.at());
-        let out = cell.settle(load, tau);
-        of_triangle_cell(ground.metric, cell, s, u, out, load)
-    };
-    // Nothing of quads where there are none.
-    if cells.quads.is_empty() {
-        cells.triangles.iter().for_each(|cell| take(cell.number, triangle(cell, tau)));
-        return parts;
+    if cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty() {
+        return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
     }
+    let mut parts = Parts::default();
     for cell in cells.from_leaves() {
-        match cell {
-            Either::Triangle(cell) => take(cell.number, triangle(cell, tau)),
+        let (number, share) = match cell {
+            Either::Triangle(cell) => {
+                let load = read(given.loads.triangles, cell.number.at());
+                (cell.number, of_triangle_cell(ground.metric, cell, s, u, load, tau))
+            }
             Either::Quad(cell) => {
                 let number = cell.number.at().wrapping_sub(cells.triangles.len());
                 let load = read(given.loads.quads, number);
-                let out = cell.settle(load, tau);
-                take(cell.number, of_quad_cell(ground.metric, cell, s, u, out, load));
+                (cell.number, of_quad_cell(ground.metric, cell, s, u, load, tau))
             }
-        }
+        };
+        let Some(share) = share else { break };
+        write(indicators, number.at(), share.gap);
+        parts.add(share);
     }
     parts
 }
 
-#[inline(always)]
+/// The same for triangles with constant A alone, without indicators: the loop of a control loop. A
+/// function of its own, with few slices, keeps its pointers in registers.
+#[inline(never)]
+fn over_triangles<R: Real, I: Index>(
+    cells: &[Triangle<R, I>],
+    loads: &[R],
+    u: &[R],
+    vertices: &[R],
+    tau: &mut [R],
+) -> Parts<R> {
+    let mut parts = Parts::default();
+    for cell in cells {
+        let load = read(loads, cell.number.at());
+        let Some(out) = cell.settle(load, tau) else { break };
+        let (s, means) = (pick(&cell.vertices, vertices), pick(&cell.edges, u));
+        let (Some(s), Some(means)) = (s, means) else { break };
+        parts.add(triangle::share(cell, s, out, means, load));
+    }
+    parts
+}
+
 fn of_triangle_cell<R: Real, I: Index>(
     metric: Metric<R>,
     cell: &Triangle<R, I>,
     s: Continuous<R>,
     u: &[R],
-    tau: [R; 3],
     load: R,
-) -> Share<R> {
-    let (s, u) = (s.at(&cell.vertices), Cell::<R, I, 3, 3>::pick(&cell.edges, u));
-    match metric.varying(cell.number.at()) {
-        None => triangle::share(cell, s, tau, u, load),
+    tau: &mut [R],
+) -> Option<Share<R>> {
+    let out = cell.settle(load, tau)?;
+    let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
+    Some(match metric.varying(cell.number.at()) {
+        None => triangle::share(cell, s, out, u, load),
         Some(points) => {
-            let [k, s, tau, u] = [cell.k, s, tau, u].map(|packed| cell.as_in_mesh(packed));
-            triangle::share_at_points(points, &k, s, tau, u, load)
+            let (k, s) = (cell.stiffness_in_mesh(), cell.vertices_in_mesh(s));
+            let [out, u] = [out, u].map(|packed| cell.sides_in_mesh(packed));
+            triangle::share_at_points(points, &k, s, out, u, load)
         }
-    }
+    })
 }
 
 fn of_quad_cell<R: Real, I: Index>(
@@ -306,21 +322,21 @@ fn of_quad_cell<R: Real, I: Index>(
     cell: &Quad<R, I>,
     s: Continuous<R>,
     u: &[R],
-    tau: [R; 4],
     load: R,
-) -> Share<R> {
-    let values = Values { corners: s.at(&cell.vertices), bubbles: s.on(&cell.edges) };
-    let u = Cell::<R, I, 4, 6>::pick(&cell.edges, u);
-    match metric.varying(cell.number.at()) {
-        None => quad::share(cell, values, tau, u, load),
+    tau: &mut [R],
+) -> Option<Share<R>> {
+    let out = cell.settle(load, tau)?;
+    let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
+    let bubbles = pick(&cell.edges, s.bubbles)?;
+    Some(match metric.varying(cell.number.at()) {
+        None => quad::share(cell, Values { corners, bubbles }, out, u, load),
         Some(points) => {
-            let difference = cell.as_in_mesh(quad::difference(cell, tau, u, load));
-            let [corners, bubbles] =
-                [values.corners, values.bubbles].map(|packed| cell.as_in_mesh(packed));
-            let tau = cell.as_in_mesh(tau);
-            quad::share_at_points(points, Values { corners, bubbles }, tau, difference, load)
+            let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
+            let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
+            let out = cell.sides_in_mesh(out);
+            quad::share_at_points(points, Values { corners, bubbles }, out, difference, load)
         }
-    }
+    })
 }
 
 /// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell along the forest to its root;
@@ -340,20 +356,21 @@ pub fn reach<R: Real, I: Index>(
     // From the leaves: a cell does not know yet what its way costs, so each writes what passing it from
     // each side costs into the cell on that side; then from the roots these costs add up.
     for cell in cells.from_leaves() {
-        let (number, sides) = match cell {
-            Either::Triangle(cell) => (cell.number, 3),
-            Either::Quad(cell) => (cell.number, 4),
+        let (number, of_cell) = match cell {
+            Either::Triangle(cell) => (cell.number.at(), cell.edges.as_slice()),
+            Either::Quad(cell) => (cell.number.at(), cell.edges.as_slice()),
         };
-        let start = edges.sides_of(number.at()).start;
-        for packed in 0..sides - 1 {
-            let side = (forest.parent(number.at()) - start + 1 + packed) % sides;
-            let Some((entry, behind)) = edges.beyond(start + side) else { continue };
-            if forest.parent(behind) != entry.at() {
+        let last = of_cell.len() - 1;
+        for half in edges.sides_of(number) {
+            let Some((entry, behind)) = edges.beyond(half) else { continue };
+            let edge = edges.edge_of(half);
+            let packed = of_cell.iter().position(|other| other.at() == edge);
+            if forest.parent(behind) != entry.at() || packed == Some(last) {
                 continue;
             }
             let through = |k: usize| match k {
-                _ if k == packed => -R::ONE,
-                _ if k == sides - 1 => R::ONE,
+                _ if Some(k) == packed => -R::ONE,
+                _ if k == last => R::ONE,
                 _ => R::ZERO,
             };
             write(way, behind, energy(metric, cell, through));

@@ -66,7 +66,7 @@ pub(super) fn energy<R: Real, I: Index>(
         None => flux_energy(of_parallelogram(&cell.k), out),
         Some(points) => {
             let s = Values { corners: [R::ZERO; 4], bubbles: [R::ZERO; 4] };
-            share_at_points(points, s, cell.as_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
+            share_at_points(points, s, cell.sides_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
         }
     }
 }

@@ -37,7 +37,7 @@ pub(super) fn share<R: Real, I: Index>(
     Share {
         gap: cell.compliance * (form(k, gap) - linear),
         algebraic: cell.compliance * form(k, algebraic),
-        doubt: cell.compliance * doubt(k, flows, terms),
+        doubt: cell.doubt * sum_of_squares(flows, terms),
         terms,
     }
 }
@@ -59,11 +59,10 @@ fn squares<R: Real>(tau: [R; 3], load: R) -> R {
     tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2] + load * load
 }
 
-/// Σ|K| times the sum of the squares of all terms of D.
+/// The squares of all terms of D.
 #[inline(always)]
-fn doubt<R: Real>(k: &[R; 3], [t01, t12, t20]: [R; 3], terms: R) -> R {
-    let size = k[0].magnitude() + k[1].magnitude() + k[2].magnitude();
-    size * (terms + t01 * t01 + t12 * t12 + t20 * t20)
+fn sum_of_squares<R: Real>([t01, t12, t20]: [R; 3], terms: R) -> R {
+    terms + t01 * t01 + t12 * t12 + t20 * t20
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
@@ -76,7 +75,7 @@ pub(super) fn energy<R: Real, I: Index>(
     match points {
         None => share(cell, none, out, none, load).gap,
         Some(points) => {
-            let (k, out) = (cell.as_in_mesh(cell.k), cell.as_in_mesh(out));
+            let (k, out) = (cell.stiffness_in_mesh(), cell.sides_in_mesh(out));
             share_at_points(points, &k, none, out, none, load).gap
         }
     }
@@ -115,7 +114,9 @@ pub(super) fn share_at_points<R: Real>(
         }
     }
     let terms = squares(tau, load);
-    Share { gap, algebraic, doubt: compliance * doubt(k, flows(k, s), terms), terms }
+    let size = k.iter().fold(R::ZERO, |sum, entry| sum + entry.magnitude());
+    let doubt = compliance * size * sum_of_squares(flows(k, s), terms);
+    Share { gap, algebraic, doubt, terms }
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.
