@@ -30,6 +30,17 @@ pub enum Relaxation<R> {
     Adaptive(R),
 }
 
+impl<R: Real> Relaxation<R> {
+    /// Adaptive from near the best ω of a square mesh with so many unknowns: n lines of cells make
+    /// 6n² of them, and the best ω is about 2 − 2.4/n. For a control loop, whose first tick should not be
+    /// spent on the search.
+    pub fn for_unknowns(count: usize) -> Self {
+        let root = R::from_count(count as u32).or_larger(R::ONE).rounded_sqrt();
+        let omega = R::TWO - R::from_count(6) / root;
+        Self::Adaptive(omega.or_larger(R::ONE))
+    }
+}
+
 /// What the search is doing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {

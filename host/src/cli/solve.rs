@@ -45,7 +45,7 @@ pub struct Arguments {
     max_sweeps: u32,
 }
 
-fn tolerance(text: &str) -> std::result::Result<f64, String> {
+pub(super) fn tolerance(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(tolerance) if tolerance.is_finite() && tolerance >= 0.0 => Ok(tolerance),
         _ => Err("expected a finite number ≥ 0, such as 1e-9".to_owned()),

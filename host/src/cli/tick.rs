@@ -14,7 +14,7 @@ use crate::progress::{say, steps};
 use crate::report::history;
 use crate::scene::Scene;
 use crate::solve::{Options, ScalarKind};
-use crate::tick::{Tick, log, picture, play, schedule};
+use crate::tick::{Budget, Tick, log, picture, play, schedule};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,6 +42,10 @@ pub struct Arguments {
     /// Most sweeps of one tick
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     budget_sweeps: Option<u32>,
+    /// The certified error, in the energy norm, that is small enough [default: a tick goes on until more
+    /// sweeps would not lower it much]
+    #[arg(long, value_name = "E", value_parser = super::solve::tolerance, allow_negative_numbers = true)]
+    error: Option<f64>,
     /// Scalar type of the kernel
     #[arg(long, value_enum, default_value = "f64")]
     scalar: ScalarKind,
@@ -60,7 +64,7 @@ impl Arguments {
         };
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
         let bar = steps(moments.len());
-        let ticks = play(&scene, &problem, &moments, &self.options(), |tick| {
+        let ticks = play(&scene, &problem, &moments, &self.budget(), |tick| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
         });
@@ -74,12 +78,11 @@ impl Arguments {
         Ok(if ticks.iter().any(Tick::failed) { 3 } else { 0 })
     }
 
-    fn options(&self) -> Options {
-        let unlimited = Options::default();
-        Options {
+    fn budget(&self) -> Budget {
+        Budget {
             scalar: self.scalar,
-            max_sweeps: self.budget_sweeps.unwrap_or(unlimited.max_sweeps),
-            ..unlimited
+            sweeps: self.budget_sweeps.unwrap_or(Options::default().max_sweeps),
+            error: self.error.unwrap_or(0.0),
         }
     }
 }

@@ -4,8 +4,10 @@
 //!   schedule or log ─► moments (t, inputs) ─► loads at t ─► player ─► Tick ─► ticks.csv, ticks.svg
 //! ```
 //! Mesh, numbering and A are set up once; between ticks only loads, gaps and boundary values change,
-//! which is what happens on a device. All that solves is behind [`player`].
+//! which is what happens on a device. The player is the kernel's own tick ([`held`]) wherever D or R holds
+//! every part, and otherwise a warm solve ([`player`]).
 
+pub mod held;
 pub mod log;
 mod picture;
 pub mod player;
@@ -13,13 +15,19 @@ pub mod schedule;
 
 pub use picture::picture;
 
+use signorini_kernel::rows;
+use signorini_kernel::solver::Settings;
+use signorini_kernel::tick::Limits;
+
+use crate::certify::ErrorBound;
+use crate::certify::exact::distance;
 use crate::error::Result;
 use crate::outputs::{Reading, declared};
-use crate::problem::Problem;
+use crate::problem::{Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::solve::{Options, ScalarKind};
-use player::{Answer, Bound, Player};
+use player::{Answer, Player};
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +36,16 @@ pub struct Moment {
     pub time: f64,
     /// Positions in `scene.inputs` with their values; inputs that are not listed keep theirs.
     pub inputs: Vec<(usize, f64)>,
+}
+
+impl Moment {
+    /// Brings a scene and its data to this moment.
+    fn set(&self, scene: &mut Scene, problem: &mut Problem) -> Result<()> {
+        for &(input, value) in &self.inputs {
+            scene.inputs[input].default = value;
+        }
+        problem.set_time(scene, self.time).map_err(|error| error.at_time(self.time))
+    }
 }
 
 /// What a tick came to. Numbers that do not exist or are not finite are `None`.
@@ -44,7 +62,7 @@ pub struct Tick {
     /// Σ|E| over the active contact edges.
     pub contact_length: Option<f64>,
     /// The bound on the error.
-    pub bound: Option<Bound>,
+    pub bound: Option<ErrorBound>,
     /// The error that it bounds, where the exact solution is known.
     pub combined: Option<f64>,
     /// The declared outputs, in the order of the scene.
@@ -58,6 +76,29 @@ impl Tick {
     }
 }
 
+/// What a tick may take.
+#[derive(Debug, Clone, Copy)]
+pub struct Budget {
+    /// Scalar type.
+    pub scalar: ScalarKind,
+    /// Most sweeps of one tick.
+    pub sweeps: u32,
+    /// The certified error that is small enough; 0: as far as sweeps buy anything.
+    pub error: f64,
+}
+
+impl Budget {
+    fn settings<R: Scalar>(&self) -> Settings<R> {
+        let options =
+            Options { scalar: self.scalar, max_sweeps: self.sweeps, ..Options::default() };
+        options.settings()
+    }
+
+    fn limits<R: Scalar>(&self) -> Limits<R> {
+        Limits { error: R::narrow(self.error), sweeps: self.sweeps, ..Limits::default() }
+    }
+}
+
 /// Solves `scene` at every moment; calls `done` after each.
 ///
 /// # Errors
@@ -67,12 +108,12 @@ pub fn play(
     scene: &Scene,
     problem: &Problem,
     moments: &[Moment],
-    options: &Options,
+    budget: &Budget,
     done: impl FnMut(&Tick),
 ) -> Result<Vec<Tick>> {
-    match options.scalar {
-        ScalarKind::F64 => play_in::<f64>(scene, problem, moments, options, done),
-        ScalarKind::F32 => play_in::<f32>(scene, problem, moments, options, done),
+    match budget.scalar {
+        ScalarKind::F64 => play_in::<f64>(scene, problem, moments, budget, done),
+        ScalarKind::F32 => play_in::<f32>(scene, problem, moments, budget, done),
     }
 }
 
@@ -80,20 +121,42 @@ fn play_in<R: Scalar>(
     scene: &Scene,
     problem: &Problem,
     moments: &[Moment],
-    options: &Options,
+    budget: &Budget,
     mut done: impl FnMut(&Tick),
 ) -> Result<Vec<Tick>> {
-    let mut player = Player::<R>::new(scene, problem, options)?;
+    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    if let Some(first) = moments.first() {
+        first.set(&mut scene, &mut problem)?;
+    }
+    let (scene, problem) = (&scene, &problem);
+    let parts = Parts::examine(scene, problem)?;
+    let mut all = |engine: &mut held::Engine| {
+        through(scene, problem, moments, budget.scalar, engine, &mut done)
+    };
+    if parts.counts.contact + parts.counts.floating > 0 {
+        let mut player = Player::<R>::new(scene, problem, budget)?;
+        all(&mut |_, problem| player.tick(problem))
+    } else if problem.mesh.quads.is_empty() {
+        held::with::<R, { rows::TRIANGLES }, _>(scene, problem, &parts, budget, all)?
+    } else {
+        held::with::<R, { rows::QUADS }, _>(scene, problem, &parts, budget, all)?
+    }
+}
+
+/// Goes through the moments.
+fn through(
+    scene: &Scene,
+    problem: &Problem,
+    moments: &[Moment],
+    scalar: ScalarKind,
+    engine: &mut held::Engine,
+    done: &mut impl FnMut(&Tick),
+) -> Result<Vec<Tick>> {
     let (mut scene, mut problem) = (scene.clone(), problem.clone());
     let ticks = moments.iter().map(|moment| {
-        for &(input, value) in &moment.inputs {
-            scene.inputs[input].default = value;
-        }
-        let answer = problem
-            .set_time(&scene, moment.time)
-            .and_then(|()| player.tick(&problem))
-            .map_err(|error| error.at_time(moment.time))?;
-        let tick = read_off(&scene, &problem, options.scalar, answer)?;
+        moment.set(&mut scene, &mut problem)?;
+        let answer = engine(&scene, &problem).map_err(|error| error.at_time(moment.time))?;
+        let tick = read_off(&scene, &problem, scalar, answer)?;
         done(&tick);
         Ok(tick)
     });
@@ -105,6 +168,12 @@ fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let reading = Reading { scalar, u, flux, bound: bound.map(|bound| bound.total) };
     let finite = |value: f64| value.is_finite().then_some(value);
+    let combined = match (&scene.exact, bound) {
+        (Some(exact), Some(_)) => {
+            Some(distance(scene, exact, problem, &answer.certified.admissible())?.combined)
+        }
+        _ => None,
+    };
     Ok(Tick {
         time: problem.time,
         status: answer.status,
@@ -112,7 +181,7 @@ fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer
         contact_force: finite(answer.contact_force),
         contact_length: finite(answer.contact_length),
         bound,
-        combined: answer.combined.and_then(finite),
+        combined: combined.and_then(finite),
         outputs: declared(scene, problem, reading)?,
     })
 }

@@ -1,15 +1,21 @@
-//! What solves a tick: the kernel's sweeps from the last answer, with the relaxation factor found there.
+//! Ticks of a scene with parts that contact alone or nothing holds.
+//!
+//! There whole parts may have to be shifted, which the kernel's solver does and its tick does not: each
+//! tick is a solve, started from the last answer with the relaxation factor found there, and then
+//! certified.
 
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
+use super::Budget;
+use crate::certify::{self, Certified, Data, ErrorBound};
 use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{Options, centre_floating, status_name, unfit};
+use crate::solve::{centre_floating, status_name, unfit};
 
 /// Everything that stays from tick to tick.
 #[derive(Debug)]
@@ -37,22 +43,9 @@ pub struct Answer {
     /// Σ|E| over the active contact edges.
     pub contact_length: f64,
     /// The bound on its error, where there is one.
-    pub bound: Option<Bound>,
-    /// The error that it bounds, where the exact solution is known.
-    pub combined: Option<f64>,
-}
-
-/// A guaranteed bound on the error of an iterate, and its parts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bound {
-    /// gap and oscillation together.
-    pub total: f64,
-    /// The bound without oscillation.
-    pub gap: f64,
-    /// The part that more sweeps remove.
-    pub algebraic: f64,
-    /// What the data vary inside cells and edges.
-    pub oscillation: f64,
+    pub bound: Option<ErrorBound>,
+    /// What it is the bound of.
+    pub certified: certify::Answer,
 }
 
 impl<'p, R: Scalar> Player<'p, R> {
@@ -60,9 +53,9 @@ impl<'p, R: Scalar> Player<'p, R> {
     ///
     /// # Errors
     /// Numbers that the scalar type cannot hold.
-    pub fn new(scene: &'p Scene, problem: &'p Problem, options: &Options) -> Result<Self> {
+    pub fn new(scene: &'p Scene, problem: &'p Problem, budget: &Budget) -> Result<Self> {
         let assembled = Assembled::new(problem).map_err(unfit::<R>(scene))?;
-        Ok(Self { scene, assembled, settings: options.settings(), u: None })
+        Ok(Self { scene, assembled, settings: budget.settings(), u: None })
     }
 
     /// Solves for the loads of `problem`, which is that of [`Player::new`] at another time.
@@ -73,8 +66,15 @@ impl<'p, R: Scalar> Player<'p, R> {
         let parts = Parts::examine(self.scene, problem)?;
         self.assembled.set_parts(&parts);
         let mut answer = self.solve(problem).map_err(unfit::<R>(self.scene))?;
+        if let Some(u) = &self.u {
+            let (scene, assembled) = (self.scene, &self.assembled);
+            let data = Data::new(scene, problem)?;
+            let certified = Certified::new(scene, problem, &parts, assembled, &data, u);
+            let certified = certified.map_err(unfit::<R>(scene))?;
+            (answer.bound, answer.certified) = (certified.bound, certified.answer);
+        }
         if parts.counts.floating > 0 {
-            centre_floating(problem, &parts, &mut answer.u, &mut []);
+            centre_floating(problem, &parts, &mut answer.u, &mut answer.certified.vertices);
         }
         Ok(answer)
     }
@@ -119,7 +119,7 @@ impl<'p, R: Scalar> Player<'p, R> {
             contact_force: contact::force(counts, &assembled.boundary()?, &fluxes).wide(),
             contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
             bound: None,
-            combined: None,
+            certified: certify::Answer::default(),
         })
     }
 }

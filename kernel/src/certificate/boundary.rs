@@ -26,6 +26,7 @@ pub struct Curved<R, I> {
 pub(super) fn add<R: Real, I: Index>(
     ground: &Ground<R, I>,
     given: &Given<R, I>,
+    u: &[R],
     s: Continuous<R>,
     tau: &[R],
     indicators: &mut [R],
@@ -59,6 +60,11 @@ pub(super) fn add<R: Real, I: Index>(
             None => transfer.constant(law.coefficient, law.ambient),
         };
         take(edge, term, R::ZERO);
+        if law.coefficient > R::ZERO {
+            let of_u = law.ambient - law.coefficient * read(u, edge);
+            let off = read(tau, edge) - of_u;
+            parts.algebraic += off * off / law.coefficient;
+        }
     }
     for curved in given.curved {
         let (term, terms) = extension(ground, given, s, tau, curved);

@@ -102,7 +102,8 @@ pub struct Buffers<'a, R> {
 pub struct Certificate<R> {
     /// The root of gap²: the bound where f, g and q have no oscillation.
     pub gap: R,
-    /// ‖A^{−½}(τ − σ_h)‖: what more sweeps would remove.
+    /// ‖A^{−½}(τ − σ_h)‖, with ∫_R ((τ − σ_h)·n)²/h where there is a Robin boundary: what more sweeps
+    /// would remove.
     pub algebraic: R,
     /// What was given as oscillation.
     pub oscillation: R,
@@ -162,7 +163,7 @@ pub fn certify<R: Real, I: Index>(
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
-    boundary::add(ground, given, s, tau, indicators, &mut parts);
+    boundary::add(ground, given, u, s, tau, indicators, &mut parts);
     Ok(parts.conclude(cells.len(), ground.reach, given.oscillation))
 }
 

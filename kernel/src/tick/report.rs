@@ -1,6 +1,6 @@
 //! How long a tick may go on, and what it says in the end.
 
-use crate::certificate::Verdict;
+use crate::certificate::{Certificate, Verdict};
 use crate::real::Real;
 
 /// When enough is enough; whichever comes first.
@@ -8,9 +8,9 @@ use crate::real::Real;
 pub struct Limits<R> {
     /// The certified error that is small enough; 0 leaves it to the others.
     pub error: R,
-    /// What the algebraic part may be of the whole: below a tenth, more sweeps buy nothing. 0 leaves it
-    /// to the others. Where the mesh holds the solution exactly, all of the error is algebraic and the
-    /// share never falls: `error` ends it.
+    /// What the algebraic part may be of the whole: below a tenth, more sweeps buy nothing. Where the mesh
+    /// holds the solution exactly, all of the error is algebraic, and it ends where rounding hides it. 0
+    /// leaves it to the others.
     pub share: R,
     /// Most sweeps of this call.
     pub sweeps: u32,
@@ -20,6 +20,13 @@ impl<R: Real> Default for Limits<R> {
     /// Until the algebraic part is a tenth of the whole, at most 10 000 sweeps.
     fn default() -> Self {
         Self { error: R::ZERO, share: R::ONE / R::from_count(10), sweeps: 10_000 }
+    }
+}
+
+impl<R: Real> Limits<R> {
+    pub(super) fn are_settled(&self, now: &Certificate<R>) -> bool {
+        let hidden = self.share > R::ZERO && now.algebraic <= now.rounding;
+        hidden || now.algebraic <= self.share * now.total
     }
 }
 

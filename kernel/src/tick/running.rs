@@ -65,6 +65,9 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);
                 }
+                if limits.share > R::ZERO && self.is_at_the_floor(&verdict)? {
+                    return self.report(Ended::Settled, verdict);
+                }
                 self.schedule(&verdict, &limits);
                 if !deadline.allows_a_sweep() {
                     return self.report(Ended::OutOfTime, verdict);
@@ -130,12 +133,28 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         Ok(verdict)
     }
 
+    /// Whether rounding keeps the algebraic part from falling: it hardly fell since the last certificate, and
+    /// the residual is down to a few ε of u.
+    fn is_at_the_floor(&mut self, verdict: &Verdict<R>) -> Result<bool, Error> {
+        let (Verdict::Certified(now), Some((_, before))) = (verdict, self.earlier) else {
+            return Ok(false);
+        };
+        let noticeably = R::ONE - R::QUARTER * R::HALF;
+        if now.algebraic < before * noticeably {
+            return Ok(false);
+        }
+        let u = self.tick.memory.u.iter();
+        let size = u.fold(R::ZERO, |most, u| most.or_larger(u.magnitude()));
+        let floor = R::from_count(8) * R::EPSILON * size;
+        Ok(self.measure()?.0.largest <= floor)
+    }
+
     /// When the algebraic part, falling on as it did, should be small enough.
     fn schedule(&mut self, verdict: &Verdict<R>, limits: &Limits<R>) {
         let wait = match (verdict, self.earlier) {
             (Verdict::Certified(now), Some((at, before))) if now.algebraic < before => {
                 let since = self.sweeps - at;
-                since * blocks(now, before, limits)
+                since * quarters(now, before, limits) / 4
             }
             _ => self.sweeps,
         };
@@ -173,22 +192,20 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
 fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
     match verdict {
         Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
-        Verdict::Certified(now) if now.algebraic <= limits.share * now.total => {
-            Some(Ended::Settled)
-        }
+        Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),
         Verdict::Certified(_) | Verdict::Pulled { .. } => None,
         Verdict::NotFinite => Some(Ended::NotFinite),
     }
 }
 
-/// How often the algebraic part has still to fall by the same factor, at most 8.
-fn blocks<R: Real>(now: &Certificate<R>, before: R, limits: &Limits<R>) -> u32 {
-    let (factor, target) = (now.algebraic / before, limits.share * now.total);
-    let mut rest = now.algebraic;
-    (1..8)
-        .find(|_| {
-            rest *= factor;
-            rest <= target
-        })
-        .unwrap_or(8)
+/// How many times a quarter of the sweeps that brought the algebraic part from `before` down to what it is
+/// will bring it down to its share, if it falls on at that rate; 32 at most.
+fn quarters<R: Real>(now: &Certificate<R>, before: R, limits: &Limits<R>) -> u32 {
+    let factor = (now.algebraic / before).rounded_sqrt().rounded_sqrt();
+    let (mut rest, target) = (now.algebraic, limits.share * now.total);
+    let enough = |_: &u32| {
+        rest *= factor;
+        rest <= target
+    };
+    (1..32).find(enough).unwrap_or(32)
 }
