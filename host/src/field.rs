@@ -93,12 +93,19 @@ impl CellField {
     pub fn middle_flux(&self) -> [f64; 2] {
         match *self {
             Self::Triangle([a, b, c], _, fluxes) => {
-                let middle = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
-                crouzeix_raviart::raviart_thomas([a, b, c], fluxes, middle).into()
+                crouzeix_raviart::raviart_thomas([a, b, c], fluxes, self.middle()).into()
             }
             Self::Quad(corners, _, fluxes) => {
                 rannacher_turek::place(corners, [0.5; 2]).raviart_thomas(fluxes).into()
             }
+        }
+    }
+
+    /// Its middle.
+    pub fn middle(&self) -> [f64; 2] {
+        match *self {
+            Self::Triangle([a, b, c], ..) => [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0),
+            Self::Quad(corners, ..) => rannacher_turek::place(corners, [0.5; 2]).x,
         }
     }
 

@@ -7,7 +7,8 @@ use signorini_host::mesh::structured::{Cells, grid};
 use signorini_host::norms::errors;
 use signorini_host::problem::Problem;
 use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, solve};
+use signorini_host::solve::{Options, ScalarKind, solve};
+use signorini_host::tick::{Budget, Moment, play};
 
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";
@@ -228,4 +229,22 @@ fn errors_are_measured_at_the_time_of_the_problem() {
         error(&problem) > 10.0 * at_start,
         "the error against another time's solution is large"
     );
+}
+
+#[test]
+fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
+    let scene = Scene::read(&meshes(MOVING)).expect("a scene");
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let on = |n| Problem::new(&scene, grid(n, cells)).expect("a problem");
+        let (fine, coarse) = (on(24), on(12));
+        let moments = [Moment { time: 0.3, inputs: Vec::new() }];
+        let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
+        let first = |coarse: Option<&Problem>| {
+            let ticks = play(&scene, &fine, coarse, &moments, &budget, |_| ()).expect("a tick");
+            (ticks[0].sweeps, ticks[0].bound.expect("a bound").total)
+        };
+        let ((cold, bound), (warm, same)) = (first(None), first(Some(&coarse)));
+        assert!(2 * warm <= cold, "{cells:?}: {warm} sweeps, {cold} without");
+        assert!((same / bound - 1.0).abs() < 0.05, "{cells:?}: {same}, {bound} without");
+    }
 }

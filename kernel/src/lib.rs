@@ -79,6 +79,7 @@ mod math;
 pub mod mesh;
 pub mod model;
 pub mod numbering;
+pub mod prolongation;
 pub mod psor;
 pub mod quadrature;
 mod real;

@@ -24,7 +24,7 @@ type Target = (&'static str, &'static str, &'static [(&'static str, f64)], &'sta
 const UNKNOWNS: f64 = 392.0 / 256.0;
 
 /// A target bounds a sum of stages, each times a factor.
-const TARGETS: [Target; 8] = [
+const TARGETS: [Target; 9] = [
     ("M4F", "f32 triangles", &[("sweep", 1.0)], "sweep an unknown", 23.5),
     ("M4F", "f32 quads", &[("sweep", 1.0)], "sweep an unknown", 34.5),
     ("M7", "f64 triangles", &[("sweep", 1.0)], "sweep an unknown", 21.0),
@@ -37,6 +37,7 @@ const TARGETS: [Target; 8] = [
         "assembly a cell, all in",
         125.0,
     ),
+    ("M4F", "f32 triangles", &[("certificate", 1.0)], "certificate a cell, safe code", 230.0),
     ("M4F", "f32 triangles", &[("sweep, stack", 1.0)], "stack of a sweep in bytes", 256.0),
     ("M4F", "f32 triangles", &[("flux by cells, stack", 1.0)], "stack of the flux in bytes", 256.0),
 ];
@@ -46,7 +47,7 @@ const TARGETS: [Target; 8] = [
 const FLOOR: f64 = 21.5;
 
 /// What the image counts last.
-const LAST: &str = "solve to the last digit";
+const LAST: &str = "certificate";
 
 /// Counts by board, kind and stage.
 type Counts = BTreeMap<(&'static str, String, String), f64>;
@@ -170,12 +171,12 @@ fn quoted(counts: &Counts) -> Result<(), String> {
 }
 
 /// Not reached, and known: ARCHITECTURE.md says what was tried.
-const OPEN: &str = "assembly a cell, all in";
+const OPEN: [&str; 2] = ["assembly a cell, all in", "certificate a cell, safe code"];
 
 /// `Err` where a target is missed that has been met before.
 fn missed(counts: &Counts) -> Result<(), String> {
     let misses = |target: &&Target| {
-        target.3 != OPEN
+        !OPEN.contains(&target.3)
             && !matches!(
                 counted(counts, target).partial_cmp(&target.4),
                 Some(Ordering::Less | Ordering::Equal)

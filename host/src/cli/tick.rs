@@ -46,6 +46,9 @@ pub struct Arguments {
     /// sweeps would not lower it much]
     #[arg(long, value_name = "E", value_parser = super::solve::tolerance, allow_negative_numbers = true)]
     error: Option<f64>,
+    /// A coarser mesh of the same domain, from whose solution the first tick starts
+    #[arg(long, value_name = "FILE")]
+    coarse: Option<PathBuf>,
     /// Scalar type of the kernel
     #[arg(long, value_enum, default_value = "f64")]
     scalar: ScalarKind,
@@ -63,8 +66,10 @@ impl Arguments {
             None => schedule::moments(&scene, self.ticks)?,
         };
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, gmsh::read(mesh)?));
+        let coarse = coarse.transpose()?;
         let bar = steps(moments.len());
-        let ticks = play(&scene, &problem, &moments, &self.budget(), |tick| {
+        let ticks = play(&scene, &problem, coarse.as_ref(), &moments, &self.budget(), |tick| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
         });

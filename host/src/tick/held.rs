@@ -1,11 +1,12 @@
 //! The kernel's tick on a scene whose parts D or R holds: what a device would do.
 
+use signorini_kernel::prolongation::prolong;
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::tick::{Data, Deadline, Ended, Memory, Report, Tick};
 use signorini_kernel::{Error as KernelError, Relaxation, contact};
 
-use super::Budget;
 use super::player::Answer;
+use super::{Budget, coarse};
 use crate::certify::{self, Certifier, ErrorBound};
 use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
@@ -16,7 +17,8 @@ use crate::solve::unfit;
 /// Answers for the loads of a problem, tick after tick.
 pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
 
-/// Lends an engine to `play` for as long as it takes: its memory lives here.
+/// Lends an engine to `play` for as long as it takes: its memory lives here. Its first tick starts from
+/// the solution on `coarse`, the same problem on a coarser mesh, where there is one.
 ///
 /// # Errors
 /// Numbers that the scalar type cannot hold.
@@ -24,6 +26,7 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
     scene: &Scene,
     problem: &Problem,
     parts: &Parts,
+    coarse: Option<&Problem>,
     budget: &Budget,
     play: impl FnOnce(&mut Engine) -> T,
 ) -> Result<T> {
@@ -31,6 +34,11 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
     let fixed = Assembled::<R>::new(problem).map_err(&unfit)?;
     let certifier = Certifier::new(scene, problem, parts, &fixed).map_err(&unfit)?;
     let mut store = Store::<R, WIDTH>::new(problem, &fixed);
+    if let Some(coarse) = coarse {
+        let means: Vec<R> = coarse::solved(scene, coarse)?.into_iter().map(R::narrow).collect();
+        let origins = coarse::origins(problem, coarse)?;
+        prolong(&origins, &means, &mut store.u).map_err(&unfit)?;
+    }
     let mut tick = store.tick(&certifier, &fixed).map_err(&unfit)?;
     let mut moving = fixed.clone();
     Ok(play(&mut |scene, problem| {

@@ -7,6 +7,7 @@
 //! which is what happens on a device. The player is the kernel's own tick ([`held`]) wherever D or R holds
 //! every part, and otherwise a warm solve ([`player`]).
 
+pub mod coarse;
 pub mod held;
 pub mod log;
 mod picture;
@@ -99,7 +100,8 @@ impl Budget {
     }
 }
 
-/// Solves `scene` at every moment; calls `done` after each.
+/// Solves `scene` at every moment; calls `done` after each. The first tick starts from the solution on
+/// `coarse`, the problem on a coarser mesh, where there is one.
 ///
 /// # Errors
 /// Data that are not admissible at some time, with that time; numbers that the scalar type cannot
@@ -107,19 +109,21 @@ impl Budget {
 pub fn play(
     scene: &Scene,
     problem: &Problem,
+    coarse: Option<&Problem>,
     moments: &[Moment],
     budget: &Budget,
     done: impl FnMut(&Tick),
 ) -> Result<Vec<Tick>> {
     match budget.scalar {
-        ScalarKind::F64 => play_in::<f64>(scene, problem, moments, budget, done),
-        ScalarKind::F32 => play_in::<f32>(scene, problem, moments, budget, done),
+        ScalarKind::F64 => play_in::<f64>(scene, problem, coarse, moments, budget, done),
+        ScalarKind::F32 => play_in::<f32>(scene, problem, coarse, moments, budget, done),
     }
 }
 
 fn play_in<R: Scalar>(
     scene: &Scene,
     problem: &Problem,
+    coarse: Option<&Problem>,
     moments: &[Moment],
     budget: &Budget,
     mut done: impl FnMut(&Tick),
@@ -129,6 +133,11 @@ fn play_in<R: Scalar>(
         first.set(&mut scene, &mut problem)?;
     }
     let (scene, problem) = (&scene, &problem);
+    let mut coarse = coarse.cloned();
+    if let Some(coarse) = &mut coarse {
+        coarse.set_time(scene, problem.time)?;
+    }
+    let coarse = coarse.as_ref();
     let parts = Parts::examine(scene, problem)?;
     let mut all = |engine: &mut held::Engine| {
         through(scene, problem, moments, budget.scalar, engine, &mut done)
@@ -137,9 +146,9 @@ fn play_in<R: Scalar>(
         let mut player = Player::<R>::new(scene, problem, budget)?;
         all(&mut |_, problem| player.tick(problem))
     } else if problem.mesh.quads.is_empty() {
-        held::with::<R, { rows::TRIANGLES }, _>(scene, problem, &parts, budget, all)?
+        held::with::<R, { rows::TRIANGLES }, _>(scene, problem, &parts, coarse, budget, all)?
     } else {
-        held::with::<R, { rows::QUADS }, _>(scene, problem, &parts, budget, all)?
+        held::with::<R, { rows::QUADS }, _>(scene, problem, &parts, coarse, budget, all)?
     }
 }
 
