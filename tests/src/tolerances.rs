@@ -92,6 +92,8 @@ table! {
         "3.8 % at worst, for a jump of 2·10³; without jumps 1e-4";
     SHARPNESS: "bound without oscillation over the error of s and τ, minus 1, at convergence", 0.02,
         "what the contact terms are at n = 16: 0.7 % for H on quads, less elsewhere";
+    EDGE_MEAN: "edge mean of u in contact against that of a quadratic gap, absolute", 1e-14,
+        "8 Gauss points are exact: only rounding is left";
     ORDER: "bound of the same mesh with its cells in another order, relative", 1e-10,
         "other roundings and, among equal ways out, other choices for a residual of 1e−13";
     UNITS: "bound over error in f32, in other units, relative", 1e-6,

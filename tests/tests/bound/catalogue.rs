@@ -2,11 +2,11 @@
 
 use signorini_host::mesh::structured::Cells;
 use signorini_host::solve::ScalarKind;
-use signorini_tests::tolerances::SHARPNESS;
+use signorini_tests::tolerances::{EDGE_MEAN, SHARPNESS};
 use signorini_tests::written::{Case, Side, Units, Written};
 
 use crate::mesh::regular;
-use crate::run::{options, run};
+use crate::run::{Run, options, run};
 
 type Named = (String, Written);
 
@@ -65,4 +65,21 @@ fn cut_off_the_bound_is_not_far_from_the_error() {
             }
         }
     }
+}
+
+/// The bound cannot tell: it is right for any iterate.
+#[test]
+fn a_curved_gap_is_met_in_its_mean_over_an_edge() {
+    let text = Case::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
+    let Run { problem, solution, .. } =
+        run(&text, regular(8, Cells::Mixed), &options(ScalarKind::F64, None));
+    let edges = problem.topology.counts.free..problem.topology.counts.unknowns();
+    let gap = |edge: usize| {
+        let [[a, _], [b, _]] = problem.segment(edge);
+        -(a * a + a * b + b * b) / 3.0
+    };
+    let openings: Vec<_> = edges.map(|edge| solution.u[edge] - gap(edge)).collect();
+    let closed = openings.iter().filter(|opening| opening.abs() <= EDGE_MEAN.value);
+    assert_eq!(closed.count(), solution.contact_active);
+    EDGE_MEAN.check("u below ψ", openings.iter().fold(0.0, |most, opening| most.min(*opening)));
 }
