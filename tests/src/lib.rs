@@ -5,6 +5,7 @@
 //! quadrature ─┬─► cell ─► element ─┬─► problem ─► contact ─► flux ─► norms
 //! elimination ┘   grid ─► exact ───┘              cholesky
 //! random: scenes to compare on     targets, tolerances: numbers to meet, and how closely
+//! polynomial ─► written: scene files with an exact solution, for whoever reads such files
 //! ```
 //!
 //! Speed and memory are no concern: matrices are maps from pairs of edges, basis functions come
@@ -21,8 +22,10 @@ pub mod field;
 pub mod flux;
 pub mod grid;
 pub mod norms;
+pub mod polynomial;
 pub mod problem;
 pub mod quadrature;
 pub mod random;
 pub mod targets;
 pub mod tolerances;
+pub mod written;

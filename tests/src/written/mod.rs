@@ -1,0 +1,115 @@
+//! Exact solutions as scene files on (−1, 1) × (0, 1): contact at the bottom, any condition elsewhere.
+//!
+//! Expressions are in X and Y, which become x and y only when the file is written: till then a
+//! transformation is a substitution.
+
+mod catalogue;
+mod smooth;
+
+pub use catalogue::Case;
+pub use smooth::{Contact, Smooth};
+
+/// What lies on a side other than the bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The value of u.
+    Dirichlet,
+    /// The flux of u.
+    Neumann,
+    /// A transfer law with a coefficient that varies.
+    Robin,
+}
+
+/// Names of the sides in the order in which their conditions are given.
+pub const SIDES: [&str; 3] = ["left", "right", "top"];
+
+/// A unit of length and a unit of u, by which everything is multiplied.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// The half of the width of the domain.
+    pub length: f64,
+    /// What u = 1 becomes.
+    pub value: f64,
+}
+
+impl Units {
+    /// Neither is changed.
+    pub const ONE: Self = Self { length: 1.0, value: 1.0 };
+}
+
+/// A solution with its data, as expressions in X and Y.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// u.
+    pub u: String,
+    /// ∇u.
+    pub gradient: [String; 2],
+    /// f.
+    pub source: String,
+    /// A where x < 0 and where x > 0.
+    pub regions: [[String; 3]; 2],
+    /// A as one expression.
+    pub tensor: [String; 3],
+    /// ψ at the bottom.
+    pub gap: String,
+    /// q at the bottom.
+    pub flux: String,
+}
+
+impl Written {
+    /// The scene file with these conditions on [`SIDES`].
+    pub fn scene(&self, sides: [Side; 3], units: Units) -> String {
+        let Units { length, value } = units;
+        let slope = value / length;
+        let is = |factor: f64, text: &str| {
+            let (x, y) = (format!("(x/{length:e})"), format!("(y/{length:e})"));
+            format!("\"{factor:e}*({})\"", substitute(text, &x, &y))
+        };
+        let mut text = "mesh = \"none.msh\"\n".to_owned();
+        for (name, tensor) in ["left", "right"].iter().zip(&self.regions) {
+            let [xx, xy, yy] = tensor.each_ref().map(|entry| is(1.0, entry));
+            text += &format!("[material.{name}]\nconductivity = [{xx}, {xy}, {yy}]\n");
+        }
+        text += &format!("[source]\nf = {}\n", is(slope / length, &self.source));
+        let (gap, q) = (is(value, &self.gap), is(slope, &self.flux));
+        text += &format!("[boundary.contact]\nkind = \"contact\"\ngap = {gap}\nflux = {q}\n");
+        for (at, (name, side)) in SIDES.iter().zip(sides).enumerate() {
+            text += &format!("[boundary.{name}]\n");
+            let (sigma, h) = (self.outward(at), ["2+Y", "2+Y", "2+X"][at]);
+            text += &match side {
+                Side::Dirichlet => {
+                    format!("kind = \"dirichlet\"\nvalue = {}\n", is(value, &self.u))
+                }
+                Side::Neumann => format!("kind = \"neumann\"\nflux = {}\n", is(slope, &sigma)),
+                Side::Robin => {
+                    let ambient = is(value, &format!("{} + ({sigma})/({h})", self.u));
+                    let h = is(1.0 / length, h);
+                    format!("kind = \"robin\"\ncoefficient = {h}\nambient = {ambient}\n")
+                }
+            };
+        }
+        let [along_x, along_y] = self.gradient.each_ref().map(|entry| is(slope, entry));
+        text += &format!("[exact]\nu = {}\n", is(value, &self.u));
+        text + &format!("gradient = [{along_x}, {along_y}]\n")
+    }
+
+    /// σ·n on a side of [`SIDES`].
+    fn outward(&self, side: usize) -> String {
+        let ([gx, gy], [xx, xy, yy]) = (&self.gradient, &self.tensor);
+        match side {
+            0 => format!("-(({xx})*({gx}) + ({xy})*({gy}))"),
+            1 => format!("({xx})*({gx}) + ({xy})*({gy})"),
+            _ => format!("({xy})*({gx}) + ({yy})*({gy})"),
+        }
+    }
+}
+
+/// `text` with `x` for X and `y` for Y, at once.
+fn substitute(text: &str, x: &str, y: &str) -> String {
+    let piece = |letter: char| match letter {
+        'X' => x.to_owned(),
+        'Y' => y.to_owned(),
+        other => other.to_string(),
+    };
+    text.chars().map(piece).collect()
+}

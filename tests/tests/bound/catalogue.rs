@@ -1,0 +1,85 @@
+//! How sharp the bound is on the catalogue: at convergence, and while the solver is under way.
+
+use signorini_host::mesh::structured::Cells;
+use signorini_host::solve::ScalarKind;
+use signorini_tests::tolerances::{EDGE_MEAN, SHARPNESS};
+use signorini_tests::written::{Case, Side, Units, Written};
+
+use crate::mesh::regular;
+use crate::run::{Run, options, run};
+
+type Named = (String, Written);
+
+/// The catalogue's cases with conditions of A up to 10, and jumps.
+fn cases() -> Vec<Named> {
+    let plain = [Case::a(), Case::b(), Case::h(0.55), Case::h_gap(0.55)];
+    let jumps = [1e-4, 1e-2, 1e2, 1e4].map(Case::jump);
+    let named = |case: &Case| (case.name.clone(), case.written());
+    let mut cases: Vec<_> = plain.iter().chain(&jumps).map(named).collect();
+    cases.push(("T(0.5, 1) of A".to_owned(), Case::a().transformed(0.5, 1.0)));
+    cases.push(("T(0, 3) of B".to_owned(), Case::b().transformed(0.0, 3.0)));
+    cases
+}
+
+/// Those of them that are farthest off when cut off.
+fn slow_cases() -> Vec<Named> {
+    let cases = [Case::b(), Case::h_gap(0.55), Case::jump(1e-4), Case::jump(1e4)];
+    let mut cases: Vec<_> = cases.iter().map(|case| (case.name.clone(), case.written())).collect();
+    cases.push(("T(0.5, 1) of A".to_owned(), Case::a().transformed(0.5, 1.0)));
+    cases
+}
+
+/// Bound over energy error of u_h at convergence: √2 where s and σ_h err alike, and some more for
+/// s at free points.
+const CONVERGED: f64 = 2.0;
+/// The same cut off; 7.5 at worst, H_g after one sweep from a start far below the solution.
+const CUT_OFF: f64 = 8.0;
+
+#[test]
+fn at_convergence_the_bound_is_close_to_the_error() {
+    for (name, written) in cases() {
+        let text = written.scene([Side::Dirichlet; 3], Units::ONE);
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let what = format!("{name} on {cells:?}");
+            let run = run(&text, regular(16, cells), &options(ScalarKind::F64, None));
+            let found = run.certified().expect("held by Dirichlet edges");
+            let gap = found.bound.gap;
+            SHARPNESS.check(&what, gap / found.combined - 1.0);
+            assert!(gap <= CONVERGED * found.energy, "{what}: {found:?}");
+            assert!(found.bound.algebraic <= 1e-6 * gap, "{what}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn cut_off_the_bound_is_not_far_from_the_error() {
+    for (name, written) in slow_cases() {
+        let text = written.scene([Side::Dirichlet; 3], Units::ONE);
+        for cells in [Cells::Triangles, Cells::Quads] {
+            for sweeps in [1, 5, 20, 80, 320] {
+                let run = run(&text, regular(16, cells), &options(ScalarKind::F64, Some(sweeps)));
+                let bound = run.solution.bound.expect("held by Dirichlet edges");
+                let energy = run.energy();
+                let what = format!("{name} on {cells:?} after {sweeps} sweeps");
+                assert!(bound.gap <= CUT_OFF * energy, "{what}: {bound:?}, {energy:e}");
+            }
+        }
+    }
+}
+
+/// The bound cannot tell: it is right for any iterate.
+#[test]
+fn a_curved_gap_is_met_in_its_mean_over_an_edge() {
+    let text = Case::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
+    let Run { problem, solution, .. } =
+        run(&text, regular(8, Cells::Mixed), &options(ScalarKind::F64, None));
+    let edges = problem.topology.counts.free..problem.topology.counts.unknowns();
+    let gap = |edge: usize| {
+        let [[a, _], [b, _]] = problem.segment(edge);
+        -(a * a + a * b + b * b) / 3.0
+    };
+    let openings: Vec<_> = edges.map(|edge| solution.u[edge] - gap(edge)).collect();
+    let closed = openings.iter().filter(|opening| opening.abs() <= EDGE_MEAN.value);
+    assert_eq!(closed.count(), solution.contact_active);
+    EDGE_MEAN.check("u below ψ", openings.iter().fold(0.0, |most, opening| most.min(*opening)));
+}

@@ -1,0 +1,100 @@
+//! The catalogue's rectangle with its four sides told apart, regular or scattered.
+
+use std::collections::BTreeMap;
+
+use signorini_host::mesh::structured::{Cells, grid};
+use signorini_host::mesh::{Curve, Mesh};
+use signorini_tests::random::Random;
+
+/// How far a vertex may move, in mesh widths: every quad stays convex, every triangle positive.
+const MOVE: f64 = 0.2;
+
+/// 2n × n squares; curves `contact`, `left`, `right`, `top`.
+pub fn regular(n: u32, cells: Cells) -> Mesh {
+    let mut mesh = grid(n, cells);
+    let contact = mesh.curves.remove(0);
+    let rest = mesh.curves.remove(0).edges;
+    let on = |edge: &[u32; 2], k: usize, value: f64| {
+        edge.iter().all(|&vertex| mesh.vertices[vertex as usize][k] == value)
+    };
+    let side = |name: &str, k: usize, value: f64| Curve {
+        name: name.to_owned(),
+        edges: rest.iter().copied().filter(|edge| on(edge, k, value)).collect(),
+    };
+    let sides = [side("left", 0, -1.0), side("right", 0, 1.0), side("top", 1, 1.0)];
+    mesh.curves = [contact].into_iter().chain(sides).collect();
+    mesh
+}
+
+/// The same with all vertices moved: along the boundary there, along x = 0 where A may jump.
+pub fn scattered(random: &mut Random, n: u32, cells: Cells) -> Mesh {
+    let mut mesh = regular(n, cells);
+    let most = MOVE / f64::from(n);
+    for place in &mut mesh.vertices {
+        let [x, y] = *place;
+        let moves = [random.between(-most, most), random.between(-most, most)];
+        if x.abs() != 1.0 && x != 0.0 {
+            place[0] += moves[0];
+        }
+        if y != 0.0 && y != 1.0 {
+            place[1] += moves[1];
+        }
+    }
+    mesh
+}
+
+/// The same mesh with its cells listed backwards and each from its next corner on.
+pub fn relisted(mut mesh: Mesh) -> Mesh {
+    let (triangles, quads) = (mesh.triangles.len() as u32, mesh.quads.len() as u32);
+    mesh.triangles.reverse();
+    mesh.quads.reverse();
+    mesh.triangles.iter_mut().for_each(|corners| corners.rotate_left(1));
+    mesh.quads.iter_mut().for_each(|corners| corners.rotate_left(1));
+    let mirrored = |cell: u32| match cell.checked_sub(triangles) {
+        None => triangles - 1 - cell,
+        Some(quad) => triangles + quads - 1 - quad,
+    };
+    for surface in &mut mesh.surfaces {
+        surface.cells = surface.cells.iter().map(|&cell| mirrored(cell)).collect();
+        surface.cells.sort_unstable();
+    }
+    mesh
+}
+
+/// The same mesh in another unit of length.
+pub fn scaled(mut mesh: Mesh, length: f64) -> Mesh {
+    mesh.vertices.iter_mut().for_each(|place| *place = place.map(|x| length * x));
+    mesh
+}
+
+/// The same rectangle cut along x = 0, where the curve `slit` runs on both sides.
+pub fn split(mut mesh: Mesh) -> Mesh {
+    let middle = |mesh: &Mesh, vertex: u32| mesh.vertices[vertex as usize][0] == 0.0;
+    let mut copies = BTreeMap::new();
+    for vertex in (0..mesh.vertices.len() as u32).filter(|&vertex| middle(&mesh, vertex)) {
+        copies.insert(vertex, (mesh.vertices.len() + copies.len()) as u32);
+    }
+    let place: Vec<_> = copies.keys().map(|&vertex| mesh.vertices[vertex as usize]).collect();
+    let vertices = &mesh.vertices;
+    let moved = |corners: &mut [u32]| {
+        if corners.iter().any(|&vertex| vertices[vertex as usize][0] > 0.0) {
+            corners.iter_mut().for_each(|vertex| *vertex = *copies.get(vertex).unwrap_or(vertex));
+        }
+    };
+    mesh.triangles.iter_mut().for_each(|corners| moved(corners));
+    mesh.quads.iter_mut().for_each(|corners| moved(corners));
+    for edge in mesh.curves.iter_mut().flat_map(|curve| &mut curve.edges) {
+        moved(edge);
+        edge.sort_unstable();
+    }
+    // The vertices of x = 0 are numbered upwards, and so are their copies.
+    let pairs = |ends: Vec<u32>| ends.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>();
+    let mut edges = pairs(copies.keys().copied().collect());
+    edges.extend(pairs(copies.values().copied().collect()));
+    mesh.curves.push(Curve { name: "slit".to_owned(), edges });
+    mesh.vertices.extend(place);
+    mesh
+}
+
+/// Triangles, quads, both.
+pub const KINDS: [Cells; 3] = [Cells::Triangles, Cells::Quads, Cells::Mixed];

@@ -1,0 +1,119 @@
+//! On random scenes with an exact solution, stopped at any time.
+
+use signorini_host::solve::ScalarKind;
+use signorini_tests::polynomial::Polynomial;
+use signorini_tests::random::Random;
+use signorini_tests::tolerances::{
+    BOUND_ROUNDING, BOUND_ROUNDING_NARROW, GUARANTEE, GUARANTEE_SMOOTH, IDENTITY, IDENTITY_SMOOTH,
+};
+use signorini_tests::written::{Case, Side, Smooth, Units, Written};
+
+use crate::mesh::{KINDS, regular, scattered};
+use crate::run::{Certified, Run, options, run};
+
+/// A scene and what to expect of the quadrature of its norms.
+struct Draw {
+    name: String,
+    written: Written,
+    smooth: bool,
+}
+
+/// A number with three digits: an expression has at most 4096 bytes.
+fn between(random: &mut Random, low: f64, high: f64) -> f64 {
+    (1e3 * random.between(low, high)).round() / 1e3
+}
+
+/// A power of ten between two exponents, with three digits.
+fn power(random: &mut Random, low: f64, high: f64) -> f64 {
+    let exponent = random.between(low, high);
+    let unit = 10f64.powf(exponent.floor() - 2.0);
+    (10f64.powf(exponent) / unit).round() * unit
+}
+
+fn draw(random: &mut Random) -> Draw {
+    if random.below(4) == 0 {
+        let smooth = Smooth::random(random);
+        let name = format!("smooth, {:?}", smooth.contact);
+        return Draw { name, written: smooth.written(), smooth: true };
+    }
+    let (case, jumps) = match random.below(5) {
+        0 => (Case::a(), false),
+        1 => (Case::b(), false),
+        2 => (Case::h(between(random, 0.2, 0.9)), false),
+        3 => (Case::h_gap(between(random, 0.2, 0.9)), false),
+        _ => (Case::jump(power(random, -4.0, 4.0)), true),
+    };
+    let case = match random.below(2) {
+        0 => case,
+        _ => case.plus(&lift(random, jumps)),
+    };
+    if random.below(2) == 0 {
+        return Draw { name: case.name.clone(), written: case.written(), smooth: false };
+    }
+    // det A = 1 and tr A = κ + (s² + 1)/κ: conditions up to about 100.
+    let s = if jumps { 0.0 } else { between(random, -2.0, 2.0) };
+    let kappa = power(random, -0.5, 0.9);
+    let name = format!("T({s:.2}, {kappa:.2}) of {}", case.name);
+    Draw { name, written: case.transformed(s, kappa), smooth: false }
+}
+
+/// A random G; where A jumps without terms of odd order across the jump.
+fn lift(random: &mut Random, jumps: bool) -> Polynomial {
+    let g = Case::lift([(); 4].map(|()| between(random, -1.0, 1.0)));
+    let skew = Polynomial::new([([1, 2], between(random, -1.0, 1.0))]);
+    if jumps { g } else { g.plus(&skew) }
+}
+
+/// Conditions on the sides, one of which holds the domain.
+fn sides(random: &mut Random) -> [Side; 3] {
+    let all = [Side::Dirichlet, Side::Neumann, Side::Robin];
+    let mut sides = [(); 3].map(|()| all[random.below(3) as usize]);
+    if sides == [Side::Neumann; 3] {
+        sides[random.below(3) as usize] = Side::Dirichlet;
+    }
+    sides
+}
+
+/// Scenes to draw.
+const SEEDS: u64 = 100;
+
+/// A scene on its mesh, and how it is solved.
+struct Trial {
+    what: String,
+    smooth: bool,
+    run: Run,
+}
+
+/// Half of the scenes that are not waited for are stopped within 18 sweeps.
+fn trial(seed: u64) -> Trial {
+    let random = &mut Random::new(seed);
+    let Draw { name, written, smooth } = draw(random);
+    let (n, cells) = (3 + random.below(4), KINDS[random.below(3) as usize]);
+    let moved = random.below(3) > 0;
+    let mesh = if moved { scattered(random, n, cells) } else { regular(n, cells) };
+    let scalar = if random.below(3) == 0 { ScalarKind::F32 } else { ScalarKind::F64 };
+    let sweeps = Some(power(random, 0.0, 2.5) as u32).filter(|_| random.below(3) > 0);
+    let run = run(&written.scene(sides(random), Units::ONE), mesh, &options(scalar, sweeps));
+    let what = format!("seed {seed}: {name} on {cells:?}, {n}, {scalar:?}, {sweeps:?} sweeps");
+    Trial { what, smooth, run }
+}
+
+#[test]
+fn the_bound_holds_and_is_what_the_identity_says() {
+    for seed in 0..SEEDS {
+        let Trial { what, smooth, run } = trial(seed);
+        let Some(found) = run.certified() else { panic!("{what}: no bound") };
+        let Certified { bound, combined, identity, .. } = found;
+        let (guarantee, same) =
+            if smooth { (GUARANTEE_SMOOTH, IDENTITY_SMOOTH) } else { (GUARANTEE, IDENTITY) };
+        guarantee.check(&what, (1.0 - bound.total / combined).max(0.0));
+        same.check_relative(&what, bound.gap, identity);
+        let rounding = match run.solution.scalar {
+            ScalarKind::F64 => BOUND_ROUNDING,
+            ScalarKind::F32 => BOUND_ROUNDING_NARROW,
+        };
+        rounding.check(&what, bound.rounding / bound.total);
+        let both = (bound.gap.powi(2) + bound.oscillation.powi(2)).sqrt();
+        assert!(bound.total >= bound.oscillation + both, "{what}: {bound:?}");
+    }
+}

@@ -1,0 +1,59 @@
+//! From the text of a scene to its bound and the errors that it bounds.
+
+use std::path::Path;
+
+use signorini_host::certify::ErrorBound;
+use signorini_host::mesh::Mesh;
+use signorini_host::norms::{Errors, errors, of_solution};
+use signorini_host::problem::Problem;
+use signorini_host::scene::Scene;
+use signorini_host::solve::{Options, ScalarKind, Solution, solve};
+
+/// A solved scene.
+pub struct Run {
+    pub scene: Scene,
+    pub problem: Problem,
+    pub solution: Solution,
+}
+
+/// What the bound says, and what is true.
+#[derive(Clone, Copy, Debug)]
+pub struct Certified {
+    pub bound: ErrorBound,
+    pub combined: f64,
+    pub identity: f64,
+    /// ‖A^½∇_h(u − u_h)‖
+    pub energy: f64,
+}
+
+/// In `scalar`, after at most `sweeps` sweeps.
+pub fn options(scalar: ScalarKind, sweeps: Option<u32>) -> Options {
+    let max_sweeps = sweeps.unwrap_or(Options::default().max_sweeps);
+    Options { scalar, max_sweeps, ..Options::default() }
+}
+
+/// Solves a scene that has a solution.
+pub fn run(text: &str, mesh: Mesh, options: &Options) -> Run {
+    let read = Scene::parse(text, Path::new("test.toml"));
+    let scene = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let problem = Problem::new(&scene, mesh).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let solution = solve(&scene, &problem, options).unwrap_or_else(|error| panic!("{error}"));
+    Run { scene, problem, solution }
+}
+
+impl Run {
+    /// The bound and all that it is compared with; `None` where there is no bound.
+    pub fn certified(&self) -> Option<Certified> {
+        let bound = self.solution.bound?;
+        let found = of_solution(&self.scene, &self.problem, &self.solution).expect("finite");
+        let Errors { combined, identity, energy, .. } = found.expect("an exact solution");
+        Some(Certified { bound, combined: combined?, identity: identity?, energy })
+    }
+
+    /// ‖A^½∇_h(u − u_h)‖ alone, in half of the time.
+    pub fn energy(&self) -> f64 {
+        let Self { scene, problem, solution } = self;
+        let exact = scene.exact.as_ref().expect("an exact solution");
+        errors(scene, exact, problem, &solution.u, &solution.flux).expect("finite").energy
+    }
+}
