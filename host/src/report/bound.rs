@@ -19,7 +19,7 @@ pub fn bound(panel: &ScenePanel) -> String {
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>");
     };
     entry("total", bound.total, &total(panel, bound.total));
-    entry("gap", bound.gap, "from mesh and solver; the map shows which cells to refine");
+    entry("gap", bound.gap, "from mesh and solver together");
     entry("algebraic", bound.algebraic, "the part of the gap that more sweeps would remove");
     entry("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means");
     entry("rounding", bound.rounding, "the most that the processor’s arithmetic can hide");

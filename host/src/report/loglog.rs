@@ -49,13 +49,28 @@ impl LogLog {
 
     /// Draws a curve with a marker at each of its points, in the look of its index.
     pub fn curve(&mut self, index: usize, points: &[[f64; 2]]) {
+        self.line(index, points);
         let look = index % LOOKS;
-        let pixels: Vec<[f64; 2]> = points.iter().map(|&point| self.at(point)).collect();
-        let (mut line, mut markers) = (Path::default(), Path::default());
-        line.line(&pixels);
-        pixels.iter().for_each(|&centre| markers.polygon(&marker(look, centre)));
-        self.svg.path(&format!("curve series-{look}"), &line);
+        let mut markers = Path::default();
+        points.iter().for_each(|&point| markers.polygon(&marker(look, self.at(point))));
         self.svg.path(&format!("marker series-{look}"), &markers);
+    }
+
+    /// Draws a curve without markers.
+    pub fn line(&mut self, index: usize, points: &[[f64; 2]]) {
+        self.polyline("curve", index, points);
+    }
+
+    /// Draws a wide, pale line to lie under others.
+    pub fn wide(&mut self, index: usize, points: &[[f64; 2]]) {
+        self.polyline("wide", index, points);
+    }
+
+    fn polyline(&mut self, class: &str, index: usize, points: &[[f64; 2]]) {
+        let pixels: Vec<[f64; 2]> = points.iter().map(|&point| self.at(point)).collect();
+        let mut line = Path::default();
+        line.line(&pixels);
+        self.svg.path(&format!("{class} series-{}", index % LOOKS), &line);
     }
 
     /// The finished element.

@@ -53,8 +53,9 @@ fn cut_off(page: &mut String, report: &Report) {
     let plots: String = report.sweeps.iter().filter_map(sweeps_figure).collect();
     let body = format!(
         "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
-         wrong the answer is then. Columns: the gap of the bound, in units of the energy error of u, \
-         after as many sweeps from a cold start.</p>\n{table}<div class=\"plots\">\n{plots}</div>\n"
+         wrong the answer is then. A column for each number of sweeps from a cold start: the gap of the \
+         bound in units of the energy error of u at that moment. In the pictures the true error is that \
+         of what the bound is about, and lies on it.</p>\n{table}<div class=\"plots\">\n{plots}</div>\n"
     );
     section(page, "Cut off", &body);
 }

@@ -22,8 +22,8 @@ pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
     );
     html += &solution_figure(scene);
     html += &contact_figure(scene);
-    let map = mosaic(scene).map(|map| format!("<figure>\n{map}</figure>\n")).unwrap_or_default();
-    let _ = write!(html, "</div>\n<div>\n{map}{}{}</div>\n</div>\n", bound(scene), facts(scene));
+    let (map, bound, facts) = (error_figure(scene), bound(scene), facts(scene));
+    let _ = write!(html, "</div>\n<div>\n{map}{bound}{facts}</div>\n</div>\n");
     html + "</article>\n"
 }
 
@@ -42,6 +42,12 @@ fn contact_figure(scene: &ScenePanel) -> String {
     let discrete = entry("multiplier-key", "discrete λ");
     let zone = entry("zone-key", "in contact");
     format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zone}</ul>\n</figure>\n")
+}
+
+fn error_figure(scene: &ScenePanel) -> String {
+    let Some(map) = mosaic(scene) else { return String::new() };
+    let note = "<li>colour: each cell’s part of the gap, which tells where to refine; the squares add up to gap²</li>";
+    format!("<figure>\n{map}<ul class=\"legend\">{note}</ul>\n</figure>\n")
 }
 
 fn facts(scene: &ScenePanel) -> String {

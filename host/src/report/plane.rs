@@ -72,7 +72,7 @@ impl Plane {
             svg.line("axis", [right, y], [right + 4.0, y]);
             svg.text("tick", [right + 8.0, y + 4.0], Anchor::Start, &label);
         }
-        svg.text("quantity", [left + 0.5 * BAR, bottom + 20.0], Anchor::Middle, quantity);
+        svg.text("quantity", [left, bottom + 21.0], Anchor::Start, quantity);
     }
 
     /// Draws the edges of the cells, unless they are too many.

@@ -92,7 +92,8 @@ impl Certified {
         let mut checks = self.guarantee(subject, energy);
         let parts = solution.parts;
         if parts.contact + parts.floating == 0 {
-            let found = self.bound.map_or("none".to_owned(), |bound| format!("{:e}", bound.total));
+            let found =
+                self.bound.map_or("none".to_owned(), |bound| format!("{:.2e}", bound.total));
             let finite = self.bound.is_some_and(|bound| bound.total.is_finite());
             checks.push(Check::holds(subject, "a held domain has a bound", finite, &found));
         }

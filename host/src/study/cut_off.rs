@@ -77,7 +77,7 @@ impl Plan {
 
 /// gap over the energy error of u_h: a row a scene, a column a stop.
 pub fn table(studies: &[CutOff]) -> report::Table {
-    let stops = STOPS.iter().map(|sweeps| format!("{sweeps} sweeps"));
+    let stops = STOPS.iter().map(u32::to_string);
     let header = ["scene".to_owned()].into_iter().chain(stops).chain(["converged".to_owned()]);
     let row = |study: &CutOff| {
         let ratio =
