@@ -59,9 +59,15 @@ pub(crate) fn inverse(a: &Tensor<f64>) -> Tensor<f64> {
     Tensor { xx: a.yy / determinant, xy: -a.xy / determinant, yy: a.xx / determinant }
 }
 
-/// The smaller eigenvalue: det A over the larger one, which unlike their difference never cancels.
+/// The smaller eigenvalue.
 pub(crate) fn smallest_eigenvalue(a: &Tensor<f64>) -> f64 {
+    eigenvalues(a)[0]
+}
+
+/// Both eigenvalues, the smaller first: det A over the larger one, which unlike their difference never
+/// cancels.
+pub(crate) fn eigenvalues(a: &Tensor<f64>) -> [f64; 2] {
     let half = 0.5 * (a.xx + a.yy);
     let largest = half + (0.5 * (a.xx - a.yy)).hypot(a.xy);
-    (a.xx / largest) * a.yy - (a.xy / largest) * a.xy
+    [(a.xx / largest) * a.yy - (a.xy / largest) * a.xy, largest]
 }

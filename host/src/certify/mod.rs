@@ -32,4 +32,5 @@ mod ways;
 
 pub use bound::{Certified, ErrorBound};
 pub use certifier::{Answer, Certifier};
+pub(crate) use conductivity::eigenvalues;
 pub use data::Data;

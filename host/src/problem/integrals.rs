@@ -2,7 +2,7 @@
 
 use signorini_kernel::{Real, Tensor};
 
-use super::{Binding, Coefficients, QuadCoefficient};
+use super::{Binding, Coefficients, Problem, QuadCoefficient};
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad, on_triangle};
@@ -40,17 +40,38 @@ fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
     checked(scene, material, Tensor { xx, xy, yy }, None).map(Some)
 }
 
+impl Problem {
+    /// The mean of A over a cell, triangles first.
+    pub(crate) fn mean_conductivity(&self, cell: usize) -> Tensor<f64> {
+        let Coefficients { triangles, quads } = &self.coefficients;
+        let Some(quad) = cell.checked_sub(triangles.len()) else { return triangles[cell] };
+        match &quads[quad] {
+            QuadCoefficient::Constant(tensor) => *tensor,
+            QuadCoefficient::AtPoints(tensors) => {
+                let corners = self.mesh.quads[quad].map(|v| self.mesh.vertices[v as usize]);
+                let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
+                average(points.zip(tensors).map(|(point, tensor)| (point.weight, *tensor)))
+            }
+        }
+    }
+}
+
 fn mean(scene: &Scene, material: &Material, triangle: [[f64; 2]; 3]) -> Result<Tensor<f64>> {
+    let points = on_triangle(triangle, f64::GAUSS[TRIANGLE_POINTS - 1]);
+    let weighted = points.map(|point| Ok((point.weight, at_point(scene, material, point)?)));
+    Ok(average(weighted.collect::<Result<Vec<_>>>()?))
+}
+
+fn average(weighted: impl IntoIterator<Item = (f64, Tensor<f64>)>) -> Tensor<f64> {
     let mut sum = Tensor::<f64>::default();
     let mut area = 0.0;
-    for point in on_triangle(triangle, f64::GAUSS[TRIANGLE_POINTS - 1]) {
-        let tensor = at_point(scene, material, point)?;
-        sum.xx += point.weight * tensor.xx;
-        sum.xy += point.weight * tensor.xy;
-        sum.yy += point.weight * tensor.yy;
-        area += point.weight;
+    for (weight, tensor) in weighted {
+        sum.xx += weight * tensor.xx;
+        sum.xy += weight * tensor.xy;
+        sum.yy += weight * tensor.yy;
+        area += weight;
     }
-    Ok(Tensor { xx: sum.xx / area, xy: sum.xy / area, yy: sum.yy / area })
+    Tensor { xx: sum.xx / area, xy: sum.xy / area, yy: sum.yy / area }
 }
 
 fn at_point(scene: &Scene, material: &Material, point: Point) -> Result<Tensor<f64>> {

@@ -3,24 +3,13 @@
 
 use super::ConvergencePlot;
 use super::ConvergenceSeries;
-use super::scale::{Scale, extent};
-use super::svg::{Anchor, Path, Svg};
-
-const WIDTH: f64 = 440.0;
-const HEIGHT: f64 = 330.0;
-const LEFT: f64 = 58.0;
-const RIGHT: f64 = 428.0;
-const TOP: f64 = 12.0;
-const BOTTOM: f64 = 286.0;
-/// Looks that the style sheet tells apart; more series begin again with the first.
-pub const LOOKS: usize = 6;
-const MARKER: f64 = 3.6;
+use super::loglog::{LogLog, positive};
+use super::scale::extent;
+use super::svg::{Anchor, Path};
 
 /// Mesh widths with errors, those that a logarithm can show.
 fn points(series: &ConvergenceSeries) -> Vec<[f64; 2]> {
-    let positive = |value: f64| value.is_normal() && value > 0.0;
-    let pairs = series.h.iter().zip(&series.error);
-    pairs.filter(|&(&h, &e)| positive(h) && positive(e)).map(|(&h, &e)| [h, e]).collect()
+    positive(&series.h, &series.error)
 }
 
 /// The exponent p in error ~ h^p: the least-squares slope over all meshes.
@@ -41,47 +30,23 @@ pub fn convergence(plot: &ConvergencePlot) -> Option<String> {
     let all = || curves.iter().flatten();
     let [fine, coarse] = extent(all().map(|point| point[0]))?;
     let [least, most] = extent(all().map(|point| point[1]))?;
-    let across = Scale::logarithmic([fine, coarse], [LEFT, RIGHT]);
     // Below the curves there is room for the slope triangles.
-    let up = Scale::logarithmic([least * (least / most).max(1e-2).powf(0.3), most], [BOTTOM, TOP]);
-    let at = |[h, error]: [f64; 2]| [across.at(h), up.at(error)];
-
-    let mut svg = Svg::new(WIDTH, HEIGHT, &format!("{}: error over mesh width", plot.title));
-    axes(&mut svg, &across, &up);
+    let up = [least * (least / most).max(1e-2).powf(0.3), most];
+    let label = format!("{}: error over mesh width", plot.title);
+    let mut chart = LogLog::new(&label, "mesh width h", [fine, coarse], up);
     let mut heights: Vec<f64> = Vec::new();
     for (rate, corner, width) in slopes(&plot.series) {
-        let height = up.at(corner[1]);
+        let [_, height] = chart.at(corner);
         // One on top of another could not be read.
         if heights.iter().all(|other| (other - height).abs() > 30.0) {
-            slope_triangle(&mut svg, &at, rate, corner, width);
+            slope_triangle(&mut chart, rate, corner, width);
             heights.push(height);
         }
     }
     for (index, curve) in curves.iter().enumerate() {
-        let look = index % LOOKS;
-        let pixels: Vec<[f64; 2]> = curve.iter().map(|&point| at(point)).collect();
-        let (mut line, mut markers) = (Path::default(), Path::default());
-        line.line(&pixels);
-        pixels.iter().for_each(|&centre| markers.polygon(&marker(look, centre)));
-        svg.path(&format!("curve series-{look}"), &line);
-        svg.path(&format!("marker series-{look}"), &markers);
+        chart.curve(index, curve);
     }
-    Some(svg.finish())
-}
-
-fn axes(svg: &mut Svg, across: &Scale, up: &Scale) {
-    svg.rectangle("frame", [LEFT, TOP], [RIGHT, BOTTOM]);
-    for (value, label) in across.ticks(5) {
-        let x = across.at(value);
-        svg.line("grid", [x, TOP], [x, BOTTOM]);
-        svg.text("tick", [x, BOTTOM + 18.0], Anchor::Middle, &label);
-    }
-    for (value, label) in up.ticks(5) {
-        let y = up.at(value);
-        svg.line("grid", [LEFT, y], [RIGHT, y]);
-        svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
-    }
-    svg.text("quantity", [RIGHT, BOTTOM + 36.0], Anchor::End, "mesh width h");
+    Some(chart.finish())
 }
 
 /// For each expected rate the finest point of its lowest curve, and the width of the last step.
@@ -100,21 +65,15 @@ fn slopes(series: &[ConvergenceSeries]) -> Vec<(f64, [f64; 2], f64)> {
 }
 
 /// A right triangle below the finest step of a curve, its longest side as steep as expected.
-fn slope_triangle(
-    svg: &mut Svg,
-    at: &impl Fn([f64; 2]) -> [f64; 2],
-    rate: f64,
-    [h, error]: [f64; 2],
-    ratio: f64,
-) {
-    let [left, start] = at([h, error]);
-    let [right, stop] = at([h * ratio, error * ratio.powf(rate)]);
+fn slope_triangle(chart: &mut LogLog, rate: f64, [h, error]: [f64; 2], ratio: f64) {
+    let [left, start] = chart.at([h, error]);
+    let [right, stop] = chart.at([h * ratio, error * ratio.powf(rate)]);
     let drop = 12.0;
     let mut path = Path::default();
     path.polygon(&[[left, start + drop], [right, start + drop], [right, stop + drop]]);
-    svg.path("slope", &path);
+    chart.svg.path("slope", &path);
     let middle = 0.5 * (start + stop) + drop + 4.0;
-    svg.text("slope-label", [right + 5.0, middle], Anchor::Start, &rate_label(rate));
+    chart.svg.text("slope-label", [right + 5.0, middle], Anchor::Start, &rate_label(rate));
 }
 
 /// A rate as theory writes it: 1, 2, 1.5.
@@ -124,27 +83,6 @@ pub fn rate_label(rate: f64) -> String {
     }
     let text = format!("{rate:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// Square, diamond or triangle, so that colour is not the only difference.
-pub(super) fn marker(look: usize, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
-    let r = MARKER;
-    let offsets: &[[f64; 2]] = match look % 3 {
-        0 => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-        1 => &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
-        _ => &[[0.0, -1.3], [1.2, 0.9], [-1.2, 0.9]],
-    };
-    offsets.iter().map(|[dx, dy]| [x + r * dx, y + r * dy]).collect()
-}
-
-/// The marker of a look by itself, for a legend.
-pub fn legend_marker(look: usize) -> String {
-    let mut svg = Svg::new(26.0, 12.0, "");
-    svg.line(&format!("curve series-{look}"), [1.0, 6.0], [25.0, 6.0]);
-    let mut path = Path::default();
-    path.polygon(&marker(look, [13.0, 6.0]));
-    svg.path(&format!("marker series-{look}"), &path);
-    svg.finish()
 }
 
 #[cfg(test)]

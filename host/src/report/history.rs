@@ -1,7 +1,7 @@
 //! What changes from tick to tick: a diagram a quantity, on top of each other over the same time, as a
 //! picture that stands by itself.
 
-use super::convergence::marker;
+use super::loglog::marker;
 use super::page::STYLE;
 use super::scale::{Scale, extent};
 use super::simplify::simplify;

@@ -13,15 +13,9 @@
 //! A band of colour is then one shape instead of thousands of pieces, and no seams show between
 //! cells. A quad is four triangles around its centre, where u is the mean of its corners.
 
-use std::collections::BTreeMap;
-
 use super::ScenePanel;
-use super::simplify::simplify;
+use super::outline::{Node, Segments, crossing, rim};
 use super::view::View;
-
-/// Where an outline turns: the crossing of the level with an edge, or (with twice the same number)
-/// a vertex.
-type Node = [usize; 2];
 
 /// u as a piecewise linear function of the pixel.
 #[derive(Debug, Default)]
@@ -49,7 +43,7 @@ impl Surface {
         for quad in &panel.quads {
             surface.push_quad(quad.map(|vertex| vertex as usize));
         }
-        surface.rim = rim(&surface.triangles);
+        surface.rim = rim(surface.triangles.iter().map(|cell| cell.as_slice()));
         surface
     }
 
@@ -61,27 +55,24 @@ impl Surface {
     /// The outlines of {u ≥ level}, holes the other way round.
     pub fn above(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let inside = |vertex: usize| self.values[vertex] >= level;
-        let mut next: BTreeMap<Node, Vec<Node>> = BTreeMap::new();
-        let mut segment = |from: Node, to: Node| next.entry(from).or_default().push(to);
+        let mut segments = Segments::default();
         for &[a, b, c] in &self.triangles {
             let edges = [[a, b], [b, c], [c, a]];
             let leaves = edges.into_iter().find(|&[p, q]| inside(p) && !inside(q));
             let enters = edges.into_iter().find(|&[p, q]| !inside(p) && inside(q));
             if let (Some(leaves), Some(enters)) = (leaves, enters) {
-                segment(crossing(leaves), crossing(enters));
+                segments.add(crossing(leaves), crossing(enters));
             }
         }
         for &[a, b] in &self.rim {
             match (inside(a), inside(b)) {
-                (true, true) => segment([a, a], [b, b]),
-                (true, false) => segment([a, a], crossing([a, b])),
-                (false, true) => segment(crossing([a, b]), [b, b]),
+                (true, true) => segments.add([a, a], [b, b]),
+                (true, false) => segments.add([a, a], crossing([a, b])),
+                (false, true) => segments.add(crossing([a, b]), [b, b]),
                 (false, false) => {}
             }
         }
-        let point = |node: Node| self.point(node, level);
-        let outlines = loops(next).into_iter();
-        outlines.map(|nodes| simplify(nodes.into_iter().map(point).collect())).collect()
+        segments.outlines(|node| self.point(node, level))
     }
 
     fn point(&self, [a, b]: Node, level: f64) -> [f64; 2] {
@@ -123,38 +114,6 @@ impl Surface {
             self.push([quad[side], quad[(side + 1) % 4], count]);
         }
     }
-}
-
-fn crossing([a, b]: [usize; 2]) -> Node {
-    [a.min(b), a.max(b)]
-}
-
-fn rim(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
-    let mut sides: BTreeMap<Node, (usize, [usize; 2])> = BTreeMap::new();
-    for &[a, b, c] in triangles {
-        for edge in [[a, b], [b, c], [c, a]] {
-            sides.entry(crossing(edge)).or_insert((0, edge)).0 += 1;
-        }
-    }
-    sides.into_values().filter(|&(count, _)| count == 1).map(|(_, edge)| edge).collect()
-}
-
-/// Follows the segments until each is used.
-fn loops(mut next: BTreeMap<Node, Vec<Node>>) -> Vec<Vec<Node>> {
-    let mut loops = Vec::new();
-    while let Some((&start, _)) = next.first_key_value() {
-        let (mut node, mut outline) = (start, Vec::new());
-        while let Some(successors) = next.get_mut(&node) {
-            outline.push(node);
-            let successor = successors.pop();
-            if successors.is_empty() {
-                next.remove(&node);
-            }
-            node = successor.unwrap_or(start);
-        }
-        loops.push(outline);
-    }
-    loops
 }
 
 #[cfg(test)]

@@ -1,9 +1,12 @@
 //! The report: one HTML file a person wants to look at, complete in itself.
 //!
 //! ```text
-//! Report ─► page (HTML) ─┬─► field        u as colour ◄ isobands, colormap; the flux ◄ arrows
-//!                        ├─► contact      λ and the opening along C
-//!                        └─► convergence  error over mesh width, log-log
+//! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
+//!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
+//!                        │          ├─► contact  λ and the opening along C
+//!                        │          └─► bound    how wrong it can be, and why, in words
+//!                        ├─► convergence  error over mesh width                             ─┬─► loglog
+//!                        └─► sweeps       error bound over sweeps                           ─┘
 //! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
 //! ```
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
@@ -11,17 +14,24 @@
 //! not finite are never written: what they belong to is left out or shown as "–".
 
 mod arrows;
+mod bound;
 mod colormap;
 mod contact;
 mod convergence;
 mod field;
 mod history;
 mod isobands;
+mod loglog;
+mod mosaic;
+mod outline;
 mod page;
+mod panel;
+mod plane;
 mod scale;
 mod simplify;
 mod strip;
 mod svg;
+mod sweeps;
 #[cfg(test)]
 mod tests;
 mod view;
@@ -29,6 +39,8 @@ mod view;
 pub use convergence::measured_rate;
 pub use history::history;
 pub use page::html;
+
+use crate::certify::ErrorBound;
 
 /// Everything the page shows, in the order it shows it.
 #[derive(Debug, Clone, Default)]
@@ -43,6 +55,10 @@ pub struct Report {
     pub checks: Vec<Check>,
     /// Error over mesh width, a picture each.
     pub convergence: Vec<ConvergencePlot>,
+    /// What the error bound says of solves that were cut off.
+    pub cut_off: Table,
+    /// The bound over sweeps, a picture each.
+    pub sweeps: Vec<SweepPlot>,
     /// The solutions, a panel each.
     pub scenes: Vec<ScenePanel>,
 }
@@ -98,6 +114,17 @@ pub struct ConvergenceSeries {
     pub expected_rate: f64,
 }
 
+/// Several bounds and errors of one scene over the sweeps of a solve, in one log-log picture.
+#[derive(Debug, Clone)]
+pub struct SweepPlot {
+    /// The heading.
+    pub title: String,
+    /// The sweeps after which it was stopped.
+    pub sweeps: Vec<f64>,
+    /// What is drawn: its name and its value at each stop.
+    pub curves: Vec<(String, Vec<f64>)>,
+}
+
 /// One solved scene.
 #[derive(Debug, Clone, Default)]
 pub struct ScenePanel {
@@ -117,6 +144,14 @@ pub struct ScenePanel {
     pub vertex_u: Vec<f64>,
     /// The flux σ = A∇u at the centre of each cell, triangles first.
     pub cell_flux: Vec<[f64; 2]>,
+    /// Each cell's part of the square of the bound's gap, triangles first.
+    pub indicators: Vec<f64>,
+    /// How wrong u and σ can be, where that is known.
+    pub bound: Option<ErrorBound>,
+    /// How wrong they are, where that is known.
+    pub error: Option<f64>,
+    /// The energy norm of the solution, which makes sizes of both.
+    pub energy: f64,
     /// The edges of the contact boundary C, by arc length.
     pub contact: Vec<ContactEdge>,
     /// The edges of the rest of the boundary.

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use super::contact::contact;
-use super::convergence::{LOOKS, convergence, legend_marker, measured_rate, rate_label};
-use super::field::{class, field};
+use super::convergence::{convergence, measured_rate, rate_label};
+use super::loglog::legend_marker;
+use super::panel::panel;
 use super::svg::escape;
-use super::{BoundaryKind, Check, ConvergencePlot, Report, ScenePanel, Table};
+use super::sweeps::sweeps;
+use super::{Check, ConvergencePlot, Report, ScenePanel, SweepPlot, Table};
 
 pub(super) const STYLE: &str = include_str!("style.css");
 
@@ -30,6 +31,7 @@ pub fn html(report: &Report) -> String {
     if !plots.is_empty() {
         section(&mut page, "Convergence", &format!("<div class=\"plots\">\n{plots}</div>\n"));
     }
+    cut_off(&mut page, report);
     if !report.scenes.is_empty() {
         let panels: String = report.scenes.iter().enumerate().map(panel).collect();
         section(&mut page, "Solutions", &format!("<div class=\"panels\">\n{panels}</div>\n"));
@@ -43,11 +45,27 @@ fn section(page: &mut String, heading: &str, body: &str) {
     let _ = write!(page, "<section>\n<h2>{heading}</h2>\n{body}</section>\n");
 }
 
+fn cut_off(page: &mut String, report: &Report) {
+    if report.cut_off.rows.is_empty() {
+        return;
+    }
+    let table = table(&report.cut_off, &report.scenes);
+    let plots: String = report.sweeps.iter().filter_map(sweeps_figure).collect();
+    let body = format!(
+        "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
+         wrong the answer is then. A column for each number of sweeps from a cold start: the gap of the \
+         bound in units of the energy error of u at that moment. In the pictures the true error is that \
+         of what the bound is about, and lies on it.</p>\n{table}<div class=\"plots\">\n{plots}</div>\n"
+    );
+    section(page, "Cut off", &body);
+}
+
 fn header(page: &mut String, report: &Report) {
     let runs = failures("run", report.table.rows.iter().map(|row| row.passed));
+    let stopped = failures("cut-off run", report.cut_off.rows.iter().map(|row| row.passed));
     let checks = failures("check", report.checks.iter().map(|check| check.passed));
     let scenes = failures("scene", report.scenes.iter().map(|scene| scene.passed));
-    let failed: Vec<String> = [runs, checks, scenes].into_iter().flatten().collect();
+    let failed: Vec<String> = [runs, stopped, checks, scenes].into_iter().flatten().collect();
     let verdict = if failed.is_empty() {
         format!("<p class=\"verdict\">{} Every check holds</p>", mark(true))
     } else {
@@ -58,7 +76,8 @@ fn header(page: &mut String, report: &Report) {
         "<header>\n<h1>{}</h1>\n<p class=\"lead\">The scalar Signorini problem: u solves \
          −∇·(A∇u) = f, and on the contact boundary C it stays above the gap ψ; it is pushed back \
          by λ ≥ 0, and only where it touches. Each picture shows u as colour, the flux σ = A∇u as \
-         arrows and the part of C in contact as a thick red line.</p>\n{verdict}\n</header>\n",
+         arrows and the part of C in contact as a thick red line; beside it, which cells the error \
+         comes from, and a guaranteed bound on it: no exact solution is needed for that.</p>\n{verdict}\n</header>\n",
         escape(&report.title)
     );
 }
@@ -71,7 +90,7 @@ fn failures(noun: &str, passed: impl ExactSizeIterator<Item = bool>) -> Option<S
     (failed > 0).then(|| format!("{failed} of {total} {noun}{plural}"))
 }
 
-fn mark(passed: bool) -> &'static str {
+pub(super) fn mark(passed: bool) -> &'static str {
     if passed {
         "<span class=\"mark pass\" role=\"img\" aria-label=\"pass\">✓</span>"
     } else {
@@ -125,84 +144,34 @@ fn checks(checks: &[Check]) -> String {
 }
 
 fn convergence_figure(plot: &ConvergencePlot) -> Option<String> {
-    let picture = convergence(plot)?;
-    let mut legend = String::new();
-    for (index, series) in plot.series.iter().enumerate() {
+    let entries = plot.series.iter().map(|series| {
         let rate = measured_rate(series).map_or("–".to_owned(), |rate| format!("{rate:.2}"));
-        let _ = writeln!(
-            legend,
-            "<li>{}<span>{}</span><em>rate {rate}, expected {}</em></li>",
-            legend_marker(index % LOOKS),
-            escape(&series.label),
-            rate_label(series.expected_rate)
-        );
-    }
-    let title = escape(&plot.title);
-    Some(format!(
-        "<figure class=\"card\">\n<h3>{title}</h3>\n{picture}<ul class=\"series\">\n{legend}</ul>\n\
-         </figure>\n"
-    ))
+        let expected = rate_label(series.expected_rate);
+        let note = format!("<em>rate {rate}, expected {expected}</em>");
+        (series.label.as_str(), note)
+    });
+    Some(figure(&plot.title, &convergence(plot)?, entries))
 }
 
-fn panel((index, scene): (usize, &ScenePanel)) -> String {
-    let mut html = format!(
-        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{} {}<small>{}</small></h3>\n",
-        mark(scene.passed),
-        escape(&scene.title),
-        escape(&scene.name)
-    );
-    if let Some(field) = field(scene) {
-        let notes: String =
-            field.notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
-        let _ = write!(
-            html,
-            "<figure>\n{}<ul class=\"legend\">{}{notes}</ul>\n</figure>\n",
-            field.svg,
-            legend(scene)
-        );
-    }
-    if let Some(picture) = contact(scene) {
-        let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
-        let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
-        let discrete = entry("multiplier-key", "discrete λ");
-        let zone = entry("zone-key", "in contact");
-        let _ = write!(
-            html,
-            "<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zone}</ul>\n</figure>\n"
-        );
-    }
-    if !scene.facts.is_empty() {
-        html.push_str("<dl>\n");
-        for (name, value) in &scene.facts {
-            let (name, value) = (escape(name), escape(value));
-            let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}</dd></div>");
-        }
-        html.push_str("</dl>\n");
-    }
-    html + "</article>\n"
+fn sweeps_figure(plot: &SweepPlot) -> Option<String> {
+    let entries = plot.curves.iter().map(|(label, _)| (label.as_str(), String::new()));
+    Some(figure(&plot.title, &sweeps(plot)?, entries))
 }
 
-/// The kinds of boundary that the scene has.
-fn legend(scene: &ScenePanel) -> String {
-    let mut html = String::new();
-    if scene.contact.iter().any(|edge| edge.active) {
-        html += &entry("active-key", "in contact");
+/// A chart with its legend: a name and a note a curve.
+fn figure<'a>(
+    title: &str,
+    picture: &str,
+    entries: impl Iterator<Item = (&'a str, String)>,
+) -> String {
+    let mut legend = String::new();
+    for (index, (label, note)) in entries.enumerate() {
+        let (marker, label) = (legend_marker(index), escape(label));
+        let _ = writeln!(legend, "<li>{marker}<span>{label}</span>{note}</li>");
     }
-    if scene.contact.iter().any(|edge| !edge.active) {
-        html += &entry("open-key", "open");
-    }
-    for (kind, text) in [
-        (BoundaryKind::Dirichlet, "Dirichlet"),
-        (BoundaryKind::Neumann, "Neumann"),
-        (BoundaryKind::Robin, "Robin"),
-    ] {
-        if scene.boundary.iter().any(|edge| edge.kind == kind) {
-            html += &entry(&format!("{}-key", class(kind)), text);
-        }
-    }
-    html
-}
-
-fn entry(key: &str, text: &str) -> String {
-    format!("<li><i class=\"{key}\"></i>{text}</li>")
+    format!(
+        "<figure class=\"card\">\n<h3>{}</h3>\n{picture}<ul class=\"series\">\n{legend}</ul>\n\
+         </figure>\n",
+        escape(title)
+    )
 }

@@ -58,6 +58,10 @@ fn panel(n: u32, mixed: bool) -> ScenePanel {
             .map(|(r, angle)| r.powf(1.5) * (1.5 * angle).cos())
             .collect(),
         cell_flux: cell_flux.collect(),
+        indicators: (0..triangles.len() + quads.len()).map(|cell| 1e-4 * cell as f64).collect(),
+        bound: Some(bound()),
+        error: Some(0.19),
+        energy: 2.0,
         contact: (0..2 * n).map(edge).collect(),
         boundary: vec![BoundaryEdge { ends: [at(0, 0), at(0, n)], kind: BoundaryKind::Dirichlet }],
         facts: vec![("unknowns".to_owned(), "6112".to_owned())],
@@ -65,6 +69,10 @@ fn panel(n: u32, mixed: bool) -> ScenePanel {
         triangles,
         quads,
     }
+}
+
+fn bound() -> ErrorBound {
+    ErrorBound { total: 0.2, gap: 0.195, algebraic: 1e-9, oscillation: 0.005, rounding: 1e-12 }
 }
 
 fn full(panel: ScenePanel) -> Report {
@@ -89,6 +97,15 @@ fn full(panel: ScenePanel) -> Report {
         convergence: vec![ConvergencePlot {
             title: "L2".to_owned(),
             series: vec![series(1.0), series(2.0)],
+        }],
+        cut_off: Table {
+            header: vec!["scene".to_owned(), "1".to_owned()],
+            rows: vec![row(&["half-disc", "5.3"], true)],
+        },
+        sweeps: vec![SweepPlot {
+            title: "half-disc".to_owned(),
+            sweeps: vec![1.0, 5.0],
+            curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
         }],
         scenes: vec![panel],
     }
@@ -135,6 +152,7 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("id=\"scene-0\""));
     assert!(page.contains("Failed: 1 of 2 runs"));
     assert!(page.contains("<em>rate 2.00, expected 2</em>"));
+    assert!(page.contains("10.0 % of the solution; in truth it is 0.190 off"));
 }
 
 #[test]
@@ -151,6 +169,7 @@ fn a_constant_solution_without_contact_or_flux() {
     constant.vertex_u[0] += 1e-15;
     constant.cell_flux.fill([0.0, 0.0]);
     constant.contact.clear();
+    constant.bound = None;
     let page = assert_clean(&full(constant));
     assert!(page.contains("<svg") && !page.contains("class=\"arrows\""));
     // One colour for the field, the same for the bar.
@@ -168,6 +187,8 @@ fn what_is_not_finite_is_never_written() {
     broken.contact[2].exact_multiplier[4] = f64::NAN;
     broken.contact[3].arc_length = [f64::NAN, f64::NAN];
     broken.boundary[0].ends[1] = [f64::NAN, 0.0];
+    broken.indicators[5] = f64::NAN;
+    broken.energy = 0.0;
     assert_clean(&full(broken));
 
     let mut all = panel(2, false);
@@ -181,6 +202,7 @@ fn indices_out_of_range_and_missing_values_do_no_harm() {
     let mut short = panel(4, true);
     short.vertex_u.truncate(5);
     short.cell_flux.truncate(3);
+    short.indicators.truncate(4);
     short.triangles[0] = [0, 1, u32::MAX];
     short.quads[0] = [0, 1, 2, u32::MAX];
     assert_clean(&full(short));

@@ -92,6 +92,25 @@ impl Solution {
         defect.fold(0.0, f64::max) / self.largest_flux()
     }
 
+    /// ‖A^½∇_h u_h‖, where the solve has converged: its square is in each cell Σ_E u_E (∫_E σ·n + ∫f/m),
+    /// because ∫A∇u_h·∇φ_E stands in brackets.
+    pub fn energy(&self, problem: &Problem) -> f64 {
+        let squares = (0..problem.cells()).map(|cell| {
+            let field = CellField::new(problem, cell, &self.u, &self.flux);
+            let (load, mean) = (problem.loads.of_cell(cell), field.mean());
+            // The brackets add up to 0, so that the mean may be left out: less cancels.
+            let sum = |means: &[f64], fluxes: &[f64]| {
+                let share = load / means.len() as f64;
+                means.iter().zip(fluxes).map(|(u, out)| (u - mean) * (out + share)).sum::<f64>()
+            };
+            match &field {
+                CellField::Triangle(_, means, fluxes) => sum(means, fluxes),
+                CellField::Quad(_, means, fluxes) => sum(means, fluxes),
+            }
+        });
+        squares.sum::<f64>().max(0.0).sqrt()
+    }
+
     /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
         self.scalar.round(problem.loads.gap[at])

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::bound::Certified;
 use super::checks::{self, Check};
 use super::cost::{self, Cost};
 use super::panel::panel;
 use crate::cycles;
 use crate::error::Result;
 use crate::mesh::gmsh;
-use crate::norms::{Errors, of_solution};
 use crate::problem::Problem;
 use crate::report::ScenePanel;
 use crate::scene::Scene;
@@ -31,8 +31,8 @@ pub struct Case {
     pub contact: [usize; 2],
     /// ∫_C (σ·n − q)
     pub force: f64,
-    /// Distance to the exact solution, where one is known.
-    pub errors: Option<Errors>,
+    /// ‖A^½∇_h u_h‖
+    pub energy: f64,
     /// The kernel in f64 and f32.
     pub f64: Run,
     /// The same in f32.
@@ -44,8 +44,9 @@ pub struct Case {
 /// The kernel in one scalar.
 #[derive(Debug, Clone, Serialize)]
 pub struct Run {
-    /// Sweeps down to the rounding floor.
-    pub sweeps: u32,
+    /// Sweeps down to the rounding floor, the error bound there, and distances to the exact solution.
+    #[serde(flatten)]
+    pub certified: Certified,
     /// The ω it found.
     pub omega: f64,
     /// Largest distance to the reference, relative to the range of u.
@@ -65,9 +66,12 @@ pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
     let reference = solve(&scene, &problem, &direct)?;
     let (double, f64) = run(&scene, &problem, ScalarKind::F64, &reference)?;
     let (single, f32) = run(&scene, &problem, ScalarKind::F32, &reference)?;
-    let errors = of_solution(&scene, &problem, &double)?;
-    let mut checks = checks::of(&name, &problem, &double, &reference);
-    checks.extend(checks::of(&name, &problem, &single, &reference));
+    let mut checks = Vec::new();
+    for (solution, run) in [(&double, &f64), (&single, &f32)] {
+        checks.extend(checks::of(&name, &problem, solution, &reference));
+        let subject = checks::subject(&name, solution.scalar);
+        checks.extend(run.certified.when_converged(&subject, &problem, solution));
+    }
     let counts = problem.topology.counts;
     let case = Case {
         name,
@@ -76,7 +80,7 @@ pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
         unknowns: counts.unknowns(),
         contact: [double.contact_active, counts.contact],
         force: double.contact_force,
-        errors,
+        energy: double.energy(&problem),
         f64,
         f32,
         checks,
@@ -101,7 +105,7 @@ fn run(
         ScalarKind::F32 => cost::measure::<f32>(problem),
     };
     let run = Run {
-        sweeps: solution.sweeps,
+        certified: Certified::new(scene, problem, &solution)?,
         omega: solution.omega,
         distance: checks::distance(&solution.u, &reference.u),
         solve_cycles: spent / problem.topology.counts.unknowns().max(1) as f64,

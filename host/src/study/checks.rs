@@ -4,7 +4,7 @@ use serde::Serialize;
 use signorini_kernel::Real;
 
 use crate::problem::{EdgeKind, Problem};
-use crate::solve::{ScalarKind, Solution};
+use crate::solve::{ScalarKind, Solution, status_name};
 
 /// A claim about one subject, and what was found.
 #[derive(Debug, Clone, Serialize)]
@@ -24,7 +24,10 @@ pub struct Check {
 impl Check {
     /// `value` ≤ `bound`; NaN fails.
     pub fn at_most(subject: &str, claim: &'static str, value: f64, bound: f64) -> Self {
-        let found = format!("{value:.1e} ≤ {bound:.0e}");
+        let found = match bound {
+            1.0.. => format!("{value:.3} ≤ {bound}"),
+            _ => format!("{value:.1e} ≤ {bound:.0e}"),
+        };
         let (used, passed) = (value / bound, value <= bound);
         Self { subject: subject.to_owned(), claim, found, used, passed }
     }
@@ -34,6 +37,19 @@ impl Check {
         let found = format!("{value:.3} ≥ {bound}");
         let (used, passed) = (bound / value, value >= bound);
         Self { subject: subject.to_owned(), claim, found, used, passed }
+    }
+
+    /// `low` ≤ `value` ≤ `high`, all of them positive; NaN fails.
+    pub fn between(subject: &str, claim: &'static str, value: f64, [low, high]: [f64; 2]) -> Self {
+        let found = format!("{low} ≤ {value:.4} ≤ {high}");
+        let used = (low / value).or_larger(value / high);
+        Self { subject: subject.to_owned(), claim, found, used, passed: used <= 1.0 }
+    }
+
+    /// A fact; `found` is what it turned out to be.
+    pub fn holds(subject: &str, claim: &'static str, passed: bool, found: &str) -> Self {
+        let used = f64::from(u8::from(!passed));
+        Self { subject: subject.to_owned(), claim, found: found.to_owned(), used, passed }
     }
 }
 
@@ -66,27 +82,29 @@ pub fn distance(u: &[f64], reference: &[f64]) -> f64 {
     u.iter().zip(reference).fold(0.0_f64, |most, (a, b)| most.or_larger((a - b).abs())) / size
 }
 
+/// A scene in one scalar.
+pub fn subject(name: &str, scalar: ScalarKind) -> String {
+    match scalar {
+        ScalarKind::F64 => format!("{name}, f64"),
+        ScalarKind::F32 => format!("{name}, f32"),
+    }
+}
+
 /// Convergence, agreement with the reference and the method's identities.
 pub fn of(name: &str, problem: &Problem, solution: &Solution, reference: &Solution) -> Vec<Check> {
-    let scalar = solution.scalar;
-    let word = match scalar {
-        ScalarKind::F64 => "f64",
-        ScalarKind::F32 => "f32",
-    };
-    let subject = format!("{name}, {word}");
+    let (scalar, subject) = (solution.scalar, subject(name, solution.scalar));
     let terms = largest_terms(problem, solution);
     let at_most = |claim, value, bound| Check::at_most(&subject, claim, value, bound);
     let rounding = |claim, value| at_most(claim, value, rounding(scalar));
     let largest = solution.largest_flux();
     let apart = distance(&solution.u, &reference.u);
     vec![
-        Check {
-            subject: subject.clone(),
-            claim: "the solver converged",
-            found: crate::solve::status_name(solution.status).to_owned(),
-            used: f64::from(u8::from(!solution.converged())),
-            passed: solution.converged(),
-        },
+        Check::holds(
+            &subject,
+            "the solver converged",
+            solution.converged(),
+            status_name(solution.status),
+        ),
         at_most("u agrees with the faer reference", apart, agreement(scalar)),
         rounding("fluxes agree from both sides of an edge", solution.mismatch * largest / terms),
         rounding(

@@ -1,11 +1,11 @@
 //! Rates: the catalogue's scenes on its own grids, refined.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 use serde::Serialize;
 
 use super::checks::Check;
+use super::threads::on_two_threads;
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
 use crate::norms::{Errors, of_solution};
@@ -52,26 +52,9 @@ pub fn planned(root: &Path) -> Result<Vec<Plan>> {
     Ok(plans.collect())
 }
 
-/// Runs the studies on two threads; calls `done` after each.
+/// Runs the studies; calls `done` after each.
 pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<Study>> {
-    let next = Mutex::new(0..plans.len());
-    let results: Vec<Mutex<Option<Result<Study>>>> =
-        plans.iter().map(|_| Mutex::default()).collect();
-    std::thread::scope(|scope| {
-        for _ in 0..2 {
-            scope.spawn(|| {
-                while let Some(at) = next.lock().ok().and_then(|mut next| next.next()) {
-                    let study = plans[at].run();
-                    if let Ok(mut slot) = results[at].lock() {
-                        *slot = Some(study);
-                    }
-                    done();
-                }
-            });
-        }
-    });
-    let finished = results.into_iter().filter_map(|slot| slot.into_inner().ok().flatten());
-    let mut studies = finished.collect::<Result<Vec<_>>>()?;
+    let mut studies = on_two_threads(plans, Plan::run, done)?;
     studies.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(studies)
 }

@@ -1,12 +1,15 @@
 //! The main job: every standard scene, checked, measured and shown.
 
+mod bound;
 mod case;
 mod checks;
 mod contact_line;
 mod convergence;
 mod cost;
+mod cut_off;
 mod panel;
 mod table;
+mod threads;
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +22,7 @@ use crate::report::{Report, html};
 use case::Case;
 use checks::Check;
 use convergence::Study;
+use cut_off::CutOff;
 
 /// Everything that `results.json` holds.
 #[derive(Debug, Serialize)]
@@ -26,6 +30,7 @@ struct Results<'r> {
     cycles: &'static str,
     scenes: &'r [Case],
     convergence: &'r [Study],
+    cut_off: &'r [CutOff],
     passed: bool,
 }
 
@@ -38,7 +43,8 @@ pub fn run() -> Result<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     let scenes = scenes(&root.join("meshes"))?;
     let studies = convergence::planned(root)?;
-    let bar = steps(scenes.len() + studies.len());
+    let stopped = cut_off::planned(&scenes)?;
+    let bar = steps(scenes.len() + studies.len() + stopped.len());
     let (mut cases, mut panels) = (Vec::new(), Vec::new());
     for path in &scenes {
         bar.set_message(format!("{}", path.strip_prefix(root).unwrap_or(path).display()));
@@ -49,21 +55,23 @@ pub fn run() -> Result<u8> {
     }
     bar.set_message("convergence on refined grids");
     let studies = convergence::run(&studies, || bar.inc(1))?;
+    bar.set_message("cut off");
+    let stopped = cut_off::run(&stopped, || bar.inc(1))?;
     bar.finish_and_clear();
 
     say(format_args!("{}", table::scenes(&cases)));
     say(format_args!("{}", table::convergence(&studies)));
-    let failed: Vec<&Check> = cases
-        .iter()
-        .flat_map(|case| &case.checks)
+    let checks: Vec<&Check> = (cases.iter().flat_map(|case| &case.checks))
         .chain(studies.iter().flat_map(|study| &study.checks))
-        .filter(|check| !check.passed)
+        .chain(stopped.iter().flat_map(|study| &study.checks))
         .collect();
+    let failed: Vec<_> = checks.iter().filter(|check| !check.passed).collect();
     let folder = root.join("target/report");
     let results = Results {
         cycles: crate::cycles::METHOD,
         scenes: &cases,
         convergence: &studies,
+        cut_off: &stopped,
         passed: failed.is_empty(),
     };
     let json = serde_json::to_string_pretty(&results).unwrap_or_default() + "\n";
@@ -75,8 +83,10 @@ pub fn run() -> Result<u8> {
             crate::cycles::METHOD
         ),
         table: table::for_report(&cases),
-        checks: table::checks(&cases, &studies),
+        checks: table::checks(&checks),
         convergence: convergence::plots(&studies),
+        cut_off: cut_off::table(&stopped),
+        sweeps: cut_off::plots(&stopped),
         scenes: panels,
     };
     write_atomically(&folder.join("results.json"), json.as_bytes())?;
@@ -85,9 +95,7 @@ pub fn run() -> Result<u8> {
     for check in &failed {
         eprintln!("failed: {}: {}: {}", check.subject, check.claim, check.found);
     }
-    let checks = cases.iter().map(|case| case.checks.len()).sum::<usize>()
-        + studies.iter().map(|study| study.checks.len()).sum::<usize>();
-    say(format_args!("{} of {checks} checks hold", checks - failed.len()));
+    say(format_args!("{} of {} checks hold", checks.len() - failed.len(), checks.len()));
     Ok(u8::from(!failed.is_empty()))
 }
 

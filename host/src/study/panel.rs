@@ -24,6 +24,10 @@ pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case)
         quads: problem.mesh.quads.clone(),
         vertex_u: solution.certified.vertices.clone(),
         cell_flux: cells.map(flux).collect(),
+        indicators: solution.certified.indicators.clone(),
+        bound: solution.bound,
+        error: case.f64.certified.error(),
+        energy: case.energy,
         contact: walk(problem)
             .iter()
             .map(|place| contact_edge(scene, problem, solution, place))
@@ -98,19 +102,24 @@ fn boundary(problem: &Problem) -> Vec<BoundaryEdge> {
 
 fn facts(case: &Case) -> Vec<(String, String)> {
     let [triangles, quads] = case.cells;
+    let certified = &case.f64.certified;
+    let sweeps = format!("{}, {}", certified.sweeps, case.f32.certified.sweeps);
     let mut facts = vec![
         ("unknowns".to_owned(), case.unknowns.to_string()),
         ("triangles, quads".to_owned(), format!("{triangles}, {quads}")),
         ("contact force ∫(σ·n − q)".to_owned(), format!("{:.6e}", case.force)),
         ("active contact edges".to_owned(), format!("{} of {}", case.contact[0], case.contact[1])),
-        ("sweeps f64, f32".to_owned(), format!("{}, {}", case.f64.sweeps, case.f32.sweeps)),
+        ("sweeps f64, f32".to_owned(), sweeps),
         ("u against faer, f64".to_owned(), format!("{:.1e}", case.f64.distance)),
         ("u against faer, f32".to_owned(), format!("{:.1e}", case.f32.distance)),
     ];
-    if let Some(errors) = &case.errors {
+    if let Some(errors) = &certified.errors {
         facts.push(("|u − u_h|₁".to_owned(), format!("{:.4e}", errors.h1)));
         facts.push(("‖u − u_h‖".to_owned(), format!("{:.4e}", errors.l2)));
         facts.push(("‖σ − σ_h‖".to_owned(), format!("{:.4e}", errors.flux)));
+    }
+    if let Some(ratio) = certified.efficiency(case.energy) {
+        facts.push(("gap / energy error of u_h".to_owned(), format!("{ratio:.3}")));
     }
     facts
 }

@@ -1,0 +1,88 @@
+//! One solved scene: its pictures side by side, its numbers below.
+
+use std::fmt::Write;
+
+use super::bound::bound;
+use super::contact::contact;
+use super::field::field;
+use super::mosaic::mosaic;
+use super::page::mark;
+use super::plane::class;
+use super::svg::escape;
+use super::{BoundaryKind, ScenePanel};
+
+/// The panel, numbered for links to it.
+pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
+    let mut html = format!(
+        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{} {}<small>{}</small></h3>\n\
+         <div class=\"pictures\">\n<div>\n",
+        mark(scene.passed),
+        escape(&scene.title),
+        escape(&scene.name)
+    );
+    html += &solution_figure(scene);
+    html += &contact_figure(scene);
+    let (map, bound, facts) = (error_figure(scene), bound(scene), facts(scene));
+    let _ = write!(html, "</div>\n<div>\n{map}{bound}{facts}</div>\n</div>\n");
+    html + "</article>\n"
+}
+
+fn solution_figure(scene: &ScenePanel) -> String {
+    let Some(field) = field(scene) else { return String::new() };
+    let notes: String =
+        field.notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
+    let legend = legend(scene);
+    format!("<figure>\n{}<ul class=\"legend\">{legend}{notes}</ul>\n</figure>\n", field.svg)
+}
+
+fn contact_figure(scene: &ScenePanel) -> String {
+    let Some(picture) = contact(scene) else { return String::new() };
+    let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
+    let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
+    let discrete = entry("multiplier-key", "discrete λ");
+    let zone = entry("zone-key", "in contact");
+    format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zone}</ul>\n</figure>\n")
+}
+
+fn error_figure(scene: &ScenePanel) -> String {
+    let Some(map) = mosaic(scene) else { return String::new() };
+    let note = "<li>colour: each cell’s part of the gap, which tells where to refine; the squares add up to gap²</li>";
+    format!("<figure>\n{map}<ul class=\"legend\">{note}</ul>\n</figure>\n")
+}
+
+fn facts(scene: &ScenePanel) -> String {
+    if scene.facts.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from("<dl class=\"facts\">\n");
+    for (name, value) in &scene.facts {
+        let (name, value) = (escape(name), escape(value));
+        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}</dd></div>");
+    }
+    html + "</dl>\n"
+}
+
+/// The kinds of boundary that the scene has.
+fn legend(scene: &ScenePanel) -> String {
+    let mut html = String::new();
+    if scene.contact.iter().any(|edge| edge.active) {
+        html += &entry("active-key", "in contact");
+    }
+    if scene.contact.iter().any(|edge| !edge.active) {
+        html += &entry("open-key", "open");
+    }
+    for (kind, text) in [
+        (BoundaryKind::Dirichlet, "Dirichlet"),
+        (BoundaryKind::Neumann, "Neumann"),
+        (BoundaryKind::Robin, "Robin"),
+    ] {
+        if scene.boundary.iter().any(|edge| edge.kind == kind) {
+            html += &entry(&format!("{}-key", class(kind)), text);
+        }
+    }
+    html
+}
+
+fn entry(key: &str, text: &str) -> String {
+    format!("<li><i class=\"{key}\"></i>{text}</li>")
+}
