@@ -20,14 +20,13 @@ use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{self, Buffers, Given, Ground, Metric, certify};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::Edges;
 use signorini_kernel::equilibrium::{Iterate, is_root};
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::{Error, Mesh, Tensor, flux, psor};
+use signorini_kernel::{Error, Tensor, flux, psor};
 
 /// Repetitions of a stage in one count.
 const TIMES: u32 = 20;
