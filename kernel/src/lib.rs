@@ -47,8 +47,10 @@
 //!
 //! [`mesh`] → [`numbering`] and [`edges`] → [`stiffness`] of each [`element`] → [`assembly`] into [`csr`] →
 //! [`signorini`] (the contact problem) → packed [`rows`] → [`psor`], one sweep, in the loop of [`solver`],
-//! corrected by [`refinement`] → [`flux`] → [`contact`]. Each works on slices and can be used alone; [`workspace`] owns
-//! the memory and goes the whole way. [`components`] tells beforehand whether a solution exists.
+//! corrected by [`refinement`] → [`flux`] → [`contact`]. How wrong an iterate can be: [`forest`] → packed
+//! [`cells`] → [`averages`] → [`conforming`] and [`equilibrium`] → [`certificate`]; [`tick`] puts sweeps and certificates
+//! into a control loop. Each works on slices and can be used alone; [`workspace`] owns the memory and goes
+//! from mesh to flux. [`components`] tells beforehand whether a solution exists.
 //!
 //! ## What is absent
 //!

@@ -12,6 +12,10 @@
 //! Sweeps alternate with certificates. How many sweeps lie between them follows from the algebraic
 //! part: two certificates tell how fast it falls, and the next is due when it should be small enough,
 //! though not before the sweeps since the last one have taken as long as a certificate does.
+//!
+//! Every part of the domain needs a Dirichlet or a Robin edge, through which what an unfinished iterate leaves
+//! out of balance can go: then every answer has a bound. Parts that contact alone holds need a forest that
+//! follows the active set, and shifts of the whole part ([`crate::solver`]).
 
 mod report;
 mod running;
