@@ -35,6 +35,12 @@ pub struct Units {
 impl Units {
     /// Neither is changed.
     pub const ONE: Self = Self { length: 1.0, value: 1.0 };
+
+    /// `factor` times an expression in X and Y, as a string of the scene file.
+    fn of(self, factor: f64, text: &str) -> String {
+        let [x, y] = ["x", "y"].map(|name| format!("({name}/{:e})", self.length));
+        format!("\"{factor:e}*({})\"", substitute(text, &x, &y))
+    }
 }
 
 /// A solution with its data, as expressions in X and Y.
@@ -61,36 +67,36 @@ impl Written {
     pub fn scene(&self, sides: [Side; 3], units: Units) -> String {
         let Units { length, value } = units;
         let slope = value / length;
-        let is = |factor: f64, text: &str| {
-            let (x, y) = (format!("(x/{length:e})"), format!("(y/{length:e})"));
-            format!("\"{factor:e}*({})\"", substitute(text, &x, &y))
-        };
         let mut text = "mesh = \"none.msh\"\n".to_owned();
         for (name, tensor) in ["left", "right"].iter().zip(&self.regions) {
-            let [xx, xy, yy] = tensor.each_ref().map(|entry| is(1.0, entry));
+            let [xx, xy, yy] = tensor.each_ref().map(|entry| units.of(1.0, entry));
             text += &format!("[material.{name}]\nconductivity = [{xx}, {xy}, {yy}]\n");
         }
-        text += &format!("[source]\nf = {}\n", is(slope / length, &self.source));
-        let (gap, q) = (is(value, &self.gap), is(slope, &self.flux));
+        text += &format!("[source]\nf = {}\n", units.of(slope / length, &self.source));
+        let (gap, q) = (units.of(value, &self.gap), units.of(slope, &self.flux));
         text += &format!("[boundary.contact]\nkind = \"contact\"\ngap = {gap}\nflux = {q}\n");
-        for (at, (name, side)) in SIDES.iter().zip(sides).enumerate() {
-            text += &format!("[boundary.{name}]\n");
-            let (sigma, h) = (self.outward(at), ["2+Y", "2+Y", "2+X"][at]);
-            text += &match side {
-                Side::Dirichlet => {
-                    format!("kind = \"dirichlet\"\nvalue = {}\n", is(value, &self.u))
-                }
-                Side::Neumann => format!("kind = \"neumann\"\nflux = {}\n", is(slope, &sigma)),
-                Side::Robin => {
-                    let ambient = is(value, &format!("{} + ({sigma})/({h})", self.u));
-                    let h = is(1.0 / length, h);
-                    format!("kind = \"robin\"\ncoefficient = {h}\nambient = {ambient}\n")
-                }
-            };
+        for (at, side) in sides.into_iter().enumerate() {
+            text += &self.condition(at, side, units);
         }
-        let [along_x, along_y] = self.gradient.each_ref().map(|entry| is(slope, entry));
-        text += &format!("[exact]\nu = {}\n", is(value, &self.u));
+        let [along_x, along_y] = self.gradient.each_ref().map(|entry| units.of(slope, entry));
+        text += &format!("[exact]\nu = {}\n", units.of(value, &self.u));
         text + &format!("gradient = [{along_x}, {along_y}]\n")
+    }
+
+    /// The section of a side of [`SIDES`].
+    fn condition(&self, at: usize, side: Side, units: Units) -> String {
+        let Units { length, value } = units;
+        let (sigma, h) = (self.outward(at), ["2+Y", "2+Y", "2+X"][at]);
+        let keys = match side {
+            Side::Dirichlet => format!("\"dirichlet\"\nvalue = {}", units.of(value, &self.u)),
+            Side::Neumann => format!("\"neumann\"\nflux = {}", units.of(value / length, &sigma)),
+            Side::Robin => {
+                let ambient = units.of(value, &format!("{} + ({sigma})/({h})", self.u));
+                let h = units.of(1.0 / length, h);
+                format!("\"robin\"\ncoefficient = {h}\nambient = {ambient}")
+            }
+        };
+        format!("[boundary.{}]\nkind = {keys}\n", SIDES[at])
     }
 
     /// σ·n on a side of [`SIDES`].

@@ -83,3 +83,14 @@ fn a_curved_gap_is_met_in_its_mean_over_an_edge() {
     assert_eq!(closed.count(), solution.contact_active);
     EDGE_MEAN.check("u below ψ", openings.iter().fold(0.0, |most, opening| most.min(*opening)));
 }
+
+/// At most 1.0 after one sweep; with the plain mean of the two fluxes of an edge it is 4.3.
+#[test]
+fn at_a_jump_the_flux_of_the_soft_side_decides() {
+    for k in [1e-4, 1e4] {
+        let text = Case::jump(k).written().scene([Side::Dirichlet; 3], Units::ONE);
+        let run = run(&text, regular(8, Cells::Triangles), &options(ScalarKind::F64, Some(1)));
+        let (bound, energy) = (run.solution.bound.expect("held"), run.energy());
+        assert!(bound.gap <= CONVERGED * energy, "J({k:e}): {bound:?}, {energy:e}");
+    }
+}

@@ -69,30 +69,29 @@ pub fn scaled(mut mesh: Mesh, length: f64) -> Mesh {
 
 /// The same rectangle cut along x = 0, where the curve `slit` runs on both sides.
 pub fn split(mut mesh: Mesh) -> Mesh {
-    let middle = |mesh: &Mesh, vertex: u32| mesh.vertices[vertex as usize][0] == 0.0;
-    let mut copies = BTreeMap::new();
-    for vertex in (0..mesh.vertices.len() as u32).filter(|&vertex| middle(&mesh, vertex)) {
-        copies.insert(vertex, (mesh.vertices.len() + copies.len()) as u32);
-    }
-    let place: Vec<_> = copies.keys().map(|&vertex| mesh.vertices[vertex as usize]).collect();
+    let all = (0u32..).zip(&mesh.vertices);
+    let middle: Vec<u32> = all.filter(|(_, place)| place[0] == 0.0).map(|(at, _)| at).collect();
+    let copies: Vec<u32> = (mesh.vertices.len() as u32..).take(middle.len()).collect();
+    let copy: BTreeMap<_, _> = middle.iter().zip(&copies).collect();
     let vertices = &mesh.vertices;
-    let moved = |corners: &mut [u32]| {
+    let part = |corners: &mut [u32]| {
         if corners.iter().any(|&vertex| vertices[vertex as usize][0] > 0.0) {
-            corners.iter_mut().for_each(|vertex| *vertex = *copies.get(vertex).unwrap_or(vertex));
+            corners
+                .iter_mut()
+                .for_each(|vertex| *vertex = copy.get(vertex).map_or(*vertex, |&&copy| copy));
         }
     };
-    mesh.triangles.iter_mut().for_each(|corners| moved(corners));
-    mesh.quads.iter_mut().for_each(|corners| moved(corners));
+    mesh.triangles.iter_mut().for_each(|corners| part(corners));
+    mesh.quads.iter_mut().for_each(|corners| part(corners));
     for edge in mesh.curves.iter_mut().flat_map(|curve| &mut curve.edges) {
-        moved(edge);
+        part(edge);
         edge.sort_unstable();
     }
-    // The vertices of x = 0 are numbered upwards, and so are their copies.
-    let pairs = |ends: Vec<u32>| ends.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>();
-    let mut edges = pairs(copies.keys().copied().collect());
-    edges.extend(pairs(copies.values().copied().collect()));
+    let chain = |ends: &[u32]| ends.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
+    let edges = [chain(&middle), chain(&copies)].concat();
     mesh.curves.push(Curve { name: "slit".to_owned(), edges });
-    mesh.vertices.extend(place);
+    let places: Vec<_> = middle.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect();
+    mesh.vertices.extend(places);
     mesh
 }
 
