@@ -169,6 +169,27 @@ fn a_scene_without_time_needs_a_number_of_ticks() {
     assert_eq!(table.column("t"), ["0.0", "1.0"]);
 }
 
+/// The mesh holds u exactly, and rounding of its large values is all that is left.
+#[test]
+fn ticks_end_where_rounding_is_all_that_is_left() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (folder.path().join("a.toml"), folder.path().join("out"));
+    let mesh = meshes("catalogue/square-quad-16.msh");
+    let text = format!(
+        "mesh = {mesh:?}\n[material.default]\nconductivity = 1\n[boundary.dirichlet]\n\
+         kind = \"dirichlet\"\nvalue = \"1000.3 + x + t\"\n[boundary.contact]\n\
+         kind = \"contact\"\ngap = \"900\"\n"
+    );
+    std::fs::write(&scene, text).expect("a scene");
+    for scalar in ["f64", "f32"] {
+        let output = tick(&scene, &out, &["--ticks", "6", "--scalar", scalar]);
+        assert_eq!(output.status.code(), Some(0));
+        let table = Table::read(&out.join("ticks.csv"));
+        assert!(table.column("status").iter().all(|status| *status == "settled"));
+        assert!(table.numbers("sweeps").iter().all(|sweeps| *sweeps < 5000.0), "{scalar}");
+    }
+}
+
 /// What to put for the Dirichlet value and the gap of a scene, further sections, and parts of the
 /// message.
 const WRONG_IN_TIME: &[(&str, &str, &str, &[&str])] = &[

@@ -28,6 +28,8 @@ mod identity;
 mod metric;
 pub mod oscillation;
 pub mod robin;
+#[cfg(test)]
+mod rounding;
 mod ways;
 
 pub use bound::{Certified, ErrorBound};

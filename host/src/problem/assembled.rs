@@ -11,7 +11,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Error, Model, Tensor};
+use signorini_kernel::{Error, Model, Real, Tensor};
 
 use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
@@ -82,7 +82,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn new(problem: &'p Problem) -> Result<Self, Error> {
         let edges = problem.topology.edges()?;
         let vertices = UnitBox::of(&problem.mesh.vertices).narrowed(&problem.mesh.vertices);
-        let (triangles, quads) = element_matrices(problem, &vertices)?;
+        let (triangles, quads) = element_matrices(problem)?;
         let loads = Narrowed::new(&problem.loads);
         let unknowns = edges.counts().unknowns();
         let mut assembled = Self {
@@ -263,28 +263,25 @@ fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
     triangles.chain(quads).map(|a| a.map(narrow)).collect()
 }
 
-fn element_matrices<R: Scalar>(
-    problem: &Problem,
-    vertices: &[[R; 2]],
-) -> Result<ElementMatrices<R>, Error> {
+fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
     let mesh = &problem.mesh;
-    let kernel_mesh = Mesh::new(vertices, &mesh.triangles, &mesh.quads)?;
+    let vertices = UnitBox::of(&mesh.vertices).narrowed(&mesh.vertices);
+    let in_box = Mesh::<f64, u32>::new(&vertices, &mesh.triangles, &mesh.quads)?;
     let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
     let triangles = triangles
-        .map(|(cell, a)| crouzeix_raviart::stiffness(kernel_mesh.triangle(cell), narrow(a)))
+        .map(|(cell, a)| crouzeix_raviart::stiffness(in_box.triangle(cell), *a).map(R::narrow))
         .collect();
-    let rule = R::GAUSS[DATA_POINTS - 1];
+    let rule = f64::GAUSS[DATA_POINTS - 1];
     let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
     let quads = quads.map(|(cell, coefficient)| {
-        let corners = kernel_mesh.quad(cell);
-        match coefficient {
-            QuadCoefficient::Constant(a) => {
-                rannacher_turek::stiffness(corners, rule, |_, _| narrow(a))
-            }
+        let corners = in_box.quad(cell);
+        let matrix = match coefficient {
+            QuadCoefficient::Constant(a) => rannacher_turek::stiffness(corners, rule, |_, _| *a),
             QuadCoefficient::AtPoints(tensors) => {
-                rannacher_turek::stiffness(corners, rule, |point, _| narrow(&tensors[point]))
+                rannacher_turek::stiffness(corners, rule, |point, _| tensors[point])
             }
-        }
+        };
+        matrix.map(R::narrow)
     });
     Ok((triangles, quads.collect()))
 }

@@ -48,6 +48,7 @@ pub(super) fn add<R: Real, I: Index>(
         let excess = R::TWO * excess(ground, s, edge, gap);
         take(edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
     }
+    let mut moved = R::ZERO;
     for (at, law) in given.boundary.robin().iter().enumerate() {
         let edge = law.edge.at();
         let transfer = Transfer {
@@ -60,6 +61,7 @@ pub(super) fn add<R: Real, I: Index>(
             None => transfer.constant(law.coefficient, law.ambient),
         };
         take(edge, term, R::ZERO);
+        moved += transfer.moved(law.coefficient, law.ambient);
         if law.coefficient > R::ZERO {
             let of_u = law.ambient - law.coefficient * read(u, edge);
             let off = read(tau, edge) - of_u;
@@ -70,7 +72,7 @@ pub(super) fn add<R: Real, I: Index>(
         let (term, terms) = extension(ground, given, s, tau, curved);
         take(curved.edge.at(), term, terms);
     }
-    parts.ripple += ripple(ground, given);
+    parts.ripple += moved + ripple(ground, given);
 }
 
 fn ends<R: Real, I: Index>(ground: &Ground<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
@@ -110,6 +112,19 @@ impl<R: Real> Transfer<R> {
         let cross = R::TWO * R::THIRD * bubble * (a + b);
         let square = R::from_count(8) / R::from_count(15) * bubble * bubble;
         (linear + cross + square) / h
+    }
+
+    /// ∫ e²/H, e what rounding of the data and of r can do: r is a small difference of large terms where
+    /// u is large against its changes.
+    fn moved(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            return R::ZERO;
+        }
+        let [a, b] = self.s.map(R::magnitude);
+        let s = a.or_larger(b) + self.bubble.magnitude();
+        let terms = self.flux.magnitude() + h * s + ambient.magnitude();
+        let e = R::TWO * R::EPSILON * terms;
+        e * e / h
     }
 
     /// The same from H and u_ext at the 8 Gauss points.

@@ -51,9 +51,12 @@ pub(super) fn share<R: Real, I: Index>(
     let large = form(b, constant) + twelfth * (form(b, along_x) + form(b, along_y));
     let spread = b.xx + b.yy;
     let terms = squares(tau, load);
-    let compliance = R::ONE / (b.xx * b.yy - b.xy * b.xy);
+    let softness = spread / (b.xx * b.yy - b.xy * b.xy);
     let algebraic = flux_energy(b, difference(cell, tau, u, load));
-    Share { gap, algebraic, doubt: spread * compliance * (spread * large + terms), terms }
+    // Rounding of K moves B by ε·spread, which relative to B is up to ε times this.
+    let condition = spread * softness;
+    let moved = moved(condition, large + gap);
+    Share { gap, algebraic, doubt: condition * large + softness * terms + moved, terms }
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
@@ -128,6 +131,17 @@ fn squares<R: Real>([t0, t1, t2, t3]: [R; 4], load: R) -> R {
     t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + load * load
 }
 
+/// What an error of `condition` · ε in B, relative to B, adds to the doubt about a form of this size.
+fn moved<R: Real>(condition: R, size: R) -> R {
+    R::HALF * R::QUARTER * condition * condition * size
+}
+
+/// Relative to B, an error of ε in each of its entries is up to ε times this.
+fn sensitivity<R: Real>(b: Tensor<R>) -> R {
+    let (straight, oblique) = (b.xx * b.yy, b.xy * b.xy);
+    R::TWO * (straight + oblique) / (straight - oblique)
+}
+
 /// The same by quadrature; everything in the order of the mesh, `difference` = τ − σ_h.
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(
@@ -144,11 +158,15 @@ pub(super) fn share_at_points<R: Real>(
         for &[x, weight_x] in R::GAUSS[POINTS - 1] {
             let Some(&b) = tensors.next() else { break };
             let weight = weight_x * weight_y;
-            let flow = apply(b, gradient(s, [x, y]));
-            gap += weight * inverse_form(b, minus(flow, raviart_thomas(tau, [x, y])));
+            let slope = gradient(s, [x, y]);
+            let flow = apply(b, slope);
+            let square = inverse_form(b, minus(flow, raviart_thomas(tau, [x, y])));
+            gap += weight * square;
             algebraic += weight * inverse_form(b, raviart_thomas(difference, [x, y]));
             let large = terms + flow[0] * flow[0] + flow[1] * flow[1];
             doubt += weight * large * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
+            let energy = (slope[0] * flow[0] + slope[1] * flow[1]).magnitude();
+            doubt += weight * moved(sensitivity(b), energy + square);
         }
     }
     Share { gap, algebraic, doubt, terms }

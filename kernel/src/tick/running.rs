@@ -65,6 +65,9 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);
                 }
+                if verdict == Verdict::NotFinite && !self.measure()?.0.largest.finite() {
+                    return self.report(Ended::NotFinite, verdict);
+                }
                 if limits.share > R::ZERO && self.is_at_the_floor(&verdict)? {
                     return self.report(Ended::Settled, verdict);
                 }
@@ -96,7 +99,11 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         }
         let (defect, active) = self.measure()?;
         let before = self.tick.search.omega;
-        self.tick.search.look::<Libm>(defect.sum, active, self.sweeps - self.measured);
+        // At the rounding limit the residual falls no faster whatever ω is: nothing to learn, and an ω led
+        // astray would stay for the ticks to come.
+        if defect.largest > self.rounding() {
+            self.tick.search.look::<Libm>(defect.sum, active, self.sweeps - self.measured);
+        }
         self.measured = self.sweeps;
         if self.tick.search.omega == before { Ok(()) } else { self.relax_anew() }
     }
@@ -133,20 +140,30 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         Ok(verdict)
     }
 
-    /// Whether rounding keeps the algebraic part from falling: it hardly fell since the last certificate, and
-    /// the residual is down to a few ε of u.
+    /// Whether rounding keeps the algebraic part from falling: it hardly fell since the last certificate, is
+    /// not far above what rounding hides, and the residual is down to a few ε of u; without a bound the
+    /// last alone tells.
     fn is_at_the_floor(&mut self, verdict: &Verdict<R>) -> Result<bool, Error> {
-        let (Verdict::Certified(now), Some((_, before))) = (verdict, self.earlier) else {
-            return Ok(false);
-        };
-        let noticeably = R::ONE - R::QUARTER * R::HALF;
-        if now.algebraic < before * noticeably {
-            return Ok(false);
+        if let Verdict::Certified(now) = verdict {
+            let noticeably = R::ONE - R::QUARTER * R::HALF;
+            let falls = self.earlier.is_none_or(|(_, before)| now.algebraic < before * noticeably);
+            // Slow, smooth parts of the error can hide in a residual that is all rounding. The factor is what
+            // thin cells make of rounding: 250 where they are 10⁴ times as long as high.
+            let hidden = now.algebraic <= R::from_count(1024) * now.rounding;
+            if falls || !hidden {
+                return Ok(false);
+            }
         }
+        // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
+        let kept = self.measure()?.0.largest * (R::TWO - self.tick.search.omega);
+        Ok(kept <= self.rounding())
+    }
+
+    /// What rounding alone can make of the residual: a row's terms are at most a few times the largest u.
+    fn rounding(&self) -> R {
         let u = self.tick.memory.u.iter();
         let size = u.fold(R::ZERO, |most, u| most.or_larger(u.magnitude()));
-        let floor = R::from_count(8) * R::EPSILON * size;
-        Ok(self.measure()?.0.largest <= floor)
+        R::from_count(16) * R::EPSILON * size
     }
 
     /// When the algebraic part, falling on as it did, should be small enough.
@@ -193,8 +210,8 @@ fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
     match verdict {
         Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
         Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),
-        Verdict::Certified(_) | Verdict::Pulled { .. } => None,
-        Verdict::NotFinite => Some(Ended::NotFinite),
+        // Without a bound there may still be a solution.
+        Verdict::Certified(_) | Verdict::Pulled { .. } | Verdict::NotFinite => None,
     }
 }
 
