@@ -40,7 +40,8 @@ impl ErrorBound {
 /// An iterate's bound and what it is the bound of.
 #[derive(Debug, Clone)]
 pub struct Certified {
-    /// `None`: neither D nor R nor active contact edges can take the surplus of some part.
+    /// `None`: neither D nor R nor active contact edges can take the surplus of some part, or the data
+    /// do not allow for it ([`Data::has_bound`]), or they overflow the scalar.
     pub bound: Option<ErrorBound>,
     /// s and τ; no guarantee where there is no bound.
     pub answer: Answer,

@@ -86,7 +86,7 @@ impl<R: Scalar> Certifier<R> {
         data: &Data<R>,
         u: &[R],
     ) -> Result<Option<Certificate<R>>, KernelError> {
-        if !self.has_ways(parts, assembled, u)? {
+        if !self.has_ways(parts, assembled, u)? || !data.has_bound() {
             self.average(assembled, data, u)?;
             return Ok(None);
         }

@@ -7,7 +7,7 @@ use signorini_kernel::conforming::VertexData;
 use super::curved::curved;
 use super::ends::Ends;
 use super::oscillation::oscillation;
-use super::robin::robin;
+use super::robin::{RobinPoints, robin};
 use crate::error::Result;
 use crate::problem::{Assembled, Problem};
 use crate::scalar::Scalar;
@@ -21,6 +21,18 @@ pub struct Data<R> {
     curved: Vec<Curved<R, u32>>,
     transfer: Vec<[[R; 2]; 8]>,
     oscillation: R,
+    has_bound: bool,
+}
+
+/// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
+/// beyond 8 points, and infinite where it does.
+const VARYING: f64 = 10.0;
+
+/// Whether a coefficient at the points of an edge allows for a bound.
+fn is_moderate(edge: &RobinPoints) -> bool {
+    let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
+    let high = edge.iter().fold(0.0, |high: f64, point| high.max(point[0]));
+    high <= VARYING * low
 }
 
 impl<R: Scalar> Data<R> {
@@ -41,6 +53,7 @@ impl<R: Scalar> Data<R> {
         let of_cells = oscillation(scene, problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
         let mut transfer = robin(scene, problem, time)?;
+        let has_bound = ends.is_continuous(problem) && transfer.iter().all(is_moderate);
         if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
             transfer.clear();
         }
@@ -50,7 +63,14 @@ impl<R: Scalar> Data<R> {
             curved: curved.collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
             oscillation: R::narrow(squares.sqrt()),
+            has_bound,
         })
+    }
+
+    /// Whether these data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes
+    /// on a part of an edge.
+    pub fn has_bound(&self) -> bool {
+        self.has_bound
     }
 
     /// Together with the loads of `assembled`.

@@ -1,8 +1,13 @@
 //! ψ and u_D at the ends of edges: the chords that a continuous s follows.
 
+use std::collections::HashMap;
+
 use crate::error::Result;
 use crate::problem::{Problem, Sum};
 use crate::scene::{Field, Scene};
+
+/// What rounding may leave between two expressions for the same value, relative to the largest.
+const CONTINUOUS: f64 = 1e-9;
 
 /// Boundary data at the two ends of each edge, in the direction of the edge; the unit is that of u.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +33,21 @@ impl Ends {
         Ok(Self {
             gap: pairs(counts.free..counts.unknowns(), Field::Gap)?,
             given: pairs(counts.unknowns()..counts.edges(), Field::Value)?,
+        })
+    }
+
+    /// Whether u_D is continuous where its edges meet, up to rounding: otherwise no function of finite
+    /// energy has these values.
+    pub fn is_continuous(&self, problem: &Problem) -> bool {
+        let slack = CONTINUOUS * self.scale();
+        let mut at_vertex = HashMap::new();
+        let edges = problem.topology.counts.unknowns()..problem.topology.counts.edges();
+        let ends = edges
+            .zip(&self.given)
+            .flat_map(|(edge, values)| problem.ends[edge].into_iter().zip(values.iter().copied()));
+        ends.into_iter().all(|(vertex, value)| {
+            let first = *at_vertex.entry(vertex).or_insert(value);
+            (value - first).abs() <= slack
         })
     }
 

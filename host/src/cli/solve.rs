@@ -133,7 +133,7 @@ fn report(
             "  error at most {:.4e} in the energy norm, {:.1e} of it by unfinished sweeps",
             bound.total, bound.algebraic
         )),
-        None => say(format_args!("  no error bound: nothing can take the surplus of a part")),
+        None => say(format_args!("  no error bound: see `error_bound` in the README")),
     }
     if let Some(errors) = errors {
         say(format_args!(

@@ -45,7 +45,9 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
         moving.set_loads(&problem.loads).map_err(&unfit)?;
         let data = certify::Data::<R>::new(scene, problem)?;
         let report = advance(&mut tick, &moving, &data, budget).map_err(&unfit)?;
-        Ok(answer(problem, &moving, &tick, &report))
+        let mut answer = answer(problem, &moving, &tick, &report);
+        answer.bound = answer.bound.filter(|_| data.has_bound());
+        Ok(answer)
     }))
 }
 

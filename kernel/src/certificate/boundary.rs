@@ -104,7 +104,8 @@ impl<R: Real> Transfer<R> {
     /// and what the bubble H·4t(1 − t)d adds.
     fn constant(&self, h: R, ambient: R) -> R {
         if !(h > R::ZERO) {
-            return R::ZERO;
+            // Nothing passes: a flux there has no finite bound.
+            return if self.flux == R::ZERO { R::ZERO } else { R::ONE / R::ZERO };
         }
         let [a, b] = self.s.map(|s| self.flux + (h * s - ambient));
         let bubble = h * self.bubble;
@@ -180,15 +181,18 @@ fn extension<R: Real, I: Index>(
 }
 
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
-/// ripple's energy in the cells along the boundary is at most 4α for each square.
+/// ripple's energy in the cells along the boundary is at most 4Σ|K| for each square.
 fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>) -> R {
-    let (edges, softness) = (&ground.edges, ground.cells.of_edges);
+    let (edges, k) = (&ground.edges, ground.stiffness);
+    let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
     let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
     pairs.fold(R::ZERO, |sum, (at, pair)| {
         let value = pair[0].magnitude().or_larger(pair[1].magnitude());
         let moved = R::TWO * R::EPSILON * value;
-        // 1/Σ(1/α) of an edge with one cell is the α of that cell.
-        let alpha = read(softness, edges.counts().free + at);
-        sum + R::from_count(4) * alpha * moved * moved
+        let of_cell = match edges.first_side(edges.counts().free + at) {
+            Side::Triangle(cell, _) => size(&read(k.triangles, cell)),
+            Side::Quad(cell, _) => size(&read(k.quads, cell)),
+        };
+        sum + R::from_count(4) * of_cell * moved * moved
     })
 }

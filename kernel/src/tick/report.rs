@@ -42,7 +42,8 @@ pub struct Deadline<F> {
     /// Most that a sweep takes: with an adaptive ω that of two sweeps more and of laying out the rows, all
     /// of which may follow one.
     pub sweep: u32,
-    /// Most that a certificate and the report take.
+    /// Most that a certificate and the report take; each may be followed by a measurement of the residual,
+    /// which takes a sweep.
     pub certificate: u32,
 }
 
@@ -75,7 +76,8 @@ impl<F: FnMut() -> u32> Deadline<F> {
 pub enum Ended {
     /// The certified error is small enough.
     Accurate,
-    /// The algebraic part is a small share of the whole.
+    /// The algebraic part is a small share of the whole, or rounding keeps it from falling; also where there
+    /// is no bound to tell, once the residual is down to rounding.
     Settled,
     /// The sweeps allowed are used up.
     OutOfSweeps,

@@ -94,7 +94,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         psor::sweep(&memory.rows, self.data.lower, memory.u)?;
         self.sweeps += 1;
         self.verdict = None;
-        if self.tick.search.is_over() || self.sweeps < self.measured + self.tick.search.block() {
+        if self.tick.search.is_over() || self.sweeps - self.measured < self.tick.search.block() {
             return Ok(());
         }
         let (defect, active) = self.measure()?;
@@ -171,7 +171,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let wait = match (verdict, self.earlier) {
             (Verdict::Certified(now), Some((at, before))) if now.algebraic < before => {
                 let since = self.sweeps - at;
-                since * quarters(now, before, limits) / 4
+                since.saturating_mul(quarters(now, before, limits)) / 4
             }
             _ => self.sweeps,
         };
