@@ -1,6 +1,7 @@
 //! What the boundary adds to the bound: contact, transfer laws, curved data.
 
-use super::{Continuous, Given, Ground, Parts};
+use super::parts::Parts;
+use super::{Continuous, Given, Ground};
 use crate::edges::Side;
 use crate::index::{Index, read};
 use crate::real::Real;

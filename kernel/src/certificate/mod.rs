@@ -29,28 +29,29 @@
 
 mod boundary;
 mod metric;
+mod parts;
 mod quad;
+mod reach;
 mod sum;
 mod triangle;
+mod walk;
 
 pub use boundary::Curved;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
+pub use reach::reach;
 
 use crate::assembly::CellLoads;
 use crate::averages;
 use crate::boundary::Boundary;
-use crate::cells::{Cells, Either, Quad, Triangle, pick};
+use crate::cells::Cells;
 use crate::conforming::{self, VertexData};
 use crate::edges::Edges;
 use crate::equilibrium::{self, Iterate};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
-use crate::forest::Forest;
-use crate::index::{Index, read, write};
+use crate::index::{Index, read};
 use crate::mesh::Mesh;
 use crate::real::Real;
 use crate::stiffness::Stiffness;
-use quad::Values;
-use sum::Sum;
 
 /// What stays from one certificate to the next: mesh, A and the ways out (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -162,7 +163,7 @@ pub fn certify<R: Real, I: Index>(
     conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
-    let mut parts = over_cells(ground, given, u, s, tau, indicators);
+    let mut parts = walk::over_cells(ground, given, u, s, tau, indicators);
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
@@ -184,233 +185,5 @@ impl<R: Real> Continuous<'_, R> {
 
     fn on<I: Index, const N: usize>(&self, edges: &[I; N]) -> [R; N] {
         edges.map(|edge| read(self.bubbles, edge.at()))
-    }
-}
-
-/// One cell's share of everything.
-#[derive(Debug, Clone, Copy)]
-struct Share<R> {
-    /// ‖A^½∇s − A^{−½}τ‖²
-    gap: R,
-    /// ‖A^{−½}(τ − σ_h)‖²
-    algebraic: R,
-    /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
-    doubt: R,
-    /// (∫f)² + Στ², the terms of the balance.
-    terms: R,
-}
-
-/// Sums over the mesh.
-#[derive(Debug, Clone, Copy, Default)]
-struct Parts<R> {
-    gap: Sum<R>,
-    algebraic: R,
-    doubt: R,
-    /// The square of what storing the data has done.
-    ripple: R,
-    /// What rounding can have done to `gap` itself.
-    direct: R,
-    terms: R,
-}
-
-impl<R: Real> Parts<R> {
-    #[inline(always)]
-    fn add(&mut self, share: Share<R>) {
-        self.gap.add(share.gap);
-        self.algebraic += share.algebraic;
-        self.doubt += share.doubt;
-        self.terms += share.terms;
-    }
-
-    /// `cells`: how many there are.
-    fn conclude(&self, cells: usize, reach: R, oscillation: R) -> Verdict<R> {
-        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
-        let gap = root(self.gap.value());
-        let times = |count: u32| R::from_count(count) * R::EPSILON;
-        // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
-        let doubt = times(4) * root(self.doubt);
-        // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
-        let unbalanced = times(2) * root(R::from_count(cells as u32) * self.terms);
-        let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
-        // Squares below the smallest normal number are lost, some in every cell.
-        let lost = (R::ONE + reach) * root(R::from_count(16 * cells as u32) * R::TINY);
-        let rounding =
-            doubt + reach * unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
-        let both = root(gap * gap + oscillation * oscillation);
-        let certificate = Certificate {
-            gap,
-            algebraic: root(self.algebraic),
-            oscillation,
-            rounding,
-            // √(gap²) underflows before gap does.
-            total: oscillation + both.or_larger(gap) + rounding,
-        };
-        let known = certificate.total.finite() && certificate.algebraic.finite();
-        if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
-    }
-}
-
-/// The walk over the cells from the leaves: balances each and takes its share.
-fn over_cells<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
-    u: &[R],
-    s: Continuous<R>,
-    tau: &mut [R],
-    indicators: &mut [R],
-) -> Parts<R> {
-    let cells = &ground.cells;
-    if cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty() {
-        return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
-    }
-    let mut parts = Parts::default();
-    for cell in cells.from_leaves() {
-        let (number, share) = match cell {
-            Either::Triangle(cell) => {
-                let load = read(given.loads.triangles, cell.number.at());
-                (cell.number, of_triangle_cell(ground.metric, cell, s, u, load, tau))
-            }
-            Either::Quad(cell) => {
-                let number = cell.number.at().wrapping_sub(cells.triangles.len());
-                let load = read(given.loads.quads, number);
-                (cell.number, of_quad_cell(ground.metric, cell, s, u, load, tau))
-            }
-        };
-        let Some(share) = share else { break };
-        write(indicators, number.at(), share.gap);
-        parts.add(share);
-    }
-    parts
-}
-
-/// The same for triangles with constant A alone, without indicators: the loop of a control loop. A
-/// function of its own, with few slices, keeps its pointers in registers.
-#[inline(never)]
-fn over_triangles<R: Real, I: Index>(
-    cells: &[Triangle<R, I>],
-    loads: &[R],
-    u: &[R],
-    vertices: &[R],
-    tau: &mut [R],
-) -> Parts<R> {
-    let mut parts = Parts::default();
-    for cell in cells {
-        let load = read(loads, cell.number.at());
-        let Some(out) = cell.settle(load, tau) else { break };
-        let (s, means) = (pick(&cell.vertices, vertices), pick(&cell.edges, u));
-        let (Some(s), Some(means)) = (s, means) else { break };
-        parts.add(triangle::share(cell, s, out, means, load));
-    }
-    parts
-}
-
-fn of_triangle_cell<R: Real, I: Index>(
-    metric: Metric<R>,
-    cell: &Triangle<R, I>,
-    s: Continuous<R>,
-    u: &[R],
-    load: R,
-    tau: &mut [R],
-) -> Option<Share<R>> {
-    let out = cell.settle(load, tau)?;
-    let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
-    Some(match metric.varying(cell.number.at()) {
-        None => triangle::share(cell, s, out, u, load),
-        Some(points) => {
-            let (k, s) = (cell.stiffness_in_mesh(), cell.vertices_in_mesh(s));
-            let [out, u] = [out, u].map(|packed| cell.sides_in_mesh(packed));
-            triangle::share_at_points(points, &k, s, out, u, load)
-        }
-    })
-}
-
-fn of_quad_cell<R: Real, I: Index>(
-    metric: Metric<R>,
-    cell: &Quad<R, I>,
-    s: Continuous<R>,
-    u: &[R],
-    load: R,
-    tau: &mut [R],
-) -> Option<Share<R>> {
-    let out = cell.settle(load, tau)?;
-    let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
-    let bubbles = pick(&cell.edges, s.bubbles)?;
-    Some(match metric.varying(cell.number.at()) {
-        None => quad::share(cell, Values { corners, bubbles }, out, u, load),
-        Some(points) => {
-            let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
-            let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
-            let out = cell.sides_in_mesh(out);
-            quad::share_at_points(points, Values { corners, bubbles }, out, difference, load)
-        }
-    })
-}
-
-/// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell along the forest to its root;
-/// `way` is scratch with one entry a cell.
-///
-/// # Errors
-/// A scratch of the wrong length.
-pub fn reach<R: Real, I: Index>(
-    edges: &Edges<I>,
-    cells: &Cells<R, I>,
-    metric: Metric<R>,
-    forest: &Forest<I>,
-    way: &mut [R],
-) -> Result<R, Error> {
-    same_length(Array::Scratch, way.len(), edges.cells())?;
-    way.fill(R::ZERO);
-    // From the leaves: a cell does not know yet what its way costs, so each writes what passing it from
-    // each side costs into the cell on that side; then from the roots these costs add up.
-    for cell in cells.from_leaves() {
-        let (number, of_cell) = match cell {
-            Either::Triangle(cell) => (cell.number.at(), cell.edges.as_slice()),
-            Either::Quad(cell) => (cell.number.at(), cell.edges.as_slice()),
-        };
-        let last = of_cell.len() - 1;
-        for half in edges.sides_of(number) {
-            let Some((entry, behind)) = edges.beyond(half) else { continue };
-            let edge = edges.edge_of(half);
-            let packed = of_cell.iter().position(|other| other.at() == edge);
-            if forest.parent(behind) != entry.at() || packed == Some(last) {
-                continue;
-            }
-            let through = |k: usize| match k {
-                _ if Some(k) == packed => -R::ONE,
-                _ if k == last => R::ONE,
-                _ => R::ZERO,
-            };
-            write(way, behind, energy(metric, cell, through));
-        }
-    }
-    for (number, parent) in forest.from_roots() {
-        if let Some((_, next)) = edges.beyond(parent) {
-            let sum = read(way, number) + read(way, next);
-            write(way, number, sum);
-        }
-    }
-    let mut farthest = R::ZERO;
-    for cell in cells.from_leaves() {
-        let (number, last) = match cell {
-            Either::Triangle(cell) => (cell.number, 2),
-            Either::Quad(cell) => (cell.number, 3),
-        };
-        let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
-        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
-    }
-    Ok(farthest.rounded_sqrt())
-}
-
-/// ‖A^{−½}·‖² of the field with these outward fluxes through the packed sides of a cell.
-fn energy<R: Real, I: Index>(metric: Metric<R>, cell: Either<R, I>, out: impl Fn(usize) -> R) -> R {
-    match cell {
-        Either::Triangle(cell) => {
-            let points = metric.varying(cell.number.at());
-            triangle::energy(cell, points, [0, 1, 2].map(out))
-        }
-        Either::Quad(cell) => {
-            let points = metric.varying(cell.number.at());
-            quad::energy(cell, points, [0, 1, 2, 3].map(out))
-        }
     }
 }

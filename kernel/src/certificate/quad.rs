@@ -8,8 +8,8 @@
 //! and P(Y), orthogonal functions with the squares 1, 1/12, 1/12, 1/144, 1/180, 1/180. Where B is
 //! constant, ∫(B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) is a sum over these six. Elsewhere it is taken at points.
 
-use super::Share;
 use super::metric::{POINTS, inverse_form, of_parallelogram};
+use super::parts::Share;
 use crate::cells::Quad;
 use crate::element::rannacher_turek::product;
 use crate::index::Index;

@@ -7,8 +7,8 @@
 //! ```
 //! the last term for the linear part of τ. Elsewhere the integral is taken at points.
 
-use super::Share;
 use super::metric::{POINTS, inverse_form};
+use super::parts::Share;
 use crate::cells::Triangle;
 use crate::element::crouzeix_raviart::product;
 use crate::index::Index;

@@ -1,0 +1,78 @@
+//! How much energy it takes to bring a surplus from a cell to its root.
+
+use super::{Metric, quad, triangle};
+use crate::cells::{Cells, Either};
+use crate::edges::Edges;
+use crate::error::{Array, Error, same_length};
+use crate::forest::Forest;
+use crate::index::{Index, read, write};
+use crate::real::Real;
+
+/// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell along the forest to its root;
+/// `way` is scratch with one entry a cell.
+///
+/// # Errors
+/// A scratch of the wrong length.
+pub fn reach<R: Real, I: Index>(
+    edges: &Edges<I>,
+    cells: &Cells<R, I>,
+    metric: Metric<R>,
+    forest: &Forest<I>,
+    way: &mut [R],
+) -> Result<R, Error> {
+    same_length(Array::Scratch, way.len(), edges.cells())?;
+    way.fill(R::ZERO);
+    // From the leaves: a cell does not know yet what its way costs, so each writes what passing it from
+    // each side costs into the cell on that side; then from the roots these costs add up.
+    for cell in cells.from_leaves() {
+        let (number, of_cell) = match cell {
+            Either::Triangle(cell) => (cell.number.at(), cell.edges.as_slice()),
+            Either::Quad(cell) => (cell.number.at(), cell.edges.as_slice()),
+        };
+        let last = of_cell.len() - 1;
+        for half in edges.sides_of(number) {
+            let Some((entry, behind)) = edges.beyond(half) else { continue };
+            let edge = edges.edge_of(half);
+            let packed = of_cell.iter().position(|other| other.at() == edge);
+            if forest.parent(behind) != entry.at() || packed == Some(last) {
+                continue;
+            }
+            let through = |k: usize| match k {
+                _ if Some(k) == packed => -R::ONE,
+                _ if k == last => R::ONE,
+                _ => R::ZERO,
+            };
+            write(way, behind, energy(metric, cell, through));
+        }
+    }
+    for (number, parent) in forest.from_roots() {
+        if let Some((_, next)) = edges.beyond(parent) {
+            let sum = read(way, number) + read(way, next);
+            write(way, number, sum);
+        }
+    }
+    let mut farthest = R::ZERO;
+    for cell in cells.from_leaves() {
+        let (number, last) = match cell {
+            Either::Triangle(cell) => (cell.number, 2),
+            Either::Quad(cell) => (cell.number, 3),
+        };
+        let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
+        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
+    }
+    Ok(farthest.rounded_sqrt())
+}
+
+/// ‖A^{−½}·‖² of the field with these outward fluxes through the packed sides of a cell.
+fn energy<R: Real, I: Index>(metric: Metric<R>, cell: Either<R, I>, out: impl Fn(usize) -> R) -> R {
+    match cell {
+        Either::Triangle(cell) => {
+            let points = metric.varying(cell.number.at());
+            triangle::energy(cell, points, [0, 1, 2].map(out))
+        }
+        Either::Quad(cell) => {
+            let points = metric.varying(cell.number.at());
+            quad::energy(cell, points, [0, 1, 2, 3].map(out))
+        }
+    }
+}
