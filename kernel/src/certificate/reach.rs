@@ -21,9 +21,36 @@ pub fn reach<R: Real, I: Index>(
     way: &mut [R],
 ) -> Result<R, Error> {
     same_length(Array::Scratch, way.len(), edges.cells())?;
+    passing(edges, cells, metric, forest, way);
+    // From the roots these costs add up.
+    for (number, parent) in forest.from_roots() {
+        if let Some((_, next)) = edges.beyond(parent) {
+            let sum = read(way, number) + read(way, next);
+            write(way, number, sum);
+        }
+    }
+    let mut farthest = R::ZERO;
+    for cell in cells.from_leaves() {
+        let (number, last) = match cell {
+            Either::Triangle(cell) => (cell.number, 2),
+            Either::Quad(cell) => (cell.number, 3),
+        };
+        let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
+        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
+    }
+    Ok(farthest.rounded_sqrt())
+}
+
+/// Fills in for every cell what it costs to pass the next one on its way: 1 comes in through the side
+/// between them and leaves through the last.
+fn passing<R: Real, I: Index>(
+    edges: &Edges<I>,
+    cells: &Cells<R, I>,
+    metric: Metric<R>,
+    forest: &Forest<I>,
+    way: &mut [R],
+) {
     way.fill(R::ZERO);
-    // From the leaves: a cell does not know yet what its way costs, so each writes what passing it from
-    // each side costs into the cell on that side; then from the roots these costs add up.
     for cell in cells.from_leaves() {
         let (number, of_cell) = match cell {
             Either::Triangle(cell) => (cell.number.at(), cell.edges.as_slice()),
@@ -45,22 +72,6 @@ pub fn reach<R: Real, I: Index>(
             write(way, behind, energy(metric, cell, through));
         }
     }
-    for (number, parent) in forest.from_roots() {
-        if let Some((_, next)) = edges.beyond(parent) {
-            let sum = read(way, number) + read(way, next);
-            write(way, number, sum);
-        }
-    }
-    let mut farthest = R::ZERO;
-    for cell in cells.from_leaves() {
-        let (number, last) = match cell {
-            Either::Triangle(cell) => (cell.number, 2),
-            Either::Quad(cell) => (cell.number, 3),
-        };
-        let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
-        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
-    }
-    Ok(farthest.rounded_sqrt())
 }
 
 /// ‖A^{−½}·‖² of the field with these outward fluxes through the packed sides of a cell.
