@@ -64,6 +64,7 @@ pub mod boundary;
 pub mod cells;
 pub mod certificate;
 pub mod components;
+pub mod condensed;
 pub mod condition;
 pub mod conforming;
 pub mod conjugate;

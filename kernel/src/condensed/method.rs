@@ -1,0 +1,115 @@
+//! The two ways to solve the condensed problem, behind one face.
+//!
+//! [`Sweeps`] need no memory of their own and cost the same every time; [`Pivots`] hold a tableau of
+//! n (n + 1) / 2 numbers and end with the exact solution, after as many exchanges as edges change
+//! sides. Where these are too many for one tick, sweeps make the best of what there is, and the next
+//! tick goes on exchanging: the answer is feasible and has its bound in any case.
+
+use super::Iterate;
+use super::panels::Panels;
+use super::pivoting::{self, Found, settle};
+use super::sor;
+use super::tableau::Tableau;
+use crate::error::Error;
+use crate::real::Real;
+
+/// What ended a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// The solution, but for rounding.
+    Exact,
+    /// Complementarity holds to the tolerance.
+    Converged,
+    /// The work allowed is used up: x is feasible, and its bound says how good it is.
+    OutOfWork,
+}
+
+/// What a solve did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// What ended it.
+    pub ended: Ended,
+    /// Exchanges.
+    pub pivots: u32,
+    /// Sweeps.
+    pub sweeps: u32,
+}
+
+/// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0.
+pub trait Method<R: Real> {
+    /// From `iterate.x`, as far as the method is allowed to go.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length.
+    fn solve(
+        &mut self,
+        matrix: &Panels<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+    ) -> Result<Progress, Error>;
+}
+
+/// Projected SOR.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweeps<R> {
+    /// ω, inside (0, 2).
+    pub omega: R,
+    /// The largest |min(x_i, r_i)| that is small enough, relative to the largest x_i and b_i.
+    pub tolerance: R,
+    /// Most sweeps of a solve.
+    pub most: u32,
+}
+
+impl<R: Real> Method<R> for Sweeps<R> {
+    fn solve(
+        &mut self,
+        matrix: &Panels<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+    ) -> Result<Progress, Error> {
+        if !(self.omega > R::ZERO && self.omega < R::TWO) {
+            return Err(Error::Relaxation);
+        }
+        let mut progress = Progress { ended: Ended::OutOfWork, pivots: 0, sweeps: 0 };
+        while progress.sweeps < self.most {
+            let defect = sor::sweep(matrix, load, self.omega, iterate.x)?;
+            progress.sweeps += 1;
+            let size = pivoting::largest(iterate.x).or_larger(pivoting::largest(load));
+            if defect <= self.tolerance * size {
+                progress.ended = Ended::Converged;
+                break;
+            }
+        }
+        settle(matrix, load, iterate.x, iterate.residual)?;
+        Ok(progress)
+    }
+}
+
+/// Principal pivoting, and sweeps where it does not get to the end.
+#[derive(Debug)]
+pub struct Pivots<'a, R> {
+    /// The tableau, kept from tick to tick.
+    pub tableau: Tableau<'a, R>,
+    /// Most exchanges of a solve.
+    pub most: u32,
+    /// What follows where they do not suffice.
+    pub sweeps: Sweeps<R>,
+}
+
+impl<R: Real> Method<R> for Pivots<'_, R> {
+    fn solve(
+        &mut self,
+        matrix: &Panels<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+    ) -> Result<Progress, Error> {
+        let Iterate { x, residual, scratch } = iterate;
+        let lent = Iterate { x: &mut *x, residual: &mut *residual, scratch: &mut *scratch };
+        let (found, pivots) = pivoting::find(matrix, load, &mut self.tableau, self.most, lent)?;
+        if found == Found::Exact {
+            return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
+        }
+        let rest = self.sweeps.solve(matrix, load, Iterate { x, residual, scratch })?;
+        Ok(Progress { pivots, ..rest })
+    }
+}

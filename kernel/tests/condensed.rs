@@ -1,0 +1,186 @@
+//! The condensed problem: its two solvers against each other and against complementarity itself.
+
+#[path = "condensed/strip.rs"]
+mod strip;
+
+use signorini_kernel::condensed::method::{Ended, Method, Pivots, Sweeps};
+use signorini_kernel::condensed::panels::Panels;
+use signorini_kernel::condensed::tableau::{self, Tableau};
+use signorini_kernel::condensed::{Iterate, sor};
+use signorini_kernel::{Error, Real};
+use strip::{Random, Strip};
+
+/// Owned memory of a solve.
+struct Work<R> {
+    x: Vec<R>,
+    residual: Vec<R>,
+    scratch: Vec<R>,
+    entries: Vec<R>,
+    exchanged: Vec<bool>,
+    column: Vec<R>,
+}
+
+impl<R: Real> Work<R> {
+    fn new(strip: &Strip<R>) -> Result<Self, Error> {
+        let n = strip.order;
+        let mut work = Self {
+            x: vec![R::ZERO; n],
+            residual: vec![R::ZERO; n],
+            scratch: vec![R::ZERO; n],
+            entries: vec![R::ZERO; tableau::entries(n)],
+            exchanged: vec![false; n],
+            column: vec![R::ZERO; n],
+        };
+        let Work { entries, exchanged, column, .. } = &mut work;
+        Tableau::new(entries, exchanged, column)?.reset(&strip.matrix()?)?;
+        Ok(work)
+    }
+
+    fn exact(&mut self, strip: &Strip<R>, load: &[R], most: u32) -> Result<(Ended, u32), Error> {
+        let Work { x, residual, scratch, entries, exchanged, column } = self;
+        let tableau = Tableau::new(entries, exchanged, column)?;
+        let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
+        let mut method = Pivots { tableau, most, sweeps };
+        let progress = method.solve(&strip.matrix()?, load, Iterate { x, residual, scratch })?;
+        Ok((progress.ended, progress.pivots))
+    }
+
+    /// max |min(x_i, r_i)| relative to the largest x_i.
+    fn defect(&self) -> R {
+        assert!(self.x.iter().all(|x| *x >= R::ZERO));
+        let pairs = self.x.iter().zip(&self.residual);
+        let largest = self.x.iter().fold(R::ONE, |most, &x| most.or_larger(x));
+        R::ONE / largest * pairs.fold(R::ZERO, |most, (&x, &r)| most.or_larger(x.or_smaller(r).magnitude()))
+    }
+}
+
+/// Loads that push a different part of the edge in every time.
+fn load<R: Real>(strip: &Strip<R>, tick: u32, random: &mut Random) -> Vec<R> {
+    strip.load(f64::from(tick % 7) * 0.1 - 0.3, random)
+}
+
+fn solves_exactly<R: Real>(tolerance: R) -> Result<(), Error> {
+    for columns in [1, 2, 5, 16, 33] {
+        let strip = Strip::<R>::new(columns);
+        let (mut work, mut random) = (Work::new(&strip)?, Random::new(7));
+        let mut sides = [0, 0];
+        for tick in 0..200 {
+            let load = load(&strip, tick, &mut random);
+            let (ended, _) = work.exact(&strip, &load, 1000)?;
+            assert_eq!(ended, Ended::Exact, "{columns} edges, tick {tick}");
+            assert!(work.defect() <= tolerance, "{columns}, {tick}: {}", work.defect());
+            work.x.iter().for_each(|x| sides[usize::from(*x > R::ZERO)] += 1);
+        }
+        assert!(sides[0] > 0 && sides[1] > 0, "{columns}: one side only, {sides:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn pivoting_solves_exactly_tick_after_tick() -> Result<(), Error> {
+    solves_exactly::<f64>(1e-13)?;
+    solves_exactly::<f32>(1e-5)
+}
+
+#[test]
+fn sweeps_come_to_the_same() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(19);
+    let (mut work, mut random) = (Work::new(&strip)?, Random::new(3));
+    for tick in 0..20 {
+        let load = load(&strip, tick, &mut random);
+        work.exact(&strip, &load, 1000)?;
+        let (mut x, mut residual, mut scratch) = (vec![0.0; 19], vec![0.0; 19], vec![0.0; 19]);
+        let mut sweeps = Sweeps { omega: 1.4, tolerance: 1e-14, most: 1000 };
+        let iterate = Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch };
+        let progress = sweeps.solve(&strip.matrix()?, &load, iterate)?;
+        assert_eq!(progress.ended, Ended::Converged);
+        for (a, b) in x.iter().zip(&work.x) {
+            assert!((a - b).abs() < 1e-12 * (1.0 + b), "{a} {b}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_cap_on_exchanges_spreads_them_over_ticks() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(32);
+    let (mut work, mut random) = (Work::new(&strip)?, Random::new(5));
+    let load = strip.load(0.1, &mut random);
+    let mut last = 0;
+    for tick in 0..32 {
+        let (ended, pivots) = work.exact(&strip, &load, 3)?;
+        assert!(pivots <= 3);
+        last = tick;
+        if ended == Ended::Exact {
+            break;
+        }
+        assert_eq!(ended, Ended::OutOfWork);
+        assert!(work.x.iter().all(|x| *x >= 0.0));
+    }
+    assert!(last > 2 && last < 31, "{last}");
+    assert!(work.defect() < 1e-13);
+    Ok(())
+}
+
+#[test]
+fn exchanges_undo_each_other() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(9);
+    let (mut work, mut z) = (Work::new(&strip)?, vec![0.0; 9]);
+    let before = work.entries.clone();
+    let Work { entries, exchanged, column, .. } = &mut work;
+    let mut tableau = Tableau::new(entries, exchanged, column)?;
+    for k in [3, 7, 0, 3, 0, 7] {
+        assert!(tableau.exchange(k, &mut z)?);
+    }
+    assert_eq!(tableau.exchanged(), [false; 9]);
+    for (a, b) in work.entries.iter().zip(before) {
+        assert!((a - b).abs() < 1e-14);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_worn_tableau_is_noticed_and_built_anew() -> Result<(), Error> {
+    let strip = Strip::<f32>::new(16);
+    let (mut work, mut random) = (Work::new(&strip)?, Random::new(11));
+    let load = strip.load(0.0, &mut random);
+    work.exact(&strip, &load, 1000)?;
+    work.entries.iter_mut().for_each(|entry| *entry *= 3.0);
+    let (ended, _) = work.exact(&strip, &load, 1000)?;
+    assert_eq!(ended, Ended::OutOfWork);
+    let (ended, _) = work.exact(&strip, &load, 1000)?;
+    assert_eq!(ended, Ended::Exact);
+    assert!(work.defect() < 1e-5);
+    Ok(())
+}
+
+#[test]
+fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(10);
+    let mut random = Random::new(2);
+    let load = strip.load(-0.3, &mut random);
+    let (mut x, mut naive) = (vec![0.1; 10], vec![0.1_f64; 10]);
+    for _ in 0..5 {
+        sor::sweep(&strip.matrix()?, &load, 1.3, &mut x)?;
+        for i in 0..10 {
+            let product: f64 = (0..10).map(|j| strip.at(i, j) * naive[j]).sum();
+            naive[i] = (naive[i] + 1.3 * (load[i] - product)).max(0.0);
+        }
+    }
+    assert!(x.iter().zip(&naive).all(|(a, b)| (a - b).abs() < 1e-14));
+    assert!(x.contains(&0.0) && x.iter().any(|&x| x > 0.0), "{x:?}");
+    Ok(())
+}
+
+#[test]
+fn wrong_lengths_are_refused() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(5);
+    assert!(Panels::new(strip.panels(), 6).is_err());
+    let matrix = strip.matrix()?;
+    assert!(matrix.multiply_add(&[0.0; 4], &mut [0.0; 5]).is_err());
+    assert!(matrix.multiply_add(&[0.0; 5], &mut [0.0; 4]).is_err());
+    assert!(sor::sweep(&matrix, &[0.0; 4], 1.0, &mut [0.0; 5]).is_err());
+    assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 6]).is_err());
+    assert!(Tableau::<f64>::new(&mut [0.0; 14], &mut [false; 5], &mut [0.0; 5]).is_err());
+    Ok(())
+}

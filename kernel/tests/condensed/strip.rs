@@ -1,0 +1,105 @@
+//! A strip of squares condensed to its lower edge by plain elimination: a realistic dense problem.
+
+use signorini_kernel::condensed::panels::{Panels, ROWS};
+use signorini_kernel::{Error, Real};
+
+/// Five-point Laplacian on n × n points above the contact points, zero along the top.
+pub struct Strip<R> {
+    pub order: usize,
+    entries: Vec<Vec<R>>,
+    panels: Vec<[R; ROWS]>,
+}
+
+impl<R: Real> Strip<R> {
+    pub fn new(order: usize) -> Self {
+        let dense = condensed(order);
+        let scaled = |i: usize, j: usize| dense[i][j] / (dense[i][i] * dense[j][j]).sqrt();
+        let narrow = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
+        let entries: Vec<Vec<R>> =
+            (0..order).map(|i| (0..order).map(|j| narrow(scaled(i, j))).collect()).collect();
+        let mut panels = Vec::new();
+        for first in (0..order).step_by(ROWS) {
+            for column in 0..order {
+                let row = |k: usize| entries.get(first + k).map_or(R::ZERO, |row| row[column]);
+                panels.push(std::array::from_fn(row));
+            }
+        }
+        Self { order, entries, panels }
+    }
+
+    pub fn panels(&self) -> &[[R; ROWS]] {
+        &self.panels
+    }
+
+    pub fn matrix(&self) -> Result<Panels<'_, R>, Error> {
+        Panels::new(&self.panels, self.order)
+    }
+
+    pub fn at(&self, row: usize, column: usize) -> R {
+        self.entries[row][column]
+    }
+
+    /// Lifts one side and presses the other, with noise; `shift` moves the border between them.
+    pub fn load(&self, shift: f64, random: &mut Random) -> Vec<R> {
+        let at = |i: usize| (i as f64 + 0.5) / self.order as f64;
+        let load = |i: usize| (6.0 * at(i)).sin() * 0.5 + shift + 0.2 * random.next();
+        (0..self.order).map(load).map(|x| R::from_f64(x).unwrap_or(R::ZERO)).collect()
+    }
+}
+
+fn condensed(n: usize) -> Vec<Vec<f64>> {
+    let rows = n.max(2);
+    let size = n * rows;
+    let mut matrix = vec![vec![0.0; size]; size];
+    // The contact points last.
+    let number = |i: usize, j: usize| (rows - 1 - j) * n + i;
+    for j in 0..rows {
+        for i in 0..n {
+            let here = number(i, j);
+            let half = if j == 0 { 0.5 } else { 1.0 };
+            let mut join = |other: Option<usize>, weight: f64| {
+                matrix[here][here] += weight;
+                if let Some(other) = other {
+                    matrix[here][other] -= weight;
+                }
+            };
+            if i > 0 {
+                join(Some(number(i - 1, j)), half);
+            }
+            if i + 1 < n {
+                join(Some(number(i + 1, j)), half);
+            }
+            if j > 0 {
+                join(Some(number(i, j - 1)), 1.0);
+            }
+            join((j + 1 < rows).then(|| number(i, j + 1)), 1.0);
+        }
+    }
+    for pivot in 0..size - n {
+        for row in pivot + 1..size {
+            let factor = matrix[row][pivot] / matrix[pivot][pivot];
+            if factor != 0.0 {
+                for column in pivot..size {
+                    matrix[row][column] -= factor * matrix[pivot][column];
+                }
+            }
+        }
+    }
+    (0..n).map(|i| matrix[size - n + i][size - n..].to_vec()).collect()
+}
+
+/// Uniform on [−1, 1], from xorshift.
+pub struct Random(u32);
+
+impl Random {
+    pub fn new(seed: u32) -> Self {
+        Self(seed | 1)
+    }
+
+    pub fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        f64::from(self.0) / f64::from(u32::MAX) * 2.0 - 1.0
+    }
+}
