@@ -3,9 +3,9 @@
 #[path = "condensed/strip.rs"]
 mod strip;
 
+use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE, padded};
 use signorini_kernel::condensed::method::{Ended, Method, Pivots, Sweeps};
-use signorini_kernel::condensed::panels::Panels;
-use signorini_kernel::condensed::tableau::{self, Tableau};
+use signorini_kernel::condensed::tableau::Tableau;
 use signorini_kernel::condensed::{Iterate, sor};
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
@@ -15,33 +15,36 @@ struct Work<R> {
     x: Vec<R>,
     residual: Vec<R>,
     scratch: Vec<R>,
-    entries: Vec<R>,
+    open: Vec<bool>,
+    blocks: Vec<Block<R>>,
     exchanged: Vec<bool>,
     column: Vec<R>,
 }
 
 impl<R: Real> Work<R> {
     fn new(strip: &Strip<R>) -> Result<Self, Error> {
-        let n = strip.order;
+        let n = padded(strip.order);
         let mut work = Self {
             x: vec![R::ZERO; n],
             residual: vec![R::ZERO; n],
             scratch: vec![R::ZERO; n],
-            entries: vec![R::ZERO; tableau::entries(n)],
+            open: vec![false; n],
+            blocks: vec![[[R::ZERO; SIDE]; SIDE]; blocks::count(n)],
             exchanged: vec![false; n],
             column: vec![R::ZERO; n],
         };
-        let Work { entries, exchanged, column, .. } = &mut work;
-        Tableau::new(entries, exchanged, column)?.reset(&strip.matrix()?)?;
+        let Work { blocks, exchanged, column, .. } = &mut work;
+        Tableau::new(blocks, exchanged, column)?.reset(&strip.matrix()?)?;
         Ok(work)
     }
 
     fn exact(&mut self, strip: &Strip<R>, load: &[R], most: u32) -> Result<(Ended, u32), Error> {
-        let Work { x, residual, scratch, entries, exchanged, column } = self;
-        let tableau = Tableau::new(entries, exchanged, column)?;
+        let Work { x, residual, scratch, open, blocks, exchanged, column } = self;
+        let tableau = Tableau::new(blocks, exchanged, column)?;
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let mut method = Pivots { tableau, most, sweeps };
-        let progress = method.solve(&strip.matrix()?, load, Iterate { x, residual, scratch })?;
+        let progress =
+            method.solve(&strip.matrix()?, load, Iterate { x, residual, scratch, open })?;
         Ok((progress.ended, progress.pivots))
     }
 
@@ -50,7 +53,8 @@ impl<R: Real> Work<R> {
         assert!(self.x.iter().all(|x| *x >= R::ZERO));
         let pairs = self.x.iter().zip(&self.residual);
         let largest = self.x.iter().fold(R::ONE, |most, &x| most.or_larger(x));
-        R::ONE / largest * pairs.fold(R::ZERO, |most, (&x, &r)| most.or_larger(x.or_smaller(r).magnitude()))
+        R::ONE / largest
+            * pairs.fold(R::ZERO, |most, (&x, &r)| most.or_larger(x.or_smaller(r).magnitude()))
     }
 }
 
@@ -89,9 +93,10 @@ fn sweeps_come_to_the_same() -> Result<(), Error> {
     for tick in 0..20 {
         let load = load(&strip, tick, &mut random);
         work.exact(&strip, &load, 1000)?;
-        let (mut x, mut residual, mut scratch) = (vec![0.0; 19], vec![0.0; 19], vec![0.0; 19]);
+        let (mut x, mut residual, mut scratch) = (vec![0.0; 24], vec![0.0; 24], vec![0.0; 24]);
+        let open = &mut [false; 24];
         let mut sweeps = Sweeps { omega: 1.4, tolerance: 1e-14, most: 1000 };
-        let iterate = Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch };
+        let iterate = Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
         let progress = sweeps.solve(&strip.matrix()?, &load, iterate)?;
         assert_eq!(progress.ended, Ended::Converged);
         for (a, b) in x.iter().zip(&work.x) {
@@ -125,15 +130,16 @@ fn a_cap_on_exchanges_spreads_them_over_ticks() -> Result<(), Error> {
 #[test]
 fn exchanges_undo_each_other() -> Result<(), Error> {
     let strip = Strip::<f64>::new(9);
-    let (mut work, mut z) = (Work::new(&strip)?, vec![0.0; 9]);
-    let before = work.entries.clone();
-    let Work { entries, exchanged, column, .. } = &mut work;
-    let mut tableau = Tableau::new(entries, exchanged, column)?;
+    let (mut work, mut z) = (Work::new(&strip)?, vec![0.0; 16]);
+    let before = work.blocks.clone();
+    let Work { blocks, exchanged, column, .. } = &mut work;
+    let mut tableau = Tableau::new(blocks, exchanged, column)?;
     for k in [3, 7, 0, 3, 0, 7] {
         assert!(tableau.exchange(k, &mut z)?);
     }
-    assert_eq!(tableau.exchanged(), [false; 9]);
-    for (a, b) in work.entries.iter().zip(before) {
+    assert_eq!(tableau.exchanged(), [false; 16]);
+    let entries = work.blocks.as_flattened().as_flattened().iter();
+    for (a, b) in entries.zip(before.as_flattened().as_flattened()) {
         assert!((a - b).abs() < 1e-14);
     }
     Ok(())
@@ -145,7 +151,7 @@ fn a_worn_tableau_is_noticed_and_built_anew() -> Result<(), Error> {
     let (mut work, mut random) = (Work::new(&strip)?, Random::new(11));
     let load = strip.load(0.0, &mut random);
     work.exact(&strip, &load, 1000)?;
-    work.entries.iter_mut().for_each(|entry| *entry *= 3.0);
+    work.blocks.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|entry| *entry *= 3.0);
     let (ended, _) = work.exact(&strip, &load, 1000)?;
     assert_eq!(ended, Ended::OutOfWork);
     let (ended, _) = work.exact(&strip, &load, 1000)?;
@@ -160,6 +166,7 @@ fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
     let mut random = Random::new(2);
     let load = strip.load(-0.3, &mut random);
     let (mut x, mut naive) = (vec![0.1; 10], vec![0.1_f64; 10]);
+    x.resize(16, 0.0);
     for _ in 0..5 {
         sor::sweep(&strip.matrix()?, &load, 1.3, &mut x)?;
         for i in 0..10 {
@@ -175,12 +182,16 @@ fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
 #[test]
 fn wrong_lengths_are_refused() -> Result<(), Error> {
     let strip = Strip::<f64>::new(5);
-    assert!(Panels::new(strip.panels(), 6).is_err());
+    assert!(Blocks::new(strip.blocks(), 9).is_err());
     let matrix = strip.matrix()?;
-    assert!(matrix.multiply_add(&[0.0; 4], &mut [0.0; 5]).is_err());
-    assert!(matrix.multiply_add(&[0.0; 5], &mut [0.0; 4]).is_err());
-    assert!(sor::sweep(&matrix, &[0.0; 4], 1.0, &mut [0.0; 5]).is_err());
-    assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 6]).is_err());
-    assert!(Tableau::<f64>::new(&mut [0.0; 14], &mut [false; 5], &mut [0.0; 5]).is_err());
+    let blocks = matrix.blocks();
+    assert!(blocks::multiply_add(blocks, &[0.0; 16], &[true; 16], &mut [0.0; 16]).is_err());
+    assert!(blocks::multiply_add(blocks, &[0.0; 8], &[true; 8], &mut [0.0; 5]).is_err());
+    assert!(blocks::multiply_add(blocks, &[0.0; 5], &[true; 8], &mut [0.0; 8]).is_err());
+    assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).is_err());
+    assert!(sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).is_err());
+    let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
+    assert!(Tableau::new(&mut room, &mut [false; 8], &mut [0.0; 5]).is_err());
+    assert!(Tableau::new(&mut room, &mut [false; 16], &mut [0.0; 16]).is_err());
     Ok(())
 }

@@ -36,7 +36,7 @@ impl<R: Real> Factor<'_, R> {
     #[inline(never)]
     pub fn norm(&self, z: &[R], sum: &mut [R]) -> Result<Norm<R>, Error> {
         let order = self.norms.len();
-        same_length(Array::MatrixValues, self.columns.len(), super::tableau::entries(order))?;
+        same_length(Array::MatrixValues, self.columns.len(), order * (order + 1) / 2)?;
         same_length(Array::Unknowns, z.len(), order)?;
         same_length(Array::Scratch, sum.len(), order)?;
         sum.fill(R::ZERO);

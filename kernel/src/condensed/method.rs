@@ -6,7 +6,7 @@
 //! tick goes on exchanging: the answer is feasible and has its bound in any case.
 
 use super::Iterate;
-use super::panels::Panels;
+use super::blocks::Blocks;
 use super::pivoting::{self, Found, settle};
 use super::sor;
 use super::tableau::Tableau;
@@ -43,7 +43,7 @@ pub trait Method<R: Real> {
     /// Arrays of the wrong length.
     fn solve(
         &mut self,
-        matrix: &Panels<R>,
+        matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
     ) -> Result<Progress, Error>;
@@ -54,7 +54,7 @@ pub trait Method<R: Real> {
 pub struct Sweeps<R> {
     /// ω, inside (0, 2).
     pub omega: R,
-    /// The largest |min(x_i, r_i)| that is small enough, relative to the largest x_i and b_i.
+    /// The Σ|min(x_i, ω r_i)| that is small enough, relative to ‖x‖ or ‖b‖, the larger.
     pub tolerance: R,
     /// Most sweeps of a solve.
     pub most: u32,
@@ -63,7 +63,7 @@ pub struct Sweeps<R> {
 impl<R: Real> Method<R> for Sweeps<R> {
     fn solve(
         &mut self,
-        matrix: &Panels<R>,
+        matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
     ) -> Result<Progress, Error> {
@@ -74,13 +74,13 @@ impl<R: Real> Method<R> for Sweeps<R> {
         while progress.sweeps < self.most {
             let defect = sor::sweep(matrix, load, self.omega, iterate.x)?;
             progress.sweeps += 1;
-            let size = pivoting::largest(iterate.x).or_larger(pivoting::largest(load));
+            let size = pivoting::square(iterate.x).or_larger(pivoting::square(load)).rounded_sqrt();
             if defect <= self.tolerance * size {
                 progress.ended = Ended::Converged;
                 break;
             }
         }
-        settle(matrix, load, iterate.x, iterate.residual)?;
+        settle(matrix, load, iterate.x, iterate.residual, iterate.open)?;
         Ok(progress)
     }
 }
@@ -99,17 +99,17 @@ pub struct Pivots<'a, R> {
 impl<R: Real> Method<R> for Pivots<'_, R> {
     fn solve(
         &mut self,
-        matrix: &Panels<R>,
+        matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
     ) -> Result<Progress, Error> {
-        let Iterate { x, residual, scratch } = iterate;
-        let lent = Iterate { x: &mut *x, residual: &mut *residual, scratch: &mut *scratch };
+        let mut iterate = iterate;
+        let lent = iterate.lend();
         let (found, pivots) = pivoting::find(matrix, load, &mut self.tableau, self.most, lent)?;
         if found == Found::Exact {
             return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
         }
-        let rest = self.sweeps.solve(matrix, load, Iterate { x, residual, scratch })?;
+        let rest = self.sweeps.solve(matrix, load, iterate)?;
         Ok(Progress { pivots, ..rest })
     }
 }

@@ -13,14 +13,14 @@
 //! ```text
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
 //! ```
-//! [`panels`] hold S; [`sor`] sweeps over them; [`tableau`] and [`pivoting`] solve exactly; [`factor`] and
+//! [`blocks`] hold S; [`sor`] sweeps over them; [`tableau`] and [`pivoting`] solve exactly; [`factor`] and
 //! [`certificate`] bound the error; [`outputs`] are read off. `signorini bake` writes all of it.
 
+pub mod blocks;
 pub mod certificate;
 pub mod factor;
 pub mod method;
 pub mod outputs;
-pub mod panels;
 pub mod pivoting;
 pub mod sor;
 pub mod tableau;
@@ -28,17 +28,19 @@ pub mod tableau;
 use crate::certificate::Certificate;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::real::Real;
+use blocks::{Block, Blocks};
 use certificate::{Answer, Form};
 use method::{Ended, Method};
 use outputs::Measure;
-use panels::Panels;
 
 /// A baked model (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Condensed<'a, R> {
-    /// S, as [`Panels::new`] takes it.
-    pub matrix: &'a [[R; panels::ROWS]],
-    /// B by columns: n entries for each input, the constant first.
+    /// n
+    pub contact: usize,
+    /// S, as [`Blocks::new`] takes it.
+    pub matrix: &'a [Block<R>],
+    /// B by columns: [`blocks::padded`] entries for each input, the constant first.
     pub load: &'a [R],
     /// The outputs.
     pub outputs: &'a [Measure<'a, R>],
@@ -46,24 +48,20 @@ pub struct Condensed<'a, R> {
     pub certificate: Option<Form<'a, R>>,
 }
 
-/// Memory of a condensed model (borrowed): x stays from tick to tick, the rest is scratch.
+/// Memory of a condensed model (borrowed).
 #[derive(Debug)]
 pub struct Memory<'a, R> {
-    /// x, one entry a contact edge; zeros to begin with.
-    pub x: &'a mut [R],
-    /// B p, one entry a contact edge.
+    /// x stays from tick to tick, zeros to begin with; the rest is scratch.
+    pub iterate: Iterate<'a, R>,
+    /// B p, with [`blocks::padded`] entries.
     pub load: &'a mut [R],
-    /// Sx − Bp, one entry a contact edge.
-    pub residual: &'a mut [R],
-    /// One entry a contact edge.
-    pub scratch: &'a mut [R],
     /// One entry a column of F; empty without a certificate.
     pub combination: &'a mut [R],
     /// One entry a column of F; empty without a certificate.
     pub sum: &'a mut [R],
 }
 
-/// Arrays that a solve works on, one entry a contact edge (borrowed).
+/// Arrays that a solve works on, with [`blocks::padded`] entries each (borrowed).
 #[derive(Debug)]
 pub struct Iterate<'a, R> {
     /// Where it starts; becomes x ≥ 0, whatever ends the solve.
@@ -72,6 +70,15 @@ pub struct Iterate<'a, R> {
     pub residual: &'a mut [R],
     /// Scratch.
     pub scratch: &'a mut [R],
+    /// Becomes true where x > 0.
+    pub open: &'a mut [bool],
+}
+
+impl<R> Iterate<'_, R> {
+    /// The same arrays, for a while.
+    fn lend(&mut self) -> Iterate<'_, R> {
+        Iterate { x: self.x, residual: self.residual, scratch: self.scratch, open: self.open }
+    }
 }
 
 /// What a tick says beside its outputs.
@@ -101,26 +108,22 @@ impl<R: Real> Condensed<'_, R> {
         memory: &mut Memory<R>,
     ) -> Result<Report<R>, Error> {
         all_finite(Array::Load, inputs)?;
-        let order = memory.x.len();
-        let matrix = Panels::new(self.matrix, order)?;
+        let matrix = Blocks::new(self.matrix, self.contact)?;
         self.combine(inputs, memory.load)?;
-        let iterate = Iterate {
-            x: &mut *memory.x,
-            residual: &mut *memory.residual,
-            scratch: &mut *memory.scratch,
-        };
-        let progress = method.solve(&matrix, memory.load, iterate)?;
-        let answer = Answer { inputs, x: memory.x, residual: memory.residual };
+        let progress = method.solve(&matrix, memory.load, memory.iterate.lend())?;
+        let Iterate { x, residual, .. } = &memory.iterate;
+        let (x, residual) = (self.unpadded(x), self.unpadded(residual));
+        let answer = Answer { inputs, x, residual };
         let certificate = match &self.certificate {
             Some(form) => form.certify(&answer, memory.combination, memory.sum)?,
             None => None,
         };
-        let active = memory.x.iter().filter(|x| **x == R::ZERO).count() as u32;
+        let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
         let method::Progress { ended, pivots, sweeps } = progress;
         Ok(Report { ended, pivots, sweeps, active, certificate })
     }
 
-    /// Output `number` of the last tick.
+    /// Output `number` of the last tick, `x` being that of its memory.
     ///
     /// # Errors
     /// Arrays of the wrong length; no such output.
@@ -132,11 +135,17 @@ impl<R: Real> Condensed<'_, R> {
         report: &Report<R>,
     ) -> Result<R, Error> {
         let stray = Error::OutOfRange { of: Array::Scratch, at: number };
-        self.outputs.get(number).ok_or(stray)?.value(inputs, x, report.certificate.as_ref())
+        let measure = self.outputs.get(number).ok_or(stray)?;
+        measure.value(inputs, self.unpadded(x), report.certificate.as_ref())
+    }
+
+    fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {
+        vector.get(..self.contact).unwrap_or(vector)
     }
 
     /// `load` = B p
     fn combine(&self, inputs: &[R], load: &mut [R]) -> Result<(), Error> {
+        same_length(Array::Load, load.len(), blocks::padded(self.contact))?;
         same_length(Array::Load, self.load.len(), load.len() * inputs.len())?;
         load.fill(R::ZERO);
         for (column, &p) in self.load.chunks_exact(load.len().max(1)).zip(inputs) {

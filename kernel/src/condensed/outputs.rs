@@ -28,7 +28,12 @@ impl<R: Real> Measure<'_, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
-    pub fn value(&self, inputs: &[R], x: &[R], certificate: Option<&Certificate<R>>) -> Result<R, Error> {
+    pub fn value(
+        &self,
+        inputs: &[R],
+        x: &[R],
+        certificate: Option<&Certificate<R>>,
+    ) -> Result<R, Error> {
         match *self {
             Self::Linear { of_inputs, of_contact } => {
                 same_length(Array::Load, of_inputs.len(), inputs.len())?;
@@ -40,7 +45,9 @@ impl<R: Real> Measure<'_, R> {
                 let touching = of_contact.iter().zip(x).filter(|(_, x)| **x == R::ZERO);
                 Ok(touching.fold(R::ZERO, |sum, (&length, _)| sum + length))
             }
-            Self::Bound => Ok(certificate.map_or(R::ONE / R::ZERO, |certificate| certificate.total)),
+            Self::Bound => {
+                Ok(certificate.map_or(R::ONE / R::ZERO, |certificate| certificate.total))
+            }
         }
     }
 }

@@ -14,7 +14,7 @@
 //! tableau that no longer corrects is given up, and built anew from the next tick on.
 
 use super::Iterate;
-use super::panels::Panels;
+use super::blocks::{Blocks, multiply_add};
 use super::tableau::Tableau;
 use crate::error::Error;
 use crate::real::Real;
@@ -38,24 +38,25 @@ pub enum Found {
 /// # Errors
 /// Arrays of the wrong length.
 pub fn find<R: Real>(
-    matrix: &Panels<R>,
+    matrix: &Blocks<R>,
     load: &[R],
     tableau: &mut Tableau<R>,
     cap: u32,
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
-    let Iterate { x, residual, scratch: answer } = iterate;
+    let Iterate { x, residual, scratch: answer, open } = iterate;
     tableau.answer(load, answer)?;
-    let (mut found, pivots) = search(load, tableau, cap, answer)?;
+    let size = (square(load) + square(answer)).rounded_sqrt();
+    let (mut found, pivots) = search(tableau, cap, R::TWO * R::EPSILON * size, answer)?;
     take_over(answer, tableau.exchanged(), x);
-    settle(matrix, load, x, residual)?;
+    settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
-        let limit = limit(load, x);
-        let before = unbalanced(residual, tableau.exchanged());
+        let limit = R::from_count(4) * R::EPSILON * size;
+        let before = unbalanced(residual, open);
         if !(before <= limit) {
             correct(tableau, residual, answer, x)?;
-            settle(matrix, load, x, residual)?;
-            let after = unbalanced(residual, tableau.exchanged());
+            settle(matrix, load, x, residual, open)?;
+            let after = unbalanced(residual, open);
             if !(after <= limit || after <= R::QUARTER * before) {
                 found = Found::Worn;
             }
@@ -67,33 +68,22 @@ pub fn find<R: Real>(
     Ok((found, pivots))
 }
 
-/// Rounds of exchanges until nothing is wrong.
+/// Rounds of exchanges until nothing is wrong by more than `noise`, which rounding may be.
 fn search<R: Real>(
-    load: &[R],
     tableau: &mut Tableau<R>,
     cap: u32,
+    noise: R,
     z: &mut [R],
 ) -> Result<(Found, u32), Error> {
-    let (mut fewest, mut patience, mut pivots) = (usize::MAX, PATIENCE, 0);
+    let (mut fewest, mut patience, mut pivots) = (u32::MAX, PATIENCE, 0);
     loop {
-        let noise = noise(load, z);
-        let wrong = |at: usize, z: &[R], within: &[bool]| {
-            let sides = z.get(at).zip(within.get(at));
-            sides.is_some_and(|(&z, &within)| !((if within { -z } else { z }) >= -noise))
-        };
-        let all = 0..z.len();
-        let count = all.clone().filter(|&at| wrong(at, z, tableau.exchanged())).count();
-        if count == 0 {
-            return Ok((Found::Exact, pivots));
-        }
-        let single = count >= fewest && patience == 0;
-        if count < fewest {
-            (fewest, patience) = (count, PATIENCE);
-        } else {
-            patience = patience.saturating_sub(1);
-        }
-        for at in all.rev() {
-            if !wrong(at, z, tableau.exchanged()) {
+        let single = patience == 0;
+        let mut wrong = 0;
+        for at in (0..z.len()).rev() {
+            let (Some(&z_at), Some(&within)) = (z.get(at), tableau.exchanged().get(at)) else {
+                break;
+            };
+            if (if within { -z_at } else { z_at }) >= -noise {
                 continue;
             }
             if pivots >= cap {
@@ -102,33 +92,31 @@ fn search<R: Real>(
             if !tableau.exchange(at, z)? {
                 return Ok((Found::Worn, pivots));
             }
-            pivots += 1;
+            (pivots, wrong) = (pivots + 1, wrong + 1);
             if single {
                 break;
             }
         }
+        if wrong == 0 {
+            return Ok((Found::Exact, pivots));
+        }
+        if wrong < fewest && !single {
+            (fewest, patience) = (wrong, PATIENCE);
+        } else {
+            patience = patience.saturating_sub(1);
+        }
     }
 }
 
-/// How large a wrong sign may be and still be rounding: a few digits of the largest number.
-fn noise<R: Real>(load: &[R], z: &[R]) -> R {
-    R::from_count(8) * R::EPSILON * largest(z).or_larger(largest(load))
+/// Σ x_i²
+pub(super) fn square<R: Real>(x: &[R]) -> R {
+    x.iter().fold(R::ZERO, |sum, &x| sum + x * x)
 }
 
-/// What may be left of the balance on the edges in balance.
-fn limit<R: Real>(load: &[R], x: &[R]) -> R {
-    R::from_count(32) * R::EPSILON * largest(x).or_larger(largest(load))
-}
-
-/// max |x_i|
-pub(super) fn largest<R: Real>(numbers: &[R]) -> R {
-    numbers.iter().fold(R::ZERO, |most, number| most.or_larger(number.magnitude()))
-}
-
-/// The largest |r_i| of the unknowns in balance, NaN where one is.
-fn unbalanced<R: Real>(residual: &[R], exchanged: &[bool]) -> R {
-    let within = residual.iter().zip(exchanged).filter(|(_, within)| **within);
-    within.fold(R::ZERO, |most, (r, _)| if r.magnitude() <= most { most } else { r.magnitude() })
+/// The root of the sum of r_i² over the edges that are open, or should be.
+fn unbalanced<R: Real>(residual: &[R], open: &[bool]) -> R {
+    let wrong = residual.iter().zip(open).filter(|(r, open)| **open || !(**r >= R::ZERO));
+    wrong.fold(R::ZERO, |sum, (&r, _)| sum + r * r).rounded_sqrt()
 }
 
 /// x of the answer (−x_I, w_A), not below 0.
@@ -138,15 +126,17 @@ fn take_over<R: Real>(answer: &[R], exchanged: &[bool], x: &mut [R]) {
     }
 }
 
-/// `residual` = Sx − b
+/// `residual` = Sx − b, and `open` where x > 0.
 pub(super) fn settle<R: Real>(
-    matrix: &Panels<R>,
+    matrix: &Blocks<R>,
     load: &[R],
     x: &[R],
     residual: &mut [R],
+    open: &mut [bool],
 ) -> Result<(), Error> {
     residual.iter_mut().zip(load).for_each(|(residual, &load)| *residual = -load);
-    matrix.multiply_add(x, residual)
+    open.iter_mut().zip(x).for_each(|(open, &x)| *open = x > R::ZERO);
+    multiply_add(matrix.blocks(), x, open, residual)
 }
 
 /// x_I −= S_II⁻¹ r_I, not below 0.

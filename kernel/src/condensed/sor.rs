@@ -3,58 +3,86 @@
 //! ```text
 //!   x_i ← max(0, x_i + ω (b_i − Σ_j S_ij x_j)),      S_ii = 1
 //! ```
-//! All products of a panel are formed with the old x; then its own four are relaxed one after the other,
-//! each change being brought to the rows below it. That is Gauss–Seidel, exactly, in another order of
-//! the sums.
+//! The products of four rows are formed with the x there is; then these four are relaxed one after the
+//! other, each change being brought to the rows below it. That is Gauss–Seidel, exactly, in another
+//! order of the sums.
 
-use super::panels::{Panels, ROWS};
+use super::blocks::{Block, Blocks, SIDE, add_product, add_transposed, groups, groups_mut};
+use super::blocks::{Row, padded};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
-/// One sweep. Returns the largest |min(x_i, r_i)| that it met, r = Sx − b: how far from
-/// complementarity x was, NaN where anything is.
+/// One sweep; vectors are [`padded`]. Returns the sum of all changes, |min(x_i, ω r_i)| with
+/// r = Sx − b: how far from complementarity each x was when its turn came. NaN where anything is.
 ///
 /// # Errors
 /// Arrays of the wrong length.
 #[inline(never)]
-pub fn sweep<R: Real>(
-    matrix: &Panels<R>,
-    load: &[R],
-    omega: R,
-    x: &mut [R],
-) -> Result<R, Error> {
-    same_length(Array::Load, load.len(), matrix.order())?;
-    same_length(Array::Unknowns, x.len(), matrix.order())?;
-    let mut largest = R::ZERO;
-    for (number, (panel, load)) in matrix.iter().zip(load.chunks(ROWS)).enumerate() {
-        let mut product = products(panel, x);
-        let first = ROWS * number;
-        let own = x.iter_mut().skip(first).zip(panel.iter().skip(first));
-        for (row, ((x, column), &load)) in own.zip(load).enumerate() {
-            let Some(&sum) = product.get(row) else { break };
-            let residual = sum - load;
-            let defect = if *x < residual { *x } else { residual };
-            // Written so that a NaN is taken over and then stays.
-            if !(defect.magnitude() <= largest) {
-                largest = defect.magnitude();
-            }
-            let relaxed = *x - omega * residual;
-            let next = if relaxed > R::ZERO { relaxed } else { R::ZERO };
-            let change = next - *x;
-            *x = next;
-            // Rows above are done with: what is added to their products is not read again.
-            product.iter_mut().zip(column).for_each(|(product, &entry)| *product += entry * change);
+pub fn sweep<R: Real>(matrix: &Blocks<R>, load: &[R], omega: R, x: &mut [R]) -> Result<R, Error> {
+    same_length(Array::Load, load.len(), padded(matrix.order()))?;
+    same_length(Array::Unknowns, x.len(), padded(matrix.order()))?;
+    let mut moved = R::ZERO;
+    let (mut rest, x) = (matrix.blocks(), groups_mut(x));
+    for (row, load) in groups(load).iter().enumerate() {
+        let Some(Row { left, diagonal, below }) = Row::split(rest, row) else { break };
+        let Some((before, [own, after @ ..])) = x.split_at_mut_checked(row) else { break };
+        let mut sums = [R::ZERO; SIDE];
+        left.iter().zip(before).for_each(|(block, x)| add_product(block, x, &mut sums));
+        // Column `row` of the rows that follow: each is one block longer than the one before.
+        let mut column = below.get(row..).unwrap_or_default();
+        for (step, x) in (row + 2..).zip(after) {
+            let [block, ..] = column else { break };
+            add_transposed(block, x, &mut sums);
+            column = column.get(step..).unwrap_or_default();
         }
+        moved += relax(diagonal, load, &sums, omega, own);
+        rest = below;
     }
-    Ok(largest)
+    Ok(moved)
 }
 
-/// Σ_j S_ij x_j for the rows of a panel.
+/// The unknowns of a block on the diagonal, `sums` being all other columns' part of their rows. Returns
+/// the sum of their changes.
 #[inline(always)]
-fn products<R: Real>(panel: &[[R; ROWS]], x: &[R]) -> [R; ROWS] {
-    let mut sums = [R::ZERO; ROWS];
-    for (column, &x) in panel.iter().zip(x) {
-        sums.iter_mut().zip(column).for_each(|(sum, &entry)| *sum += entry * x);
+fn relax<R: Real>(
+    diagonal: &Block<R>,
+    load: &[R; SIDE],
+    sums: &[R; SIDE],
+    omega: R,
+    x: &mut [R; SIDE],
+) -> R {
+    let (mut now, mut moved) = (*x, R::ZERO);
+    // Two loops of constant length: each is short enough to be unrolled, and x stays in registers.
+    for row in 0..SIDE / 2 {
+        moved += relax_row(row, diagonal, load, sums, omega, &mut now);
     }
-    sums
+    for row in SIDE / 2..SIDE {
+        moved += relax_row(row, diagonal, load, sums, omega, &mut now);
+    }
+    *x = now;
+    moved
+}
+
+#[inline(always)]
+fn relax_row<R: Real>(
+    row: usize,
+    diagonal: &Block<R>,
+    load: &[R; SIDE],
+    sums: &[R; SIDE],
+    omega: R,
+    x: &mut [R; SIDE],
+) -> R {
+    let (Some(entries), Some(&load), Some(&sum)) =
+        (diagonal.get(row), load.get(row), sums.get(row))
+    else {
+        return R::ZERO;
+    };
+    let inner = entries.iter().zip(&*x);
+    let residual = inner.fold(sum - load, |sum, (&entry, &x)| sum + entry * x);
+    let Some(x) = x.get_mut(row) else { return R::ZERO };
+    let relaxed = *x - omega * residual;
+    let next = if relaxed > R::ZERO { relaxed } else { R::ZERO };
+    let moved = (next - *x).magnitude();
+    *x = next;
+    moved
 }

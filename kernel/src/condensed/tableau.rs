@@ -16,43 +16,35 @@
 //! at worst, and rounding errors grow with its inverse. Who exchanges for a long time checks the answer
 //! against S now and then ([`super::pivoting`]).
 
-use super::panels::{Panels, ROWS};
+use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
 /// Memory of a tableau (borrowed): all its numbers mean something only together.
 #[derive(Debug)]
 pub struct Tableau<'a, R> {
-    /// The lower triangle of T row by row, n (n + 1) / 2 numbers.
-    entries: &'a mut [R],
-    /// Which unknowns are exchanged: the set I.
+    blocks: &'a mut [Block<R>],
     exchanged: &'a mut [bool],
-    /// One number an unknown.
     column: &'a mut [R],
 }
 
-/// Entries of a tableau of n unknowns.
-pub const fn entries(order: usize) -> usize {
-    order * (order + 1) / 2
-}
-
 impl<'a, R: Real> Tableau<'a, R> {
-    /// Takes memory that holds a tableau already, or that is about to be [`Tableau::reset`].
+    /// Takes memory that holds a tableau already, or that is about to be [`Tableau::reset`]: T in
+    /// [`count`] blocks, which unknowns are exchanged (`padded` entries), and as much scratch.
     ///
     /// # Errors
-    /// Arrays of the wrong length: [`entries`] of them, and twice one an unknown.
+    /// Arrays of the wrong length.
     pub fn new(
-        entries: &'a mut [R],
+        blocks: &'a mut [Block<R>],
         exchanged: &'a mut [bool],
         column: &'a mut [R],
     ) -> Result<Self, Error> {
-        let order = exchanged.len();
-        same_length(Array::MatrixValues, entries.len(), self::entries(order))?;
-        same_length(Array::Scratch, column.len(), order)?;
-        Ok(Self { entries, exchanged, column })
+        same_length(Array::MatrixValues, blocks.len(), count(exchanged.len()))?;
+        same_length(Array::Scratch, column.len(), exchanged.len())?;
+        Ok(Self { blocks, exchanged, column })
     }
 
-    /// Which unknowns are exchanged.
+    /// Which unknowns are exchanged; padding never is.
     pub fn exchanged(&self) -> &[bool] {
         self.exchanged
     }
@@ -61,16 +53,10 @@ impl<'a, R: Real> Tableau<'a, R> {
     ///
     /// # Errors
     /// A matrix of another order.
-    pub fn reset(&mut self, matrix: &Panels<R>) -> Result<(), Error> {
-        same_length(Array::MatrixValues, matrix.order(), self.exchanged.len())?;
+    pub fn reset(&mut self, matrix: &Blocks<R>) -> Result<(), Error> {
+        same_length(Array::MatrixValues, matrix.blocks().len(), self.blocks.len())?;
         self.exchanged.fill(false);
-        let mut rest = &mut *self.entries;
-        for row in 0..self.exchanged.len() {
-            let Some((entries, more)) = rest.split_at_mut_checked(row + 1) else { break };
-            let columns = entries.iter_mut().enumerate();
-            columns.for_each(|(column, entry)| *entry = matrix.at(row, column));
-            rest = more;
-        }
+        self.blocks.iter_mut().zip(matrix.blocks()).for_each(|(own, given)| *own = *given);
         Ok(())
     }
 
@@ -78,7 +64,6 @@ impl<'a, R: Real> Tableau<'a, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
-    #[inline(never)]
     pub fn answer(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
         self.respond(load, z)?;
         let given = z.iter_mut().zip(load).zip(self.exchanged.iter());
@@ -90,21 +75,12 @@ impl<'a, R: Real> Tableau<'a, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
-    #[inline(never)]
     pub fn respond(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
         same_length(Array::Load, load.len(), self.exchanged.len())?;
-        same_length(Array::Unknowns, z.len(), self.exchanged.len())?;
         let masked = self.column.iter_mut().zip(load).zip(self.exchanged.iter());
         masked.for_each(|((b, &load), &exchanged)| *b = if exchanged { load } else { R::ZERO });
         z.fill(R::ZERO);
-        let mut rest = &*self.entries;
-        for first in (0..z.len()).step_by(ROWS) {
-            let rows = ROWS.min(z.len() - first);
-            let Some((block, more)) = rest.split_at_checked(triangle_rows(first, rows)) else { break };
-            multiply_block(block, first, rows, self.column, z);
-            rest = more;
-        }
-        Ok(())
+        multiply_add(self.blocks, self.column, self.exchanged, z)
     }
 
     /// Exchanges unknown k, one way or the other, and moves the answer `z` along. Returns whether it
@@ -115,13 +91,13 @@ impl<'a, R: Real> Tableau<'a, R> {
     #[inline(never)]
     pub fn exchange(&mut self, k: usize, z: &mut [R]) -> Result<bool, Error> {
         same_length(Array::Unknowns, z.len(), self.exchanged.len())?;
-        self.load_column(k)?;
-        let (Some(pivot_place), Some(exchanged), Some(answer)) =
+        self.load_column(k);
+        let (Some(place), Some(exchanged), Some(answer)) =
             (self.column.get_mut(k), self.exchanged.get_mut(k), z.get_mut(k))
         else {
             return Err(Error::OutOfRange { of: Array::Unknowns, at: k });
         };
-        let pivot = core::mem::replace(pivot_place, R::ZERO);
+        let pivot = core::mem::replace(place, R::ZERO);
         // Positive where k enters, negative where it leaves; S has a diagonal of 1.
         if !((if *exchanged { -pivot } else { pivot }) > R::from_count(16) * R::EPSILON) {
             return Ok(false);
@@ -131,90 +107,68 @@ impl<'a, R: Real> Tableau<'a, R> {
         let moved = *answer * inverse;
         *answer *= shrink;
         z.iter_mut().zip(self.column.iter()).for_each(|(z, &entry)| *z -= entry * moved);
-        self.subtract_rank_one(inverse);
-        self.store_column(k, shrink, -inverse);
+        subtract_rank_one(self.blocks, groups(self.column), inverse);
+        self.column.iter_mut().for_each(|entry| *entry *= shrink);
+        if let Some(place) = self.column.get_mut(k) {
+            *place = -inverse;
+        }
+        self.store_column(k);
         Ok(true)
     }
 
     /// `column` = T_·k
-    fn load_column(&mut self, k: usize) -> Result<(), Error> {
-        let stray = Error::OutOfRange { of: Array::Unknowns, at: k };
-        let row = self.entries.get(entries(k)..entries(k + 1)).ok_or(stray)?;
-        self.column.iter_mut().zip(row).for_each(|(place, &entry)| *place = entry);
-        for (row, place) in self.column.iter_mut().enumerate().skip(k + 1) {
-            *place = self.entries.get(entries(row) + k).copied().unwrap_or(R::ZERO);
-        }
-        Ok(())
-    }
-
-    /// T_·k = `column` · `scale`, T_kk = `diagonal`
-    fn store_column(&mut self, k: usize, scale: R, diagonal: R) {
-        if let Some(row) = self.entries.get_mut(entries(k)..entries(k + 1)) {
-            row.iter_mut().zip(self.column.iter()).for_each(|(place, &entry)| *place = entry * scale);
-            row.iter_mut().skip(k).for_each(|place| *place = diagonal);
-        }
-        for (row, &entry) in self.column.iter().enumerate().skip(k + 1) {
-            if let Some(place) = self.entries.get_mut(entries(row) + k) {
-                *place = entry * scale;
+    fn load_column(&mut self, k: usize) {
+        let (own, line) = (k / SIDE, k % SIDE);
+        for (group, place) in groups_mut(self.column).iter_mut().enumerate() {
+            let Some(block) = self.blocks.get(position(group, own)) else { return };
+            if group <= own {
+                *place = block.get(line).copied().unwrap_or(*place);
+            } else {
+                let entries = block.iter().filter_map(|row| row.get(line));
+                place.iter_mut().zip(entries).for_each(|(place, &entry)| *place = entry);
             }
         }
     }
 
-    /// T −= `column` `column`ᵀ · `inverse`
-    fn subtract_rank_one(&mut self, inverse: R) {
-        let order = self.exchanged.len();
-        let mut rest = &mut *self.entries;
-        for first in (0..order).step_by(ROWS) {
-            let rows = ROWS.min(order - first);
-            let Some((block, more)) = rest.split_at_mut_checked(triangle_rows(first, rows)) else {
-                break;
-            };
-            subtract_block(block, first, rows, self.column, inverse);
-            rest = more;
+    /// T_·k = `column`
+    fn store_column(&mut self, k: usize) {
+        let (own, line) = (k / SIDE, k % SIDE);
+        for (group, entries) in groups(self.column).iter().enumerate() {
+            let Some(block) = self.blocks.get_mut(position(group, own)) else { return };
+            if group <= own
+                && let Some(row) = block.get_mut(line)
+            {
+                *row = *entries;
+            }
+            if group >= own {
+                let places = block.iter_mut().filter_map(|row| row.get_mut(line));
+                places.zip(entries).for_each(|(place, &entry)| *place = entry);
+            }
         }
     }
 }
 
-/// Numbers in `rows` rows of a lower triangle from row `first` on.
-const fn triangle_rows(first: usize, rows: usize) -> usize {
-    entries(first + rows) - entries(first)
+/// Where the block of two groups of unknowns stands.
+const fn position(one: usize, other: usize) -> usize {
+    let (row, column) = if one > other { (one, other) } else { (other, one) };
+    row * (row + 1) / 2 + column
 }
 
-/// z += the rows `first` … of T times b, and their transpose as far as it lies above the diagonal.
+/// T −= c cᵀ · `inverse`
 #[inline(always)]
-fn multiply_block<R: Real>(block: &[R], first: usize, rows: usize, b: &[R], z: &mut [R]) {
-    let mut start = 0;
-    for row in first..first + rows {
-        let Some((entries, own)) = block.get(start..start + row).zip(block.get(start + row)) else {
-            return;
-        };
-        let Some(&factor) = b.get(row) else { return };
-        let mut sum = *own * factor;
-        if factor == R::ZERO {
-            for (&entry, &b) in entries.iter().zip(b) {
-                sum += entry * b;
-            }
-        } else {
-            for ((&entry, &b), z) in entries.iter().zip(b).zip(z.iter_mut()) {
-                sum += entry * b;
-                *z += entry * factor;
+fn subtract_rank_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], inverse: R) {
+    let mut rest = blocks;
+    for (row, own) in column.iter().enumerate() {
+        let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
+        let mut factors = *own;
+        factors.iter_mut().for_each(|factor| *factor *= -inverse);
+        for (block, other) in blocks.iter_mut().zip(column) {
+            // A copy, which no write to a block can change, stays in registers.
+            let other = *other;
+            for (row, &factor) in block.iter_mut().zip(&factors) {
+                row.iter_mut().zip(other).for_each(|(entry, other)| *entry += factor * other);
             }
         }
-        if let Some(z) = z.get_mut(row) {
-            *z += sum;
-        }
-        start += row + 1;
-    }
-}
-
-/// The rows `first` … of T −= `column` `column`ᵀ · `inverse`
-#[inline(always)]
-fn subtract_block<R: Real>(block: &mut [R], first: usize, rows: usize, column: &[R], inverse: R) {
-    let mut rest = block;
-    for row in first..first + rows {
-        let Some((entries, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        let factor = column.get(row).copied().unwrap_or(R::ZERO) * inverse;
-        entries.iter_mut().zip(column).for_each(|(entry, &other)| *entry -= factor * other);
         rest = more;
     }
 }

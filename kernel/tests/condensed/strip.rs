@@ -1,13 +1,13 @@
 //! A strip of squares condensed to its lower edge by plain elimination: a realistic dense problem.
 
-use signorini_kernel::condensed::panels::{Panels, ROWS};
+use signorini_kernel::condensed::blocks::{Block, Blocks, SIDE, padded};
 use signorini_kernel::{Error, Real};
 
 /// Five-point Laplacian on n × n points above the contact points, zero along the top.
 pub struct Strip<R> {
     pub order: usize,
     entries: Vec<Vec<R>>,
-    panels: Vec<[R; ROWS]>,
+    blocks: Vec<Block<R>>,
 }
 
 impl<R: Real> Strip<R> {
@@ -17,22 +17,25 @@ impl<R: Real> Strip<R> {
         let narrow = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
         let entries: Vec<Vec<R>> =
             (0..order).map(|i| (0..order).map(|j| narrow(scaled(i, j))).collect()).collect();
-        let mut panels = Vec::new();
-        for first in (0..order).step_by(ROWS) {
-            for column in 0..order {
-                let row = |k: usize| entries.get(first + k).map_or(R::ZERO, |row| row[column]);
-                panels.push(std::array::from_fn(row));
-            }
-        }
-        Self { order, entries, panels }
+        let entry = |row: usize, column: usize| {
+            entries.get(row).and_then(|row| row.get(column)).copied().unwrap_or(R::ZERO)
+        };
+        let block = |row: usize, column: usize| {
+            let at = |r| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
+            std::array::from_fn(at)
+        };
+        let rows = 0..order.div_ceil(SIDE);
+        let blocks = rows.flat_map(|row| (0..=row).map(move |column| (row, column)));
+        let blocks = blocks.map(|(row, column)| block(row, column)).collect();
+        Self { order, entries, blocks }
     }
 
-    pub fn panels(&self) -> &[[R; ROWS]] {
-        &self.panels
+    pub fn blocks(&self) -> &[Block<R>] {
+        &self.blocks
     }
 
-    pub fn matrix(&self) -> Result<Panels<'_, R>, Error> {
-        Panels::new(&self.panels, self.order)
+    pub fn matrix(&self) -> Result<Blocks<'_, R>, Error> {
+        Blocks::new(&self.blocks, self.order)
     }
 
     pub fn at(&self, row: usize, column: usize) -> R {
@@ -43,7 +46,10 @@ impl<R: Real> Strip<R> {
     pub fn load(&self, shift: f64, random: &mut Random) -> Vec<R> {
         let at = |i: usize| (i as f64 + 0.5) / self.order as f64;
         let load = |i: usize| (6.0 * at(i)).sin() * 0.5 + shift + 0.2 * random.next();
-        (0..self.order).map(load).map(|x| R::from_f64(x).unwrap_or(R::ZERO)).collect()
+        let mut all: Vec<R> =
+            (0..self.order).map(load).map(|x| R::from_f64(x).unwrap_or(R::ZERO)).collect();
+        all.resize(padded(self.order), R::ZERO);
+        all
     }
 }
 

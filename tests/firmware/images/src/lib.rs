@@ -9,6 +9,8 @@ pub mod board;
 pub mod breach;
 pub mod grid;
 pub mod journal;
+#[cfg(target_os = "none")]
+pub mod meter;
 pub mod scenes;
 pub mod stages;
 pub mod tick;

@@ -9,10 +9,11 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use signorini_firmware::board::clock::{Clock, UNIT};
-use signorini_firmware::board::{self, stack};
+use signorini_firmware::board;
+use signorini_firmware::board::clock::Clock;
 use signorini_firmware::grid::{EDGES, Grid, SQUARES, VERTICES};
-use signorini_firmware::journal::{Bits, Journal};
+use signorini_firmware::journal::Bits;
+use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::Boundary;
@@ -28,18 +29,11 @@ use signorini_kernel::solver::{Settings, Solver};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Tensor, flux, psor};
 
-/// Repetitions of a stage in one count.
-const TIMES: u32 = 20;
-/// Printed where the counter goes round; whoever reads the lines refuses it.
-const TOO_LONG: u32 = u32::MAX;
-/// Bytes of stack that are watched.
-const DEPTH: u32 = 8192;
-
 #[entry]
 fn main() -> ! {
     let Some(clock) = Clock::start() else { board::end(false) };
     board::run(|journal| {
-        let mut meter = Meter { clock, journal, kind: "" };
+        let mut meter = Meter::new(clock, journal);
         let counted = meter
             .kind("f32 triangles")
             .stages::<f32, TRIANGLES, 5, { 2 * SQUARES }, 0, 408>()
@@ -63,41 +57,25 @@ fn main() -> ! {
     })
 }
 
-struct Meter<'a, 'j> {
-    clock: Clock,
-    journal: &'a mut Journal<'j>,
-    kind: &'static str,
+/// The stages of the kernel, counted.
+trait Stages {
+    fn stages<
+        R: Bits,
+        const WIDTH: usize,
+        const ENTRIES: usize,
+        const T: usize,
+        const Q: usize,
+        const E: usize,
+    >(
+        &mut self,
+    ) -> Result<(), Error>;
+
+    fn certificate<R: Bits, const T: usize, const Q: usize, const E: usize>(
+        &mut self,
+    ) -> Result<(), Error>;
 }
 
-impl Meter<'_, '_> {
-    fn kind(&mut self, kind: &'static str) -> &mut Self {
-        self.kind = kind;
-        self
-    }
-
-    /// Prints what `work` costs, by how many units it is shared, and how much stack it takes.
-    fn count(
-        &mut self,
-        stage: &str,
-        unit: &str,
-        units: usize,
-        mut work: impl FnMut() -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        work()?;
-        let mut repeated = || {
-            // Just seen to succeed.
-            let _ = black_box(work());
-        };
-        // What is too long for the counter twenty times over needs no finer grain than once.
-        let often = self.clock.measure(TIMES, &mut repeated).map(|counts| counts * UNIT / TIMES);
-        let once = || self.clock.measure(1, &mut repeated).map(|counts| counts * UNIT);
-        let total = often.or_else(once).unwrap_or(TOO_LONG);
-        let mut last = Ok(());
-        let bytes = stack::depth(DEPTH, || last = work());
-        self.journal.row(&[self.kind, "|", stage, "|", unit, "|"], &[total, units as u32, bytes]);
-        last
-    }
-
+impl Stages for Meter<'_, '_> {
     /// Rows of `WIDTH` entries, CSR rows of `ENTRIES`, T triangles, Q quads and E edges.
     #[inline(never)]
     fn stages<

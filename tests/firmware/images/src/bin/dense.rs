@@ -1,0 +1,133 @@
+//! What the condensed problem costs for 16, 32 and 64 contact edges, as `cost` prints it.
+//!
+//! The matrix is a model, since counts depend on its size alone: S_ij = −0.3/|i − j|², half of the edges
+//! open. Of the two answers counted in whole, one changes no edge and the other two.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use signorini_firmware::board;
+use signorini_firmware::board::clock::Clock;
+use signorini_firmware::journal::Bits;
+use signorini_firmware::meter::Meter;
+use signorini_firmware::stages::cut;
+use signorini_kernel::Error;
+use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE};
+use signorini_kernel::condensed::factor::Factor;
+use signorini_kernel::condensed::tableau::Tableau;
+use signorini_kernel::condensed::{Iterate, pivoting, sor};
+
+const MOST: usize = 64;
+const BLOCKS: usize = blocks::count(MOST);
+const COLUMNS: usize = MOST + 3;
+/// Numbers in a triangle with so many columns.
+const fn triangle(order: usize) -> usize {
+    order * (order + 1) / 2
+}
+
+#[entry]
+fn main() -> ! {
+    let Some(clock) = Clock::start() else { board::end(false) };
+    board::run(|journal| {
+        let mut meter = Meter::new(clock, journal);
+        let counted = stages::<f32>(meter.kind("f32, n = 16"), 16)
+            .and_then(|()| stages::<f32>(meter.kind("f32, n = 32"), 32))
+            .and_then(|()| stages::<f32>(meter.kind("f32, n = 64"), 64))
+            .and_then(|()| stages::<f64>(meter.kind("f64, n = 64"), 64));
+        if counted.is_err() {
+            board::end(false);
+        }
+    })
+}
+
+#[inline(never)]
+fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
+    let mut own = [[[R::ZERO; SIDE]; SIDE]; BLOCKS];
+    let own = cut(&mut own, blocks::count(n))?;
+    fill(own);
+    let matrix = Blocks::new(black_box(&*own), n)?;
+    let (mut x, mut load) = ([R::ZERO; MOST], [R::ZERO; MOST]);
+    let (x, load) = (cut(&mut x, n)?, cut(&mut load, n)?);
+    load.iter_mut().take(n / 2).for_each(|load| *load = R::ONE);
+    load.iter_mut().skip(n / 2).for_each(|load| *load = -R::ONE);
+    let mut residual = [R::ZERO; MOST];
+    let residual = cut(&mut residual, n)?;
+    let mut scratch = [R::ZERO; MOST];
+    let scratch = cut(&mut scratch, n)?;
+    meter.count("sweep", "n²", n * n, || sor::sweep(&matrix, load, R::ONE, x).map(|_| ()))?;
+    let mut open = [false; MOST];
+    let open = cut(&mut open, n)?;
+    open.iter_mut().zip(&*x).for_each(|(open, x)| *open = *x > R::ZERO);
+    meter.count("product, half of x zero", "n²", n * n, || {
+        blocks::multiply_add(matrix.blocks(), black_box(&*x), open, residual)
+    })?;
+    let mut room = [[[R::ZERO; SIDE]; SIDE]; BLOCKS];
+    let (mut exchanged, mut column) = ([false; MOST], [R::ZERO; MOST]);
+    let exchanged = cut(&mut exchanged, n)?;
+    let room = cut(&mut room, blocks::count(n))?;
+    let mut tableau = Tableau::new(room, exchanged, cut(&mut column, n)?)?;
+    tableau.reset(&matrix)?;
+    let mut solve = |load: &[R]| {
+        let iterate = Iterate {
+            x: &mut *x,
+            residual: &mut *residual,
+            scratch: &mut *scratch,
+            open: &mut *open,
+        };
+        pivoting::find(&matrix, load, &mut tableau, u32::MAX, iterate).map(|_| ())
+    };
+    meter.count("exact, no edge changes", "n²", n * n, || solve(load))?;
+    let mut other = [R::ZERO; MOST];
+    let other = cut(&mut other, n)?;
+    other.iter_mut().zip(load.iter()).for_each(|(other, load)| *other = *load);
+    other.iter_mut().skip(n / 2).take(1).for_each(|load| *load = R::ONE);
+    meter.count("exact, an edge there and back", "n²", n * n, || {
+        solve(other)?;
+        solve(load)
+    })?;
+    let mut z = [R::ZERO; MOST];
+    let z = cut(&mut z, n)?;
+    meter.count("answer", "n²", n * n, || tableau.answer(load, z))?;
+    let mut turn = 0;
+    meter.count("exchange", "n²", n * n, || {
+        turn = if turn + 7 < n { turn + 7 } else { turn + 7 - n };
+        tableau.exchange(turn, z).map(|_| ())
+    })?;
+    norm::<R>(meter, n)
+}
+
+/// ‖Fz‖ with half of z zero.
+#[inline(never)]
+fn norm<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
+    let order = n + 3;
+    let columns = [R::HALF; triangle(COLUMNS)];
+    let columns = columns.get(..triangle(order)).unwrap_or_default();
+    let norms = [R::ONE; COLUMNS];
+    let factor =
+        Factor { columns: black_box(columns), norms: norms.get(..order).unwrap_or_default() };
+    let (mut z, mut sum) = ([R::ZERO; COLUMNS], [R::ZERO; COLUMNS]);
+    let (z, sum) = (cut(&mut z, order)?, cut(&mut sum, order)?);
+    z.iter_mut().take(n / 2 + 3).for_each(|z| *z = R::ONE);
+    meter.count("norm of the bound, half of x zero", "n²", n * n, || {
+        black_box(factor.norm(black_box(z), sum)?);
+        Ok(())
+    })
+}
+
+fn fill<R: Bits>(blocks: &mut [Block<R>]) {
+    let (mut row, mut column) = (0, 0);
+    for block in blocks {
+        for (r, entries) in block.iter_mut().enumerate() {
+            for (c, entry) in entries.iter_mut().enumerate() {
+                let far = R::from_count((SIDE * row + r).abs_diff(SIDE * column + c) as u32);
+                *entry = match far == R::ZERO {
+                    true => R::ONE,
+                    false => -R::from_count(3) / R::from_count(10) / (far * far),
+                };
+            }
+        }
+        (row, column) = if column < row { (row, column + 1) } else { (row + 1, 0) };
+    }
+}
