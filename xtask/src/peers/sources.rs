@@ -109,7 +109,7 @@ impl Sources {
 
     /// OSQP, written by its generator for the problem in `header`.
     pub fn osqp(&self, header: &Path, folder: &Path) -> Result<Code, String> {
-        let script = root().join("tests/firmware/peers/osqp.py");
+        let script = root().join("tests/firmware/peers/osqp_workspace.py");
         let code = folder.join("osqp");
         self.python([script.as_os_str(), header.as_os_str(), code.as_os_str()])?;
         let mut files = c_files(&code.join("src"))?;

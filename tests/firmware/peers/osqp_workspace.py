@@ -1,4 +1,4 @@
-"""Writes OSQP's embedded code for a condensed problem: python3 osqp.py PROBLEM.h FOLDER
+"""Writes OSQP's embedded code for a condensed problem: python3 osqp_workspace.py PROBLEM.h FOLDER
 
 The host library scales nothing (S has a unit diagonal), factors once in f64, and its own generator
 writes the workspace in f32 (embedded mode 1: only vectors change, no allocation, no factorisation).
