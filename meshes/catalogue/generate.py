@@ -6,6 +6,7 @@ Needs Python 3.8 or later and nothing else. Running it again writes the same byt
     python3 meshes/catalogue/generate.py
 
 Domain (-1, 1) x (0, 1) in 2n x n squares, contact on y = 0, Dirichlet on the other three sides.
+The same domain with other n carries the condensed problems of `cargo xtask peers`.
 Squares are cut from the lower left to the upper right corner (tri), kept (quad), or alternate like
 the fields of a chessboard (mixed).
 """
@@ -13,6 +14,7 @@ the fields of a chessboard (mixed).
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+PEERS = HERE.parents[1] / "tests/firmware/peers"
 
 
 # --- meshes -----------------------------------------------------------------------------------
@@ -151,7 +153,28 @@ def scene(title, mesh, case):
     return "\n".join(text)
 
 
+def peer(n, mesh):
+    """2n contact edges, half of them active in three strips, and loads that move the six ends.
+
+    Eight waves along the contact line, the shorter the smaller; each has an input of its own.
+    """
+    text = [f'title = "Condensed: {2 * n} contact edges, eight inputs"', f'mesh = "{mesh}"', ""]
+    text += ["[material.default]", 'conductivity = "1"', ""]
+    text += ["[boundary.dirichlet]", 'kind = "dirichlet"', 'value = "0"', ""]
+    text += ["[boundary.contact]", 'kind = "contact"', 'flux = "cos(3*pi*x) - 0.35"', ""]
+    for k in range(1, 9):
+        wave = f"{0.25 / k:.6f}*{'cos' if k % 2 else 'sin'}({k}*pi*x/2)"
+        text += [f"[input.wave{k}]", 'of = "contact"', 'field = "flux"', f'pattern = "{wave}"']
+        text += ["default = 0.0", ""]
+    return "\n".join(text[:-1]) + "\n"
+
+
 def main():
+    for n in (8, 32):
+        (PEERS / f"square-tri-{n}.msh").write_text(msh22(*grid(n, "tri")))
+    for n in (8, 16, 32):
+        mesh = f"square-tri-{n}.msh" if n != 16 else "../../../meshes/catalogue/square-tri-16.msh"
+        (PEERS / f"contact-{2 * n}.toml").write_text(peer(n, mesh))
     for kind in ("tri", "quad", "mixed"):
         (HERE / f"square-{kind}-16.msh").write_text(msh22(*grid(16, kind)))
     a, b, h = case_a("x", "y"), case_b("x", "y"), case_h("x", "y")

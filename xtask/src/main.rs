@@ -9,6 +9,7 @@ mod cost;
 mod cross;
 mod export;
 mod no_std;
+mod peers;
 mod record;
 mod replay;
 mod setup;
@@ -30,7 +31,7 @@ struct Verb {
     run: fn(&mut Steps),
 }
 
-const VERBS: [Verb; 8] = [
+const VERBS: [Verb; 9] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -67,13 +68,18 @@ const VERBS: [Verb; 8] = [
         about: "instructions of every stage, against record and targets",
         run: cost::run,
     },
+    Verb {
+        name: "peers",
+        about: "other solvers on the same board and problems; not part of `test`",
+        run: peers::run,
+    },
 ];
 
 const EXAMPLES: &str = "\
 Examples:
   cargo xtask test      before every commit, and what CI runs
   cargo xtask no-std    after a change of the kernel's dependencies
-  cargo xtask cost --bless    writes the record anew (boards, cost and size have one)
+  cargo xtask cost --bless    writes the record anew (boards, cost, peers and size have one)
 
 Each verb runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit status
 is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";

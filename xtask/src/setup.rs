@@ -23,17 +23,30 @@ pub fn run(steps: &mut Steps) {
 /// `Ok` where all tools are there, installed just now where need be and possible.
 pub fn ensure() -> Result<(), String> {
     let Err(why) = missing() else { return Ok(()) };
-    let line = format!("apt-get install --no-install-recommends {}", PACKAGES.join(" "));
+    install_packages(&PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
+    missing()
+}
+
+/// Installs packages of Debian; `Err` with what to do where that is not possible.
+pub fn install_packages(packages: &[&str]) -> Result<(), String> {
+    let names = packages.join(" ");
     if !Path::new("/etc/debian_version").exists() {
-        return Err(format!("{why}; install what Debian calls {}", PACKAGES.join(" ")));
+        return Err(format!("install what Debian calls {names}"));
     }
     let user = output(Command::new("id").arg("-u"))?;
     if user.trim() != "0" {
-        return Err(format!("{why}; run `sudo {line}`"));
+        return Err(format!("run `sudo apt-get install --no-install-recommends {names}`"));
     }
-    println!("{why}: installing Debian's packages {}", PACKAGES.join(" "));
-    install()?;
-    missing()
+    println!("installing Debian's packages {names}");
+    // Another apt may hold the lock for a while.
+    let apt = |words: &[&str]| {
+        let mut command = Command::new("apt-get");
+        command.env("DEBIAN_FRONTEND", "noninteractive");
+        command.args(["-o", "DPkg::Lock::Timeout=120", "-q"]).args(words);
+        run_command(command)
+    };
+    apt(&["update"])?;
+    apt(&[&["install", "-y", "--no-install-recommends"], packages].concat())
 }
 
 fn missing() -> Result<(), String> {
@@ -44,16 +57,4 @@ fn missing() -> Result<(), String> {
         output(Command::new(program).arg("--version"))?;
     }
     Ok(())
-}
-
-fn install() -> Result<(), String> {
-    // Another apt may hold the lock for a while.
-    let apt = |words: &[&str]| {
-        let mut command = Command::new("apt-get");
-        command.env("DEBIAN_FRONTEND", "noninteractive");
-        command.args(["-o", "DPkg::Lock::Timeout=120", "-q"]).args(words);
-        run_command(command)
-    };
-    apt(&["update"])?;
-    apt(&[&["install", "-y", "--no-install-recommends"], &PACKAGES[..]].concat())
 }

@@ -7,6 +7,7 @@
 #[cfg(target_os = "none")]
 pub mod board;
 pub mod breach;
+pub mod draw;
 pub mod grid;
 pub mod journal;
 #[cfg(target_os = "none")]

@@ -1,0 +1,121 @@
+//! `cargo xtask peers`: other solvers on the emulated board, on the same condensed problems and ticks.
+//!
+//! ```text
+//!   minimise ½ xᵀS x − bᵀx over x ≥ 0,   b = Σ_j p_j B_j,   p_0 = 1, the other p_j random in [−1, 1)
+//! ```
+//!
+//! DAQP (MIT licence) 0.7.2 is the fastest of its releases tried: 0.8.5 takes 1 % more and 0.11.0 up to a
+//! third more, for a step of refinement that f32 always asks for. It is set up on the board, outside of
+//! the count. OSQP (Apache 2.0) is what its own generator writes on the host: embedded mode 1, factored.
+//! Both in f32 by GCC with -O2, which here beats -O3; multiply-adds are fused; no link-time optimisation.
+//! A tick is counted from b to x, starts where the last one ended, and the first is not counted.
+
+mod image;
+mod reference;
+mod sources;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::board::emulator;
+use crate::cargo::{cargo, root, run as run_cargo, target_dir};
+use crate::record;
+use crate::setup;
+use crate::steps::Steps;
+use crate::toolchain::{Toolchain, first_words, output};
+use image::Measured;
+use reference::{Deviation, Problem, deviation};
+use sources::Sources;
+
+const RECORD: &str = "tests/firmware/peers.txt";
+
+/// Contact edges of the scenes.
+const SIZES: [usize; 3] = [16, 32, 64];
+
+/// Ticks that are counted.
+const TICKS: usize = 1000;
+
+/// Relative errors that the solvers must keep: one that is exact up to rounding, and an iterative one.
+const MOST: [(&str, f64); 3] = [("kernel", 1e-5), ("DAQP", 1e-5), ("OSQP", 5e-4)];
+
+/// Fetches, builds, runs, prints, compares.
+pub fn run(steps: &mut Steps) {
+    setup::run(steps);
+    let bless = steps.blesses();
+    let mut sources = Err("not fetched".to_owned());
+    steps.check("the peers' sources", || {
+        sources = Sources::fetch();
+        sources.as_ref().map(drop).map_err(Clone::clone)
+    });
+    steps.check("instructions, memory and error of a tick", || {
+        let sources = sources.clone()?;
+        let mut table = format!(
+            "{:<10}{:>4}{:>12}{:>12}{:>8}{:>8}{:>12}{:>12}\n",
+            "M4F, f32", "n", "median", "worst", "code", "RAM", "error", "violation"
+        );
+        for size in SIZES {
+            table += &rows(size, &sources)?;
+        }
+        println!("{table}");
+        record::compare(RECORD, &versions()?, &table, bless).map(drop)
+    });
+}
+
+/// The lines of the table for one problem.
+fn rows(size: usize, sources: &Sources) -> Result<String, String> {
+    let folder = target_dir("firmware").join("peers").join(size.to_string());
+    let header = condense(size, &folder)?;
+    let problem = Problem::read(&header)?;
+    let solvers = [
+        ("kernel", image::kernel(&folder)?),
+        ("DAQP", Some(image::peer("daqp", &sources.daqp(), &folder)?)),
+        ("OSQP", Some(image::peer("osqp", &sources.osqp(&header, &folder), &folder)?)),
+    ];
+    let mut text = String::new();
+    for (name, measured) in solvers {
+        if let Some(measured) = measured {
+            text += &row(name, &problem, &measured)?;
+        }
+    }
+    Ok(text)
+}
+
+fn row(name: &str, problem: &Problem, measured: &Measured) -> Result<String, String> {
+    let mut counts: Vec<u64> = measured.ticks.iter().map(|tick| tick.instructions).collect();
+    counts.sort_unstable();
+    let (Some(median), Some(worst), TICKS) = (counts.get(TICKS / 2), counts.last(), counts.len())
+    else {
+        return Err(format!("{name}: {} ticks instead of {TICKS}", counts.len()));
+    };
+    let answers = measured.ticks.iter().map(|tick| tick.x.as_slice());
+    let Deviation { error, violation } = deviation(problem, answers)?;
+    if MOST.iter().any(|&(of, most)| of == name && error > most) {
+        return Err(format!("{name}: an error of {error:e}"));
+    }
+    let Measured { code, ram, .. } = measured;
+    let mut text = format!("{name:<10}{:>4}{median:>12}{worst:>12}{code:>8}", problem.size());
+    let _ = writeln!(text, "{ram:>8}{error:>12.1e}{violation:>12.1e}");
+    Ok(text)
+}
+
+/// The scene's condensed problem as a C header, by the host.
+fn condense(size: usize, folder: &Path) -> Result<PathBuf, String> {
+    std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+    let header = folder.join("problem.h");
+    let scene = root().join(format!("tests/firmware/peers/contact-{size}.toml"));
+    let mut command =
+        cargo(&["run", "--release", "--quiet", "--locked", "--bin", "signorini", "--"]);
+    run_cargo({
+        command.arg("condense").arg(scene).arg("-o").arg(&header);
+        command
+    })?;
+    Ok(header)
+}
+
+/// Of all that the figures depend on.
+fn versions() -> Result<String, String> {
+    let rustc = Toolchain::find("thumbv7em-none-eabihf")?.version()?;
+    let gcc = output(std::process::Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
+    let gcc = first_words(&gcc, 1);
+    Ok(format!("{rustc}, {}, GCC {gcc}, {}", emulator()?, sources::VERSIONS))
+}

@@ -1,0 +1,136 @@
+//! Images of the solvers: built, run, and what they print.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::sources::Code;
+use crate::board::{Build, M4F};
+use crate::cargo::{root, run};
+use crate::symbols::sized;
+use crate::toolchain::output;
+
+/// Instructions a count of the board's clock.
+const UNIT: u64 = 40;
+
+/// The core of the board, with its unit for f32. Constants without a suffix are f32, as is all else.
+const FLAGS: [&str; 9] = [
+    "-mcpu=cortex-m4",
+    "-mthumb",
+    "-mfloat-abi=hard",
+    "-mfpu=fpv4-sp-d16",
+    "-O2",
+    "-ffunction-sections",
+    "-fdata-sections",
+    "-fsingle-precision-constant",
+    "-fno-math-errno",
+];
+
+/// One tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tick {
+    /// From the load to the solution.
+    pub instructions: u64,
+    /// The solution.
+    pub x: Vec<f32>,
+}
+
+/// What an image tells, and what it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Bytes of the solver's code.
+    pub code: u64,
+    /// Bytes of its memory, the heap included, the stack not.
+    pub ram: u64,
+    /// All ticks in order.
+    pub ticks: Vec<Tick>,
+}
+
+/// Builds and runs a peer.
+pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Measured, String> {
+    let code = code.as_ref().map_err(Clone::clone)?;
+    let own = root().join("tests/firmware/peers");
+    let gcc = || {
+        let mut command = Command::new("arm-none-eabi-gcc");
+        command.args(FLAGS).args(["-Wl,--gc-sections", "-I"]).arg(folder).arg("-I").arg(&own);
+        command
+    };
+    // The solver by itself, with what its adapter reaches: its sections are what it takes.
+    let solver = folder.join(format!("{name}.o"));
+    let mut link = gcc();
+    code.headers.iter().for_each(|headers| {
+        link.arg("-I").arg(headers);
+    });
+    link.args(code.flags).args(["-r", "-nostdlib", "-Wl,-u,set_up,-e,solve"]);
+    link.arg(own.join(format!("{name}.c"))).args(&code.files).arg("-o").arg(&solver);
+    run(link)?;
+    let image = folder.join(format!("{name}.elf"));
+    let mut link = gcc();
+    link.args(["-nostartfiles", "--specs=nosys.specs", "-T"]).arg(own.join("board.ld"));
+    link.arg(own.join("board.c")).arg(own.join("main.c")).arg(&solver);
+    link.args(["-lm", "-o"]).arg(&image);
+    run(link)?;
+    let (heap, ticks) = parse(&M4F.run(&image, true)?)?;
+    let [code, data, bss] = sections(&solver)?;
+    Ok(Measured { code, ram: data + bss + heap, ticks })
+}
+
+/// Builds and runs the kernel's image, once there is one: `exact`, which takes the baked scene from
+/// `contact.rs` in `folder`, prints the same lines as the peers, and has its tick in a function `solve`.
+pub fn kernel(folder: &Path) -> Result<Option<Measured>, String> {
+    if !root().join("tests/firmware/images/src/bin/exact.rs").exists() {
+        return Ok(None);
+    }
+    let (package, bins) = ("signorini-firmware", &["exact"]);
+    let (command, built) = M4F.build(Build { package, bins, features: &[], scenes: folder })?;
+    run(command)?;
+    let image = built.join("exact");
+    let (ram, ticks) = parse(&M4F.run(&image, true)?)?;
+    let own = |name: &str| ["signorini_kernel", "5solve"].iter().any(|part| name.contains(part));
+    let code = sized(&image)?.iter().filter(|(name, _)| own(name)).map(|(_, size)| size).sum();
+    Ok(Some(Measured { code, ram, ticks }))
+}
+
+/// Lines of an image: `@ heap BYTES`, then `COUNTS BITS BITS …` for every tick.
+fn parse(said: &str) -> Result<(u64, Vec<Tick>), String> {
+    let mut lines = said.lines();
+    let heap = lines.next().and_then(|line| line.strip_prefix("@ heap ")?.parse().ok());
+    let ticks: Option<_> = lines.map(tick).collect();
+    heap.zip(ticks).ok_or_else(|| "the image prints something else than ticks".to_owned())
+}
+
+fn tick(line: &str) -> Option<Tick> {
+    let (counts, bits) = line.split_once(' ')?;
+    let counts: u32 = counts.parse().ok()?;
+    let scalar = |bits| Some(f32::from_bits(u32::from_str_radix(bits, 16).ok()?));
+    let x: Option<_> = bits.split(' ').map(scalar).collect();
+    // The clock says u32::MAX where it went round.
+    (counts < u32::MAX).then_some(Tick { instructions: UNIT * u64::from(counts), x: x? })
+}
+
+/// Bytes of code, of initialised and of zeroed memory.
+fn sections(object: &Path) -> Result<[u64; 3], String> {
+    let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(object))?;
+    let of = |kind: &str| {
+        let size = |line: &str| {
+            let mut words = line.split_whitespace();
+            words.next()?.starts_with(kind).then(|| words.next()?.parse::<u64>().ok())?
+        };
+        table.lines().filter_map(size).sum()
+    };
+    Ok([".text", ".data", ".bss"].map(of))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_counts_and_bits() {
+        let said = "@ heap 4096\n215 3f800000 bf000000\n";
+        let tick = Tick { instructions: 8600, x: vec![1.0, -0.5] };
+        assert_eq!(parse(said), Ok((4096, vec![tick])));
+        assert!(parse("@ heap 4096\n4294967295 3f800000\n").is_err());
+        assert!(parse("@ heap 4096\n215 3f800000\na tick fails\n").is_err());
+        assert!(parse("").is_err());
+    }
+}

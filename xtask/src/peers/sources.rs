@@ -1,0 +1,132 @@
+//! The peers' sources, from Debian's packages and the Python registry, into the target folder.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::cargo::{root, run, target_dir};
+use crate::setup::install_packages;
+use crate::toolchain::output;
+
+/// As `requirements.txt` pins them, with checksums.
+pub const VERSIONS: &str = "DAQP 0.7.2, OSQP 1.1.3";
+
+const DAQP: &str = "daqp-0.7.2";
+
+/// A compiler for ARM, its library, and what makes a Python environment.
+const PACKAGES: [&str; 3] = ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi", "python3-venv"];
+
+/// What OSQP's generator imports and the metadata of DAQP's source asks for; none of it reaches a board.
+const TOOLS: [&str; 8] = [
+    "setuptools==80.9.0",
+    "wheel==0.45.1",
+    "Cython==3.1.4",
+    "numpy==2.4.6",
+    "scipy==1.17.1",
+    "Jinja2==3.1.6",
+    "MarkupSafe==3.0.4",
+    "joblib==1.6.0",
+];
+
+/// What to compile for a solver, beside its adapter.
+#[derive(Debug, Clone)]
+pub struct Code {
+    /// C files.
+    pub files: Vec<PathBuf>,
+    /// Folders of headers.
+    pub headers: Vec<PathBuf>,
+    /// Further flags of the compiler.
+    pub flags: &'static [&'static str],
+}
+
+/// The folder with the fetched sources and the Python environment.
+#[derive(Debug, Clone)]
+pub struct Sources(PathBuf);
+
+impl Sources {
+    /// Installs and fetches what is not there yet.
+    pub fn fetch() -> Result<Self, String> {
+        let missing = |program: &str| output(Command::new(program).arg("--version")).is_err();
+        let newlib = ["--specs=nosys.specs", "-print-file-name=libc.a"];
+        let newlib = output(Command::new("arm-none-eabi-gcc").args(newlib));
+        if missing("python3") || newlib.is_err() || newlib == Ok("libc.a\n".to_owned()) {
+            install_packages(&PACKAGES)?;
+        }
+        let sources = Self(target_dir("firmware").join("peers"));
+        let complete = sources.0.join("complete");
+        if fs::read_to_string(&complete).ok().as_deref() != Some(VERSIONS) {
+            sources.python_environment()?;
+            sources.pinned()?;
+            fs::write(complete, VERSIONS).map_err(|error| error.to_string())?;
+        }
+        Ok(sources)
+    }
+
+    fn python_environment(&self) -> Result<(), String> {
+        fs::create_dir_all(&self.0).map_err(|error| error.to_string())?;
+        let mut command = Command::new("python3");
+        command.args(["-m", "venv", "--clear"]).arg(self.0.join("python"));
+        run(command)?;
+        let install = ["-m", "pip", "install", "--quiet", "--no-deps"];
+        self.python(install.into_iter().chain(TOOLS).map(OsStr::new))
+    }
+
+    /// DAQP as source, OSQP as a wheel, both with the checksums of `requirements.txt`.
+    fn pinned(&self) -> Result<(), String> {
+        let list = root().join("tests/firmware/peers/requirements.txt");
+        let download = "-m pip download --quiet --no-deps --no-build-isolation --require-hashes";
+        let download = download.split(' ').chain(["--no-binary", "daqp", "--only-binary", "osqp"]);
+        let places = [OsStr::new("-r"), list.as_os_str(), OsStr::new("-d"), self.0.as_os_str()];
+        self.python(download.map(OsStr::new).chain(places))?;
+        let offline = "-m pip install --quiet --no-deps --no-index osqp --find-links";
+        self.python(offline.split(' ').map(OsStr::new).chain([self.0.as_os_str()]))?;
+        let mut unpack = Command::new("tar");
+        unpack.arg("xzf").arg(self.0.join(format!("{DAQP}.tar.gz"))).arg("-C").arg(&self.0);
+        run(unpack)
+    }
+
+    fn python<'a>(&self, words: impl IntoIterator<Item = &'a OsStr>) -> Result<(), String> {
+        let mut command = Command::new(self.0.join("python/bin/python"));
+        command.args(words);
+        run(command)
+    }
+
+    /// DAQP, with the flags of its own build.
+    pub fn daqp(&self) -> Result<Code, String> {
+        let folder = self.0.join(DAQP).join("csrc");
+        Ok(Code {
+            files: c_files(&folder.join("src"))?,
+            headers: vec![folder.join("include")],
+            flags: &[
+                "-DDAQP_SINGLE_PRECISION",
+                "-fassociative-math",
+                "-fno-signed-zeros",
+                "-fno-trapping-math",
+            ],
+        })
+    }
+
+    /// OSQP, written by its generator for the problem in `header`.
+    pub fn osqp(&self, header: &Path, folder: &Path) -> Result<Code, String> {
+        let script = root().join("tests/firmware/peers/osqp_workspace.py");
+        let code = folder.join("osqp");
+        self.python([script.as_os_str(), header.as_os_str(), code.as_os_str()])?;
+        let mut files = c_files(&code.join("src"))?;
+        files.push(code.join("workspace.c"));
+        let headers = vec![code.clone(), code.join("inc/public"), code.join("inc/private")];
+        Ok(Code { files, headers, flags: &[] })
+    }
+}
+
+/// The C files of a folder, in order: the image is to be the same every time.
+fn c_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let named = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let entries = fs::read_dir(folder).map_err(named)?;
+    let mut files: Vec<_> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|file| file.extension() == Some(OsStr::new("c")))
+        .collect();
+    files.sort();
+    Ok(files)
+}
