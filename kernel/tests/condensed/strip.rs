@@ -82,13 +82,12 @@ fn condensed(n: usize) -> Vec<Vec<f64>> {
         }
     }
     for pivot in 0..size - n {
-        for row in pivot + 1..size {
-            let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            if factor != 0.0 {
-                for column in pivot..size {
-                    matrix[row][column] -= factor * matrix[pivot][column];
-                }
-            }
+        let (done, rest) = matrix.split_at_mut(pivot + 1);
+        let eliminated = &done[pivot];
+        for row in rest {
+            let factor = row[pivot] / eliminated[pivot];
+            let entries = row.iter_mut().zip(eliminated).skip(pivot);
+            entries.for_each(|(entry, of)| *entry -= factor * of);
         }
     }
     (0..n).map(|i| matrix[size - n + i][size - n..].to_vec()).collect()
