@@ -14,7 +14,7 @@
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
 //! ```
 //! [`blocks`] hold S; [`sor`] sweeps over them; [`tableau`] and [`pivoting`] solve exactly; [`factor`] and
-//! [`certificate`] bound the error; [`outputs`] are read off. `signorini bake` writes all of it.
+//! [`certificate`] bound the error; [`outputs`] are read off; [`storage`] owns the memory. `signorini bake` writes all of it.
 
 pub mod blocks;
 pub mod certificate;
@@ -23,6 +23,7 @@ pub mod method;
 pub mod outputs;
 pub mod pivoting;
 pub mod sor;
+pub mod storage;
 pub mod tableau;
 
 use crate::certificate::Certificate;
@@ -97,6 +98,14 @@ pub struct Report<R> {
 }
 
 impl<R: Real> Condensed<'_, R> {
+    /// S
+    ///
+    /// # Errors
+    /// Another number of blocks than [`Condensed::contact`] asks for.
+    pub fn matrix(&self) -> Result<Blocks<'_, R>, Error> {
+        Blocks::new(self.matrix, self.contact)
+    }
+
     /// Solves for the inputs p, p_0 = 1 among them, from the last x, and bounds the error.
     ///
     /// # Errors
@@ -108,7 +117,7 @@ impl<R: Real> Condensed<'_, R> {
         memory: &mut Memory<R>,
     ) -> Result<Report<R>, Error> {
         all_finite(Array::Load, inputs)?;
-        let matrix = Blocks::new(self.matrix, self.contact)?;
+        let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
         let progress = method.solve(&matrix, memory.load, memory.iterate.lend())?;
         let Iterate { x, residual, .. } = &memory.iterate;

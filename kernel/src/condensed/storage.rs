@@ -1,0 +1,93 @@
+//! Owned memory of exactly the size that a model needs; each can be a `static`.
+
+use super::blocks::{Block, SIDE};
+use super::method::{Pivots, Sweeps};
+use super::tableau::Tableau;
+use super::{Condensed, Iterate, Memory};
+use crate::error::Error;
+use crate::real::Real;
+
+/// Iterate and scratch: P = [`super::blocks::padded`] contact edges, C columns of the bound's factor.
+#[derive(Debug)]
+pub struct Storage<R, const P: usize, const C: usize> {
+    x: [R; P],
+    residual: [R; P],
+    scratch: [R; P],
+    open: [bool; P],
+    load: [R; P],
+    combination: [R; C],
+    sum: [R; C],
+}
+
+impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
+    /// Everything in touch: a cold start.
+    pub const fn new() -> Self {
+        Self {
+            x: [R::ZERO; P],
+            residual: [R::ZERO; P],
+            scratch: [R::ZERO; P],
+            open: [false; P],
+            load: [R::ZERO; P],
+            combination: [R::ZERO; C],
+            sum: [R::ZERO; C],
+        }
+    }
+
+    /// The view that [`Condensed::tick`] takes.
+    pub fn memory(&mut self) -> Memory<'_, R> {
+        let Self { x, residual, scratch, open, load, combination, sum } = self;
+        Memory { iterate: Iterate { x, residual, scratch, open }, load, combination, sum }
+    }
+}
+
+impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// A tableau of B = [`super::blocks::count`] blocks, for the exact method.
+#[derive(Debug)]
+pub struct TableauStorage<R, const P: usize, const B: usize> {
+    blocks: [Block<R>; B],
+    exchanged: [bool; P],
+    column: [R; P],
+    is_built: bool,
+}
+
+impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
+    /// Nothing yet: the first tick takes the matrix over.
+    pub const fn new() -> Self {
+        Self {
+            blocks: [[[R::ZERO; SIDE]; SIDE]; B],
+            exchanged: [false; P],
+            column: [R::ZERO; P],
+            is_built: false,
+        }
+    }
+
+    /// The exact method on `model`: at most so many exchanges a tick, and what follows where they do not
+    /// suffice.
+    ///
+    /// # Errors
+    /// A model of another size.
+    pub fn method(
+        &mut self,
+        model: &Condensed<R>,
+        most: u32,
+        sweeps: Sweeps<R>,
+    ) -> Result<Pivots<'_, R>, Error> {
+        let mut tableau = Tableau::new(&mut self.blocks, &mut self.exchanged, &mut self.column)?;
+        if !self.is_built {
+            tableau.reset(&model.matrix()?)?;
+            self.is_built = true;
+        }
+        Ok(Pivots { tableau, most, sweeps })
+    }
+}
+
+impl<R: Real, const P: usize, const B: usize> Default for TableauStorage<R, P, B> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
