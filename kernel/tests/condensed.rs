@@ -18,7 +18,7 @@ struct Work<R> {
     open: Vec<bool>,
     blocks: Vec<Block<R>>,
     exchanged: Vec<bool>,
-    column: Vec<R>,
+    columns: [Vec<R>; 2],
 }
 
 impl<R: Real> Work<R> {
@@ -31,16 +31,16 @@ impl<R: Real> Work<R> {
             open: vec![false; n],
             blocks: vec![[[R::ZERO; SIDE]; SIDE]; blocks::count(n)],
             exchanged: vec![false; n],
-            column: vec![R::ZERO; n],
+            columns: [vec![R::ZERO; n], vec![R::ZERO; n]],
         };
-        let Work { blocks, exchanged, column, .. } = &mut work;
-        Tableau::new(blocks, exchanged, column)?.reset(&strip.matrix()?)?;
+        let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
+        Tableau::new(blocks, exchanged, [column, next])?.reset(&strip.matrix()?)?;
         Ok(work)
     }
 
     fn exact(&mut self, strip: &Strip<R>, load: &[R], most: u32) -> Result<(Ended, u32), Error> {
-        let Work { x, residual, scratch, open, blocks, exchanged, column } = self;
-        let tableau = Tableau::new(blocks, exchanged, column)?;
+        let Work { x, residual, scratch, open, blocks, exchanged, columns: [column, next] } = self;
+        let tableau = Tableau::new(blocks, exchanged, [column, next])?;
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let mut method = Pivots { tableau, most, sweeps };
         let progress =
@@ -132,11 +132,15 @@ fn exchanges_undo_each_other() -> Result<(), Error> {
     let strip = Strip::<f64>::new(9);
     let (mut work, mut z) = (Work::new(&strip)?, vec![0.0; 16]);
     let before = work.blocks.clone();
-    let Work { blocks, exchanged, column, .. } = &mut work;
-    let mut tableau = Tableau::new(blocks, exchanged, column)?;
-    for k in [3, 7, 0, 3, 0, 7] {
+    let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
+    let mut tableau = Tableau::new(blocks, exchanged, [column, next])?;
+    for k in [3, 7, 7, 7, 0, 3, 0, 7, 2, 2, 5] {
         assert!(tableau.exchange(k, &mut z)?);
     }
+    // Whoever asks for an answer sees all exchanges.
+    tableau.respond(&[0.0; 16], &mut z)?;
+    assert!(tableau.exchange(5, &mut z)?);
+    tableau.respond(&[0.0; 16], &mut z)?;
     assert_eq!(tableau.exchanged(), [false; 16]);
     let entries = work.blocks.as_flattened().as_flattened().iter();
     for (a, b) in entries.zip(before.as_flattened().as_flattened()) {
@@ -191,7 +195,7 @@ fn wrong_lengths_are_refused() -> Result<(), Error> {
     assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).is_err());
     assert!(sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).is_err());
     let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
-    assert!(Tableau::new(&mut room, &mut [false; 8], &mut [0.0; 5]).is_err());
-    assert!(Tableau::new(&mut room, &mut [false; 16], &mut [0.0; 16]).is_err());
+    assert!(Tableau::new(&mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).is_err());
+    assert!(Tableau::new(&mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err());
     Ok(())
 }

@@ -6,8 +6,8 @@
 //! wrong side. A round goes over all unknowns and exchanges each that is wrong when its turn comes; for
 //! an M-matrix, which S nearly is, edges that lift off make no other one right again, and edges that
 //! touch down spare some of those behind them. For any other positive definite S rounds need not end: when
-//! for some of them the number of wrong unknowns has not fallen, only the last one moves (Murty), until
-//! it has (Júdice and Pires). That is finite.
+//! for some of them the number of exchanges has not fallen, only the first wrong unknown moves from then
+//! on (Murty). That is finite (Júdice and Pires).
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
@@ -48,6 +48,7 @@ pub fn find<R: Real>(
     tableau.answer(load, answer)?;
     let size = (square(load) + square(answer)).rounded_sqrt();
     let (mut found, pivots) = search(tableau, cap, R::TWO * R::EPSILON * size, answer)?;
+    tableau.finish();
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
@@ -78,21 +79,15 @@ fn search<R: Real>(
     let (mut fewest, mut patience, mut pivots) = (u32::MAX, PATIENCE, 0);
     loop {
         let single = patience == 0;
-        let mut wrong = 0;
-        for at in (0..z.len()).rev() {
-            let (Some(&z_at), Some(&within)) = (z.get(at), tableau.exchanged().get(at)) else {
-                break;
-            };
-            if (if within { -z_at } else { z_at }) >= -noise {
-                continue;
-            }
+        let (mut wrong, mut from) = (0, 0);
+        while let Some(at) = first_wrong(z, tableau.exchanged(), noise, from) {
             if pivots >= cap {
                 return Ok((Found::OutOfPivots, pivots));
             }
             if !tableau.exchange(at, z)? {
                 return Ok((Found::Worn, pivots));
             }
-            (pivots, wrong) = (pivots + 1, wrong + 1);
+            (pivots, wrong, from) = (pivots + 1, wrong + 1, at + 1);
             if single {
                 break;
             }
@@ -106,6 +101,13 @@ fn search<R: Real>(
             patience = patience.saturating_sub(1);
         }
     }
+}
+
+/// The first unknown from `from` on that is on the wrong side, or NaN.
+fn first_wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, from: usize) -> Option<usize> {
+    let mut sides = z.get(from..)?.iter().zip(exchanged.get(from..)?);
+    let found = sides.position(|(&z, &within)| !((if within { -z } else { z }) >= -noise));
+    found.map(|place| from + place)
 }
 
 /// Σ x_i²
@@ -134,8 +136,9 @@ pub(super) fn settle<R: Real>(
     residual: &mut [R],
     open: &mut [bool],
 ) -> Result<(), Error> {
-    residual.iter_mut().zip(load).for_each(|(residual, &load)| *residual = -load);
-    open.iter_mut().zip(x).for_each(|(open, &x)| *open = x > R::ZERO);
+    for (((residual, open), &load), &x) in residual.iter_mut().zip(&mut *open).zip(load).zip(x) {
+        (*residual, *open) = (-load, x > R::ZERO);
+    }
     multiply_add(matrix.blocks(), x, open, residual)
 }
 

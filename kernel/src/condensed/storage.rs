@@ -51,7 +51,7 @@ impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
 pub struct TableauStorage<R, const P: usize, const B: usize> {
     blocks: [Block<R>; B],
     exchanged: [bool; P],
-    column: [R; P],
+    columns: [[R; P]; 2],
     is_built: bool,
 }
 
@@ -61,7 +61,7 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
         Self {
             blocks: [[[R::ZERO; SIDE]; SIDE]; B],
             exchanged: [false; P],
-            column: [R::ZERO; P],
+            columns: [[R::ZERO; P]; 2],
             is_built: false,
         }
     }
@@ -77,7 +77,8 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
         most: u32,
         sweeps: Sweeps<R>,
     ) -> Result<Pivots<'_, R>, Error> {
-        let mut tableau = Tableau::new(&mut self.blocks, &mut self.exchanged, &mut self.column)?;
+        let [column, next] = &mut self.columns;
+        let mut tableau = Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;
         if !self.is_built {
             tableau.reset(&model.matrix()?)?;
             self.is_built = true;

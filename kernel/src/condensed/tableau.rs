@@ -10,7 +10,9 @@
 //! ```text
 //!   T_ij ← T_ij − T_ik T_jk / T_kk,     T_ik ← T_ik / |T_kk|,     T_kk ← −1 / T_kk.
 //! ```
-//! The same formulas move the answer z = (−x_I, w_A) along, as one more row of the matrix.
+//! The same formulas move the answer z = (−x_I, w_A) along, as one more row of the matrix. To know
+//! z and the next pivot takes column k alone, so a correction waits for a second one: two of
+//! them in one pass over T cost two thirds of two passes.
 //!
 //! The pivots T_kk of a positive definite S never vanish; they fall to the smallest eigenvalue of S
 //! at worst, and rounding errors grow with its inverse. Who exchanges for a long time checks the answer
@@ -25,23 +27,35 @@ use crate::real::Real;
 pub struct Tableau<'a, R> {
     blocks: &'a mut [Block<R>],
     exchanged: &'a mut [bool],
+    /// The column of the correction that waits.
     column: &'a mut [R],
+    next: &'a mut [R],
+    waiting: Option<Pivot<R>>,
+}
+
+/// An exchange of unknown k: 1/T_kk and 1/|T_kk|.
+#[derive(Debug, Clone, Copy)]
+struct Pivot<R> {
+    at: usize,
+    inverse: R,
+    shrink: R,
 }
 
 impl<'a, R: Real> Tableau<'a, R> {
     /// Takes memory that holds a tableau already, or that is about to be [`Tableau::reset`]: T in
-    /// [`count`] blocks, which unknowns are exchanged (`padded` entries), and as much scratch.
+    /// [`count`] blocks, which unknowns are exchanged (`padded` entries), and twice as much scratch.
     ///
     /// # Errors
     /// Arrays of the wrong length.
     pub fn new(
         blocks: &'a mut [Block<R>],
         exchanged: &'a mut [bool],
-        column: &'a mut [R],
+        [column, next]: [&'a mut [R]; 2],
     ) -> Result<Self, Error> {
         same_length(Array::MatrixValues, blocks.len(), count(exchanged.len()))?;
         same_length(Array::Scratch, column.len(), exchanged.len())?;
-        Ok(Self { blocks, exchanged, column })
+        same_length(Array::Scratch, next.len(), exchanged.len())?;
+        Ok(Self { blocks, exchanged, column, next, waiting: None })
     }
 
     /// Which unknowns are exchanged; padding never is.
@@ -55,6 +69,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// A matrix of another order.
     pub fn reset(&mut self, matrix: &Blocks<R>) -> Result<(), Error> {
         same_length(Array::MatrixValues, matrix.blocks().len(), self.blocks.len())?;
+        self.waiting = None;
         self.exchanged.fill(false);
         self.blocks.iter_mut().zip(matrix.blocks()).for_each(|(own, given)| *own = *given);
         Ok(())
@@ -77,10 +92,11 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// Arrays of the wrong length.
     pub fn respond(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
         same_length(Array::Load, load.len(), self.exchanged.len())?;
-        let masked = self.column.iter_mut().zip(load).zip(self.exchanged.iter());
+        self.finish();
+        let masked = self.next.iter_mut().zip(load).zip(self.exchanged.iter());
         masked.for_each(|((b, &load), &exchanged)| *b = if exchanged { load } else { R::ZERO });
         z.fill(R::ZERO);
-        multiply_add(self.blocks, self.column, self.exchanged, z)
+        multiply_add(self.blocks, self.next, self.exchanged, z)
     }
 
     /// Exchanges unknown k, one way or the other, and moves the answer `z` along. Returns whether it
@@ -91,9 +107,9 @@ impl<'a, R: Real> Tableau<'a, R> {
     #[inline(never)]
     pub fn exchange(&mut self, k: usize, z: &mut [R]) -> Result<bool, Error> {
         same_length(Array::Unknowns, z.len(), self.exchanged.len())?;
-        self.load_column(k);
+        self.load_next(k);
         let (Some(place), Some(exchanged), Some(answer)) =
-            (self.column.get_mut(k), self.exchanged.get_mut(k), z.get_mut(k))
+            (self.next.get_mut(k), self.exchanged.get_mut(k), z.get_mut(k))
         else {
             return Err(Error::OutOfRange { of: Array::Unknowns, at: k });
         };
@@ -103,23 +119,33 @@ impl<'a, R: Real> Tableau<'a, R> {
             return Ok(false);
         }
         *exchanged = !*exchanged;
-        let (inverse, shrink) = (R::ONE / pivot, R::ONE / pivot.magnitude());
-        let moved = *answer * inverse;
-        *answer *= shrink;
-        z.iter_mut().zip(self.column.iter()).for_each(|(z, &entry)| *z -= entry * moved);
-        subtract_rank_one(self.blocks, groups(self.column), inverse);
-        self.column.iter_mut().for_each(|entry| *entry *= shrink);
-        if let Some(place) = self.column.get_mut(k) {
-            *place = -inverse;
+        let new = Pivot { at: k, inverse: R::ONE / pivot, shrink: R::ONE / pivot.magnitude() };
+        let moved = *answer * new.inverse;
+        *answer *= new.shrink;
+        z.iter_mut().zip(self.next.iter()).for_each(|(z, &entry)| *z -= entry * moved);
+        match self.waiting.take() {
+            None => {
+                core::mem::swap(&mut self.column, &mut self.next);
+                self.waiting = Some(new);
+            }
+            Some(first) => self.correct_twice(first, new),
         }
-        self.store_column(k);
         Ok(true)
     }
 
-    /// `column` = T_·k
-    fn load_column(&mut self, k: usize) {
+    /// Carries out the correction that waits.
+    pub(super) fn finish(&mut self) {
+        if let Some(Pivot { at, inverse, shrink }) = self.waiting.take() {
+            let column = groups(self.column);
+            subtract_one(self.blocks, column, inverse);
+            store(self.blocks, at, column, inverse, |group, _| scaled(group, shrink));
+        }
+    }
+
+    /// `next` = T_·k, with the correction that waits.
+    fn load_next(&mut self, k: usize) {
         let (own, line) = (k / SIDE, k % SIDE);
-        for (group, place) in groups_mut(self.column).iter_mut().enumerate() {
+        for (group, place) in groups_mut(self.next).iter_mut().enumerate() {
             let Some(block) = self.blocks.get(position(group, own)) else { return };
             if group <= own {
                 *place = block.get(line).copied().unwrap_or(*place);
@@ -128,24 +154,70 @@ impl<'a, R: Real> Tableau<'a, R> {
                 place.iter_mut().zip(entries).for_each(|(place, &entry)| *place = entry);
             }
         }
-    }
-
-    /// T_·k = `column`
-    fn store_column(&mut self, k: usize) {
-        let (own, line) = (k / SIDE, k % SIDE);
-        for (group, entries) in groups(self.column).iter().enumerate() {
-            let Some(block) = self.blocks.get_mut(position(group, own)) else { return };
-            if group <= own
-                && let Some(row) = block.get_mut(line)
-            {
-                *row = *entries;
-            }
-            if group >= own {
-                let places = block.iter_mut().filter_map(|row| row.get_mut(line));
-                places.zip(entries).for_each(|(place, &entry)| *place = entry);
-            }
+        let Some(Pivot { at, inverse, shrink }) = self.waiting else { return };
+        let here = self.column.get(k).copied().unwrap_or_default();
+        let factor = here * inverse;
+        let entries = self.next.iter_mut().zip(self.column.iter());
+        entries.for_each(|(next, &entry)| *next -= entry * factor);
+        // Row `at` is no difference but a quotient; exchanged back, k = `at` is its own column.
+        if let Some(place) = self.next.get_mut(at) {
+            *place = here * shrink;
+        }
+        if k == at {
+            let turned = self.next.iter_mut().zip(self.column.iter());
+            turned.for_each(|(next, &entry)| *next = entry * shrink);
+            self.next.iter_mut().skip(at).take(1).for_each(|place| *place = -inverse);
         }
     }
+
+    /// Two corrections in one pass: `first` with `column`, `second` with `next`.
+    fn correct_twice(&mut self, first: Pivot<R>, second: Pivot<R>) {
+        let (column, next) = (groups(self.column), groups(self.next));
+        subtract_two(self.blocks, column, next, [first.inverse, second.inverse]);
+        if first.at != second.at {
+            // What the first leaves in its own row and column, the second still corrects.
+            let own = self.next.get(first.at).copied().unwrap_or_default() * second.inverse;
+            store(self.blocks, first.at, column, first.inverse, |group, place| {
+                let mut entries = scaled(group, first.shrink);
+                let corrections = next.get(place).into_iter().flatten();
+                let corrected = entries.iter_mut().zip(corrections);
+                corrected.for_each(|(entry, &next)| *entry -= next * own);
+                entries
+            });
+        }
+        store(self.blocks, second.at, next, second.inverse, |group, _| {
+            scaled(group, second.shrink)
+        });
+    }
+}
+
+/// Row and column k of T: what `value` makes of each group of `column` and its place, and −1/T_kk more on
+/// the diagonal, where columns hold 0.
+#[inline(always)]
+fn store<R: Real>(
+    blocks: &mut [Block<R>],
+    k: usize,
+    column: &[[R; SIDE]],
+    inverse: R,
+    value: impl Fn(&[R; SIDE], usize) -> [R; SIDE],
+) {
+    let (own, line) = (k / SIDE, k % SIDE);
+    for (place, group) in column.iter().enumerate() {
+        let Some(block) = blocks.get_mut(position(place, own)) else { return };
+        let entries = value(group, place);
+        if place > own {
+            let column = block.iter_mut().filter_map(|row| row.get_mut(line));
+            column.zip(&entries).for_each(|(place, &entry)| *place = entry);
+        } else if let Some(row) = block.get_mut(line) {
+            *row = entries;
+        }
+    }
+    let Some(block) = blocks.get_mut(position(own, own)) else { return };
+    let diagonal = block.get_mut(line).and_then(|row| row.get_mut(line));
+    diagonal.into_iter().for_each(|entry| *entry -= inverse);
+    let mirrored = block.get(line).copied().unwrap_or([R::ZERO; SIDE]);
+    let column = block.iter_mut().filter_map(|row| row.get_mut(line));
+    column.zip(mirrored).for_each(|(place, entry)| *place = entry);
 }
 
 /// Where the block of two groups of unknowns stands.
@@ -156,17 +228,49 @@ const fn position(one: usize, other: usize) -> usize {
 
 /// T −= c cᵀ · `inverse`
 #[inline(always)]
-fn subtract_rank_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], inverse: R) {
+fn subtract_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], inverse: R) {
     let mut rest = blocks;
     for (row, own) in column.iter().enumerate() {
         let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        let mut factors = *own;
-        factors.iter_mut().for_each(|factor| *factor *= -inverse);
+        let factors = scaled(own, -inverse);
         for (block, other) in blocks.iter_mut().zip(column) {
             // A copy, which no write to a block can change, stays in registers.
             let other = *other;
             for (row, &factor) in block.iter_mut().zip(&factors) {
                 row.iter_mut().zip(other).for_each(|(entry, other)| *entry += factor * other);
+            }
+        }
+        rest = more;
+    }
+}
+
+#[inline(always)]
+fn scaled<R: Real>(group: &[R; SIDE], by: R) -> [R; SIDE] {
+    let mut scaled = *group;
+    scaled.iter_mut().for_each(|entry| *entry *= by);
+    scaled
+}
+
+/// T −= a aᵀ · `inverses[0]` + b bᵀ · `inverses[1]`
+#[inline(always)]
+fn subtract_two<R: Real>(
+    blocks: &mut [Block<R>],
+    a: &[[R; SIDE]],
+    b: &[[R; SIDE]],
+    [of_a, of_b]: [R; 2],
+) {
+    let mut rest = blocks;
+    for (row, (own_a, own_b)) in a.iter().zip(b).enumerate() {
+        let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
+        let (factors_a, factors_b) = (scaled(own_a, -of_a), scaled(own_b, -of_b));
+        for (block, (other_a, other_b)) in blocks.iter_mut().zip(a.iter().zip(b)) {
+            let (other_a, other_b) = (*other_a, *other_b);
+            let factors = factors_a.iter().zip(&factors_b);
+            for (row, (&factor_a, &factor_b)) in block.iter_mut().zip(factors) {
+                let others = other_a.into_iter().zip(other_b);
+                for (entry, (a, b)) in row.iter_mut().zip(others) {
+                    *entry = *entry + factor_a * a + factor_b * b;
+                }
             }
         }
         rest = more;

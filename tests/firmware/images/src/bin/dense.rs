@@ -64,10 +64,11 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
         blocks::multiply_add(matrix.blocks(), black_box(&*x), open, residual)
     })?;
     let mut room = [[[R::ZERO; SIDE]; SIDE]; BLOCKS];
-    let (mut exchanged, mut column) = ([false; MOST], [R::ZERO; MOST]);
+    let (mut exchanged, mut columns) = ([false; MOST], [[R::ZERO; MOST]; 2]);
+    let [column, next] = &mut columns;
     let exchanged = cut(&mut exchanged, n)?;
     let room = cut(&mut room, blocks::count(n))?;
-    let mut tableau = Tableau::new(room, exchanged, cut(&mut column, n)?)?;
+    let mut tableau = Tableau::new(room, exchanged, [cut(column, n)?, cut(next, n)?])?;
     tableau.reset(&matrix)?;
     let mut solve = |load: &[R]| {
         let iterate = Iterate {
