@@ -2,6 +2,7 @@
 
 pub mod certify;
 pub mod cli;
+pub mod condense;
 pub mod cycles;
 pub mod error;
 pub mod export;

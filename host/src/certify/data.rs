@@ -29,7 +29,7 @@ pub struct Data<R> {
 const VARYING: f64 = 10.0;
 
 /// Whether a coefficient at the points of an edge allows for a bound.
-fn is_moderate(edge: &RobinPoints) -> bool {
+pub(crate) fn is_moderate(edge: &RobinPoints) -> bool {
     let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
     let high = edge.iter().fold(0.0, |high: f64, point| high.max(point[0]));
     high <= VARYING * low

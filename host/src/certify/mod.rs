@@ -13,16 +13,16 @@
 
 pub mod admissible;
 mod bound;
-mod cell;
+pub(crate) mod cell;
 mod certifier;
-mod conductivity;
+pub(crate) mod conductivity;
 pub mod curved;
 mod data;
-mod deviation;
+pub(crate) mod deviation;
 pub mod ends;
 pub mod exact;
 #[cfg(test)]
-mod fixtures;
+pub(crate) mod fixtures;
 #[cfg(test)]
 mod identity;
 mod metric;
@@ -36,3 +36,4 @@ pub use bound::{Certified, ErrorBound};
 pub use certifier::{Answer, Certifier};
 pub(crate) use conductivity::eigenvalues;
 pub use data::Data;
+pub(crate) use data::is_moderate;

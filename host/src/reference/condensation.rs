@@ -83,7 +83,7 @@ impl Condensation {
         let free = load.len() - self.springs.len();
         let mut response = load.to_vec();
         response[free..].fill(0.0);
-        self.cholesky.solve_in_place(&mut response)?;
+        self.cholesky.solve_in_place(&mut response, load.len())?;
         let mut condensed = self.sprung_schur_times(&response[free..]);
         condensed.iter_mut().zip(&load[free..]).for_each(|(entry, own)| *entry += own);
         Ok(CondensedLoad { load: condensed, response })
@@ -97,7 +97,7 @@ impl Condensation {
             contact.iter().zip(&u[free..]).map(|(wanted, present)| wanted - present).collect();
         let mut change = vec![0.0; free];
         change.extend(self.sprung_schur_times(&missing));
-        self.cholesky.solve_in_place(&mut change)?;
+        self.cholesky.solve_in_place(&mut change, u.len())?;
         u.iter_mut().zip(&change).for_each(|(entry, change)| *entry += change);
         u[free..].copy_from_slice(contact);
         Ok(u)
@@ -117,7 +117,10 @@ pub(super) fn multiply_add(matrix: MatRef<'_, f64>, v: &[f64], sum: &mut [f64]) 
 }
 
 /// Refuses a pivot L_jj² that is nothing but the rounding of a zero.
-fn check_pivots(cholesky: &SparseCholesky, matrix: &Matrix) -> Result<(), ReferenceError> {
+pub(super) fn check_pivots(
+    cholesky: &SparseCholesky,
+    matrix: &Matrix,
+) -> Result<(), ReferenceError> {
     for (_, column, value) in cholesky.entries().filter(|(row, column, _)| row == column) {
         let unknown = cholesky.unknown_at(column);
         if value * value <= SINGULAR_PIVOT * matrix.values[matrix.diagonal(unknown)?] {

@@ -19,6 +19,7 @@
 mod active_set;
 mod components;
 mod condensation;
+mod linear;
 mod ordering;
 mod problem;
 mod refinement;
@@ -30,12 +31,14 @@ use faer::MatRef;
 use faer::sparse::FaerError;
 use thiserror::Error;
 
+pub use linear::Linear;
 pub use problem::Problem;
 pub use refinement::Solution;
 
+use active_set::ActiveSet;
 use components::floating_components;
 use condensation::Condensation;
-use problem::Matrix;
+use problem::{Matrix, check_finite};
 
 /// One sparse Cholesky factorisation, good for any number of loads and obstacles.
 pub struct Factor {
@@ -59,6 +62,29 @@ impl Factor {
     pub fn schur(&self) -> MatRef<'_, f64> {
         self.condensation.schur()
     }
+}
+
+/// The minimiser of ½ xᵀSx − bᵀx over x ≥ 0 for a dense S = `matrix` and b = `load`: 0 exactly where it
+/// touches. `floating` lists the unknowns of each block on which S is singular.
+///
+/// # Errors
+/// A matrix that is not positive definite, loads that point away from contact.
+pub fn minimise(
+    matrix: MatRef<'_, f64>,
+    floating: &[Vec<usize>],
+    load: &[f64],
+) -> Result<Vec<f64>, ReferenceError> {
+    let n = matrix.nrows();
+    if load.len() != n || matrix.ncols() != n || floating.iter().flatten().any(|&i| i >= n) {
+        return Err(ReferenceError::Malformed("load or floating does not match the matrix"));
+    }
+    check_finite("load", load)?;
+    let lower = vec![0.0; n];
+    let mut set = ActiveSet::new(matrix, floating, 0, vec![true; n]);
+    let mut x = set.minimise(load, &lower, 0.0)?;
+    // What is not in contact may lie below 0 by rounding.
+    x.iter_mut().for_each(|x| *x = x.max(0.0));
+    Ok(x)
 }
 
 /// Why there is no reference solution.

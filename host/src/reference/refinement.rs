@@ -118,7 +118,7 @@ impl Factor {
 
 impl Matrix {
     /// b − Ku, each entry summed in twice the working precision (Ogita, Rump, Oishi).
-    fn residual(&self, load: &[f64], u: &[f64]) -> Vec<f64> {
+    pub(super) fn residual(&self, load: &[f64], u: &[f64]) -> Vec<f64> {
         let row_sum = |(row, &b): (usize, &f64)| {
             let (mut sum, mut error) = (b, 0.0);
             for entry in self.row(row) {

@@ -63,14 +63,14 @@ impl SparseCholesky {
         }
     }
 
-    /// K⁻¹ applied to `rhs`.
-    pub fn solve_in_place(&self, rhs: &mut [f64]) -> Result<(), FaerError> {
-        let n = rhs.len();
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+    /// K⁻¹ applied to the columns of `rhs`, each of length `n`.
+    pub fn solve_in_place(&self, rhs: &mut [f64], n: usize) -> Result<(), FaerError> {
+        let columns = rhs.len().checked_div(n).unwrap_or(0);
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq);
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
         LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, n, 1),
+            MatMut::from_column_major_slice_mut(rhs, n, columns),
             Par::Seq,
             MemStack::new(&mut memory),
         );

@@ -20,9 +20,9 @@ use crate::quadrature::{gauss, on_panels};
 use crate::scene::Scene;
 
 /// Panels along an edge, for data with a kink there.
-const PANELS: u32 = 4;
+pub(crate) const PANELS: u32 = 4;
 /// Gauss points a panel, and away from the edge.
-const POINTS: usize = 8;
+pub(crate) const POINTS: usize = 8;
 
 /// The extension v of one edge's deviation w = data − chord into the edge's cell T.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,7 +170,7 @@ impl<'d, 's> Extension<'d, 's> {
 ///
 /// The gradient of an extension depends on the direction in which one comes to its apex; collapsed
 /// there, and with the other's apex in the other half, the integrand is as smooth as the data.
-fn half_triangle(apex: usize, other: usize, along: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+pub(crate) fn half_triangle(apex: usize, other: usize, along: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
     let third = 3 - apex - other;
     let away = gauss(POINTS);
     let point = |[t, along]: [f64; 2], [eta, weight]: [f64; 2]| {

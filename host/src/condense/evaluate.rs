@@ -1,0 +1,129 @@
+//! The condensed model in f64: what the target does, without its haste.
+
+use faer::MatRef;
+
+use super::{Condensate, Form, Measure};
+use crate::reference::{self, ReferenceError};
+
+/// An excess this far below 0 against the size of its terms is rounding.
+const ROUNDING: f64 = 1e-9;
+
+impl Condensate {
+    /// x of the solution for the inputs `p` (m numbers, the first one 1): exactly 0 on active edges.
+    ///
+    /// # Errors
+    /// Inputs of another number, loads that pull a part away from its contact.
+    pub fn solve(&self, p: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        if p.len() != self.inputs {
+            return Err(ReferenceError::Malformed("p must hold the constant 1 and every input"));
+        }
+        let n = self.contact;
+        let matrix = MatRef::from_row_major_slice(&self.matrix, n, n);
+        reference::minimise(matrix, &self.held_by_contact, &self.load_of(p))
+    }
+
+    /// B̂p
+    pub fn load_of(&self, p: &[f64]) -> Vec<f64> {
+        let mut load = vec![0.0; self.contact];
+        for (column, p) in self.load.iter().zip(p) {
+            load.iter_mut().zip(column).for_each(|(sum, entry)| *sum += p * entry);
+        }
+        load
+    }
+
+    /// r̂ = Ŝx − B̂p
+    pub fn residual(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let rows = self.matrix.chunks(self.contact.max(1));
+        rows.zip(self.load_of(p)).map(|(row, load)| dot(row, x) - load).collect()
+    }
+
+    /// The declared outputs of any x ≥ 0; `None` where there is no bound.
+    pub fn outputs(&self, p: &[f64], x: &[f64]) -> Vec<Option<f64>> {
+        let value = |measure: &Measure| match measure {
+            Measure::Linear { of_inputs, of_contact } => {
+                Some(dot(of_inputs, p) + dot(of_contact, x))
+            }
+            Measure::Length { of_contact } => {
+                let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
+                Some(touching.fold(0.0, |sum, (length, _)| sum + length))
+            }
+            Measure::Bound => self.bound(p, x),
+        };
+        self.outputs.iter().map(value).collect()
+    }
+
+    /// The guaranteed bound of (p, x) for any x ≥ 0, in the unit of ‖A^½∇u‖; `None` where there is none.
+    pub fn bound(&self, p: &[f64], x: &[f64]) -> Option<f64> {
+        let form = self.certificate.as_ref().ok()?;
+        let mut residual = self.residual(p, x);
+        let slack = form.reach * form.mend(&self.opening, &mut residual, x)?;
+        let mut square = (form.residual(p, x) + slack).powi(2);
+        for corner in &form.corners {
+            let excess = dot(&corner.excess, p);
+            let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| (a * p).abs()).sum();
+            if excess < -ROUNDING * size {
+                return None;
+            }
+            if x[corner.edge] == 0.0 {
+                square += excess.max(0.0) * residual[corner.edge];
+            }
+        }
+        let oscillation: f64 = form.oscillation.iter().zip(p).map(|(osc, p)| osc * p.abs()).sum();
+        Some(self.energy_unit * (oscillation + (square + oscillation * oscillation).sqrt()))
+    }
+}
+
+impl Form {
+    /// d of (p, x): what brings e to 0 beside active edges, and up to 0 elsewhere.
+    pub fn correction(&self, x: &[f64]) -> Vec<f64> {
+        let correction = |vertex: &super::Vertex| {
+            let [a, b] = vertex.edges;
+            let e = vertex.weights[0] * x[a] + vertex.weights[1] * x[b];
+            let active = vertex.beside.iter().any(|&edge| x[edge] == 0.0);
+            if active || e < 0.0 { -e } else { 0.0 }
+        };
+        self.vertices.iter().map(correction).collect()
+    }
+
+    /// |F(p, x, d)|
+    fn residual(&self, p: &[f64], x: &[f64]) -> f64 {
+        let z: Vec<f64> = p.iter().chain(x).copied().chain(self.correction(x)).collect();
+        let mut rows = vec![0.0; z.len()];
+        let mut start = 0;
+        for (j, z) in z.iter().enumerate() {
+            let column = &self.factor[start..=start + j];
+            rows.iter_mut().zip(column).for_each(|(row, entry)| *row += entry * z);
+            start += j + 1;
+        }
+        rows.iter().map(|row| row * row).sum::<f64>().sqrt()
+    }
+
+    /// Mends the residual r̂ and returns |δ|; `None` where what is left over has no way out.
+    ///
+    /// What is mended must be 0 on inactive edges and ≥ 0 on active ones. Where contact alone holds the
+    /// part, the sum of all that was taken leaves through the active edge with the largest residual.
+    fn mend(&self, openings: &[f64], residual: &mut [f64], x: &[f64]) -> Option<f64> {
+        let (mut square, mut surplus) = (0.0, 0.0);
+        for ((residual, &x), opening) in residual.iter_mut().zip(x).zip(openings) {
+            let delta = if x == 0.0 { residual.min(0.0) } else { *residual };
+            *residual -= delta;
+            square += delta * delta;
+            surplus += delta / opening;
+        }
+        if self.floating && square > 0.0 {
+            let edges = 0..residual.len();
+            let out = edges.max_by(|&i, &j| residual[i].total_cmp(&residual[j]))?;
+            let change = openings[out] * surplus;
+            residual[out] += change;
+            square += change * change;
+            if x[out] != 0.0 || residual[out] < 0.0 {
+                return None;
+            }
+        }
+        Some(square.sqrt())
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,301 @@
+//! The residual A^½∇s − A^{−½}τ cell by cell, as rows over what s and τ are made of.
+//!
+//! With A = LLᵀ at a quadrature point of weight w, |√w (Lᵀ∇s − L⁻¹τ)|² is its share of
+//! ‖A^½∇s − A^{−½}τ‖², and on a Robin edge |√(w|E|h) (s − u_ext) + √(w/(|E|h)) ∫_E τ·n|² that of
+//! ∫_R (τ·n + h(s − u_ext))²/h. Of a cell's many rows only their triangular factor matters, at most one
+//! row for each of its functions: three on triangles where A is constant, whatever the rule.
+
+use signorini_kernel::{Real, Tensor};
+
+use super::patterns::Pattern;
+use crate::certify::cell::{Cell, Local};
+use crate::certify::conductivity::Conductivity;
+use crate::certify::curved::{PANELS, POINTS, half_triangle};
+use crate::certify::deviation::Deviations;
+use crate::certify::robin::{RobinPoints, robin};
+use crate::error::Result;
+use crate::field::CellField;
+use crate::problem::Problem;
+use crate::quadrature::{DATA_POINTS, Point, gauss, on_panels};
+use crate::scene::Scene;
+
+/// A remainder below this part of its column is the rounding of a dependent one.
+const DEPENDENT: f64 = 1e-12;
+
+/// Rows of one cell or Robin edge: coefficients of the functions of s, then of the fluxes, then of p.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Block {
+    /// Which functions of s, see [`Functions`].
+    pub functions: Vec<u32>,
+    /// Which edges' fluxes, in the edges' directions.
+    pub edges: Vec<u32>,
+    /// Row after row.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// The numbers of s: its vertex values, then the bubbles of free edges between quads.
+pub(super) struct Functions {
+    vertices: usize,
+    /// The number of each edge's bubble.
+    bubbles: Vec<Option<u32>>,
+    count: usize,
+}
+
+impl Functions {
+    pub fn of(problem: &Problem) -> Self {
+        let topology = &problem.topology;
+        let (vertices, triangles) = (problem.mesh.vertices.len(), 3 * problem.mesh.triangles.len());
+        let mut count = vertices;
+        let bubbles = topology.half_edges.iter().enumerate().map(|(edge, halves)| {
+            use crate::problem::EdgeKind::{Interior, Neumann};
+            let of_quads = halves.iter().all(|&half| half as usize >= triangles);
+            let free = matches!(problem.kinds[edge], Interior | Neumann);
+            (of_quads && free).then(|| {
+                count += 1;
+                count as u32 - 1
+            })
+        });
+        let bubbles = bubbles.collect();
+        Self { vertices, bubbles, count }
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The number of the bubble on an edge.
+    pub fn bubble(&self, edge: usize) -> Option<u32> {
+        self.bubbles[edge]
+    }
+
+    pub fn is_bubble(&self, function: usize) -> bool {
+        function >= self.vertices
+    }
+}
+
+/// The rows of all cells and Robin edges.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn blocks(
+    scene: &Scene,
+    problem: &Problem,
+    patterns: &[Pattern],
+    functions: &Functions,
+) -> Result<Vec<Block>> {
+    let deviations = patterns.iter().map(|p| Deviations::at_time(&p.scene, problem, 0.0));
+    let deviations = deviations.collect::<Result<Vec<_>>>()?;
+    let cells = (0..problem.cells()).map(|at| of_cell(scene, problem, at, functions, &deviations));
+    let mut blocks = cells.collect::<Result<Vec<_>>>()?;
+    let transfer = patterns.iter().map(|pattern| robin(&pattern.scene, problem, 0.0));
+    let transfer = transfer.collect::<Result<Vec<_>>>()?;
+    for (at, record) in problem.loads.robin.iter().enumerate() {
+        let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
+        blocks.push(of_robin(problem, record.edge as usize, &ambient));
+    }
+    Ok(blocks)
+}
+
+fn of_cell(
+    scene: &Scene,
+    problem: &Problem,
+    at: usize,
+    functions: &Functions,
+    deviations: &[Deviations],
+) -> Result<Block> {
+    let (mesh, topology) = (&problem.mesh, &problem.topology);
+    let quad = at.checked_sub(mesh.triangles.len());
+    let (vertices, edges): (&[u32], &[u32]) = match quad {
+        None => (&mesh.triangles[at], &topology.of_triangles[at]),
+        Some(quad) => (&mesh.quads[quad], &topology.of_quads[quad]),
+    };
+    let bubbles: Vec<(usize, u32)> = edges
+        .iter()
+        .enumerate()
+        .filter(|_| quad.is_some())
+        .filter_map(|(side, &edge)| Some((side, functions.bubble(edge as usize)?)))
+        .collect();
+    let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
+    let curved: Vec<usize> =
+        (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
+    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+    let fluxes = unit_fluxes(problem, at, edges);
+    let width = vertices.len() + bubbles.len() + edges.len() + deviations.len();
+    let mut columns = vec![Vec::new(); width];
+    for (reference, weight) in points(&cell, points_for(&cell, &conductivity), &curved) {
+        let local = cell.local(reference);
+        let root = Root::of(&conductivity.at(local.x), (weight * local.determinant).sqrt());
+        let mut column = columns.iter_mut();
+        let mut push = |row: [f64; 2]| column.next().into_iter().for_each(|to| to.extend(row));
+        for vertex in &local.vertices[..vertices.len()] {
+            push(root.gradient(vertex.gradient));
+        }
+        for &(side, _) in &bubbles {
+            push(root.gradient(local.sides[side].bubble().gradient));
+        }
+        let point = Point { x: local.x, reference, weight: 0.0 };
+        for field in &fluxes {
+            push(root.flux(field.sample(&point).flux).map(|part| -part));
+        }
+        for of_pattern in deviations {
+            push(root.gradient(extension(&local, of_pattern, edges, &curved)?));
+        }
+    }
+    let bubbles = bubbles.iter().map(|&(_, function)| function);
+    Ok(Block {
+        functions: vertices.iter().copied().chain(bubbles).collect(),
+        edges: edges.to_vec(),
+        rows: triangular(columns),
+    })
+}
+
+/// τ for a unit flux along the direction of each edge.
+fn unit_fluxes(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
+    let cell = Cell::of(problem, at);
+    let outward = |side: usize| {
+        let first = problem.topology.first_side(edges[side] as usize) == (at, side);
+        if first { 1.0 } else { -1.0 }
+    };
+    let only = |side: usize, k: usize| if k == side { outward(side) } else { 0.0 };
+    let unit = |side: usize| match cell {
+        Cell::Triangle(corners) => {
+            CellField::Triangle(corners, [0.0; 3], std::array::from_fn(|k| only(side, k)))
+        }
+        Cell::Quad(corners) => {
+            CellField::Quad(corners, [0.0; 4], std::array::from_fn(|k| only(side, k)))
+        }
+    };
+    (0..edges.len()).map(unit).collect()
+}
+
+/// ∇ of what a pattern's boundary data have above their chords, carried inside.
+fn extension(
+    local: &Local,
+    deviations: &Deviations,
+    edges: &[u32],
+    curved: &[usize],
+) -> Result<[f64; 2]> {
+    let mut sum = [0.0; 2];
+    for &side in curved {
+        let Some(deviation) = deviations.on(edges[side] as usize) else { continue };
+        let coordinates = &local.sides[side];
+        let [w, slope] = deviation.at(coordinates.t)?;
+        let gradient = coordinates.extension(w, slope).gradient;
+        sum = [sum[0] + gradient[0], sum[1] + gradient[1]];
+    }
+    Ok(sum)
+}
+
+/// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
+/// of degree 2.
+fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
+    match cell {
+        Cell::Triangle(_) if conductivity.is_constant() => 2,
+        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
+        _ => DATA_POINTS,
+    }
+}
+
+/// Reference coordinates with weights that lack the area element.
+fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
+    let along = on_panels(PANELS, &gauss(POINTS));
+    match (cell, curved) {
+        (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
+        (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
+        (Cell::Triangle(_), [one, other, ..]) => {
+            let [one, other] = [(one + 2) % 3, (other + 2) % 3];
+            let mut points = half_triangle(one, other, &along);
+            points.extend(half_triangle(other, one, &along));
+            points
+        }
+        (Cell::Quad(_), []) => square(&gauss(rule)),
+        (Cell::Quad(_), _) => square(&along),
+    }
+}
+
+/// The points (t, η) of one side of a triangle.
+fn on_triangle(
+    cell: &Cell,
+    side: usize,
+    along: &[[f64; 2]],
+    away: &[[f64; 2]],
+) -> Vec<([f64; 3], f64)> {
+    let point = |[t, weight]: [f64; 2], [eta, weight_away]: [f64; 2]| {
+        (cell.side_point(side, t, eta), weight * weight_away * (1.0 - eta))
+    };
+    along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
+}
+
+fn square(rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
+    rule.iter().flat_map(|&y| rule.iter().map(move |&x| point(x, y))).collect()
+}
+
+/// √w L, for A = LLᵀ.
+struct Root {
+    xx: f64,
+    yx: f64,
+    yy: f64,
+    /// √w
+    weight: f64,
+}
+
+impl Root {
+    fn of(a: &Tensor<f64>, weight: f64) -> Self {
+        let xx = a.xx.sqrt();
+        let yx = a.xy / xx;
+        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
+    }
+
+    /// √w Lᵀg
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
+    }
+
+    /// √w L⁻¹τ
+    fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let first = x / self.xx;
+        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
+    }
+}
+
+/// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
+/// 0 the flux is, and there is nothing to add.
+fn of_robin(problem: &Problem, edge: usize, ambient: &[RobinPoints]) -> Block {
+    let mut columns = vec![Vec::new(); 3 + ambient.len()];
+    for (at, &[t, weight]) in f64::GAUSS[DATA_POINTS - 1].iter().enumerate() {
+        let transfer = ambient.first().map_or(0.0, |points| points[at][0]);
+        if transfer <= 0.0 {
+            continue;
+        }
+        let root = (weight * transfer).sqrt();
+        let own = [root * (1.0 - t), root * t, root / transfer];
+        let given = ambient.iter().map(|points| -root * points[at][1]);
+        columns.iter_mut().zip(own.into_iter().chain(given)).for_each(|(to, entry)| to.push(entry));
+    }
+    let functions = problem.ends[edge].to_vec();
+    Block { functions, edges: vec![edge as u32], rows: triangular(columns) }
+}
+
+/// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a
+/// column that depends on those before it adds no row.
+fn triangular(mut columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let norm = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    let sizes: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
+    let mut rows = Vec::new();
+    for at in 0..columns.len() {
+        let remainder = norm(&columns[at]);
+        if remainder <= DEPENDENT * sizes[at] {
+            continue;
+        }
+        let unit: Vec<f64> = columns[at].iter().map(|entry| entry / remainder).collect();
+        let mut row = vec![0.0; columns.len()];
+        row[at] = remainder;
+        for (entry, column) in row.iter_mut().zip(&mut columns).skip(at + 1) {
+            *entry = unit.iter().zip(&*column).map(|(q, c)| q * c).sum();
+            column.iter_mut().zip(&unit).for_each(|(c, q)| *c -= *entry * q);
+        }
+        rows.push(row);
+    }
+    rows
+}

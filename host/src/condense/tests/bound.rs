@@ -1,0 +1,218 @@
+//! The bound is a bound, for any x ≥ 0, and sharp at convergence.
+
+use std::path::Path;
+
+use super::*;
+use crate::certify::admissible::Admissible;
+use crate::certify::exact::{Distance, distance};
+use crate::certify::fixtures::{SMOOTH, distorted};
+use crate::condense::form::Admissibles;
+use crate::condense::{Condensate, build};
+use crate::mesh::structured::{Cells, grid};
+use crate::norms::errors;
+
+struct Model {
+    scene: Scene,
+    problem: Problem,
+    condensate: Condensate,
+    admissibles: Admissibles,
+}
+
+impl Model {
+    fn new(text: &str, mesh: Mesh) -> Result<Self> {
+        Self::of(scene(text)?, mesh)
+    }
+
+    fn of(scene: Scene, mesh: Mesh) -> Result<Self> {
+        let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
+        let mesh = if four { with_four_sides(mesh) } else { mesh };
+        let problem = Problem::new(&scene, mesh)?;
+        let (condensate, admissibles) = build(&scene, &problem)?;
+        let admissibles = admissibles.expect("a certificate");
+        Ok(Self { scene, problem, condensate, admissibles })
+    }
+
+    fn catalogue(file: &str, mesh: Mesh) -> Result<Self> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/catalogue");
+        Self::of(Scene::read(&folder.join(format!("{file}.toml")))?, mesh)
+    }
+
+    /// s and the mended τ of (p, x): their numbers in the columns of U = 1.
+    fn distance(&self, p: &[f64], x: &[f64]) -> Result<Distance> {
+        let (model, form) = (&self.condensate, self.condensate.certificate.as_ref().expect("one"));
+        let Admissibles { s, fluxes, functions } = &self.admissibles;
+        let unit = model.energy_unit;
+        let scaled = |numbers: &[f64]| numbers.iter().map(|x| unit * x).collect::<Vec<_>>();
+        let z: Vec<f64> = [p.to_vec(), scaled(x), scaled(&form.correction(x))].concat();
+        let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
+        let vertices = self.problem.mesh.vertices.len();
+        let values: Vec<f64> = (0..vertices).map(|place| at(s.row(place), &z)).collect();
+        let bubble =
+            |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
+        let bubbles: Vec<f64> = (0..self.problem.ends.len()).map(bubble).collect();
+        let z: Vec<f64> = [p.to_vec(), scaled(&self.mended(p, x))].concat();
+        let tau: Vec<f64> =
+            (0..self.problem.ends.len()).map(|edge| at(fluxes.row(edge), &z)).collect();
+        let exact = self.scene.exact.as_ref().expect("an exact solution");
+        let admissible = Admissible { vertices: &values, bubbles: &bubbles, tau: &tau };
+        distance(&self.scene, exact, &self.problem, &admissible)
+    }
+
+    /// x − Ŝ⁻¹δ, with which the residual is admissible.
+    fn mended(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let n = self.condensate.contact;
+        let residual = self.condensate.residual(p, x);
+        let delta =
+            faer::Mat::from_fn(
+                n,
+                1,
+                |i, _| {
+                    if x[i] == 0.0 { residual[i].min(0.0) } else { residual[i] }
+                },
+            );
+        use faer::linalg::solvers::Solve;
+        let matrix = faer::MatRef::from_row_major_slice(&self.condensate.matrix, n, n);
+        let change = matrix.llt(faer::Side::Lower).expect("definite").solve(delta);
+        (0..n).map(|i| x[i] - change[(i, 0)]).collect()
+    }
+
+    /// x after some sweeps of projected Gauss–Seidel from nothing.
+    fn swept(&self, p: &[f64], sweeps: usize) -> Vec<f64> {
+        let n = self.condensate.contact;
+        let mut x = vec![0.0; n];
+        for _ in 0..sweeps {
+            for i in 0..n {
+                let residual = self.condensate.residual(p, &x);
+                x[i] = (x[i] - residual[i]).max(0.0);
+            }
+        }
+        x
+    }
+
+    /// Energy error of u_h, combined error, identity, and the bound at the solution.
+    fn at_solution(&self) -> Result<[f64; 4]> {
+        let p = &self.condensate.defaults;
+        let x = self.condensate.solve(p).expect("a solution");
+        let bound = self.condensate.bound(p, &x).expect("a bound");
+        let (problem, solution, _) = full(&self.scene, &self.problem, p)?;
+        let exact = self.scene.exact.as_ref().expect("an exact solution");
+        let energy = errors(&self.scene, exact, &problem, &solution.u, &solution.flux)?.energy;
+        let found = self.distance(p, &x)?;
+        Ok([energy, found.combined, found.identity, bound])
+    }
+}
+
+#[test]
+fn sharp_at_convergence() -> Result<()> {
+    for file in ["h-tri", "j100-tri", "a-tri", "hg-tri", "t-h-tri"] {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            for n in [8, 16] {
+                let model = Model::catalogue(file, grid(n, cells))?;
+                let [energy, combined, identity, bound] = model.at_solution()?;
+                println!(
+                    "{file} {cells:?} n = {n}: bound/energy {:.4} bound/combined {:.5} bound/identity {:.6}",
+                    bound / energy,
+                    bound / combined,
+                    bound / identity
+                );
+                assert!(bound >= combined * (1.0 - 1e-4), "{file} {cells:?} {n}");
+                assert!(bound <= 1.05 * combined || file == "a-tri", "{file} {cells:?} {n}");
+                assert!(bound <= 2.2 * energy || file == "t-h-tri", "{file} {cells:?} {n}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Without oscillation the bound is the identity, to the quadrature of the exact solution.
+#[test]
+fn the_bound_is_the_identity() -> Result<()> {
+    for file in ["h-tri", "j100-tri", "hg-tri"] {
+        for mesh in [grid(6, Cells::Mixed), distorted(grid(6, Cells::Quads))] {
+            let [_, _, identity, bound] = Model::catalogue(file, mesh)?.at_solution()?;
+            assert!((bound / identity - 1.0).abs() < 2e-3, "{file}: {bound} {identity}");
+        }
+    }
+    Ok(())
+}
+
+/// Robin, Neumann, full tensor, curved gap and value, corners: the gap, as osc comes on top.
+#[test]
+fn every_term_for_a_smooth_solution() -> Result<()> {
+    for mesh in [grid(6, Cells::Triangles), grid(6, Cells::Quads), distorted(grid(6, Cells::Mixed))]
+    {
+        let mut model = Model::new(SMOOTH, mesh)?;
+        let form = model.condensate.certificate.as_mut().expect("a certificate");
+        let oscillation = std::mem::replace(&mut form.oscillation, vec![0.0]);
+        assert!(oscillation[0] > 0.0);
+        let [_, combined, identity, gap] = model.at_solution()?;
+        println!("combined {combined} identity {identity} gap {gap}");
+        assert!((gap / identity - 1.0).abs() < 1e-5, "{gap} {identity}");
+        model.condensate.certificate.as_mut().expect("a certificate").oscillation = oscillation;
+        let [_, combined, _, bound] = model.at_solution()?;
+        assert!(bound >= combined && bound > gap);
+    }
+    Ok(())
+}
+
+/// Sweeps from nothing, and x that has nothing to do with the solution.
+#[test]
+fn of_any_iterate() -> Result<()> {
+    for file in ["h-tri", "j100-tri", "hg-tri"] {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let model = Model::catalogue(file, grid(6, cells))?;
+            let p = &model.condensate.defaults;
+            let wild: Vec<f64> =
+                (0..model.condensate.contact).map(|i| scatter(i).max(0.0)).collect();
+            let swept = [0, 1, 2, 4, 8, 16].map(|sweeps| model.swept(p, sweeps));
+            for x in swept.into_iter().chain([wild]) {
+                let bound = model.condensate.bound(p, &x).expect("a bound");
+                let found = model.distance(p, &x)?;
+                println!(
+                    "{file} {cells:?}: bound/combined {:.3} identity/combined {:.4}",
+                    bound / found.combined,
+                    found.identity / found.combined
+                );
+                assert!(bound >= found.identity * (1.0 - 1e-3), "{bound} {found:?}");
+                assert!(bound >= found.combined * (1.0 - 1e-3), "{bound} {found:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A corner whose u_D lies above ψ is felt where its edge touches.
+#[test]
+fn an_input_that_lifts_the_corner() -> Result<()> {
+    let (scene, problem) = on_grid(ALL, grid(4, Cells::Triangles))?;
+    let condensate = crate::condense::condense(&scene, &problem)?;
+    let form = condensate.certificate.as_ref().expect("a certificate");
+    assert!(form.corners.is_empty(), "the sides are Robin and Neumann");
+    let text = ALL.replace("[boundary.dirichlet]\n", "[boundary.dirichlet]\n# all round\n");
+    let text = text
+        .replace(
+            "[boundary.left]\nkind = \"robin\"\ncoefficient = \"2+y\"\nambient = \"y - 0.2\"\n",
+            "",
+        )
+        .replace("[input.wind]\nof = \"left\"\nfield = \"ambient\"\npattern = \"1 - y^2\"\n", "")
+        .replace("[boundary.right]\nkind = \"neumann\"\nflux = \"0.5*y - 0.2\"\n", "")
+        .replace("[input.pull]\nof = \"right\"\nfield = \"flux\"\npattern = \"y\"\n", "")
+        .replace("[output.right]\nkind = \"flux\"\nof = \"right\"\n", "")
+        .replace("[output.left]\nkind = \"flux\"\nof = \"left\"\n", "");
+    let (scene, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let condensate = crate::condense::condense(&scene, &problem)?;
+    let form = condensate.certificate.as_ref().expect("a certificate");
+    assert_eq!(form.corners.len(), 2);
+    // u_D = 0.3 + 0.1 sin(3x) and ψ = −0.05 + 0.1x³ at x = ±1; level adds 1 + 0.5x, depth nothing.
+    for corner in &form.corners {
+        let d = condensate.opening[corner.edge];
+        let x = (corner.excess[3] * d - 1.0) / 0.5;
+        assert!((x.abs() - 1.0).abs() < 1e-12);
+        let base = 0.35 + 0.1 * (3.0 * x).sin() - 0.1 * x;
+        assert!((corner.excess[0] * d - base).abs() < 1e-12 && corner.excess[1].abs() < 1e-12);
+    }
+    let mut sunk = condensate.defaults.clone();
+    sunk[3] = -2.0;
+    assert_eq!(condensate.bound(&sunk, &vec![0.0; condensate.contact]), None);
+    Ok(())
+}
