@@ -20,8 +20,10 @@ pub use functional::Functional;
 pub use pattern::{Chord, Pattern, Points, Share};
 
 use crate::certificate::{Ground, Verdict};
+use crate::conforming::VertexData;
 use crate::error::{Array, Error, all_finite, same_length};
-use crate::index::Index;
+use crate::features;
+use crate::index::{Index, read};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
 use crate::tick::{self, Deadline, Limits, Progress, Report, Tick};
@@ -41,6 +43,8 @@ pub struct Full<'a, R, I> {
     pub outputs: &'a [Functional<'a, R, I>],
     /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes.
     pub has_bound: bool,
+    /// Where C meets D: the places of ψ and u_D there, counted over the ends of all edges of their blocks.
+    pub corners: &'a [[I; 2]],
     /// Where u starts off the contact and Dirichlet edges.
     pub start: R,
     /// Where ω starts.
@@ -62,7 +66,8 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// Answers for these inputs, one value a pattern: fills in `outputs` and says how wrong they can be.
     ///
     /// Where there is no bound the report's verdict is [`Verdict::NotFinite`] and an output that is the bound
-    /// is infinite.
+    /// is infinite: for data that never allow for one, and where u_D lies below ψ where they meet, so that no u
+    /// has both.
     ///
     /// # Errors
     /// Inputs that are not finite or make data that are not: the last answer stays. Arrays of the wrong length.
@@ -91,13 +96,27 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let mut tick = Tick::resume(self.ground, of_tick, known)?;
         let report = tick.begin(data)?.advance(limits, deadline)?;
         *progress = Some(tick.progress());
-        let verdict = if self.has_bound { report.verdict } else { Verdict::NotFinite };
+        let has_bound = self.has_bound && self.meet(&data.given.ends);
+        let verdict = if has_bound { report.verdict } else { Verdict::NotFinite };
         let report = Report { verdict, ..report };
         let answer = functional::Answer { tick: &tick, data: &data, report: &report };
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
         }
         Ok(report)
+    }
+
+    /// Whether u_D ≥ ψ where C meets D, up to rounding.
+    fn meet(&self, ends: &VertexData<R>) -> bool {
+        if !features::CONTACT || self.corners.is_empty() {
+            return true;
+        }
+        let (gap, given) = (ends.gap.as_flattened(), ends.given.as_flattened());
+        let values = gap.iter().chain(given);
+        let size = values.fold(R::ZERO, |most, value| most.or_larger(value.magnitude()));
+        let slack = R::from_count(64) * R::EPSILON * size;
+        let below = |&[at, place]: &[I; 2]| read(gap, at.at()) - read(given, place.at());
+        self.corners.iter().all(|corner| below(corner) <= slack)
     }
 
     /// osc(p) ≤ osc₀ + Σ|p_j| osc_j
