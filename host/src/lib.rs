@@ -1,5 +1,6 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
+pub mod bake;
 pub mod certify;
 pub mod cli;
 pub mod condense;

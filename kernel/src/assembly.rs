@@ -7,6 +7,7 @@ use crate::boundary::Boundary;
 use crate::edges::{Edges, Side};
 use crate::element::lend;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 use crate::stiffness::Stiffness;
@@ -102,7 +103,9 @@ pub fn load<R: Real, I: Index>(
 ) -> Result<(), Error> {
     load_of_triangles(edges, cells.triangles, boundary, load)?;
     same_length_or_empty(Array::CellLoads, cells.quads.len(), edges.of_quads().len())?;
-    add_quads(edges.of_quads(), cells.quads, load);
+    if features::QUADS {
+        add_quads(edges.of_quads(), cells.quads, load);
+    }
     Ok(())
 }
 

@@ -10,6 +10,7 @@ use crate::assembly::CellLoads;
 use crate::cells::{Cells, pick};
 use crate::element::{crouzeix_raviart, rannacher_turek};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
+use crate::features;
 use crate::flux::{on_quad, on_triangle};
 use crate::index::{Index, read};
 use crate::real::Real;
@@ -33,8 +34,12 @@ pub fn fill<R: Real, I: Index>(
     same_length_or_empty(Array::CellLoads, loads.quads.len(), cells.quads.len())?;
     vertices.fill(R::ZERO);
     tau.fill(R::ZERO);
-    of_triangles(cells, loads.triangles, u, vertices, tau);
-    of_quads(cells, loads.quads, u, vertices, tau);
+    if features::TRIANGLES {
+        of_triangles(cells, loads.triangles, u, vertices, tau);
+    }
+    if features::QUADS {
+        of_quads(cells, loads.quads, u, vertices, tau);
+    }
     let scaled = vertices.iter_mut().zip(cells.of_vertices);
     scaled.for_each(|(sum, &weight)| *sum *= weight);
     tau.iter_mut().zip(cells.of_edges).for_each(|(sum, &weight)| *sum *= weight);

@@ -11,8 +11,9 @@
 //! is a temperature. A new kind of condition is a record here with what it adds to the matrix and
 //! to the load.
 
-use crate::edges::Edges;
+use crate::edges::{Edges, known};
 use crate::error::{Array, Error, all_finite, same_length};
+use crate::features;
 use crate::index::Index;
 use crate::real::Real;
 
@@ -57,6 +58,7 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
         robin: &'a [Robin<R, I>],
         contact_flux: &'a [R],
     ) -> Result<Self, Error> {
+        known(Array::Robin, features::ROBIN, robin.len())?;
         let is_free_boundary = |edge: I| {
             edge.at() < edges.counts().free
                 && edges.half_edges().get(edge.at()).is_some_and(|pair| pair[1] == I::NONE)
@@ -121,6 +123,9 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
 
     /// Calls `add` with each edge whose diagonal entry grows, and by how much.
     pub fn add_to_diagonal(&self, mut add: impl FnMut(usize, R)) {
+        if !features::ROBIN {
+            return;
+        }
         for record in self.robin {
             add(record.edge.at(), record.coefficient);
         }

@@ -21,6 +21,7 @@
 use crate::contact::is_active;
 use crate::edges::{Block, Edges};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
+use crate::features;
 use crate::index::{Index, read, write};
 use crate::mesh::Mesh;
 use crate::real::Real;
@@ -53,7 +54,8 @@ pub fn impose<R: Real, I: Index>(
     same_length(Array::LowerBounds, lower.len(), counts.contact)?;
     same_length(Array::Contact, data.gap.len(), counts.contact)?;
     same_length(Array::Dirichlet, data.given.len(), counts.dirichlet)?;
-    let on_contact = || data.gap.iter().enumerate().map(|(at, gap)| (at, counts.free + at, gap));
+    let gap = if features::CONTACT { data.gap } else { &[] };
+    let on_contact = || gap.iter().enumerate().map(|(at, gap)| (at, counts.free + at, gap));
     for (at, edge, gap) in on_contact() {
         if is_active(counts, lower, u, at) {
             each_end(mesh, edges, edge, gap, |vertex, psi| write(values, vertex, psi));
@@ -93,7 +95,7 @@ pub fn bubbles<R: Real, I: Index>(
     bubbles: &mut [R],
 ) -> Result<(), Error> {
     let counts = edges.counts();
-    if mesh.quads().is_empty() {
+    if !features::QUADS || mesh.quads().is_empty() {
         bubbles.fill(R::ZERO);
         return same_length_or_empty(Array::Scratch, bubbles.len(), counts.edges());
     }

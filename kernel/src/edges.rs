@@ -13,6 +13,7 @@
 //! and u_D simply stands in u behind the unknowns.
 
 use crate::error::{Array, Error, same_length};
+use crate::features;
 use crate::geometry::scaled_normal;
 use crate::index::{Index, read};
 use crate::math::Math;
@@ -104,7 +105,8 @@ impl<'a, I: Index> Edges<'a, I> {
     /// edge ([`Index::NONE`] in second place on the boundary), and the sizes of the blocks.
     ///
     /// # Errors
-    /// Lengths that do not match, and any half-edge whose side does not lead back to its edge.
+    /// Lengths that do not match, any half-edge whose side does not lead back to its edge, and kinds of
+    /// cells and edges that this build of the kernel has no code for ([`features`]).
     pub fn new(
         of_triangles: &'a [[I; 3]],
         of_quads: &'a [[I; 4]],
@@ -112,6 +114,9 @@ impl<'a, I: Index> Edges<'a, I> {
         counts: EdgeCounts,
     ) -> Result<Self, Error> {
         let edges = Self { of_triangles, of_quads, half_edges, counts };
+        known(Array::Triangles, features::TRIANGLES, of_triangles.len())?;
+        known(Array::Quads, features::QUADS, of_quads.len())?;
+        known(Array::Contact, features::CONTACT, counts.contact)?;
         same_length(Array::Edges, half_edges.len(), counts.edges())?;
         let sides = of_triangles.len() * 3 + of_quads.len() * 4;
         let mut seen = 0;
@@ -126,6 +131,17 @@ impl<'a, I: Index> Edges<'a, I> {
         // Each half-edge leads to one edge, which knows it: with equal counts none is left over.
         same_length(Array::HalfEdges, seen, sides)?;
         Ok(edges)
+    }
+
+    /// Takes edges that [`Edges::new`] took on the host, for a `static`. Other numbers make wrong answers and
+    /// nothing worse.
+    pub const fn baked(
+        of_triangles: &'a [[I; 3]],
+        of_quads: &'a [[I; 4]],
+        half_edges: &'a [[I; 2]],
+        counts: EdgeCounts,
+    ) -> Self {
+        Self { of_triangles, of_quads, half_edges, counts }
     }
 
     /// The edge of each side of each triangle.
@@ -243,7 +259,18 @@ impl<'a, I: Index> Edges<'a, I> {
     }
 }
 
+/// Refuses things of a kind for which there is no code.
+pub(crate) fn known(of: Array, has_code: bool, needed: usize) -> Result<(), Error> {
+    if has_code || needed == 0 { Ok(()) } else { Err(Error::Capacity { of, needed, limit: 0 }) }
+}
+
 fn side(triangles: usize, half_edge: usize) -> Side {
+    if !features::QUADS {
+        return Side::Triangle(half_edge / 3, half_edge % 3);
+    }
+    if !features::TRIANGLES {
+        return Side::Quad(half_edge / 4, half_edge % 4);
+    }
     match half_edge.checked_sub(3 * triangles) {
         None => Side::Triangle(half_edge / 3, half_edge % 3),
         Some(rest) => Side::Quad(rest / 4, rest % 4),

@@ -13,6 +13,7 @@ use crate::assembly::CellLoads;
 use crate::boundary::Boundary;
 use crate::cells::{Cells, Either};
 use crate::edges::{Block, Edges};
+use crate::features;
 use crate::index::{Index, read, write};
 use crate::real::Real;
 
@@ -37,10 +38,14 @@ pub fn impose<R: Real, I: Index>(
         let sum = read(tau, record.edge.at()) + record.flux;
         write(tau, record.edge.at(), sum);
     }
-    for record in boundary.robin() {
+    let robin = if features::ROBIN { boundary.robin() } else { &[] };
+    for record in robin {
         let law = record.ambient - record.coefficient * read(iterate.u, record.edge.at());
         let sum = read(tau, record.edge.at()) + law;
         write(tau, record.edge.at(), sum);
+    }
+    if !features::CONTACT {
+        return;
     }
     let on_contact = iterate.u.iter().zip(tau.iter_mut()).skip(counts.free);
     for (at, ((&u, tau), &lower)) in on_contact.zip(iterate.lower).enumerate() {
@@ -70,6 +75,9 @@ pub fn pulled<R: Real, I: Index>(
     boundary: &Boundary<R, I>,
     tau: &[R],
 ) -> Option<usize> {
+    if !features::CONTACT {
+        return None;
+    }
     let counts = edges.counts();
     let mut on_contact = tau.iter().skip(counts.free).take(counts.contact).enumerate();
     let below = |(at, tau): (usize, &R)| !(*tau >= boundary.contact_flux(at));

@@ -116,6 +116,8 @@ pub enum Array {
     Unknowns,
     Fluxes,
     Scratch,
+    Inputs,
+    Outputs,
 }
 
 impl fmt::Display for Error {

@@ -49,7 +49,7 @@
 //! [`signorini`] (the contact problem) → packed [`rows`] → [`psor`], one sweep, in the loop of [`solver`],
 //! corrected by [`refinement`] → [`flux`] → [`contact`]. How wrong an iterate can be: [`forest`] → packed
 //! [`cells`] → [`averages`] → [`conforming`] and [`equilibrium`] → [`certificate`]; [`tick`] puts sweeps and certificates
-//! into a control loop. Each works on slices and can be used alone; [`workspace`] owns the memory and goes
+//! into a control loop, and [`full`] drives one by the inputs of a baked scene. Each works on slices and can be used alone; [`workspace`] owns the memory and goes
 //! from mesh to flux. [`components`] tells beforehand whether a solution exists.
 //!
 //! ## What is absent
@@ -74,8 +74,10 @@ pub mod edges;
 pub mod element;
 pub mod equilibrium;
 pub mod error;
+pub mod features;
 pub mod flux;
 pub mod forest;
+pub mod full;
 pub mod geometry;
 mod index;
 mod math;

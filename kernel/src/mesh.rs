@@ -51,6 +51,15 @@ impl<'a, R: Real, I: Index> Mesh<'a, R, I> {
         Ok(mesh)
     }
 
+    /// Takes a mesh that [`Mesh::new`] took on the host, for a `static`.
+    pub const fn baked(
+        vertices: &'a [[R; 2]],
+        triangles: &'a [[I; 3]],
+        quads: &'a [[I; 4]],
+    ) -> Self {
+        Self { vertices, triangles, quads }
+    }
+
     fn check_capacity(&self) -> Result<(), Error> {
         let limit = I::LIMIT;
         let half_edges = self.half_edges();

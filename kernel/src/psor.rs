@@ -14,6 +14,7 @@
 //! of the best that was found (`tests/firmware/cost.txt`, ARCHITECTURE.md).
 
 use crate::error::{Array, Error, same_length};
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 use crate::rows::{Row, Rows};
@@ -36,7 +37,9 @@ pub fn sweep<R: Real, I: Index, const WIDTH: usize>(
     // SAFETY: u has an entry for each edge of the rows' mesh.
     unsafe {
         relax_free(rows, u);
-        relax_contact(rows, lower, u);
+        if features::CONTACT {
+            relax_contact(rows, lower, u);
+        }
     }
     Ok(())
 }
@@ -95,6 +98,9 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     };
     for (row, &own) in rows.free().iter().zip(u) {
         include(step(row, WIDTH, own).magnitude());
+    }
+    if !features::CONTACT {
+        return Ok(defect);
     }
     let on_contact = u.iter().skip(rows.free().len());
     for ((row, &own), &lower) in rows.contact().iter().zip(on_contact).zip(lower) {

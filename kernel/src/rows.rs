@@ -26,6 +26,10 @@ pub const TRIANGLES: usize = 4;
 /// Room in a row where some cells are quads.
 pub const QUADS: usize = 6;
 
+mod owned;
+
+pub use owned::OwnedRows;
+
 /// One row, as memory that the caller owns; its contents are the business of [`Rows`].
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

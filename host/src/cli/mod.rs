@@ -1,5 +1,6 @@
 //! The command line.
 
+mod bake;
 mod export;
 mod place;
 mod solve;
@@ -37,6 +38,8 @@ enum Command {
     Solve(solve::Arguments),
     /// Solve a scene over time, each tick from the last one's answer; write ticks.csv and ticks.svg
     Tick(tick::Arguments),
+    /// Write a scene as a module of firmware: its data and a controller for them
+    Bake(bake::Arguments),
     /// Write a scene as static data of a Rust program for a microcontroller
     Export(export::Arguments),
 }
@@ -50,6 +53,7 @@ impl Cli {
         match self.command {
             Some(Command::Solve(arguments)) => arguments.run(),
             Some(Command::Tick(arguments)) => arguments.run(),
+            Some(Command::Bake(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),
         }

@@ -23,26 +23,33 @@ use crate::forest::Forest;
 use crate::index::Index;
 use crate::real::Real;
 
-/// One packed cell, as memory that the caller owns; its contents are the business of [`Cells`].
+/// One packed cell, as [`pack`] fills it in and `signorini bake` writes it down.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell<R, I, const SIDES: usize, const ENTRIES: usize> {
-    pub(crate) k: [R; ENTRIES],
+    /// The element matrix without its diagonal.
+    pub k: [R; ENTRIES],
     /// 1 where an edge is directed out of this cell, else −1.
-    signs: [R; SIDES],
-    pub(crate) alpha: R,
-    pub(crate) softness: R,
+    pub signs: [R; SIDES],
+    /// α
+    pub alpha: R,
+    /// 1/α
+    pub softness: R,
     /// Of triangles: 1/(4 det A).
-    pub(crate) compliance: R,
+    pub compliance: R,
     /// Of triangles: the same times Σ|K|.
-    pub(crate) doubt: R,
+    pub doubt: R,
     /// What the side before the last takes of the surplus: ½ or 0.
-    spread: R,
-    pub(crate) edges: [I; SIDES],
-    pub(crate) vertices: [I; SIDES],
-    pub(crate) number: I,
+    pub spread: R,
+    /// The edges of its sides.
+    pub edges: [I; SIDES],
+    /// Its vertices.
+    pub vertices: [I; SIDES],
+    /// Its number in the mesh, triangles first.
+    pub number: I,
     /// The side that stands last, as the mesh numbers it.
-    parent: u8,
-    mirrored: bool,
+    pub parent: u8,
+    /// Whether the sides run clockwise.
+    pub mirrored: bool,
 }
 
 /// A packed triangle.
@@ -175,6 +182,38 @@ impl<'a, R: Real, I: Index> Cells<'a, R, I> {
         let order = forest.order();
         same_length(Array::Triangles, triangles.len() + quads.len(), order.len())?;
         Ok(Self { triangles, quads, of_vertices, of_edges, order })
+    }
+
+    /// Takes cells and weights that [`pack`] found on the host, for a `static`. `order` lists the cells from
+    /// roots to leaves; it may be empty where all are triangles with constant A.
+    pub const fn baked(
+        triangles: &'a [Triangle<R, I>],
+        quads: &'a [Quad<R, I>],
+        of_vertices: &'a [R],
+        of_edges: &'a [R],
+        order: &'a [I],
+    ) -> Self {
+        Self { triangles, quads, of_vertices, of_edges, order }
+    }
+
+    /// The packed triangles.
+    pub fn triangles(&self) -> &'a [Triangle<R, I>] {
+        self.triangles
+    }
+
+    /// The packed quads.
+    pub fn quads(&self) -> &'a [Quad<R, I>] {
+        self.quads
+    }
+
+    /// The weights of means at vertices and of means on edges.
+    pub fn weights(&self) -> [&'a [R]; 2] {
+        [self.of_vertices, self.of_edges]
+    }
+
+    /// The numbers of the cells, roots first.
+    pub fn order(&self) -> &'a [I] {
+        self.order
     }
 
     /// Number of cells.

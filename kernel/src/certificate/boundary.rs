@@ -3,6 +3,7 @@
 use super::parts::Parts;
 use super::{Continuous, Given, Ground};
 use crate::edges::Side;
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 
@@ -43,14 +44,16 @@ pub(super) fn add<R: Real, I: Index>(
             *indicator += term;
         }
     };
-    for (at, gap) in given.ends.gap.iter().enumerate() {
+    let gap = if features::CONTACT { given.ends.gap } else { &[] };
+    for (at, gap) in gap.iter().enumerate() {
         let edge = counts.free + at;
         let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
         let excess = R::TWO * excess(ground, s, edge, gap);
         take(edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
     }
     let mut moved = R::ZERO;
-    for (at, law) in given.boundary.robin().iter().enumerate() {
+    let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
+    for (at, law) in laws.iter().enumerate() {
         let edge = law.edge.at();
         let transfer = Transfer {
             flux: read(tau, edge),
@@ -69,7 +72,8 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
-    for curved in given.curved {
+    let curved = if features::CURVED { given.curved } else { &[] };
+    for curved in curved {
         let (term, terms) = extension(ground, given, s, tau, curved);
         take(curved.edge.at(), term, terms);
     }

@@ -9,6 +9,7 @@
 //! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
 
 use crate::element::rannacher_turek::Place;
+use crate::features;
 use crate::geometry::doubled_area;
 use crate::real::Real;
 use crate::tensor::Tensor;
@@ -30,6 +31,9 @@ impl<'a, R: Real> Metric<'a, R> {
     /// B at the points, or `None` where it is constant.
     #[inline(always)]
     pub(super) fn varying(&self, cell: usize) -> Option<&'a [Tensor<R>; POINTS * POINTS]> {
+        if !features::VARYING {
+            return None;
+        }
         self.at_points.get(*self.place.get(cell)? as usize)
     }
 }

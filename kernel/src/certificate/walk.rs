@@ -4,6 +4,7 @@ use super::parts::{Parts, Share};
 use super::quad::{self, Values};
 use super::{Continuous, Given, Ground, Metric, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
+use crate::features;
 use crate::index::{Index, read, write};
 use crate::real::Real;
 
@@ -17,12 +18,16 @@ pub(super) fn over_cells<R: Real, I: Index>(
     indicators: &mut [R],
 ) -> Parts<R> {
     let cells = &ground.cells;
-    if cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty() {
+    let may_differ = features::QUADS || features::VARYING || features::INDICATORS;
+    let plain = cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty();
+    if features::TRIANGLES && (plain || !may_differ) {
         return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
     }
     let mut parts = Parts::default();
     for cell in cells.from_leaves() {
         let (number, share) = match cell {
+            Either::Triangle(_) if !features::TRIANGLES => break,
+            Either::Quad(_) if !features::QUADS => break,
             Either::Triangle(cell) => {
                 let load = read(given.loads.triangles, cell.number.at());
                 (cell.number, of_triangle_cell(ground.metric, cell, s, u, load, tau))
@@ -34,7 +39,9 @@ pub(super) fn over_cells<R: Real, I: Index>(
             }
         };
         let Some(share) = share else { break };
-        write(indicators, number.at(), share.gap);
+        if features::INDICATORS {
+            write(indicators, number.at(), share.gap);
+        }
         parts.add(share);
     }
     parts

@@ -18,9 +18,11 @@
 //! follows the active set, and shifts of the whole part ([`crate::solver`]).
 
 mod report;
+mod resume;
 mod running;
 
 pub use report::{Deadline, Ended, Limits, Report};
+pub use resume::Progress;
 pub use running::Running;
 
 use crate::assembly;
@@ -72,7 +74,7 @@ pub struct Data<'a, R, I> {
 }
 
 impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
-    /// Takes mesh and memory; `relaxation` is where ω starts.
+    /// Takes mesh and memory for a first tick, with no edge in contact so far; `relaxation` is where ω starts.
     ///
     /// # Errors
     /// Arrays of the wrong length, a start that is not finite, an ω outside (0, 2).
@@ -81,14 +83,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
         memory: Memory<'a, R, I, WIDTH>,
         relaxation: Relaxation<R>,
     ) -> Result<Self, Error> {
-        let counts = ground.edges.counts();
-        let vertices = ground.mesh.vertices().len();
-        same_length(Array::Rows, memory.rows.counts().edges(), counts.edges())?;
-        same_length(Array::Load, memory.load.len(), counts.unknowns())?;
-        same_length(Array::Contact, memory.active.len(), counts.contact)?;
-        same_length(Array::Vertices, memory.vertices.len(), vertices)?;
-        same_length(Array::Fluxes, memory.tau.len(), counts.edges())?;
-        same_length(Array::Unknowns, memory.u.len(), counts.edges())?;
+        resume::check(&ground, &memory)?;
         all_finite(Array::Unknowns, memory.u)?;
         memory.active.fill(false);
         let search = Search::checked(relaxation)?;

@@ -1,0 +1,282 @@
+//! What every baked module shows, whatever its model: its header, `Inputs`, `Outputs`, `Answer`.
+
+use std::fmt::Write as _;
+
+use super::measure::{Measured, measures};
+use super::text::{array, code, identifiers, prose};
+use crate::error::Result;
+use crate::problem::Problem;
+use crate::scalar::Scalar;
+use crate::scene::{Field, Scene};
+
+/// The names and meanings of a scene's inputs and outputs.
+#[derive(Debug, Clone)]
+pub struct Face {
+    title: String,
+    file: String,
+    hash: u64,
+    inputs: Vec<Item>,
+    defaults: Vec<f64>,
+    outputs: Vec<Item>,
+    /// The outputs as forms.
+    pub measures: Vec<Measured>,
+}
+
+/// A field of `Inputs` or `Outputs`.
+#[derive(Debug, Clone)]
+struct Item {
+    name: String,
+    identifier: String,
+    doc: String,
+}
+
+/// What a model says of itself in the header.
+#[derive(Debug, Clone)]
+pub struct About<'a> {
+    /// `full` or `condensed`.
+    pub model: &'a str,
+    /// What it is, one paragraph of Markdown.
+    pub text: &'a str,
+    /// The features of the kernel that it needs.
+    pub features: &'a [&'a str],
+    /// The kernel's type of a report, by its full path.
+    pub report: &'a str,
+}
+
+impl Face {
+    /// That of `scene`.
+    ///
+    /// # Errors
+    /// A probe outside the mesh.
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let measures = measures(scene, problem)?;
+        let docs = scene.inputs.iter().map(|input| {
+            let (field, unit) = match input.field.value {
+                Field::Flux => ("flux", "that of a flux (A∇u)·n"),
+                Field::Value => ("value", "that of u"),
+                Field::Gap => ("gap", "that of u"),
+                Field::Ambient => ("ambient", "that of u"),
+                Field::Source => ("f", "that of the load f"),
+            };
+            let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
+            format!(
+                "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
+                input.default
+            )
+        });
+        let names = scene.inputs.iter().map(|input| input.name.value.as_str());
+        let inputs = items(names, docs);
+        let names = measures.iter().map(|output| output.name.as_str());
+        let outputs = items(names, measures.iter().map(|output| output.meaning.clone()));
+        let file = scene.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self {
+            title: scene.title.clone(),
+            file,
+            hash: hash(scene, problem),
+            inputs,
+            defaults: scene.inputs.iter().map(|input| input.default).collect(),
+            outputs,
+            measures,
+        })
+    }
+
+    /// Everything but the controller and its data.
+    pub fn source<R: Scalar>(&self, about: &About) -> String {
+        self.header(about) + &self.types::<R>(about)
+    }
+
+    /// Identifiers of the inputs, in the order of the scene.
+    pub fn inputs(&self) -> impl Iterator<Item = &str> {
+        self.inputs.iter().map(|item| item.identifier.as_str())
+    }
+
+    /// Identifiers of the outputs.
+    pub fn outputs(&self) -> impl Iterator<Item = &str> {
+        self.outputs.iter().map(|item| item.identifier.as_str())
+    }
+
+    /// The hash of scene, mesh and default inputs.
+    pub fn hash(&self) -> u64 {
+        self.hash
+    }
+
+    fn header(&self, about: &About) -> String {
+        let Self { title, file, hash, inputs, outputs, .. } = self;
+        let features: Vec<_> = about.features.iter().map(|name| format!("{name:?}")).collect();
+        let mut lines = vec![
+            prose(title),
+            String::new(),
+            about.text.to_owned(),
+            String::new(),
+            format!(
+                "From {}, scene hash {hash:016x} (scene file, mesh, default inputs).",
+                code(file)
+            ),
+            format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
+            String::new(),
+            "```toml".to_owned(),
+            format!(
+                "signorini-kernel = {{ default-features = false, features = [{}] }}",
+                features.join(", ")
+            ),
+            "```".to_owned(),
+        ];
+        let mut table = |kind: &str, items: &[Item]| {
+            if !items.is_empty() {
+                let head = format!("| {kind} | meaning |");
+                lines.extend([String::new(), head, "|---|---|".to_owned()]);
+                let row = |item: &Item| format!("| `{}` | {} |", item.identifier, item.doc);
+                lines.extend(items.iter().map(row));
+            }
+        };
+        table("input", inputs);
+        table("output", outputs);
+        lines.iter().map(|line| format!("//! {line}").trim_end().to_owned() + "\n").collect()
+    }
+
+    fn types<R: Scalar>(&self, about: &About) -> String {
+        let mut text = String::new();
+        let _ = write!(
+            text,
+            "
+/// Every number of this module.
+pub type Scalar = {scalar};
+/// Which model of the scene this is.
+pub const MODEL: &str = {model:?};
+/// The scene that it was made of.
+pub const SCENE_HASH: u64 = 0x{hash:016x};
+/// The features of `signorini-kernel` that it needs.
+pub const KERNEL_FEATURES: &[&str] = &{features:?};
+/// Number of inputs.
+pub const INPUTS: usize = {inputs};
+/// Number of outputs.
+pub const OUTPUTS: usize = {outputs};
+",
+            scalar = R::NAME,
+            model = about.model,
+            hash = self.hash,
+            features = about.features,
+            inputs = self.inputs.len(),
+            outputs = self.outputs.len(),
+        );
+        text += &structure("Inputs", "What the controller sets.", &self.inputs);
+        let defaults = self.defaults.iter().map(|&x| format!("{:?}", R::narrow(x)));
+        let defaults = self.inputs().zip(defaults).map(|(name, x)| format!("{name}: {x}"));
+        let defaults = braced("Self", defaults);
+        text += "
+impl Inputs {
+    /// The values that the scene gives.
+";
+        let _ = writeln!(text, "    pub const DEFAULT: Self = {defaults};");
+        text += &names("INPUTS", &self.inputs);
+        text += &from_array("pub ", "INPUTS", &self.inputs);
+        text += &to_array("INPUTS", &self.inputs);
+        text += "}\n";
+        text += &structure("Outputs", "What the controller reads.", &self.outputs);
+        text += "\nimpl Outputs {\n";
+        text += &names("OUTPUTS", &self.outputs);
+        text += &from_array("", "OUTPUTS", &self.outputs);
+        text += &to_array("OUTPUTS", &self.outputs);
+        text + "}\n" + &answer(about.report)
+    }
+}
+
+fn answer(report: &str) -> String {
+    format!(
+        "
+/// What a tick came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {{
+    /// What the controller reads.
+    pub outputs: Outputs,
+    /// How the tick ended, and how wrong the answer can be.
+    pub report: {report},
+}}
+"
+    )
+}
+
+fn items<'n>(
+    names: impl Iterator<Item = &'n str> + Clone,
+    docs: impl Iterator<Item = String>,
+) -> Vec<Item> {
+    let identifiers = identifiers(names.clone()).into_iter();
+    names
+        .zip(identifiers)
+        .zip(docs)
+        .map(|((name, identifier), doc)| Item { name: name.to_owned(), identifier, doc })
+        .collect()
+}
+
+fn structure(name: &str, doc: &str, items: &[Item]) -> String {
+    let fields = items
+        .iter()
+        .map(|item| format!("    /// {}\n    pub {}: Scalar,\n", item.doc, item.identifier));
+    let fields: String = fields.collect();
+    let body = if fields.is_empty() { "{}".to_owned() } else { format!("{{\n{fields}}}") };
+    format!("\n/// {doc}\n#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {name} {body}\n")
+}
+
+fn names(count: &str, items: &[Item]) -> String {
+    let names: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
+    let doc = "    /// Their names in the scene.\n";
+    format!("{doc}    pub const NAMES: [&str; {count}] = {};\n", array(&names, 4))
+}
+
+fn from_array(visibility: &str, count: &str, items: &[Item]) -> String {
+    let pattern = list(items);
+    let fields = braced("Self", items.iter().map(|item| item.identifier.clone()));
+    format!(
+        "
+    /// From values in the order of the scene.
+    {visibility}fn from_array({pattern}: [Scalar; {count}]) -> Self {{
+        {fields}
+    }}
+"
+    )
+}
+
+fn to_array(count: &str, items: &[Item]) -> String {
+    let (bound, values) =
+        (braced("Self", items.iter().map(|item| item.identifier.clone())), list(items));
+    format!(
+        "
+    /// The values in the order of the scene.
+    pub fn to_array(self) -> [Scalar; {count}] {{
+        let {bound} = self;
+        {values}
+    }}
+"
+    )
+}
+
+fn list(items: &[Item]) -> String {
+    let all: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
+    format!("[{}]", all.join(", "))
+}
+
+fn braced(name: &str, fields: impl Iterator<Item = String>) -> String {
+    let fields: Vec<_> = fields.collect();
+    if fields.is_empty() {
+        format!("{name} {{}}")
+    } else {
+        format!("{name} {{ {} }}", fields.join(", "))
+    }
+}
+
+/// FNV-1a over what the data are made of.
+fn hash(scene: &Scene, problem: &Problem) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut take = |bytes: &[u8]| {
+        for &byte in bytes {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    };
+    take(scene.text.as_bytes());
+    scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
+    let mesh = &problem.mesh;
+    mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
+    let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());
+    corners.for_each(|vertex| take(&vertex.to_le_bytes()));
+    hash
+}

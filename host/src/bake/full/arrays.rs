@@ -1,0 +1,198 @@
+//! Everything of a baked scene, owned: what the module's statics will hold.
+
+use std::collections::HashMap;
+
+use signorini_kernel::cells::{Cells, Quad, Triangle};
+use signorini_kernel::certificate::{Ground, Metric, POINTS};
+use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::full::Share;
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Relaxation, Tensor};
+
+use super::data::Data;
+use crate::bake::face::Face;
+use crate::bake::measure::Measure;
+use crate::bake::superposition::parts;
+use crate::certify::Certifier;
+use crate::error::{InputError, Result};
+use crate::problem::{Assembled, Parts, Problem};
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::solve::unfit;
+
+/// A scene as the full model takes it, in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Baked<R: Scalar> {
+    /// Names, meanings, outputs.
+    pub face: Face,
+    pub(super) counts: EdgeCounts,
+    pub(super) vertices: Vec<[R; 2]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) quads: Vec<[u32; 4]>,
+    pub(super) of_triangles: Vec<[u32; 3]>,
+    pub(super) of_quads: Vec<[u32; 4]>,
+    pub(super) half_edges: Vec<[u32; 2]>,
+    pub(super) stiffness_of_triangles: Vec<[R; 3]>,
+    pub(super) stiffness_of_quads: Vec<[R; 6]>,
+    pub(super) packed_triangles: Vec<Triangle<R, u32>>,
+    pub(super) packed_quads: Vec<Quad<R, u32>>,
+    pub(super) vertex_weights: Vec<R>,
+    pub(super) edge_weights: Vec<R>,
+    pub(super) order: Vec<u32>,
+    pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
+    pub(super) metric_place: Vec<u32>,
+    pub(super) reach: R,
+    pub(super) data: Data<R>,
+    pub(super) outputs: Vec<Output<R>>,
+    pub(super) corners: Vec<[u32; 2]>,
+    pub(super) start: R,
+    pub(super) omega: R,
+}
+
+/// An output with its arrays.
+#[derive(Debug, Clone)]
+pub(super) enum Output<R> {
+    Flux(Vec<u32>),
+    Force(Vec<u32>),
+    Length(Vec<Share<R, u32>>),
+    Probe(Vec<Share<R, u32>>),
+    Bound,
+}
+
+impl<R: Scalar> Baked<R> {
+    /// Bakes `scene`, whose inputs stand at their defaults.
+    ///
+    /// # Errors
+    /// A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
+    /// scalar type cannot hold.
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let held = Parts::examine(scene, problem)?;
+        refuse_loose(scene, &held)?;
+        let unfit = unfit::<R>(scene);
+        let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+        assembled.system().map_err(&unfit)?;
+        let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
+        let ground = certifier.ground(&assembled).map_err(&unfit)?;
+        let face = Face::new(scene, problem)?;
+        let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
+        data.check().map_err(&unfit)?;
+        let counts = problem.topology.counts;
+        let outputs = face.measures.iter().map(|of| output(counts, &of.measure)).collect();
+        let start = assembled.start().first().copied().unwrap_or(R::ZERO);
+        Ok(Self { start, outputs, corners: corners(problem), ..Self::of(face, data, &ground) })
+    }
+
+    fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>) -> Self {
+        let Ground { mesh, edges, stiffness, cells, metric, reach } = ground;
+        let [vertex_weights, edge_weights] = cells.weights();
+        let varies = !metric.at_points.is_empty();
+        // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
+        let needs_order = varies || !cells.quads().is_empty();
+        let omega = match Relaxation::<R>::for_unknowns(edges.counts().unknowns()) {
+            Relaxation::Adaptive(omega) | Relaxation::Fixed(omega) => omega,
+        };
+        Self {
+            face,
+            counts: edges.counts(),
+            vertices: mesh.vertices().to_vec(),
+            triangles: mesh.triangles().to_vec(),
+            quads: mesh.quads().to_vec(),
+            of_triangles: edges.of_triangles().to_vec(),
+            of_quads: edges.of_quads().to_vec(),
+            half_edges: edges.half_edges().to_vec(),
+            stiffness_of_triangles: stiffness.triangles.to_vec(),
+            stiffness_of_quads: stiffness.quads.to_vec(),
+            packed_triangles: cells.triangles().to_vec(),
+            packed_quads: cells.quads().to_vec(),
+            vertex_weights: vertex_weights.to_vec(),
+            edge_weights: edge_weights.to_vec(),
+            order: if needs_order { cells.order().to_vec() } else { Vec::new() },
+            metric: metric.at_points.to_vec(),
+            metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
+            reach: *reach,
+            data,
+            outputs: Vec::new(),
+            corners: Vec::new(),
+            start: R::ZERO,
+            omega,
+        }
+    }
+
+    /// What the certificate and the rows stand on.
+    pub(super) fn ground(&self) -> Ground<'_, R, u32> {
+        let (of_triangles, of_quads) = (&self.of_triangles, &self.of_quads);
+        Ground {
+            mesh: Mesh::baked(&self.vertices, &self.triangles, &self.quads),
+            edges: Edges::baked(of_triangles, of_quads, &self.half_edges, self.counts),
+            stiffness: Stiffness {
+                triangles: &self.stiffness_of_triangles,
+                quads: &self.stiffness_of_quads,
+            },
+            cells: Cells::baked(
+                &self.packed_triangles,
+                &self.packed_quads,
+                &self.vertex_weights,
+                &self.edge_weights,
+                &self.order,
+            ),
+            metric: Metric { at_points: &self.metric, place: &self.metric_place },
+            reach: self.reach,
+        }
+    }
+
+    /// The features of the kernel that the scene needs.
+    pub fn features(&self) -> Vec<&'static str> {
+        let needs = [
+            ("triangles", !self.triangles.is_empty()),
+            ("quads", !self.quads.is_empty()),
+            ("varying", !self.metric.is_empty()),
+            ("contact", self.counts.contact > 0),
+            ("robin", !self.data.robin.is_empty()),
+            ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
+        ];
+        needs.into_iter().filter(|(_, needed)| *needed).map(|(name, _)| name).collect()
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.counts.unknowns()
+    }
+}
+
+/// The tick's certificate needs a way out of every part that no iterate can close.
+fn refuse_loose(scene: &Scene, parts: &Parts) -> Result<()> {
+    if parts.counts.contact + parts.counts.floating == 0 {
+        return Ok(());
+    }
+    let held = if parts.counts.floating > 0 { "nothing holds" } else { "contact alone holds" };
+    let message = format!("boundary: the full model has no tick for a part that {held}");
+    let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
+fn output<R: Scalar>(counts: EdgeCounts, measure: &Measure) -> Output<R> {
+    let all = |edges: &[usize], first| edges.iter().map(|&edge| (edge - first) as u32).collect();
+    let shares = |weights: &[(usize, f64)], first| {
+        let share =
+            |&(edge, weight)| Share { at: (edge - first) as u32, weight: R::narrow(weight) };
+        weights.iter().map(share).collect()
+    };
+    match measure {
+        Measure::Flux(edges) => Output::Flux(all(edges, 0)),
+        Measure::Force(edges) => Output::Force(all(edges, counts.free)),
+        Measure::Length(weights) => Output::Length(shares(weights, counts.free)),
+        Measure::Probe(weights) => Output::Probe(shares(weights, 0)),
+        Measure::Bound => Output::Bound,
+    }
+}
+
+/// For every vertex where a contact and a Dirichlet edge meet, an end of either.
+fn corners(problem: &Problem) -> Vec<[u32; 2]> {
+    let counts = problem.topology.counts;
+    let contact = counts.free..counts.unknowns();
+    let ends = contact.flat_map(|edge| problem.ends[edge]).zip(0..);
+    let on_contact: HashMap<u32, u32> = ends.collect();
+    let given = (counts.unknowns()..counts.edges()).flat_map(|edge| problem.ends[edge]).zip(0..);
+    given.filter_map(|(vertex, place)| Some([*on_contact.get(&vertex)?, place])).collect()
+}

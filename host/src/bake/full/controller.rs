@@ -1,0 +1,184 @@
+//! What the baked module does, on this machine and on the same numbers.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::boundary::{Neumann, Robin};
+use signorini_kernel::certificate::Curved;
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
+
+use super::arrays::{Baked, Output};
+use super::data::{Data, Pattern};
+use crate::scalar::Scalar;
+
+/// The controller of a baked scene; `WIDTH` is 4 on triangles alone and else 6.
+#[derive(Debug)]
+pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
+    baked: &'b Baked<R>,
+    rows: Vec<Row<R, u32, WIDTH>>,
+    load: Vec<R>,
+    u: Vec<R>,
+    active: Vec<bool>,
+    vertices: Vec<R>,
+    bubbles: Vec<R>,
+    tau: Vec<R>,
+    data: Owned<R>,
+    progress: Option<Progress<R>>,
+}
+
+/// [`DataMemory`], owned.
+#[derive(Debug)]
+struct Owned<R> {
+    triangles: Vec<R>,
+    quads: Vec<R>,
+    neumann: Vec<Neumann<R, u32>>,
+    robin: Vec<Robin<R, u32>>,
+    contact_flux: Vec<R>,
+    gap: Vec<R>,
+    gap_ends: Vec<[R; 2]>,
+    dirichlet: Vec<R>,
+    dirichlet_ends: Vec<[R; 2]>,
+    curved: Vec<Curved<R, u32>>,
+    transfer: Vec<[[R; 2]; 8]>,
+}
+
+impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
+    /// Before the first tick.
+    pub fn new(baked: &'b Baked<R>) -> Self {
+        let (counts, data) = (baked.counts, baked.varying());
+        let zeros = |length| vec![R::ZERO; length];
+        Self {
+            baked,
+            rows: vec![Row::EMPTY; counts.unknowns()],
+            load: zeros(counts.unknowns()),
+            u: zeros(counts.edges()),
+            active: vec![false; counts.contact],
+            vertices: zeros(baked.vertices.len()),
+            bubbles: zeros(if baked.quads.is_empty() { 0 } else { counts.edges() }),
+            tau: zeros(counts.edges()),
+            data: Owned {
+                triangles: zeros(data.triangles),
+                quads: zeros(data.quads),
+                neumann: vec![Neumann::default(); data.neumann],
+                robin: vec![Robin::default(); data.robin],
+                contact_flux: zeros(data.contact_flux),
+                gap: zeros(data.gap),
+                gap_ends: vec![[R::ZERO; 2]; data.gap],
+                dirichlet: zeros(data.dirichlet),
+                dirichlet_ends: vec![[R::ZERO; 2]; data.dirichlet],
+                curved: vec![Curved::default(); data.curved],
+                transfer: vec![[[R::ZERO; 2]; 8]; data.transfer],
+            },
+            progress: None,
+        }
+    }
+
+    /// Outputs and report for these inputs, from where the last tick ended.
+    ///
+    /// # Errors
+    /// Inputs that are not finite or of another number; a `WIDTH` that is not that of the mesh.
+    pub fn tick(
+        &mut self,
+        inputs: &[R],
+        limits: Limits<R>,
+    ) -> Result<(Vec<R>, Report<R>), KernelError> {
+        let (baked, data) = (self.baked, &mut self.data);
+        let ground = baked.ground();
+        let memory = Memory {
+            tick: tick::Memory {
+                rows: Rows::new(&ground.edges, &mut self.rows)?,
+                load: &mut self.load,
+                active: &mut self.active,
+                vertices: &mut self.vertices,
+                bubbles: &mut self.bubbles,
+                tau: &mut self.tau,
+                u: &mut self.u,
+            },
+            data: DataMemory {
+                triangles: &mut data.triangles,
+                quads: &mut data.quads,
+                neumann: &mut data.neumann,
+                robin: &mut data.robin,
+                contact_flux: &mut data.contact_flux,
+                gap: &mut data.gap,
+                gap_ends: &mut data.gap_ends,
+                dirichlet: &mut data.dirichlet,
+                dirichlet_ends: &mut data.dirichlet_ends,
+                curved: &mut data.curved,
+                transfer: &mut data.transfer,
+            },
+            progress: &mut self.progress,
+        };
+        let mut outputs = vec![R::ZERO; baked.outputs.len()];
+        let report = baked
+            .with(|full| full.tick(inputs, limits, &mut Deadline::never(), memory, &mut outputs))?;
+        Ok((outputs, report))
+    }
+}
+
+impl<R: Scalar> Baked<R> {
+    /// Lends the arrays as the kernel takes them.
+    fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
+        let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();
+        let outputs: Vec<_> = self.outputs.iter().map(Output::view).collect();
+        let sums = self.data.curved_sums.iter();
+        let sums: Vec<_> = sums
+            .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
+            .collect();
+        take(&Full {
+            ground: self.ground(),
+            base: self.data.base(&sums),
+            patterns: &patterns,
+            oscillation: &self.data.oscillation,
+            outputs: &outputs,
+            has_bound: self.data.has_bound,
+            corners: &self.corners,
+            start: self.start,
+            omega: self.omega,
+        })
+    }
+}
+
+impl<R: Scalar> Data<R> {
+    fn base<'a>(&'a self, curved_sums: &'a [CurvedSum<'a, R, u32>]) -> Base<'a, R, u32> {
+        Base {
+            loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
+            neumann: &self.neumann,
+            robin: &self.robin,
+            contact_flux: &self.contact_flux,
+            gap: &self.gap,
+            dirichlet: &self.dirichlet,
+            ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
+            curved: &self.curved,
+            curved_sums,
+            transfer: &self.transfer,
+        }
+    }
+}
+
+impl<R: Scalar> Pattern<R> {
+    fn view(&self) -> full::Pattern<'_, R, u32> {
+        match self {
+            Self::Source { triangles, quads } => full::Pattern::Source { triangles, quads },
+            Self::Neumann(shares) => full::Pattern::Neumann(shares),
+            Self::ContactFlux(shares) => full::Pattern::ContactFlux(shares),
+            Self::Gap(chords) => full::Pattern::Gap(chords),
+            Self::Value(chords) => full::Pattern::Value(chords),
+            Self::Ambient { integrals, points } => full::Pattern::Ambient { integrals, points },
+        }
+    }
+}
+
+impl<R: Scalar> Output<R> {
+    fn view(&self) -> Functional<'_, R, u32> {
+        match self {
+            Self::Flux(edges) => Functional::Flux(edges),
+            Self::Force(edges) => Functional::Force(edges),
+            Self::Length(shares) => Functional::Length(shares),
+            Self::Probe(shares) => Functional::Probe(shares),
+            Self::Bound => Functional::Bound,
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! A scene as the Rust source of its firmware: static data and a `Controller` for the kernel.
+//!
+//! ```text
+//!   Scene, Problem ─► superposition: every load as base + Σ input · pattern ─┬─► full ────► arrays ─► source
+//!                     measure: every output as a form on u and fluxes       ─┘            face, text ──┘
+//! ```
+//! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
+
+pub mod face;
+pub mod full;
+pub mod measure;
+pub mod superposition;
+pub mod text;

@@ -1,0 +1,110 @@
+//! Rust text: numbers that read back to the same bits, arrays in lines, identifiers from names.
+
+use std::collections::HashSet;
+use std::fmt::Debug;
+
+/// Columns of a line of numbers.
+const WIDTH: usize = 96;
+
+/// The entries of an array, with brackets, in lines. What [`Debug`] prints of numbers, arrays and records
+/// is Rust, and of floating-point numbers the shortest text that reads back the same.
+pub fn array<T: Debug>(entries: &[T], indent: usize) -> String {
+    let mut text = "[".to_owned();
+    let mut width = WIDTH;
+    for entry in entries {
+        let entry = format!(" {entry:?},");
+        width += entry.len();
+        if width > WIDTH {
+            text += &format!("\n{:indent$}   ", "");
+            width = indent + 3 + entry.len();
+        }
+        text += &entry;
+    }
+    if entries.is_empty() { text + "]" } else { format!("{text}\n{:indent$}]", "") }
+}
+
+/// Text for a doc comment: one line, nothing in it that rustdoc would read as a link or as HTML.
+pub fn prose(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut safe = String::with_capacity(words.len());
+    for letter in words.chars() {
+        if matches!(letter, '[' | ']' | '<' | '>' | '`' | '*' | '_' | '\\' | '|') {
+            safe.push('\\');
+        }
+        safe.push(letter);
+    }
+    safe
+}
+
+/// Code for a doc comment: one line, in backticks.
+pub fn code(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    format!("`{}`", words.replace('`', "'"))
+}
+
+/// One identifier a name, all different: lower-case letters, digits and single underscores.
+pub fn identifiers<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let mut taken = HashSet::new();
+    names
+        .map(|name| {
+            let first = identifier(name);
+            let more = (2..).map(|number| format!("{first}_{number}"));
+            let all = std::iter::once(first.clone()).chain(more);
+            let mut free = all.filter(|identifier| !taken.contains(identifier));
+            let chosen = free.next().unwrap_or_default();
+            drop(free);
+            taken.insert(chosen.clone());
+            chosen
+        })
+        .collect()
+}
+
+fn identifier(name: &str) -> String {
+    let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    let joined = words.join("_").to_ascii_lowercase();
+    match joined.chars().next() {
+        None => "unnamed".to_owned(),
+        Some(first) if first.is_ascii_digit() => format!("n{joined}"),
+        Some(_) if KEYWORDS.contains(&joined.as_str()) => format!("{joined}_"),
+        Some(_) => joined,
+    }
+}
+
+/// The words that Rust keeps for itself.
+const KEYWORDS: [&str; 51] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_different_identifiers() {
+        let names = ["rib foot", "rib-foot", "3rd", "type", "größe", "", "yield", "Air__T"];
+        let expected =
+            ["rib_foot", "rib_foot_2", "n3rd", "type_", "gr_e", "unnamed", "yield_", "air_t"];
+        assert_eq!(identifiers(names.into_iter()), expected);
+    }
+
+    #[test]
+    fn numbers_read_back_the_same() {
+        for x in [0.1_f32, 1e-30, 16_777_216.0, f32::MIN_POSITIVE, -0.0, 1.0 / 3.0] {
+            let text = array(&[x], 0);
+            let read: f32 =
+                text.trim_matches(['[', ']', ',', ' ', '\n']).parse().expect("a number");
+            assert_eq!(read.to_bits(), x.to_bits(), "{text}");
+        }
+    }
+
+    #[test]
+    fn prose_has_no_links() {
+        assert_eq!(prose("head [m]\n <b>"), "head \\[m\\] \\<b\\>");
+        assert_eq!(code("a`b\nc"), "`a'b c`");
+    }
+}

@@ -1,0 +1,19 @@
+//! What this build of the kernel can do: one constant for each Cargo feature.
+//!
+//! Code for what a scene does not have is left out where its constant is false, and what would need it
+//! is refused by the constructors: a mesh of quads by [`crate::edges::Edges::new`], say.
+
+/// Triangles.
+pub const TRIANGLES: bool = cfg!(feature = "triangles");
+/// Quads.
+pub const QUADS: bool = cfg!(feature = "quads");
+/// Cells in which A in reference coordinates is not constant.
+pub const VARYING: bool = cfg!(feature = "varying");
+/// Contact edges.
+pub const CONTACT: bool = cfg!(feature = "contact");
+/// Transfer laws.
+pub const ROBIN: bool = cfg!(feature = "robin");
+/// Gaps and Dirichlet values that are not affine along an edge.
+pub const CURVED: bool = cfg!(feature = "curved");
+/// Each cell's share in the error bound.
+pub const INDICATORS: bool = cfg!(feature = "indicators");

@@ -1,0 +1,58 @@
+//! Outputs: numbers read off an answer.
+
+use super::pattern::Share;
+use crate::features;
+use crate::index::{Index, read};
+use crate::real::Real;
+use crate::tick::{Data, Report, Tick};
+
+/// What an output measures (borrowed).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Functional<'a, R, I> {
+    /// ∫τ·n over these edges.
+    Flux(&'a [I]),
+    /// ∫(τ·n − q) over these contact edges, counted from the first one.
+    Force(&'a [I]),
+    /// The length of those of these contact edges that are active, with the length of each.
+    Length(&'a [Share<R, I>]),
+    /// u at a point: a sum over edges, with the weight of each.
+    Probe(&'a [Share<R, I>]),
+    /// The error bound; infinite where there is none.
+    Bound,
+}
+
+/// What outputs are read off.
+pub(super) struct Answer<'t, 'a, R: Real, I, const WIDTH: usize> {
+    pub tick: &'t Tick<'a, R, I, WIDTH>,
+    pub data: &'t Data<'a, R, I>,
+    pub report: &'t Report<R>,
+}
+
+impl<R: Real, I: Index> Functional<'_, R, I> {
+    pub(super) fn of<const WIDTH: usize>(&self, answer: &Answer<R, I, WIDTH>) -> R {
+        let Answer { tick, data, report } = answer;
+        let (u, tau, lower) = (tick.u(), tick.tau(), data.lower);
+        let free = tick.counts().free;
+        match *self {
+            Self::Flux(edges) => edges.iter().fold(R::ZERO, |sum, e| sum + read(tau, e.at())),
+            Self::Force(edges) if features::CONTACT => edges.iter().fold(R::ZERO, |sum, at| {
+                let given = data.given.boundary.contact_flux(at.at());
+                sum + (read(tau, free + at.at()) - given)
+            }),
+            Self::Length(shares) if features::CONTACT => sum(shares, |at, length| {
+                let touches = read(u, free + at) == read(lower, at);
+                if touches { length } else { R::ZERO }
+            }),
+            Self::Force(_) | Self::Length(_) => R::ZERO,
+            Self::Probe(shares) => sum(shares, |at, weight| weight * read(u, at)),
+            Self::Bound => match report.verdict.certificate() {
+                Some(certificate) => certificate.total,
+                None => R::ONE / R::ZERO,
+            },
+        }
+    }
+}
+
+fn sum<R: Real, I: Index>(shares: &[Share<R, I>], take: impl Fn(usize, R) -> R) -> R {
+    shares.iter().fold(R::ZERO, |sum, share| sum + take(share.at.at(), share.weight))
+}

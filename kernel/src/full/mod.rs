@@ -1,0 +1,138 @@
+//! The full model of a baked scene: its mesh solved on the target, tick after tick, by its inputs.
+//!
+//! ```text
+//!   inputs p ─► patterns: loads, gaps, boundary data linear in p ─► tick ─► functionals: outputs
+//! ```
+//! Everything that the host can compute beforehand is a `static` ([`Full`]): numbering, element matrices,
+//! packed cells in the order of the walk, the patterns of the inputs, the weights of the outputs. Nothing of it
+//! is checked on the target; the host has checked it, and wrong numbers make wrong answers and nothing worse.
+//! What changes lives in memory of the caller ([`Memory`]), of exactly the size that the scene needs:
+//! data that no input changes are read from the statics, and their memory is empty.
+
+mod curved;
+mod data;
+mod functional;
+mod pattern;
+
+pub use curved::{CurvedPart, CurvedSum, Product};
+pub use data::{Base, DataMemory};
+pub use functional::Functional;
+pub use pattern::{Chord, Pattern, Points, Share};
+
+use crate::certificate::{Ground, Verdict};
+use crate::conforming::VertexData;
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::features;
+use crate::index::{Index, read};
+use crate::real::Real;
+use crate::relaxation::Relaxation;
+use crate::tick::{self, Deadline, Limits, Progress, Report, Tick};
+
+/// A baked scene (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Full<'a, R, I> {
+    /// Mesh, A and ways out.
+    pub ground: Ground<'a, R, I>,
+    /// Loads and boundary data where all inputs are 0.
+    pub base: Base<'a, R, I>,
+    /// What each input adds for each unit of its value.
+    pub patterns: &'a [Pattern<'a, R, I>],
+    /// What f, g and q leave out: of the base, then of each input.
+    pub oscillation: &'a [R],
+    /// What each output is.
+    pub outputs: &'a [Functional<'a, R, I>],
+    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes.
+    pub has_bound: bool,
+    /// Where C meets D: the places of ψ and u_D there, counted over the ends of all edges of their blocks.
+    pub corners: &'a [[I; 2]],
+    /// Where u starts off the contact and Dirichlet edges.
+    pub start: R,
+    /// Where ω starts.
+    pub omega: R,
+}
+
+/// Memory of a baked scene (borrowed).
+#[derive(Debug)]
+pub struct Memory<'a, R, I, const WIDTH: usize> {
+    /// That of the tick.
+    pub tick: tick::Memory<'a, R, I, WIDTH>,
+    /// Loads and boundary data that inputs change.
+    pub data: DataMemory<'a, R, I>,
+    /// What the last tick left; `None` before the first.
+    pub progress: &'a mut Option<Progress<R>>,
+}
+
+impl<R: Real, I: Index> Full<'_, R, I> {
+    /// Answers for these inputs, one value a pattern: fills in `outputs` and says how wrong they can be.
+    ///
+    /// Where there is no bound the report's verdict is [`Verdict::NotFinite`] and an output that is the bound
+    /// is infinite: for data that never allow for one, and where u_D lies below ψ where they meet, so that no u
+    /// has both.
+    ///
+    /// # Errors
+    /// Inputs that are not finite or make data that are not: the last answer stays. Arrays of the wrong length.
+    pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
+        same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
+        all_finite(Array::Inputs, inputs)?;
+        let Memory { tick: mut of_tick, data: mut of_data, progress } = memory;
+        of_data.evaluate(&self.base, self.patterns, inputs)?;
+        let oscillation = self.oscillation(inputs);
+        let data = of_data.view(&self.base, &self.ground.edges, oscillation)?;
+        let known = match *progress {
+            Some(known) => known,
+            None => {
+                self.start(data.lower, &mut of_tick);
+                Progress::new(Relaxation::Adaptive(self.omega))?
+            }
+        };
+        let mut tick = Tick::resume(self.ground, of_tick, known)?;
+        let report = tick.begin(data)?.advance(limits, deadline)?;
+        *progress = Some(tick.progress());
+        let has_bound = self.has_bound && self.meet(&data.given.ends);
+        let verdict = if has_bound { report.verdict } else { Verdict::NotFinite };
+        let report = Report { verdict, ..report };
+        let answer = functional::Answer { tick: &tick, data: &data, report: &report };
+        for (output, functional) in outputs.iter_mut().zip(self.outputs) {
+            *output = functional.of(&answer);
+        }
+        Ok(report)
+    }
+
+    /// Whether u_D ≥ ψ where C meets D, up to rounding.
+    fn meet(&self, ends: &VertexData<R>) -> bool {
+        if !features::CONTACT || self.corners.is_empty() {
+            return true;
+        }
+        let (gap, given) = (ends.gap.as_flattened(), ends.given.as_flattened());
+        let values = gap.iter().chain(given);
+        let size = values.fold(R::ZERO, |most, value| most.or_larger(value.magnitude()));
+        let slack = R::from_count(64) * R::EPSILON * size;
+        let below = |&[at, place]: &[I; 2]| read(gap, at.at()) - read(given, place.at());
+        self.corners.iter().all(|corner| below(corner) <= slack)
+    }
+
+    /// osc(p) ≤ osc₀ + Σ|p_j| osc_j
+    fn oscillation(&self, inputs: &[R]) -> R {
+        let (first, rest) = match self.oscillation.split_first() {
+            Some((&first, rest)) => (first, rest),
+            None => return R::ZERO,
+        };
+        rest.iter().zip(inputs).fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude())
+    }
+
+    /// A cold start: on the gap, elsewhere at one value.
+    fn start<const WIDTH: usize>(&self, lower: &[R], memory: &mut tick::Memory<R, I, WIDTH>) {
+        memory.u.fill(self.start);
+        let on_contact = memory.u.iter_mut().skip(self.ground.edges.counts().free);
+        on_contact.zip(lower).for_each(|(u, &lower)| *u = lower);
+        memory.active.fill(false);
+    }
+}

@@ -1,0 +1,50 @@
+//! Rows that own their memory and know whether it is laid out: symbolic once, numeric every tick.
+
+use super::{Row, Rows};
+use crate::edges::{EdgeCounts, Edges};
+use crate::error::Error;
+use crate::index::Index;
+use crate::real::Real;
+
+/// Memory for the rows of one mesh; can initialise a `static`.
+///
+/// `laid_out` tells which numbering the offsets belong to by its sizes: every offset names an entry of an
+/// array over `laid_out.edges()` edges. Zeros, as it starts and as a failed pass leaves it, belong to no mesh.
+#[derive(Debug)]
+pub struct OwnedRows<R, I, const WIDTH: usize, const UNKNOWNS: usize> {
+    rows: [Row<R, I, WIDTH>; UNKNOWNS],
+    laid_out: EdgeCounts,
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
+    OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    /// Memory that belongs to no mesh yet.
+    pub const fn new() -> Self {
+        let laid_out = EdgeCounts { free: 0, contact: 0, dirichlet: 0 };
+        Self { rows: [Row::EMPTY; UNKNOWNS], laid_out }
+    }
+
+    /// The rows of `edges`: laid out at the first call, and as the last call left them ever after. Always
+    /// of the same mesh: another one of the same sizes would find the neighbours of the first.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`].
+    pub fn of(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        let counts = edges.counts();
+        if self.laid_out != counts {
+            self.laid_out = EdgeCounts::default();
+            Rows::new(edges, &mut self.rows)?;
+            self.laid_out = counts;
+        }
+        Ok(Rows { rows: &mut self.rows, counts, omega: R::ONE })
+    }
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize> Default
+    for OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,66 @@
+//! Ticks from owned memory: everything is borrowed for one tick, and the next one goes on from there.
+
+use super::{Memory, Tick};
+use crate::certificate::Ground;
+use crate::edges::EdgeCounts;
+use crate::error::{Array, Error, same_length};
+use crate::index::Index;
+use crate::real::Real;
+use crate::relaxation::{Relaxation, Search};
+
+/// What a tick leaves to the next one besides its arrays: how far the search for ω has come.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress<R> {
+    search: Search<R>,
+}
+
+impl<R: Real> Progress<R> {
+    /// That of a first tick; `relaxation` is where ω starts.
+    ///
+    /// # Errors
+    /// An ω outside (0, 2).
+    pub fn new(relaxation: Relaxation<R>) -> Result<Self, Error> {
+        Ok(Self { search: Search::checked(relaxation)? })
+    }
+}
+
+impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
+    /// Goes on where a tick ended whose [`Tick::progress`] this is: `memory.u` and `memory.active` are the
+    /// answer and the active set that it left, and what else is in `memory` does not matter.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length.
+    pub fn resume(
+        ground: Ground<'a, R, I>,
+        memory: Memory<'a, R, I, WIDTH>,
+        progress: Progress<R>,
+    ) -> Result<Self, Error> {
+        check(&ground, &memory)?;
+        Ok(Self { ground, memory, search: progress.search, report: None })
+    }
+
+    /// What the next tick needs besides the memory.
+    pub fn progress(&self) -> Progress<R> {
+        Progress { search: self.search }
+    }
+
+    /// Sizes of the blocks of edges.
+    pub fn counts(&self) -> EdgeCounts {
+        self.ground.edges.counts()
+    }
+}
+
+/// Lengths of the memory.
+pub(super) fn check<R: Real, I: Index, const WIDTH: usize>(
+    ground: &Ground<R, I>,
+    memory: &Memory<R, I, WIDTH>,
+) -> Result<(), Error> {
+    let counts = ground.edges.counts();
+    let vertices = ground.mesh.vertices().len();
+    same_length(Array::Rows, memory.rows.counts().edges(), counts.edges())?;
+    same_length(Array::Load, memory.load.len(), counts.unknowns())?;
+    same_length(Array::Contact, memory.active.len(), counts.contact)?;
+    same_length(Array::Vertices, memory.vertices.len(), vertices)?;
+    same_length(Array::Fluxes, memory.tau.len(), counts.edges())?;
+    same_length(Array::Unknowns, memory.u.len(), counts.edges())
+}
