@@ -6,6 +6,7 @@
 //! ```
 //! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
 
+pub mod condensed;
 pub mod face;
 pub mod full;
 pub mod measure;

@@ -107,17 +107,19 @@ impl<R: Real> Form<'_, R> {
         let doubt = self.doubt(inputs, x);
         let Some(mended) = self.mend(x, residual, doubt) else { return Ok(None) };
         let Some(corner) = self.corners(answer, doubt)? else { return Ok(None) };
-        let algebraic = self.unit * self.reach * mended.known;
-        let first = self.unit * norm.value + algebraic;
-        let square = first * first + self.unit * self.unit * corner;
-        let gap = square.rounded_sqrt().or_larger(first);
+        // Everything in the unit of energy, until the end: squares stay within the scalar's range.
+        let algebraic = self.reach * mended.known;
+        let first = norm.value + algebraic;
+        let gap = (first * first + corner).rounded_sqrt().or_larger(first);
         let all = R::from_count(x.len() as u32).rounded_sqrt();
         let hidden = norm.rounding + nudged + self.reach * (all * doubt + mended.hidden);
-        let rounding = self.unit * hidden + R::from_count(16) * R::EPSILON * gap;
+        let rounding = hidden + R::from_count(16) * R::EPSILON * gap;
         let sizes = self.oscillation.iter().zip(inputs);
-        let oscillation = self.unit * sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
+        let oscillation = sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
         let both = (gap * gap + oscillation * oscillation).rounded_sqrt().or_larger(gap);
         let total = oscillation + both + rounding;
+        let [gap, algebraic, oscillation, rounding, total] =
+            [gap, algebraic, oscillation, rounding, total].map(|part| self.unit * part);
         let certificate = Certificate { gap, algebraic, oscillation, rounding, total };
         Ok((total.finite() && algebraic.finite()).then_some(certificate))
     }

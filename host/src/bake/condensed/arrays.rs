@@ -1,0 +1,233 @@
+//! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
+
+use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::condensed::factor::Factor;
+use signorini_kernel::condensed::method::Sweeps;
+use signorini_kernel::condensed::outputs::Measure;
+use signorini_kernel::condensed::Condensed;
+use signorini_kernel::{Error, error::Array};
+
+use super::relaxation::best_omega;
+use crate::condense::{self, Condensate};
+use crate::scalar::Scalar;
+
+/// How much the solver of a baked model may do in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Work {
+    /// Exchanges of the exact method; `None` leaves it out, with its memory.
+    pub pivots: Option<u32>,
+    /// Sweeps: all there is without the exact method, and what follows where its exchanges do not suffice.
+    pub sweeps: u32,
+}
+
+/// A condensed scene in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Baked<R: Scalar> {
+    /// n
+    pub contact: usize,
+    /// m, the constant 1 included.
+    pub inputs: usize,
+    /// What the solver may do.
+    pub work: Work,
+    /// The factor of the sweeps and when they end.
+    pub sweeps: Sweeps<R>,
+    pub(super) matrix: Vec<Block<R>>,
+    pub(super) load: Vec<R>,
+    pub(super) outputs: Vec<Output<R>>,
+    pub(super) bound: Result<Bound<R>, String>,
+}
+
+/// An output with its arrays.
+#[derive(Debug, Clone)]
+pub(super) enum Output<R> {
+    Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
+    Length { of_contact: Vec<R> },
+    Bound,
+}
+
+/// The certificate's arrays.
+#[derive(Debug, Clone)]
+pub(super) struct Bound<R> {
+    pub columns: Vec<R>,
+    pub norms: Vec<R>,
+    pub vertices: Vec<Vertex<R>>,
+    pub corners: Vec<(u16, Vec<R>)>,
+    pub reach: R,
+    pub floating: Vec<R>,
+    pub oscillation: Vec<R>,
+    pub row_sum: R,
+    pub largest_load: Vec<R>,
+    pub unit: R,
+}
+
+impl<R: Scalar> Baked<R> {
+    /// Narrows `condensate`; without `certified` the certificate is left out.
+    ///
+    /// # Errors
+    /// Numbers that the scalar type cannot hold.
+    pub fn new(condensate: &Condensate, work: Work, certified: bool) -> Result<Self, Error> {
+        let n = condensate.contact;
+        let bound = match &condensate.certificate {
+            Err(reason) => Err(reason.clone()),
+            Ok(_) if !certified => Err("left out".to_owned()),
+            Ok(form) => Ok(Bound::new(condensate, form)),
+        };
+        let order = f64::from(u32::try_from(n.max(1)).unwrap_or(u32::MAX));
+        let tolerance = R::narrow(4.0 * order.sqrt() * R::EPSILON.wide());
+        let omega = R::narrow(best_omega(condensate));
+        let baked = Self {
+            contact: n,
+            inputs: condensate.inputs,
+            work,
+            sweeps: Sweeps { omega, tolerance, most: work.sweeps },
+            matrix: matrix(condensate),
+            load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
+            outputs: condensate.outputs.iter().map(Output::new).collect(),
+            bound,
+        };
+        baked.check().map(|()| baked)
+    }
+
+    /// Bytes of one number.
+    pub(super) fn scalar(&self) -> usize {
+        size_of::<R>()
+    }
+
+    /// Columns of F.
+    pub(super) fn columns(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| bound.norms.len())
+    }
+
+    /// Why there is no certificate, if so.
+    pub fn without_bound(&self) -> Option<&str> {
+        self.bound.as_ref().err().map(String::as_str)
+    }
+
+    /// Lends the model, as the generated module has it.
+    pub fn with_model<T>(&self, then: impl FnOnce(&Condensed<R>) -> T) -> T {
+        let outputs: Vec<_> = self.outputs.iter().map(Output::measure).collect();
+        let corners = self.bound.as_ref().map(|bound| &bound.corners[..]).unwrap_or_default();
+        let corners: Vec<_> =
+            corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
+        let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
+        let Self { contact, matrix, load, .. } = self;
+        then(&Condensed { contact: *contact, matrix, load, outputs: &outputs, certificate })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let finite = |of, numbers: &[R]| match numbers.iter().position(|x| !x.finite()) {
+            Some(at) => Err(Error::NotFinite { of, at }),
+            None => Ok(()),
+        };
+        finite(Array::Load, &self.load)?;
+        for output in &self.outputs {
+            if let Output::Linear { of_inputs, of_contact } = output {
+                finite(Array::Fluxes, of_inputs)?;
+                finite(Array::Fluxes, of_contact)?;
+            }
+        }
+        let Ok(bound) = &self.bound else { return Ok(()) };
+        finite(Array::MatrixValues, &bound.columns)?;
+        finite(Array::Coefficients, &[bound.unit, bound.reach, R::ONE / bound.unit])
+    }
+}
+
+impl<R: Scalar> Output<R> {
+    fn new(measure: &condense::Measure) -> Self {
+        match measure {
+            condense::Measure::Linear { of_inputs, of_contact } => {
+                Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Length { of_contact } => {
+                Self::Length { of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Bound => Self::Bound,
+        }
+    }
+
+    fn measure(&self) -> Measure<'_, R> {
+        match self {
+            Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
+            Self::Length { of_contact } => Measure::Length { of_contact },
+            Self::Bound => Measure::Bound,
+        }
+    }
+}
+
+impl<R: Scalar> Bound<R> {
+    fn new(condensate: &Condensate, form: &condense::Form) -> Self {
+        let n = condensate.contact;
+        let orders = 0..condensate.inputs + n + form.vertices.len();
+        let column = |j: usize| &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+        let norm = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        let rows = condensate.matrix.chunks(n.max(1));
+        let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
+        let largest = |column: &Vec<f64>| column.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        // Only their ratios matter.
+        let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
+        let floating = condensate.multiplier.iter().map(|multiplier| multiplier / most);
+        let floating: Vec<f64> = if form.floating { floating.collect() } else { Vec::new() };
+        Self {
+            columns: narrow(&form.factor),
+            norms: orders.map(norm).map(R::narrow).collect(),
+            vertices: form.vertices.iter().map(vertex).collect(),
+            corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
+            reach: R::narrow(form.reach),
+            floating: narrow(&floating),
+            oscillation: narrow(&form.oscillation),
+            row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
+            largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
+            unit: R::narrow(condensate.energy_unit),
+        }
+    }
+
+    fn form<'a>(&'a self, corners: &'a [Corner<'a, R>]) -> Form<'a, R> {
+        Form {
+            factor: Factor { columns: &self.columns, norms: &self.norms },
+            vertices: &self.vertices,
+            corners,
+            reach: self.reach,
+            floating: &self.floating,
+            oscillation: &self.oscillation,
+            row_sum: self.row_sum,
+            largest_load: &self.largest_load,
+            unit: self.unit,
+        }
+    }
+}
+
+fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
+    Vertex {
+        edges: vertex.edges.map(|edge| edge as u16),
+        weights: vertex.weights.map(R::narrow),
+        beside: vertex.beside.map(|edge| edge as u16),
+    }
+}
+
+fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
+    numbers.iter().map(|&x| R::narrow(x)).collect()
+}
+
+fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
+    let mut column = narrow(column);
+    column.resize(padded(column.len()), R::ZERO);
+    column
+}
+
+/// Ŝ in blocks, padding 0.
+fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
+    let n = condensate.contact;
+    let entry = |row: usize, column: usize| {
+        let inside = row < n && column < n;
+        R::narrow(if inside { condensate.matrix[row * n + column] } else { 0.0 })
+    };
+    let block = |row: usize, column: usize| {
+        let line = |r| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
+        std::array::from_fn(line)
+    };
+    let rows = 0..n.div_ceil(SIDE);
+    let all: Vec<_> = rows.flat_map(|row| (0..=row).map(move |c| (row, c))).collect();
+    debug_assert_eq!(all.len(), count(n));
+    all.into_iter().map(|(row, column)| block(row, column)).collect()
+}

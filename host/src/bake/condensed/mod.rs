@@ -1,0 +1,22 @@
+//! The condensed model: only contact edges, inputs and outputs go onto the target.
+//!
+//! ```text
+//!   Condensate (f64) ─► Baked<R>: owned arrays ─┬─► source: Rust text      ─► firmware
+//!                                               ├─► sizes: RAM and flash
+//!                                               └─► controller: the same on this machine
+//! ```
+
+mod arrays;
+mod controller;
+mod header;
+mod relaxation;
+mod sizes;
+mod source;
+#[cfg(test)]
+mod tests;
+
+pub use arrays::{Baked, Work};
+pub use controller::Controller;
+pub use header::header;
+pub use sizes::sizes;
+pub use source::source;
