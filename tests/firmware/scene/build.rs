@@ -6,7 +6,9 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     println!("cargo:rerun-if-env-changed=SIGNORINI_SCENE");
     let Some(scene) = env::var_os("SIGNORINI_SCENE") else {
-        return Err(io::Error::other("SIGNORINI_SCENE names no file; see cargo xtask firmware --help"));
+        return Err(io::Error::other(
+            "SIGNORINI_SCENE names no file; see cargo xtask firmware --help",
+        ));
     };
     let scene = PathBuf::from(scene);
     println!("cargo:rerun-if-changed={}", scene.display());
