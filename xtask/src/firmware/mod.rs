@@ -14,7 +14,7 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::cargo::target_dir;
+use crate::cargo::{root, target_dir};
 use crate::setup;
 use crate::steps::Steps;
 use bill::Bill;
@@ -66,8 +66,8 @@ pub fn check(steps: &mut Steps) {
     for name in TESTED {
         steps.check(&format!("{name} baked, on the M4F-192K, bit for bit"), || {
             let out = target_dir("firmware").join("baked").join(name);
-            let scene = format!("meshes/scenes/{name}.toml");
-            measure(&Options::new(&scene, "m4-192k", out)).map_err(|failure| failure.why)
+            let scene = root().join(format!("meshes/scenes/{name}.toml"));
+            measure(&Options::new(scene, "m4-192k", out)).map_err(|failure| failure.why)
         });
     }
 }

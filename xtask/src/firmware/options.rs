@@ -52,15 +52,14 @@ The exit status is 0 where all bits are equal, 2 where the command line or the s
 
 impl Options {
     /// The f32 model of a scene on a board, for the tests.
-    pub fn new(scene: &str, board: &'static str, out: PathBuf) -> Self {
-        let (scalar, scene) = ("f32".to_owned(), scene.into());
-        Self { scene, board, scalar, model: None, inputs: Vec::new(), out }
+    pub fn new(scene: PathBuf, board: &'static str, out: PathBuf) -> Self {
+        Self { scene, board, scalar: "f32".to_owned(), model: None, inputs: Vec::new(), out }
     }
 
     /// Reads the words after the verb.
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let mut scene = None;
-        let mut options = Self::new("", "m4", PathBuf::new());
+        let mut options = Self::new(PathBuf::new(), "m4", PathBuf::new());
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));

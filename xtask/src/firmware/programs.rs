@@ -1,6 +1,7 @@
 //! A scene baked, and the two programs that hold it.
 
 use std::fs;
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -36,12 +37,8 @@ impl Programs {
         let of_kernel: Vec<String> =
             features.iter().map(|feature| format!("signorini-kernel/{feature}")).collect();
         let of_kernel: Vec<&str> = of_kernel.iter().map(String::as_str).collect();
-        let image = image(&board, &scene, &of_kernel).map_err(|why| {
-            format!(
-                "{why}: no image for {}; the linker says above what does not fit",
-                options.board
-            )
-        })?;
+        let image = image(&board, &scene, &of_kernel)
+            .map_err(|why| format!("{why}: no image for {}, see above", options.board))?;
         let desk = desk(&scene, &of_kernel)?;
         Ok(Self { board, image, desk, features })
     }
@@ -68,8 +65,12 @@ fn bake(options: &Options) -> Result<PathBuf, Failure> {
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let model = options.model.as_deref();
     let name = format!("{}_{}{}", options.name(), options.scalar, model.unwrap_or_default());
-    let fresh = folder.join(format!("{name}.{}", std::process::id()));
-    let mut command = cargo(&["run", "--quiet", "--locked", "--release", "--bin", "signorini"]);
+    let fresh = folder.join(format!("{name}.{}.rs", std::process::id()));
+    // The build that tests and exports use, optimised like a release.
+    let mut command = cargo(&["run", "--locked", "--package", "signorini-host"]);
+    if !std::io::stderr().is_terminal() {
+        command.arg("--quiet");
+    }
     command.arg("--manifest-path").arg(root().join("Cargo.toml"));
     command.args(["--", "bake"]).arg(&options.scene).arg("-o").arg(&fresh);
     command.args(["--scalar", &options.scalar]).args(model);
@@ -80,6 +81,7 @@ fn bake(options: &Options) -> Result<PathBuf, Failure> {
     command.current_dir(std::env::current_dir().map_err(|error| error.to_string())?);
     let status = command.status().map_err(|error| error.to_string())?;
     if !status.success() {
+        let _ = fs::remove_file(&fresh);
         let why = format!("signorini bake: {status}");
         return Err(Failure { why, status: if status.code() == Some(2) { 2 } else { 1 } });
     }
@@ -89,6 +91,7 @@ fn bake(options: &Options) -> Result<PathBuf, Failure> {
 }
 
 fn image(board: &Board, scene: &Path, features: &[&str]) -> Result<PathBuf, String> {
+    // This package reads one scene; the folder of the exported ones is for others.
     let build = Build { package: PACKAGE, bins: &["scene"], features, scenes: scene };
     let (mut command, folder) = board.build(build)?;
     command.env("SIGNORINI_SCENE", scene);
