@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use super::{Failure, Options};
 use crate::board::{Board, Build};
@@ -50,7 +50,8 @@ impl Programs {
 
     /// What the desk prints.
     pub fn on_desk(&self) -> Result<String, String> {
-        output(&mut Command::new(&self.desk))
+        // It says why a tick has no answer.
+        output(Command::new(&self.desk).stderr(Stdio::inherit()))
     }
 
     /// The image.

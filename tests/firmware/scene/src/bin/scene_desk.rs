@@ -20,11 +20,15 @@ fn main() {
         let digits: String = name.bytes().map(|byte| format!("{byte:02x}")).collect();
         println!("@ output {digits}");
     }
+    let mut told = false;
     let mut controller = CONTROLLER.lock().unwrap_or_else(PoisonError::into_inner);
     play(&mut controller, &mut Journal(&mut |text| print!("{text}")), |controller, inputs, _| {
         let answer = controller.tick(inputs);
-        if let Err(error) = &answer {
+        if let Err(error) = &answer
+            && !told
+        {
             eprintln!("{inputs:?}: {error}");
+            told = true;
         }
         answer.ok()
     });
