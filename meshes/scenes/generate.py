@@ -33,20 +33,20 @@ def group(dimension, name, tags):
     gmsh.model.setPhysicalName(dimension, gmsh.model.addPhysicalGroup(dimension, tags), name)
 
 
-def write(name, version, binary):
+def write(name, version, binary, folder=HERE):
     gmsh.option.setNumber("Mesh.MshFileVersion", version)
     gmsh.option.setNumber("Mesh.Binary", int(binary))
-    gmsh.write(str(HERE / f"{name}.msh"))
+    gmsh.write(str(folder / f"{name}.msh"))
     kinds, tags, _ = gmsh.model.mesh.getElements()
     counts = dict(zip(kinds, map(len, tags)))
     print(f"{name}: {counts.get(2, 0)} triangles, {counts.get(3, 0)} quads, MSH {version}",
           "binary" if binary else "ASCII")
 
 
-def levee():
-    """A levee 6 m high with slopes of 1:2 on both sides, sand on a clay foot, river at 4.5 m."""
-    begin("levee")
-    h = 0.55
+def levee_domain(h):
+    """A levee 6 m high with slopes of 1:2 on both sides, sand on a clay foot, river at 4.5 m.
+
+    Returns its curves by name, a name of the scene or a part of one."""
     # The clay lies below y = 1.5 m; points run counterclockwise from the river-side toe.
     toe_r, toe_l = geo.addPoint(0, 0, 0, h), geo.addPoint(30, 0, 0, h / 2)
     land15, land = geo.addPoint(27, 1.5, 0, h / 2), geo.addPoint(18, 6, 0, h)
@@ -67,8 +67,40 @@ def levee():
     group(1, "bank", [dry])
     group(2, "clay", [clay])
     group(2, "sand", [sand])
+    return {"drain": drain, "face": face, "crest": top}
+
+
+def levee():
+    """The levee on a mesh that a microcontroller can hold."""
+    begin("levee")
+    levee_domain(0.55)
     gmsh.model.mesh.generate(2)
     write("levee", 4.1, False)
+
+
+def levee_fine():
+    """The levee for the firmware's tests: few contact edges, the inside far finer than they are."""
+    begin("levee-fine")
+    curves = levee_domain(1)
+    # Edges of 0.21 m on the seepage face, 64 in all, and of 0.19 m on the crest.
+    for curve, edges in (("drain", 16), ("face", 48), ("crest", 32)):
+        gmsh.model.mesh.setTransfiniteCurve(curves[curve], edges + 1)
+    field = gmsh.model.mesh.field
+    distance, size = field.add("Distance"), field.add("Threshold")
+    field.setNumbers(distance, "CurvesList", list(curves.values()))
+    field.setNumber(distance, "Sampling", 400)
+    for option, value in (("InField", distance), ("SizeMin", 0.2), ("DistMin", 0),
+                          ("SizeMax", 0.082), ("DistMax", 0.8)):
+        field.setNumber(size, option, value)
+    field.setAsBackgroundMesh(size)
+    # The field alone tells the size.
+    options = ("MeshSizeExtendFromBoundary", "MeshSizeFromPoints")
+    for option in options:
+        gmsh.option.setNumber(f"Mesh.{option}", 0)
+    gmsh.model.mesh.generate(2)
+    for option in options:
+        gmsh.option.setNumber(f"Mesh.{option}", 1)
+    write("levee-fine", 4.1, True, HERE.parents[1] / "tests" / "firmware" / "scenes")
 
 
 def slab():
@@ -164,6 +196,7 @@ def main():
     gmsh.option.setNumber("General.Verbosity", 2)
     gmsh.option.setNumber("General.NumThreads", 1)
     levee()
+    levee_fine()
     slab()
     strip()
     pit()

@@ -37,7 +37,7 @@ fn write() -> Result<PathBuf, String> {
 }
 
 /// Puts `fresh` in the place of `kept`, unless they are equal: images are then not built anew.
-fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
+pub fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
     let equal = fs::read(fresh).ok() == fs::read(kept).ok();
     let done = if equal { fs::remove_file(fresh) } else { fs::rename(fresh, kept) };
     done.map_err(|error| format!("{}: {error}", kept.display()))

@@ -8,6 +8,8 @@ mod cargo;
 mod cost;
 mod cross;
 mod export;
+mod firmware;
+mod json;
 mod no_std;
 mod peers;
 mod record;
@@ -28,50 +30,67 @@ use steps::Steps;
 struct Verb {
     name: &'static str,
     about: &'static str,
-    run: fn(&mut Steps),
+    work: Work,
 }
 
-const VERBS: [Verb; 9] = [
+/// What a verb does.
+enum Work {
+    /// Steps, all of them whichever fail, with no argument but `--bless`.
+    Steps(fn(&mut Steps)),
+    /// One thing, with arguments and a help of its own.
+    Command(fn(&[&str]) -> ExitCode),
+}
+
+const VERBS: [Verb; 10] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
-        run: test::run,
+        work: Work::Steps(test::run),
     },
     Verb {
         name: "no-std",
         about: "the kernel links without std and without an allocator; breaches are caught",
-        run: no_std::run,
+        work: Work::Steps(no_std::run),
     },
     Verb {
         name: "setup",
         about: "installs the tools for microcontrollers (Debian, as root)",
-        run: setup::run,
+        work: Work::Steps(setup::run),
     },
     Verb {
         name: "cross",
         about: "the kernel and all images for Cortex-M4 and M7",
-        run: cross::run,
+        work: Work::Steps(cross::run),
     },
     Verb {
         name: "boards",
         about: "the images on emulated boards, bit for bit as on the desk",
-        run: boards::run,
+        work: Work::Steps(boards::run),
     },
     Verb {
         name: "audit",
         about: "no allocator, panic, formatting, f64, unused code in the images",
-        run: audit::run,
+        work: Work::Steps(audit::run),
     },
-    Verb { name: "size", about: "flash, RAM and stack by kind of scene", run: size::run },
+    Verb {
+        name: "size",
+        about: "flash, RAM and stack by kind of scene",
+        work: Work::Steps(size::run),
+    },
     Verb {
         name: "cost",
         about: "instructions of every stage, against record and targets",
-        run: cost::run,
+        work: Work::Steps(cost::run),
+    },
+    Verb {
+        name: "firmware",
+        about: "any scene on an emulated board: bits, instructions, RAM, flash, stack",
+        work: Work::Command(firmware::run),
     },
     Verb {
         name: "peers",
         about: "other solvers on the same board and problems; not part of `test`",
-        run: peers::run,
+        work: Work::Steps(peers::run),
     },
 ];
 
@@ -80,28 +99,32 @@ Examples:
   cargo xtask test      before every commit, and what CI runs
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, cost, peers and size have one)
+  cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
 
-Each verb runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit status
-is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
+Each verb but `firmware` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    if words.iter().any(|word| ["--help", "-h", "help"].contains(word)) {
-        println!("{}", help());
-        return ExitCode::SUCCESS;
-    }
-    match (words.as_slice(), words.first().and_then(|name| find(name))) {
-        ([_] | [_, "--bless"], Some(verb)) => {
-            let mut steps = Steps::new(words.contains(&"--bless"));
-            (verb.run)(&mut steps);
-            steps.finish()
+    let Some((&name, arguments)) = words.split_first() else { return wrong("no verb given") };
+    match find(name).map(|verb| &verb.work) {
+        Some(Work::Command(command)) => command(arguments),
+        _ if words.iter().any(|word| ["--help", "-h", "help"].contains(word)) => {
+            println!("{}", help());
+            ExitCode::SUCCESS
         }
-        ([], _) => wrong("no verb given"),
-        ([name, ..], None) => wrong(&format!("no verb `{name}`")),
-        ([name, extra, ..], Some(_)) => {
-            wrong(&format!("`{name}` takes no argument but `--bless`, not `{extra}`"))
-        }
+        Some(Work::Steps(work)) => match arguments {
+            [] | ["--bless"] => {
+                let mut steps = Steps::new(!arguments.is_empty());
+                work(&mut steps);
+                steps.finish()
+            }
+            [extra, ..] => {
+                wrong(&format!("`{name}` takes no argument but `--bless`, not `{extra}`"))
+            }
+        },
+        None => wrong(&format!("no verb `{name}`")),
     }
 }
 
@@ -115,7 +138,7 @@ fn wrong(message: &str) -> ExitCode {
 }
 
 fn help() -> String {
-    let verb = |verb: &Verb| format!("  {:<8}{}\n", verb.name, verb.about);
+    let verb = |verb: &Verb| format!("  {:<10}{}\n", verb.name, verb.about);
     let verbs: String = VERBS.iter().map(verb).collect();
     format!("Usage: cargo xtask VERB\n\nVerbs:\n{verbs}\n{EXAMPLES}")
 }

@@ -2,8 +2,6 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 use crate::board::{Build, M4F_192K, emulator};
 use crate::cargo::{root, run as run_cargo};
@@ -11,8 +9,8 @@ use crate::export::scenes;
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
-use crate::symbols::sized;
-use crate::toolchain::{Toolchain, output};
+use crate::symbols::{section, sized};
+use crate::toolchain::Toolchain;
 
 const RECORD: &str = "tests/firmware/size.txt";
 
@@ -105,14 +103,6 @@ fn measure(image: &str) -> Result<Sizes, String> {
         stack: note("stack", 2)?,
         formula: note("memory", 3)?,
     })
-}
-
-/// The size of a section of an image.
-fn section(image: &Path, name: &str) -> Result<u64, String> {
-    let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;
-    let line = table.lines().find(|line| line.split_whitespace().next() == Some(name));
-    let size = line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok());
-    size.ok_or_else(|| format!("{} has no section {name}", image.display()))
 }
 
 fn check(image: &str, sizes: &Sizes) -> Result<(), String> {

@@ -1,4 +1,4 @@
-//! The symbols of an archive or an image, by `nm` of binutils.
+//! The symbols of an archive or an image, and its sections, by `nm` and `size` of binutils.
 
 use std::path::Path;
 use std::process::Command;
@@ -24,6 +24,14 @@ pub fn sized(image: &Path) -> Result<Vec<(String, u64)>, String> {
         u64::from_str_radix(size, 16).ok()
     };
     Ok(listing.lines().filter_map(|line| Some((name(line)?, size(line).unwrap_or(0)))).collect())
+}
+
+/// The size of a section of an ARM image, in bytes.
+pub fn section(image: &Path, name: &str) -> Result<u64, String> {
+    let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;
+    let line = table.lines().find(|line| line.split_whitespace().next() == Some(name));
+    let size = line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok());
+    size.ok_or_else(|| format!("{} has no section {name}", image.display()))
 }
 
 /// A line is `NAME TYPE …`; what is not, names a member.

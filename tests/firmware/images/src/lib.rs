@@ -4,14 +4,15 @@
 //! `desk` run the same code and print the same lines, where the bits are the same.
 #![cfg_attr(not(feature = "desk"), no_std)]
 
-#[cfg(target_os = "none")]
-pub mod board;
 pub mod breach;
 pub mod draw;
 pub mod grid;
-pub mod journal;
 #[cfg(target_os = "none")]
 pub mod meter;
 pub mod scenes;
 pub mod stages;
 pub mod tick;
+
+#[cfg(target_os = "none")]
+pub use signorini_board as board;
+pub use signorini_board::journal;

@@ -1,7 +1,4 @@
-//! The board: its console, its end, and a panic handler that no image may need.
-
-pub mod clock;
-pub mod stack;
+//! What an image says, how it ends, and that it cannot panic.
 
 use cortex_m_semihosting::debug::{EXIT_FAILURE, EXIT_SUCCESS, exit};
 use cortex_m_semihosting::hio;

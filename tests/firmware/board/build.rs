@@ -1,4 +1,4 @@
-//! Puts the memory map of the board where the linker looks for it.
+//! Puts the memory map of the board where the linker looks for it, and tells the code its name.
 
 use std::path::PathBuf;
 use std::{env, fs, io};
@@ -20,7 +20,7 @@ fn memory(board: &str) -> Option<&'static str> {
 
 fn main() -> io::Result<()> {
     println!("cargo:rerun-if-env-changed=SIGNORINI_BOARD");
-    println!("cargo:rerun-if-env-changed=SIGNORINI_SCENES");
+    println!("cargo:rustc-check-cfg=cfg(board, values(any()))");
     if env::var_os("CARGO_CFG_TARGET_OS").is_none_or(|os| os != "none") {
         return Ok(());
     }
@@ -28,6 +28,7 @@ fn main() -> io::Result<()> {
     let Some(memory) = memory(&board) else {
         return Err(io::Error::other(format!("SIGNORINI_BOARD={board}: no such board")));
     };
+    println!("cargo:rustc-cfg=board={board:?}");
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     fs::write(out.join("memory.x"), format!("MEMORY\n{{\n{memory}\n}}\n"))?;
     println!("cargo:rustc-link-search={}", out.display());

@@ -24,3 +24,14 @@ pub fn depth(depth: u32, work: impl FnOnce()) -> u32 {
     });
     used.map_or(0, |at| top - at) + MARGIN
 }
+
+/// Bytes below the present frame down to the statics: what [`depth`] may watch.
+pub fn free() -> u32 {
+    unsafe extern "C" {
+        /// Where cortex-m-rt's linker script lets a heap begin: the end of the statics.
+        static __sheap: u32;
+    }
+    // The caller of `depth` may have a larger frame than ours.
+    const FRAMES: u32 = 1024;
+    (msp::read() - FRAMES).saturating_sub(&raw const __sheap as u32) & !3
+}

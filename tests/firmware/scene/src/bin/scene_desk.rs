@@ -1,0 +1,35 @@
+//! A baked scene on the machine at hand: the lines of the board, and as notes what it is that they show.
+//!
+//! ```text
+//!   @ model condensed
+//!   @ output 73656570616765       a name, its bytes in hexadecimal digits
+//! ```
+
+use std::sync::{Mutex, PoisonError};
+
+use signorini_board::journal::Journal;
+use signorini_scene::play::play;
+use signorini_scene::scene::{Controller, MODEL, Outputs};
+
+/// A static, as on a board: it may be larger than a stack.
+static CONTROLLER: Mutex<Controller> = Mutex::new(Controller::new());
+
+fn main() {
+    println!("@ model {MODEL}");
+    for name in Outputs::NAMES {
+        let digits: String = name.bytes().map(|byte| format!("{byte:02x}")).collect();
+        println!("@ output {digits}");
+    }
+    let mut told = false;
+    let mut controller = CONTROLLER.lock().unwrap_or_else(PoisonError::into_inner);
+    play(&mut controller, &mut Journal(&mut |text| print!("{text}")), |controller, inputs, _| {
+        let answer = controller.tick(inputs);
+        if let Err(error) = &answer
+            && !told
+        {
+            eprintln!("{inputs:?}: {error}");
+            told = true;
+        }
+        answer.ok()
+    });
+}

@@ -1,0 +1,136 @@
+//! What a scene costs on a board, and whether it is right there.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::ticks::{Ticks, text};
+use super::{Options, Programs};
+use crate::json::{object, record, string};
+use crate::symbols::section;
+
+/// Ticks that both programs play.
+const TICKS: usize = 101;
+
+/// The result.
+#[derive(Debug)]
+pub struct Bill {
+    board: &'static str,
+    scalar: String,
+    scene: String,
+    model: String,
+    names: Vec<String>,
+    /// The first tick's, on the board and on the desk.
+    outputs: [Vec<String>; 2],
+    /// Where the bits differ.
+    difference: Option<String>,
+    /// A tick without an answer.
+    refused: Option<String>,
+    median: u64,
+    max: u64,
+    ram: u64,
+    flash: u64,
+    stack: u64,
+    features: Vec<String>,
+}
+
+impl Bill {
+    /// Runs both programs and reads the image's sections.
+    pub fn new(options: &Options, programs: &Programs) -> Result<Self, String> {
+        let board = Ticks::parse(&programs.on_board()?);
+        let desk = Ticks::parse(&programs.on_desk()?);
+        if board.count() != TICKS {
+            return Err(format!("the board has played {} of {TICKS} ticks", board.count()));
+        }
+        let mut instructions = board.numbers("instructions")?;
+        instructions.sort_unstable();
+        let at = |at: usize| instructions.get(at).copied().ok_or("a tick was not counted");
+        let (median, max) = (at(TICKS / 2)?, at(TICKS - 1)?);
+        let stack = stack(&board)?;
+        let [ram, flash] = sizes(programs.image())?;
+        let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
+        Ok(Self {
+            board: options.board,
+            scalar: options.scalar.clone(),
+            scene: options.name(),
+            model: word("model").next().unwrap_or_default(),
+            names: word("output").map(|digits| text(&digits)).collect(),
+            outputs: [board.outputs(), desk.outputs()],
+            difference: board.difference(&desk),
+            refused: desk.refused().map(str::to_owned),
+            median,
+            max,
+            ram: ram + stack,
+            flash,
+            stack,
+            features: programs.features.clone(),
+        })
+    }
+
+    /// `firmware.json`.
+    pub fn json(&self) -> String {
+        let outputs = |values: &[String]| {
+            let value = |at: usize| values.get(at).cloned().unwrap_or_else(|| "null".to_owned());
+            record(self.names.iter().enumerate().map(|(at, name)| (name.as_str(), value(at))))
+        };
+        let [board, desk] = &self.outputs;
+        let instructions =
+            record([("median", self.median.to_string()), ("max", self.max.to_string())]);
+        let features: Vec<String> = self.features.iter().map(|name| string(name)).collect();
+        object(&[
+            ("board", string(self.board)),
+            ("scalar", string(&self.scalar)),
+            ("model", string(&self.model)),
+            ("outputs", outputs(board)),
+            ("host_outputs", outputs(desk)),
+            ("bit_identical", self.difference.is_none().to_string()),
+            ("instructions_per_tick", instructions),
+            ("ram_bytes", self.ram.to_string()),
+            ("flash_bytes", self.flash.to_string()),
+            ("stack_bytes", self.stack.to_string()),
+            ("ticks", TICKS.to_string()),
+            ("kernel_features", format!("[{}]", features.join(", "))),
+        ])
+    }
+
+    /// The same for a person.
+    pub fn table(&self) -> String {
+        let Self { scene, board, scalar, model, median, max, ram, flash, stack, .. } = self;
+        let mut table = format!("\n{scene} on {board}, {scalar}, {model}\n");
+        let width = self.names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(12);
+        let [of_board, of_desk] = &self.outputs;
+        let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}", "first tick", "board", "desk");
+        for ((name, board), desk) in self.names.iter().zip(of_board).zip(of_desk) {
+            let _ = writeln!(table, "  {:<width$}  {board:>24}{desk:>24}", name.escape_debug());
+        }
+        let equal = self.difference.as_deref().unwrap_or("the same bits on both");
+        let _ = writeln!(table, "  {TICKS} ticks: {equal}");
+        let _ = writeln!(table, "  instructions a tick: {median} in the median, {max} at most");
+        let _ = writeln!(table, "  RAM: {ram} bytes, {stack} of them stack; flash: {flash} bytes");
+        table
+    }
+
+    /// `Ok` where every tick has an answer, with the same bits on both machines.
+    pub fn verdict(&self) -> Result<(), String> {
+        match (&self.difference, &self.refused) {
+            (Some(difference), _) => Err(format!("not bit identical, {difference}")),
+            (None, Some(tick)) => Err(format!("{tick} has no answer")),
+            (None, None) => Ok(()),
+        }
+    }
+}
+
+/// Bytes of stack; an error where it may have gone deeper than the board could see.
+fn stack(board: &Ticks) -> Result<u64, String> {
+    match board.numbers("stack")?[..] {
+        [depth, watched] if depth < watched => Ok(depth),
+        [depth, watched] => Err(format!("{depth} bytes of stack, {watched} were watched")),
+        _ => Err("the board does not tell its stack".to_owned()),
+    }
+}
+
+/// Bytes of statics in RAM, and of flash.
+fn sizes(image: &Path) -> Result<[u64; 2], String> {
+    let sum = |names: &[&str]| names.iter().map(|name| section(image, name)).sum();
+    let ram: Result<u64, String> = sum(&[".data", ".bss", ".uninit"]);
+    Ok([ram?, sum(&[".vector_table", ".text", ".rodata", ".data"])?])
+}

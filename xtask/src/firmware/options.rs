@@ -1,0 +1,132 @@
+//! The command line of `cargo xtask firmware`.
+
+use std::path::{Path, PathBuf};
+
+use crate::board::{Board, M4F, M4F_192K, M7};
+
+/// What to put on which board.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The scene's file.
+    pub scene: PathBuf,
+    /// Its name on the command line.
+    pub board: &'static str,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// `--full` or `--condensed`, where one is forced.
+    pub model: Option<String>,
+    /// `NAME=VALUE`, as they were given.
+    pub inputs: Vec<String>,
+    /// The folder of the result.
+    pub out: PathBuf,
+}
+
+const BOARDS: [(&str, Board); 3] = [("m4", M4F), ("m4-192k", M4F_192K), ("m7", M7)];
+
+pub const HELP: &str = "\
+Usage: cargo xtask firmware SCENE.toml [OPTIONS]
+
+Bakes a scene, puts it on an emulated board, plays 101 ticks there and on this machine, and compares them bit
+for bit. Tick 1 has all inputs at their defaults, from a cold start; in each of the others every input is drawn
+from within a tenth of its default (±0.1 where that is 0), the same on both.
+
+Options:
+  --board m4|m4-192k|m7    mps2-an386, netduinoplus2 (an STM32F405), mps2-an500 [m4]
+  --scalar f32|f64         [f32]
+  --full, --condensed      forces a model
+  --input NAME=VALUE       the default of an input; repeatable
+  --out DIR                where firmware.json goes [out/SCENE]
+
+Examples:
+  cargo xtask firmware meshes/scenes/levee.toml
+  cargo xtask firmware tests/firmware/scenes/levee-96.toml --board m4-192k --input rain=2
+  cargo xtask firmware meshes/scenes/slab.toml --board m7 --scalar f64 --condensed --out out/slab-m7
+
+Instructions are those of one call of Controller::tick over all ticks: to the instruction on m4-192k, to 40
+either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
+stack; stack is the deepest of all ticks, and part of RAM; flash is .vector_table, .text, .rodata and .data.
+All are of the whole image, with its start-up and console.
+
+The exit status is 0 where all bits are equal, 2 where the command line or the scene is wrong.
+";
+
+impl Options {
+    /// The f32 model of a scene on a board, for the tests.
+    pub fn new(scene: PathBuf, board: &'static str, out: PathBuf) -> Self {
+        Self { scene, board, scalar: "f32".to_owned(), model: None, inputs: Vec::new(), out }
+    }
+
+    /// Reads the words after the verb.
+    pub fn parse(words: &[&str]) -> Result<Self, String> {
+        let mut scene = None;
+        let mut options = Self::new(PathBuf::new(), "m4", PathBuf::new());
+        let mut words = words.iter();
+        while let Some(&word) = words.next() {
+            let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
+            match word {
+                "--board" => options.board = known(value()?)?.0,
+                "--scalar" => match value()? {
+                    scalar @ ("f32" | "f64") => options.scalar = scalar.to_owned(),
+                    other => return Err(format!("--scalar is f32 or f64, not `{other}`")),
+                },
+                "--full" | "--condensed" => match options.model.replace(word.to_owned()) {
+                    Some(other) if other != word => return Err(format!("{other} or {word}?")),
+                    _ => {}
+                },
+                "--input" => options.inputs.push(value()?.to_owned()),
+                "--out" => options.out = value()?.into(),
+                option if option.starts_with('-') => return Err(format!("no option `{option}`")),
+                file if scene.is_none() => scene = Some(PathBuf::from(file)),
+                extra => return Err(format!("one scene at a time, not `{extra}` too")),
+            }
+        }
+        options.scene = scene.ok_or("no scene given")?;
+        if options.out.as_os_str().is_empty() {
+            options.out = Path::new("out").join(options.name());
+        }
+        Ok(options)
+    }
+
+    /// The board.
+    pub fn board(&self) -> Result<Board, String> {
+        known(self.board).map(|(_, board)| board)
+    }
+
+    /// The scene's name.
+    pub fn name(&self) -> String {
+        self.scene.file_stem().unwrap_or_default().display().to_string()
+    }
+}
+
+fn known(name: &str) -> Result<(&'static str, Board), String> {
+    let found = BOARDS.into_iter().find(|(known, _)| *known == name);
+    found.ok_or_else(|| format!("--board is m4, m4-192k or m7, not `{name}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_stand_in_any_order() {
+        let words = ["--board", "m7", "a/b.toml", "--full", "--input", "x=1", "--input", "y=2"];
+        let options = Options::parse(&words).unwrap();
+        assert_eq!((options.board, options.scalar.as_str()), ("m7", "f32"));
+        assert_eq!(
+            (options.scene.to_str(), options.out.to_str()),
+            (Some("a/b.toml"), Some("out/b"))
+        );
+        assert_eq!((options.model.as_deref(), options.inputs.len()), (Some("--full"), 2));
+    }
+
+    #[test]
+    fn wrong_words_are_named() {
+        let why = |words: &[&str]| Options::parse(words).map(drop).unwrap_err();
+        assert!(why(&[]).contains("no scene"));
+        assert!(why(&["a.toml", "b.toml"]).contains("`b.toml`"));
+        assert!(why(&["a.toml", "--board", "m3"]).contains("`m3`"));
+        assert!(why(&["a.toml", "--scalar"]).contains("--scalar"));
+        assert!(why(&["a.toml", "--full", "--condensed"]).contains("--full"));
+        assert!(why(&["a.toml", "--fast"]).contains("`--fast`"));
+    }
+}

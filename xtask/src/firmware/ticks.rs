@@ -1,0 +1,137 @@
+//! What the two programs print: lines that must be equal, and notes (`@ …`) that are each machine's own.
+
+/// The ticks of one machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ticks {
+    lines: Vec<String>,
+    notes: Vec<Vec<String>>,
+}
+
+impl Ticks {
+    /// Reads what a program printed.
+    pub fn parse(text: &str) -> Self {
+        let (notes, lines): (Vec<_>, Vec<_>) =
+            text.lines().partition(|line| line.starts_with("@ "));
+        let words = |note: &&str| note.split(' ').skip(1).map(str::to_owned).collect();
+        Self {
+            lines: lines.into_iter().map(str::to_owned).collect(),
+            notes: notes.iter().map(words).collect(),
+        }
+    }
+
+    /// The first word of each note of this name.
+    pub fn notes<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a [String]> {
+        self.notes
+            .iter()
+            .filter(move |note| note.first().is_some_and(|of| of == name))
+            .map(|note| &note[1..])
+    }
+
+    /// The numbers of all notes of this name.
+    pub fn numbers(&self, name: &str) -> Result<Vec<u64>, String> {
+        let number = |word: &String| word.parse().map_err(|_| format!("a tick's {name}: `{word}`"));
+        self.notes(name).flatten().filter(|word| !word.is_empty()).map(number).collect()
+    }
+
+    /// How many ticks there are.
+    pub fn count(&self) -> usize {
+        self.lines.iter().filter(|line| line.starts_with("tick ")).count()
+    }
+
+    /// The outputs of the first tick in decimal digits, `null` where they are no numbers; none where it was
+    /// refused.
+    pub fn outputs(&self) -> Vec<String> {
+        let first = self.lines.iter().skip(1).take_while(|line| !line.starts_with("tick "));
+        first.filter_map(|line| line.strip_prefix("output ")).map(decimal).collect()
+    }
+
+    /// Where the ticks of two machines part, if they do.
+    pub fn difference(&self, other: &Self) -> Option<String> {
+        let ends = |ticks: &Self| ticks.lines.clone().into_iter().chain(["the end".to_owned()]);
+        let mut tick = String::new();
+        ends(self).zip(ends(other)).find_map(|(line, other)| {
+            if line.starts_with("tick ") {
+                tick.clone_from(&line);
+            }
+            (line != other).then(|| format!("{tick}: `{line}` on the board, `{other}` on the desk"))
+        })
+    }
+
+    /// The first tick without an answer, if there is one.
+    pub fn refused(&self) -> Option<&str> {
+        let answers = self.lines.windows(2).find(|pair| pair[1] == "refused");
+        answers.map(|pair| pair[0].as_str())
+    }
+}
+
+/// The shortest decimal number that has these bits; `null` for what is no number.
+fn decimal(bits: &str) -> String {
+    let (finite, shortest) = match bits.split_once(' ') {
+        Some(("f32", digits)) => {
+            let x = u32::from_str_radix(digits, 16).map_or(f32::NAN, f32::from_bits);
+            (x.is_finite(), format!("{x:?}"))
+        }
+        Some(("f64", digits)) => {
+            let x = u64::from_str_radix(digits, 16).map_or(f64::NAN, f64::from_bits);
+            (x.is_finite(), format!("{x:?}"))
+        }
+        _ => (false, String::new()),
+    };
+    if finite { shortest } else { "null".to_owned() }
+}
+
+/// The text whose bytes these digits are.
+pub fn text(digits: &str) -> String {
+    let byte = |at| digits.get(at..at + 2).and_then(|byte| u8::from_str_radix(byte, 16).ok());
+    let bytes: Vec<u8> = (0..digits.len()).step_by(2).filter_map(byte).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOARD: &str = "tick 1\n@ instructions 512\noutput f32 3dcccccd\noutput f32 7f800000\n\
+                         sweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
+
+    #[test]
+    fn a_tick_is_read() {
+        let ticks = Ticks::parse(BOARD);
+        assert_eq!(ticks.count(), 2);
+        assert_eq!(ticks.outputs(), ["0.1", "null"]);
+        assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
+        assert!(Ticks::parse("@ instructions beyond").numbers("instructions").is_err());
+    }
+
+    #[test]
+    fn every_bit_counts_and_no_note_does() {
+        let board = Ticks::parse(BOARD);
+        let desk = |text: &str| Ticks::parse(text);
+        assert_eq!(board.difference(&desk(&BOARD.replace("@ instructions 512\n", ""))), None);
+        let bit = board.difference(&desk(&BOARD.replace("3f800000", "3f800001"))).unwrap();
+        assert!(bit.contains("tick 2") && bit.contains("3f800001"), "{bit}");
+        let cut = board.difference(&desk("tick 1\n")).unwrap();
+        assert!(cut.contains("the end"), "{cut}");
+    }
+
+    #[test]
+    fn bits_become_the_shortest_decimals() {
+        assert_eq!(decimal("f64 3fb999999999999a"), "0.1");
+        assert_eq!(decimal("f32 380725a1"), "3.2221553e-5");
+        assert_eq!(decimal("f32 7fc00000"), "null");
+        assert_eq!(decimal("f32"), "null");
+    }
+
+    #[test]
+    fn names_are_bytes() {
+        assert_eq!(text("7269622022c2b022"), "rib \"°\"");
+    }
+
+    #[test]
+    fn a_refused_tick_is_found() {
+        assert_eq!(
+            Ticks::parse("tick 1\noutput f32 0\ntick 2\nrefused\n").refused(),
+            Some("tick 2")
+        );
+    }
+}
