@@ -120,6 +120,7 @@ impl Face {
                 features.join(", ")
             ),
             "```".to_owned(),
+            format!("Kernel features: {}.", about.features.join(", ")),
         ];
         let mut table = |kind: &str, items: &[Item]| {
             if !items.is_empty() {
@@ -175,7 +176,7 @@ impl Inputs {
         text += &structure("Outputs", "What the controller reads.", &self.outputs);
         text += "\nimpl Outputs {\n";
         text += &names("OUTPUTS", &self.outputs);
-        text += &from_array("", "OUTPUTS", &self.outputs);
+        text += &from_array("pub ", "OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
         text + "}\n" + &answer(about.report)
     }

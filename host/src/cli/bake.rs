@@ -4,14 +4,18 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bake::full::{Baked, source};
+use super::scene_at;
+use crate::bake::condensed::{self, Work};
+use crate::bake::face::Face;
+use crate::bake::full;
+use crate::condense::condense;
 use crate::error::Result;
 use crate::mesh::gmsh;
 use crate::output::atomic::write_atomically;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::ScalarKind;
+use crate::solve::{ScalarKind, unfit};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -30,8 +34,11 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The full model: the scene's mesh solved on the target
-    #[arg(long)]
+    #[arg(long, conflicts_with = "condensed")]
     full: bool,
+    /// The condensed model: contact edges, inputs and outputs alone
+    #[arg(long)]
+    condensed: bool,
     /// Scalar type of the firmware
     #[arg(long, value_enum, default_value = "f32")]
     scalar: ScalarKind,
@@ -42,20 +49,26 @@ pub struct Arguments {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        let mut scene = Scene::read(&self.scene)?;
-        for input in &self.input {
-            scene.set_input(input)?;
-        }
+        let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
         let text = match self.scalar {
-            ScalarKind::F32 => full::<f32>(&scene, &problem)?,
-            ScalarKind::F64 => full::<f64>(&scene, &problem)?,
+            ScalarKind::F32 => self.text::<f32>(&scene, &problem)?,
+            ScalarKind::F64 => self.text::<f64>(&scene, &problem)?,
         };
         write_atomically(&self.output, text.as_bytes())?;
         Ok(0)
     }
 }
 
-fn full<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<String> {
-    Ok(source(&Baked::<R>::new(scene, problem)?))
+impl Arguments {
+    fn text<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
+        if self.full {
+            return Ok(full::source(&full::Baked::<R>::new(scene, problem)?));
+        }
+        let condensate = condense(scene, problem)?;
+        let work = Work { pivots: Some(condensate.contact as u32), sweeps: 20 };
+        let baked =
+            condensed::Baked::<R>::new(&condensate, work, true).map_err(unfit::<R>(scene))?;
+        Ok(condensed::source(&Face::new(scene, problem)?, &baked))
+    }
 }

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod bake;
+mod condense;
 mod export;
 mod place;
 mod solve;
@@ -40,6 +41,8 @@ enum Command {
     Tick(tick::Arguments),
     /// Write a scene as a module of firmware: its data and a controller for them
     Bake(bake::Arguments),
+    /// Write the dense contact problem of a scene as a C header, for other solvers
+    Condense(condense::Arguments),
     /// Write a scene as static data of a Rust program for a microcontroller
     Export(export::Arguments),
 }
@@ -54,8 +57,16 @@ impl Cli {
             Some(Command::Solve(arguments)) => arguments.run(),
             Some(Command::Tick(arguments)) => arguments.run(),
             Some(Command::Bake(arguments)) => arguments.run(),
+            Some(Command::Condense(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),
         }
     }
+}
+
+/// The scene with the inputs of the command line.
+fn scene_at(path: &std::path::Path, inputs: &[String]) -> Result<crate::scene::Scene> {
+    let mut scene = crate::scene::Scene::read(path)?;
+    inputs.iter().try_for_each(|input| scene.set_input(input))?;
+    Ok(scene)
 }

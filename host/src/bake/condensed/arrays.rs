@@ -1,11 +1,11 @@
 //! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
 
+use signorini_kernel::condensed::Condensed;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::condensed::factor::Factor;
 use signorini_kernel::condensed::method::Sweeps;
 use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::Condensed;
 use signorini_kernel::{Error, error::Array};
 
 use super::relaxation::best_omega;

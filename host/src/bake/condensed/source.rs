@@ -160,7 +160,12 @@ fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
     put(&mut text, "MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", {
         (baked.matrix.len(), blocks(&baked.matrix))
     });
-    numbers(&mut text, "LOAD", "B by columns: what each input, the constant first, does.", &baked.load);
+    numbers(
+        &mut text,
+        "LOAD",
+        "B by columns: what each input, the constant first, does.",
+        &baked.load,
+    );
     for (output, name) in baked.outputs.iter().zip(face.outputs()) {
         names.push(measure(&mut text, &name.to_ascii_uppercase(), output));
     }
@@ -193,7 +198,8 @@ mod data {{
     }};
 }}
 ",
-        names.iter().map(|name| format!("\n            {name},")).collect::<String>() + "\n        ",
+        names.iter().map(|name| format!("\n            {name},")).collect::<String>()
+            + "\n        ",
     )
 }
 

@@ -1,0 +1,41 @@
+//! `signorini condense`: the dense contact problem of a scene for other solvers.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::scene_at;
+use crate::bake::condensed::header;
+use crate::condense::condense;
+use crate::error::Result;
+use crate::mesh::gmsh;
+use crate::output::atomic::write_atomically;
+use crate::problem::Problem;
+
+const EXAMPLES: &str = "\
+Example:
+  signorini condense tests/firmware/peers/contact-32.toml -o problem.h";
+
+/// Arguments of `condense`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The scene file (TOML)
+    scene: PathBuf,
+    /// The C header to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Another default of an input; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    input: Vec<String>,
+}
+
+impl Arguments {
+    pub(super) fn run(self) -> Result<u8> {
+        let scene = scene_at(&self.scene, &self.input)?;
+        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let text = header(&scene, &condense(&scene, &problem)?);
+        write_atomically(&self.output, text.as_bytes())?;
+        Ok(0)
+    }
+}
