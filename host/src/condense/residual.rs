@@ -7,16 +7,17 @@
 
 use signorini_kernel::{Real, Tensor};
 
+use super::functions::Functions;
 use super::patterns::Pattern;
+use super::points::{points, points_for};
 use crate::certify::cell::{Cell, Local};
 use crate::certify::conductivity::Conductivity;
-use crate::certify::curved::{PANELS, POINTS, half_triangle};
 use crate::certify::deviation::Deviations;
 use crate::certify::robin::{RobinPoints, robin};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::Problem;
-use crate::quadrature::{DATA_POINTS, Point, gauss, on_panels};
+use crate::quadrature::{DATA_POINTS, Point};
 use crate::scene::Scene;
 
 /// A remainder below this part of its column is the rounding of a dependent one.
@@ -31,46 +32,6 @@ pub(super) struct Block {
     pub edges: Vec<u32>,
     /// Row after row.
     pub rows: Vec<Vec<f64>>,
-}
-
-/// The numbers of s: its vertex values, then the bubbles of free edges between quads.
-pub(super) struct Functions {
-    vertices: usize,
-    /// The number of each edge's bubble.
-    bubbles: Vec<Option<u32>>,
-    count: usize,
-}
-
-impl Functions {
-    pub fn of(problem: &Problem) -> Self {
-        let topology = &problem.topology;
-        let (vertices, triangles) = (problem.mesh.vertices.len(), 3 * problem.mesh.triangles.len());
-        let mut count = vertices;
-        let bubbles = topology.half_edges.iter().enumerate().map(|(edge, halves)| {
-            use crate::problem::EdgeKind::{Interior, Neumann};
-            let of_quads = halves.iter().all(|&half| half as usize >= triangles);
-            let free = matches!(problem.kinds[edge], Interior | Neumann);
-            (of_quads && free).then(|| {
-                count += 1;
-                count as u32 - 1
-            })
-        });
-        let bubbles = bubbles.collect();
-        Self { vertices, bubbles, count }
-    }
-
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// The number of the bubble on an edge.
-    pub fn bubble(&self, edge: usize) -> Option<u32> {
-        self.bubbles[edge]
-    }
-
-    pub fn is_bubble(&self, function: usize) -> bool {
-        function >= self.vertices
-    }
 }
 
 /// The rows of all cells and Robin edges.
@@ -184,51 +145,6 @@ fn extension(
         sum = [sum[0] + gradient[0], sum[1] + gradient[1]];
     }
     Ok(sum)
-}
-
-/// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
-/// of degree 2.
-fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
-    match cell {
-        Cell::Triangle(_) if conductivity.is_constant() => 2,
-        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
-        _ => DATA_POINTS,
-    }
-}
-
-/// Reference coordinates with weights that lack the area element.
-fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
-    let along = on_panels(PANELS, &gauss(POINTS));
-    match (cell, curved) {
-        (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
-        (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
-        (Cell::Triangle(_), [one, other, ..]) => {
-            let [one, other] = [(one + 2) % 3, (other + 2) % 3];
-            let mut points = half_triangle(one, other, &along);
-            points.extend(half_triangle(other, one, &along));
-            points
-        }
-        (Cell::Quad(_), []) => square(&gauss(rule)),
-        (Cell::Quad(_), _) => square(&along),
-    }
-}
-
-/// The points (t, η) of one side of a triangle.
-fn on_triangle(
-    cell: &Cell,
-    side: usize,
-    along: &[[f64; 2]],
-    away: &[[f64; 2]],
-) -> Vec<([f64; 3], f64)> {
-    let point = |[t, weight]: [f64; 2], [eta, weight_away]: [f64; 2]| {
-        (cell.side_point(side, t, eta), weight * weight_away * (1.0 - eta))
-    };
-    along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
-}
-
-fn square(rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
-    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
-    rule.iter().flat_map(|&y| rule.iter().map(move |&x| point(x, y))).collect()
 }
 
 /// √w L, for A = LLᵀ.
