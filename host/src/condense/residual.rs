@@ -52,7 +52,7 @@ pub(super) fn blocks(
     let transfer = transfer.collect::<Result<Vec<_>>>()?;
     for (at, record) in problem.loads.robin.iter().enumerate() {
         let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-        blocks.push(of_robin(problem, record.edge as usize, &ambient));
+        blocks.push(of_robin(problem, record.edge as usize, functions, &ambient));
     }
     Ok(blocks)
 }
@@ -177,20 +177,27 @@ impl Root {
 
 /// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
 /// 0 the flux is, and there is nothing to add.
-fn of_robin(problem: &Problem, edge: usize, ambient: &[RobinPoints]) -> Block {
-    let mut columns = vec![Vec::new(); 3 + ambient.len()];
+fn of_robin(
+    problem: &Problem,
+    edge: usize,
+    functions: &Functions,
+    ambient: &[RobinPoints],
+) -> Block {
+    let bubble = functions.bubble(edge);
+    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
+    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
     for (at, &[t, weight]) in f64::GAUSS[DATA_POINTS - 1].iter().enumerate() {
         let transfer = ambient.first().map_or(0.0, |points| points[at][0]);
         if transfer <= 0.0 {
             continue;
         }
         let root = (weight * transfer).sqrt();
-        let own = [root * (1.0 - t), root * t, root / transfer];
+        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
+        let own = own.into_iter().take(of_s.len()).chain([root / transfer]);
         let given = ambient.iter().map(|points| -root * points[at][1]);
-        columns.iter_mut().zip(own.into_iter().chain(given)).for_each(|(to, entry)| to.push(entry));
+        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
     }
-    let functions = problem.ends[edge].to_vec();
-    Block { functions, edges: vec![edge as u32], rows: triangular(columns) }
+    Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
 }
 
 /// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a
