@@ -20,6 +20,12 @@ impl Table {
         Self { columns, values: vec![0.0; places * columns] }
     }
 
+    /// The numbers of each column together.
+    fn by_columns(&self) -> Vec<f64> {
+        let column = |at: usize| self.values.iter().skip(at).step_by(self.columns).copied();
+        (0..self.columns).flat_map(column).collect()
+    }
+
     pub fn row(&self, place: usize) -> &[f64] {
         &self.values[place * self.columns..][..self.columns]
     }
@@ -71,20 +77,19 @@ pub(super) fn complete(
 ) -> Result<(), ReferenceError> {
     let numbers = numbers(fixed);
     let free = fixed.iter().filter(|&&fixed| !fixed).count();
-    let columns = s.columns;
-    let mut right = vec![0.0; free * columns];
-    let mut sum = vec![0.0; columns];
+    let mut right = Table::new(free, s.columns);
+    let mut sum = vec![0.0; s.columns];
     for block in blocks {
         for row in &block.rows {
             block.residual(row, s, fluxes, &mut sum);
             for (&function, &factor) in block.functions.iter().zip(row) {
-                let Some(number) = numbers[function as usize] else { continue };
-                let entries = right.iter_mut().skip(number).step_by(free);
-                entries.zip(&sum).for_each(|(to, from)| *to -= factor * from);
+                if let Some(number) = numbers[function as usize] {
+                    add(right.row_mut(number), -factor, &sum);
+                }
             }
         }
     }
-    let best = normal_matrix(blocks, &numbers, free).solve(&right)?;
+    let best = normal_matrix(blocks, &numbers, free).solve(&right.by_columns())?;
     for (function, number) in numbers.iter().enumerate() {
         let Some(number) = *number else { continue };
         let values = best.iter().skip(number).step_by(free);

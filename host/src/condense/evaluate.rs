@@ -102,7 +102,7 @@ impl Form {
     ///
     /// What is mended must be 0 on inactive edges and ≥ 0 on active ones. Where contact alone holds the
     /// part, the sum of all that was taken leaves through the active edge with the largest residual.
-    fn mend(&self, openings: &[f64], residual: &mut [f64], x: &[f64]) -> Option<f64> {
+    pub(super) fn mend(&self, openings: &[f64], residual: &mut [f64], x: &[f64]) -> Option<f64> {
         let (mut square, mut surplus) = (0.0, 0.0);
         for ((residual, &x), opening) in residual.iter_mut().zip(x).zip(openings) {
             let delta = if x == 0.0 { residual.min(0.0) } else { *residual };

@@ -9,9 +9,10 @@ use super::best::{Table, complete};
 use super::chain::Chain;
 use super::elimination::{Field, failed};
 use super::factor::{energies, triangular};
+use super::functions::Functions;
 use super::patterns::Pattern;
 use super::reach::{Source, reach};
-use super::residual::{Block, Functions, blocks};
+use super::residual::{Block, blocks};
 use crate::certify::is_moderate;
 use crate::certify::robin::robin;
 use crate::error::Result;
@@ -36,6 +37,7 @@ pub(super) struct Ground<'g> {
 }
 
 /// s and τ in every column.
+#[cfg_attr(not(test), expect(dead_code, reason = "tests compare them with exact solutions"))]
 pub(super) struct Admissibles {
     pub s: Table,
     pub fluxes: Table,

@@ -10,9 +10,9 @@
 //! output is linear in (p, x) but the contact length and the error bound.
 //!
 //! ```text
-//!   patterns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, outputs ──────────► Condensate
-//!   chain (s on the boundary) ─┐                            │                                 ▲
-//!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, reach ─► form ──────────────────┘
+//!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► Condensate
+//!   chain (s on the boundary) ─┐                                       │                       ▲
+//!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, reach ◄──┘ ─► form ──────────────┘
 //! ```
 //! The bound of any (p, x), x ≥ 0, is U(osc + √(gap² + osc²)), osc = Σ|p_j| osc_j and
 //! ```text
@@ -22,11 +22,15 @@
 
 mod best;
 mod chain;
+mod columns;
 mod elimination;
 mod evaluate;
 mod factor;
 mod form;
+mod functions;
+mod measures;
 mod patterns;
+mod points;
 mod reach;
 mod residual;
 #[cfg(test)]
@@ -37,15 +41,15 @@ use std::collections::BTreeMap;
 
 use faer::Mat;
 use signorini_kernel::components::Support;
-use signorini_kernel::geometry::{quad_area, triangle_area};
 
 use crate::error::{InputError, Result};
-use crate::outputs::{Functional, contact_edges};
-use crate::problem::{Loads, Parts, Problem};
-use crate::scene::{Located, Output, Quantity, Scene};
-use elimination::{Field, Given, fields};
+use crate::problem::{Parts, Problem};
+use crate::scene::Scene;
+use columns::columns;
+use elimination::{Field, fields};
 use form::{Admissibles, Ground};
-use patterns::{Pattern, patterns};
+use measures::measures;
+use patterns::patterns;
 
 /// A condensed model, in f64.
 #[derive(Debug, Clone)]
@@ -130,11 +134,11 @@ pub struct Corner {
     pub excess: Vec<f64>,
 }
 
-/// Condenses `scene` on the mesh of `problem`; of the problem's loads nothing is used.
+/// Condenses `scene` on the mesh of `problem`, whose own loads only decide whether there is a solution.
 ///
 /// # Errors
-/// A load that changes with t, data that are not finite, a part that nothing holds, a probe outside the
-/// mesh.
+/// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,
+/// a probe outside the mesh.
 pub fn condense(scene: &Scene, problem: &Problem) -> Result<Condensate> {
     Ok(build(scene, problem)?.0)
 }
@@ -193,46 +197,6 @@ fn examined(scene: &Scene, problem: &Problem) -> Result<Parts> {
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
-/// What each column is the field of: patterns without opening, unit openings without load, and a source
-/// that adds up to 1 where asked for.
-fn columns(problem: &Problem, patterns: &[Pattern], source: bool) -> Vec<Given> {
-    let counts = problem.topology.counts;
-    let of_patterns = patterns
-        .iter()
-        .map(|pattern| Given { contact: pattern.loads.gap.clone(), loads: pattern.loads.clone() });
-    let mut columns: Vec<_> = of_patterns.collect();
-    let mut silent = Loads {
-        robin: problem.loads.robin.clone(),
-        contact_flux: vec![0.0; counts.contact],
-        gap: vec![0.0; counts.contact],
-        dirichlet: vec![0.0; counts.dirichlet],
-        ..Loads::default()
-    };
-    silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
-    for opened in 0..counts.contact {
-        let mut contact = vec![0.0; counts.contact];
-        contact[opened] = 1.0;
-        columns.push(Given { loads: silent.clone(), contact });
-    }
-    if source {
-        let contact = vec![0.0; counts.contact];
-        columns.push(Given { loads: uniform_source(problem, silent), contact });
-    }
-    columns
-}
-
-/// `silent` with a source that adds up to 1, the same all over the mesh.
-fn uniform_source(problem: &Problem, silent: Loads) -> Loads {
-    let mesh = &problem.mesh;
-    let corner = |vertex: u32| mesh.vertices[vertex as usize];
-    let triangles: Vec<f64> =
-        mesh.triangles.iter().map(|cell| triangle_area(cell.map(corner))).collect();
-    let quads: Vec<f64> = mesh.quads.iter().map(|cell| quad_area(cell.map(corner))).collect();
-    let whole: f64 = triangles.iter().chain(&quads).sum();
-    let share = |areas: Vec<f64>| areas.into_iter().map(|area| area / whole).collect();
-    Loads { triangles: share(triangles), quads: share(quads), ..silent }
-}
-
 /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
 fn scaled(scene: &Scene, problem: &Problem, fields: &mut [Field]) -> Result<Vec<f64>> {
     /// S_ii below this part of the fluxes around is the rounding of 0.
@@ -266,49 +230,6 @@ fn matrix(problem: &Problem, fields: &[Field], openings: &[f64]) -> Mat<f64> {
 fn condensed_load(problem: &Problem, field: &Field, q: &[f64], openings: &[f64]) -> Vec<f64> {
     let fluxes = &field.flux[problem.topology.counts.free..];
     openings.iter().zip(fluxes.iter().zip(q)).map(|(d, (flux, q))| d * (q - flux)).collect()
-}
-
-fn measures(
-    scene: &Scene,
-    problem: &Problem,
-    patterns: &[Pattern],
-    fields: &[Field],
-) -> Result<Vec<Measure>> {
-    let undeclared = [Quantity::Force, Quantity::Length].map(|quantity| Output {
-        name: Located { value: String::new(), key: "output".to_owned(), span: 0..0 },
-        quantity,
-        of: None,
-    });
-    let outputs = if scene.outputs.is_empty() { &undeclared[..] } else { &scene.outputs };
-    outputs.iter().map(|output| measure(scene, problem, patterns, fields, output)).collect()
-}
-
-fn measure(
-    scene: &Scene,
-    problem: &Problem,
-    patterns: &[Pattern],
-    fields: &[Field],
-    output: &Output,
-) -> Result<Measure> {
-    let free = problem.topology.counts.free;
-    let Some(functional) = Functional::of(scene, problem, output)? else {
-        if output.quantity == Quantity::Bound {
-            return Ok(Measure::Bound);
-        }
-        let mut of_contact = vec![0.0; problem.topology.counts.contact];
-        for edge in contact_edges(scene, problem, output) {
-            of_contact[edge - free] = problem.lengths[edge];
-        }
-        return Ok(Measure::Length { of_contact });
-    };
-    let silent =
-        Loads { contact_flux: vec![0.0; problem.topology.counts.contact], ..Loads::default() };
-    let loads = patterns.iter().map(|pattern| &pattern.loads).chain(std::iter::repeat(&silent));
-    let values = fields.iter().zip(loads);
-    let mut of_inputs: Vec<f64> =
-        values.map(|(field, loads)| functional.at(problem, loads, &field.u, &field.flux)).collect();
-    let of_contact = of_inputs.split_off(patterns.len());
-    Ok(Measure::Linear { of_inputs, of_contact })
 }
 
 /// Contact edges by the parts that they alone hold.

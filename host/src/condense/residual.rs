@@ -7,16 +7,17 @@
 
 use signorini_kernel::{Real, Tensor};
 
+use super::functions::Functions;
 use super::patterns::Pattern;
+use super::points::{points, points_for};
 use crate::certify::cell::{Cell, Local};
 use crate::certify::conductivity::Conductivity;
-use crate::certify::curved::{PANELS, POINTS, half_triangle};
 use crate::certify::deviation::Deviations;
 use crate::certify::robin::{RobinPoints, robin};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::Problem;
-use crate::quadrature::{DATA_POINTS, Point, gauss, on_panels};
+use crate::quadrature::{DATA_POINTS, Point};
 use crate::scene::Scene;
 
 /// A remainder below this part of its column is the rounding of a dependent one.
@@ -31,46 +32,6 @@ pub(super) struct Block {
     pub edges: Vec<u32>,
     /// Row after row.
     pub rows: Vec<Vec<f64>>,
-}
-
-/// The numbers of s: its vertex values, then the bubbles of free edges between quads.
-pub(super) struct Functions {
-    vertices: usize,
-    /// The number of each edge's bubble.
-    bubbles: Vec<Option<u32>>,
-    count: usize,
-}
-
-impl Functions {
-    pub fn of(problem: &Problem) -> Self {
-        let topology = &problem.topology;
-        let (vertices, triangles) = (problem.mesh.vertices.len(), 3 * problem.mesh.triangles.len());
-        let mut count = vertices;
-        let bubbles = topology.half_edges.iter().enumerate().map(|(edge, halves)| {
-            use crate::problem::EdgeKind::{Interior, Neumann};
-            let of_quads = halves.iter().all(|&half| half as usize >= triangles);
-            let free = matches!(problem.kinds[edge], Interior | Neumann);
-            (of_quads && free).then(|| {
-                count += 1;
-                count as u32 - 1
-            })
-        });
-        let bubbles = bubbles.collect();
-        Self { vertices, bubbles, count }
-    }
-
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// The number of the bubble on an edge.
-    pub fn bubble(&self, edge: usize) -> Option<u32> {
-        self.bubbles[edge]
-    }
-
-    pub fn is_bubble(&self, function: usize) -> bool {
-        function >= self.vertices
-    }
 }
 
 /// The rows of all cells and Robin edges.
@@ -91,7 +52,7 @@ pub(super) fn blocks(
     let transfer = transfer.collect::<Result<Vec<_>>>()?;
     for (at, record) in problem.loads.robin.iter().enumerate() {
         let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-        blocks.push(of_robin(problem, record.edge as usize, &ambient));
+        blocks.push(of_robin(problem, record.edge as usize, functions, &ambient));
     }
     Ok(blocks)
 }
@@ -186,51 +147,6 @@ fn extension(
     Ok(sum)
 }
 
-/// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
-/// of degree 2.
-fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
-    match cell {
-        Cell::Triangle(_) if conductivity.is_constant() => 2,
-        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
-        _ => DATA_POINTS,
-    }
-}
-
-/// Reference coordinates with weights that lack the area element.
-fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
-    let along = on_panels(PANELS, &gauss(POINTS));
-    match (cell, curved) {
-        (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
-        (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
-        (Cell::Triangle(_), [one, other, ..]) => {
-            let [one, other] = [(one + 2) % 3, (other + 2) % 3];
-            let mut points = half_triangle(one, other, &along);
-            points.extend(half_triangle(other, one, &along));
-            points
-        }
-        (Cell::Quad(_), []) => square(&gauss(rule)),
-        (Cell::Quad(_), _) => square(&along),
-    }
-}
-
-/// The points (t, η) of one side of a triangle.
-fn on_triangle(
-    cell: &Cell,
-    side: usize,
-    along: &[[f64; 2]],
-    away: &[[f64; 2]],
-) -> Vec<([f64; 3], f64)> {
-    let point = |[t, weight]: [f64; 2], [eta, weight_away]: [f64; 2]| {
-        (cell.side_point(side, t, eta), weight * weight_away * (1.0 - eta))
-    };
-    along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
-}
-
-fn square(rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
-    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
-    rule.iter().flat_map(|&y| rule.iter().map(move |&x| point(x, y))).collect()
-}
-
 /// √w L, for A = LLᵀ.
 struct Root {
     xx: f64,
@@ -261,20 +177,27 @@ impl Root {
 
 /// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
 /// 0 the flux is, and there is nothing to add.
-fn of_robin(problem: &Problem, edge: usize, ambient: &[RobinPoints]) -> Block {
-    let mut columns = vec![Vec::new(); 3 + ambient.len()];
+fn of_robin(
+    problem: &Problem,
+    edge: usize,
+    functions: &Functions,
+    ambient: &[RobinPoints],
+) -> Block {
+    let bubble = functions.bubble(edge);
+    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
+    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
     for (at, &[t, weight]) in f64::GAUSS[DATA_POINTS - 1].iter().enumerate() {
         let transfer = ambient.first().map_or(0.0, |points| points[at][0]);
         if transfer <= 0.0 {
             continue;
         }
         let root = (weight * transfer).sqrt();
-        let own = [root * (1.0 - t), root * t, root / transfer];
+        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
+        let own = own.into_iter().take(of_s.len()).chain([root / transfer]);
         let given = ambient.iter().map(|points| -root * points[at][1]);
-        columns.iter_mut().zip(own.into_iter().chain(given)).for_each(|(to, entry)| to.push(entry));
+        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
     }
-    let functions = problem.ends[edge].to_vec();
-    Block { functions, edges: vec![edge as u32], rows: triangular(columns) }
+    Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
 }
 
 /// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a

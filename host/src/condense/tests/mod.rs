@@ -1,3 +1,5 @@
+//! Condensed models against the full solver, and their bounds against exact solutions.
+
 mod bound;
 mod equality;
 mod rejected;
@@ -16,7 +18,7 @@ mesh = "grid"
 [material.default]
 conductivity = ["2", "0.5", "1"]
 [source]
-f = "1 - x*y"
+f = "-(1 + x*y)"
 [boundary.dirichlet]
 kind = "dirichlet"
 value = "0.3 + 0.1*sin(3*x)"
@@ -29,7 +31,7 @@ kind = "neumann"
 flux = "0.5*y - 0.2"
 [boundary.contact]
 kind = "contact"
-gap = "-0.05 + 0.1*x^3"
+gap = "0.35 - 0.4*x^2 + 0.1*x^3"
 flux = "-0.1*x^2"
 [input.depth]
 of = "contact"

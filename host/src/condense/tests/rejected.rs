@@ -17,8 +17,8 @@ fn reason(text: &str) -> Result<String> {
 #[test]
 fn a_load_that_changes_with_time() -> Result<()> {
     for (key, from, to) in [
-        ("source.f", "f = \"1 - x*y\"", "f = \"t\""),
-        ("boundary.contact.gap", "gap = \"-0.05 + 0.1*x^3\"", "gap = \"-0.05 - t\""),
+        ("source.f", "f = \"-(1 + x*y)\"", "f = \"t\""),
+        ("boundary.contact.gap", "gap = \"0.35 - 0.4*x^2 + 0.1*x^3\"", "gap = \"-0.05 - t\""),
         ("boundary.left.ambient", "ambient = \"y - 0.2\"", "ambient = \"y - 0.2 + 0*t\""),
     ] {
         let text = ALL.replace(from, to);

@@ -1,0 +1,47 @@
+//! The columns of the condensed model: whose full fields everything is read off.
+
+use signorini_kernel::geometry::{quad_area, triangle_area};
+
+use super::elimination::Given;
+use super::patterns::Pattern;
+use crate::problem::{Loads, Problem};
+
+/// What each column is the field of: patterns without opening, unit openings without load, and a source
+/// that adds up to 1 where asked for.
+pub(super) fn columns(problem: &Problem, patterns: &[Pattern], source: bool) -> Vec<Given> {
+    let counts = problem.topology.counts;
+    let of_patterns = patterns
+        .iter()
+        .map(|pattern| Given { contact: pattern.loads.gap.clone(), loads: pattern.loads.clone() });
+    let mut columns: Vec<_> = of_patterns.collect();
+    let mut silent = Loads {
+        robin: problem.loads.robin.clone(),
+        contact_flux: vec![0.0; counts.contact],
+        gap: vec![0.0; counts.contact],
+        dirichlet: vec![0.0; counts.dirichlet],
+        ..Loads::default()
+    };
+    silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
+    for opened in 0..counts.contact {
+        let mut contact = vec![0.0; counts.contact];
+        contact[opened] = 1.0;
+        columns.push(Given { loads: silent.clone(), contact });
+    }
+    if source {
+        let contact = vec![0.0; counts.contact];
+        columns.push(Given { loads: uniform_source(problem, silent), contact });
+    }
+    columns
+}
+
+/// `silent` with a source that adds up to 1, the same all over the mesh.
+fn uniform_source(problem: &Problem, silent: Loads) -> Loads {
+    let mesh = &problem.mesh;
+    let corner = |vertex: u32| mesh.vertices[vertex as usize];
+    let triangles: Vec<f64> =
+        mesh.triangles.iter().map(|cell| triangle_area(cell.map(corner))).collect();
+    let quads: Vec<f64> = mesh.quads.iter().map(|cell| quad_area(cell.map(corner))).collect();
+    let whole: f64 = triangles.iter().chain(&quads).sum();
+    let share = |areas: Vec<f64>| areas.into_iter().map(|area| area / whole).collect();
+    Loads { triangles: share(triangles), quads: share(quads), ..silent }
+}

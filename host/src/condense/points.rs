@@ -1,0 +1,52 @@
+//! Quadrature for squares of s and τ on a cell.
+
+use crate::certify::cell::Cell;
+use crate::certify::conductivity::Conductivity;
+use crate::certify::curved::{PANELS, POINTS, half_triangle};
+use crate::quadrature::{DATA_POINTS, gauss, on_panels};
+
+/// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
+/// of degree 2.
+pub(super) fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
+    match cell {
+        Cell::Triangle(_) if conductivity.is_constant() => 2,
+        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
+        _ => DATA_POINTS,
+    }
+}
+
+/// Reference coordinates with weights that lack the area element, with `rule` points a direction or,
+/// where sides are `curved`, those that integrate what the sides carry inside.
+pub(super) fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
+    let along = on_panels(PANELS, &gauss(POINTS));
+    match (cell, curved) {
+        (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
+        (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
+        (Cell::Triangle(_), [one, other, ..]) => {
+            let [one, other] = [(one + 2) % 3, (other + 2) % 3];
+            let mut points = half_triangle(one, other, &along);
+            points.extend(half_triangle(other, one, &along));
+            points
+        }
+        (Cell::Quad(_), []) => square(&gauss(rule)),
+        (Cell::Quad(_), _) => square(&along),
+    }
+}
+
+/// The points (t, η) of one side of a triangle.
+fn on_triangle(
+    cell: &Cell,
+    side: usize,
+    along: &[[f64; 2]],
+    away: &[[f64; 2]],
+) -> Vec<([f64; 3], f64)> {
+    let point = |[t, weight]: [f64; 2], [eta, weight_away]: [f64; 2]| {
+        (cell.side_point(side, t, eta), weight * weight_away * (1.0 - eta))
+    };
+    along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
+}
+
+fn square(rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
+    rule.iter().flat_map(|&y| rule.iter().map(move |&x| point(x, y))).collect()
+}
