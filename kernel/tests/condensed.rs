@@ -5,7 +5,7 @@ mod strip;
 
 use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE, padded};
 use signorini_kernel::condensed::method::{Ended, Method, Pivots, Sweeps};
-use signorini_kernel::condensed::tableau::Tableau;
+use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Iterate, sor};
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
@@ -34,7 +34,9 @@ impl<R: Real> Work<R> {
             columns: [vec![R::ZERO; n], vec![R::ZERO; n]],
         };
         let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
-        Tableau::new(blocks, exchanged, [column, next])?.reset(&strip.matrix()?)?;
+        let exchanged_at_first = vec![false; n];
+        let start = Start { blocks: strip.blocks(), exchanged: &exchanged_at_first };
+        Tableau::new(blocks, exchanged, [column, next])?.reset(&start)?;
         Ok(work)
     }
 
@@ -42,7 +44,9 @@ impl<R: Real> Work<R> {
         let Work { x, residual, scratch, open, blocks, exchanged, columns: [column, next] } = self;
         let tableau = Tableau::new(blocks, exchanged, [column, next])?;
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
-        let mut method = Pivots { tableau, most, sweeps };
+        let nothing = vec![false; padded(strip.order)];
+        let start = Start { blocks: strip.blocks(), exchanged: &nothing };
+        let mut method = Pivots { tableau, start, most, sweeps };
         let progress =
             method.solve(&strip.matrix()?, load, Iterate { x, residual, scratch, open })?;
         Ok((progress.ended, progress.pivots))

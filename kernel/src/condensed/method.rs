@@ -9,7 +9,7 @@ use super::Iterate;
 use super::blocks::Blocks;
 use super::pivoting::{self, Found, settle};
 use super::sor;
-use super::tableau::Tableau;
+use super::tableau::{Start, Tableau};
 use crate::error::Error;
 use crate::real::Real;
 
@@ -90,6 +90,8 @@ impl<R: Real> Method<R> for Sweeps<R> {
 pub struct Pivots<'a, R> {
     /// The tableau, kept from tick to tick.
     pub tableau: Tableau<'a, R>,
+    /// Where it began.
+    pub start: Start<'a, R>,
     /// Most exchanges of a solve.
     pub most: u32,
     /// What follows where they do not suffice.
@@ -105,7 +107,8 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
     ) -> Result<Progress, Error> {
         let mut iterate = iterate;
         let lent = iterate.lend();
-        let (found, pivots) = pivoting::find(matrix, load, &mut self.tableau, self.most, lent)?;
+        let (found, pivots) =
+            pivoting::find(matrix, load, &mut self.tableau, &self.start, self.most, lent)?;
         if found == Found::Exact {
             return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
         }

@@ -33,6 +33,7 @@ use blocks::{Block, Blocks};
 use certificate::{Answer, Form};
 use method::{Ended, Method};
 use outputs::Measure;
+use tableau::Start;
 
 /// A baked model (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +42,8 @@ pub struct Condensed<'a, R> {
     pub contact: usize,
     /// S, as [`Blocks::new`] takes it.
     pub matrix: &'a [Block<R>],
+    /// Where the exact method begins; empty for sweeps alone.
+    pub start: Start<'a, R>,
     /// B by columns: [`blocks::padded`] entries for each input, the constant first.
     pub load: &'a [R],
     /// The outputs.

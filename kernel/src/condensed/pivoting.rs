@@ -11,16 +11,19 @@
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
-//! tableau that no longer corrects is given up, and built anew from the next tick on.
+//! tableau that no longer corrects goes back to where it began, and exchanges from there.
 
 use super::Iterate;
 use super::blocks::{Blocks, multiply_add};
-use super::tableau::Tableau;
+use super::tableau::{Start, Tableau};
 use crate::error::Error;
 use crate::real::Real;
 
 /// Rounds without progress before single exchanges begin.
 const PATIENCE: u32 = 3;
+
+/// How many times the limit may be left after a correction.
+const WORN: u32 = 32;
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +32,7 @@ pub enum Found {
     Exact,
     /// The exchanges allowed are used up; those made count for the next search.
     OutOfPivots,
-    /// Rounding has eaten the tableau; the next search builds it anew.
+    /// Rounding has eaten the tableau; the next search begins with the first one.
     Worn,
 }
 
@@ -41,6 +44,7 @@ pub fn find<R: Real>(
     matrix: &Blocks<R>,
     load: &[R],
     tableau: &mut Tableau<R>,
+    start: &Start<R>,
     cap: u32,
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
@@ -52,19 +56,20 @@ pub fn find<R: Real>(
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
-        let limit = R::from_count(4) * R::EPSILON * size;
+        let limit = R::from_count(32) * R::EPSILON * size;
         let before = unbalanced(residual, open);
         if !(before <= limit) {
             correct(tableau, residual, answer, x)?;
             settle(matrix, load, x, residual, open)?;
+            // What is left now may be the floor of this matrix; much more is a tableau gone wrong.
             let after = unbalanced(residual, open);
-            if !(after <= limit || after <= R::QUARTER * before) {
+            if !(after <= R::from_count(WORN) * limit || after <= R::QUARTER * before) {
                 found = Found::Worn;
             }
         }
     }
     if found == Found::Worn {
-        tableau.reset(matrix)?;
+        tableau.reset(start)?;
     }
     Ok((found, pivots))
 }

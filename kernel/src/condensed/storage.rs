@@ -20,10 +20,10 @@ pub struct Storage<R, const P: usize, const C: usize> {
 }
 
 impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
-    /// Everything in touch: a cold start.
-    pub const fn new() -> Self {
+    /// Begins with this x: zeros, where nothing is known.
+    pub const fn new(x: [R; P]) -> Self {
         Self {
-            x: [R::ZERO; P],
+            x,
             residual: [R::ZERO; P],
             scratch: [R::ZERO; P],
             open: [false; P],
@@ -40,12 +40,6 @@ impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
     }
 }
 
-impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 /// A tableau of B = [`super::blocks::count`] blocks, for the exact method.
 #[derive(Debug)]
 pub struct TableauStorage<R, const P: usize, const B: usize> {
@@ -56,7 +50,7 @@ pub struct TableauStorage<R, const P: usize, const B: usize> {
 }
 
 impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
-    /// Nothing yet: the first tick takes the matrix over.
+    /// Nothing yet: the first tick takes the model's own over.
     pub const fn new() -> Self {
         Self {
             blocks: [[[R::ZERO; SIDE]; SIDE]; B],
@@ -71,19 +65,19 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
     ///
     /// # Errors
     /// A model of another size.
-    pub fn method(
-        &mut self,
-        model: &Condensed<R>,
+    pub fn method<'a>(
+        &'a mut self,
+        model: &Condensed<'a, R>,
         most: u32,
         sweeps: Sweeps<R>,
-    ) -> Result<Pivots<'_, R>, Error> {
+    ) -> Result<Pivots<'a, R>, Error> {
         let [column, next] = &mut self.columns;
         let mut tableau = Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;
         if !self.is_built {
-            tableau.reset(&model.matrix()?)?;
+            tableau.reset(&model.start)?;
             self.is_built = true;
         }
-        Ok(Pivots { tableau, most, sweeps })
+        Ok(Pivots { tableau, start: model.start, most, sweeps })
     }
 }
 

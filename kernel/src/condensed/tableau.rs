@@ -18,7 +18,7 @@
 //! at worst, and rounding errors grow with its inverse. Who exchanges for a long time checks the answer
 //! against S now and then ([`super::pivoting`]).
 
-use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add};
+use super::blocks::{Block, SIDE, count, groups, groups_mut, multiply_add};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
@@ -31,6 +31,15 @@ pub struct Tableau<'a, R> {
     column: &'a mut [R],
     next: &'a mut [R],
     waiting: Option<Pivot<R>>,
+}
+
+/// Where a tableau begins (borrowed): S with nothing exchanged, or what the host has prepared.
+#[derive(Debug, Clone, Copy)]
+pub struct Start<'a, R> {
+    /// T, in [`count`] blocks.
+    pub blocks: &'a [Block<R>],
+    /// Which unknowns are exchanged in it, `padded` entries.
+    pub exchanged: &'a [bool],
 }
 
 /// An exchange of unknown k: 1/T_kk and 1/|T_kk|.
@@ -63,16 +72,23 @@ impl<'a, R: Real> Tableau<'a, R> {
         self.exchanged
     }
 
-    /// T = S, nothing exchanged.
+    /// Begins with `start`.
     ///
     /// # Errors
-    /// A matrix of another order.
-    pub fn reset(&mut self, matrix: &Blocks<R>) -> Result<(), Error> {
-        same_length(Array::MatrixValues, matrix.blocks().len(), self.blocks.len())?;
+    /// A tableau of another order.
+    pub fn reset(&mut self, start: &Start<R>) -> Result<(), Error> {
+        same_length(Array::MatrixValues, start.blocks.len(), self.blocks.len())?;
+        same_length(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
         self.waiting = None;
-        self.exchanged.fill(false);
-        self.blocks.iter_mut().zip(matrix.blocks()).for_each(|(own, given)| *own = *given);
+        self.exchanged.iter_mut().zip(start.exchanged).for_each(|(own, given)| *own = *given);
+        self.blocks.iter_mut().zip(start.blocks).for_each(|(own, given)| *own = *given);
         Ok(())
+    }
+
+    /// T, all exchanges carried out.
+    pub fn blocks(&mut self) -> &[Block<R>] {
+        self.finish();
+        self.blocks
     }
 
     /// The answer z = (−x_I, w_A) for the load b.

@@ -9,6 +9,7 @@ use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::{Error, error::Array};
 
 use super::relaxation::best_omega;
+use super::start::Start;
 use crate::condense::{self, Condensate};
 use crate::scalar::Scalar;
 
@@ -33,6 +34,7 @@ pub struct Baked<R: Scalar> {
     /// The factor of the sweeps and when they end.
     pub sweeps: Sweeps<R>,
     pub(super) matrix: Vec<Block<R>>,
+    pub(super) start: Start<R>,
     pub(super) load: Vec<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) bound: Result<Bound<R>, String>,
@@ -82,6 +84,7 @@ impl<R: Scalar> Baked<R> {
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             matrix: matrix(condensate),
+            start: Start::new(condensate, work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
@@ -112,7 +115,8 @@ impl<R: Scalar> Baked<R> {
             corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
         let Self { contact, matrix, load, .. } = self;
-        then(&Condensed { contact: *contact, matrix, load, outputs: &outputs, certificate })
+        let start = self.start.view();
+        then(&Condensed { contact: *contact, matrix, start, load, outputs: &outputs, certificate })
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -209,14 +213,14 @@ fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
     numbers.iter().map(|&x| R::narrow(x)).collect()
 }
 
-fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
+pub(super) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
     let mut column = narrow(column);
     column.resize(padded(column.len()), R::ZERO);
     column
 }
 
 /// Ŝ in blocks, padding 0.
-fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
+pub(super) fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
     let n = condensate.contact;
     let entry = |row: usize, column: usize| {
         let inside = row < n && column < n;

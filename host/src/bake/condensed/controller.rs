@@ -33,7 +33,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
         let n = padded(baked.contact);
         Self {
             baked,
-            x: zeros(n),
+            x: baked.start.x.clone(),
             residual: zeros(n),
             scratch: zeros(n),
             open: vec![false; n],
@@ -65,10 +65,11 @@ impl<'b, R: Scalar> Controller<'b, R> {
                     let mut tableau =
                         Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;
                     if !self.is_built {
-                        tableau.reset(&model.matrix()?)?;
+                        tableau.reset(&model.start)?;
                         self.is_built = true;
                     }
-                    let mut method = Pivots { tableau, most, sweeps: baked.sweeps };
+                    let mut method =
+                        Pivots { tableau, start: model.start, most, sweeps: baked.sweeps };
                     model.tick(&inputs, &mut method, &mut memory)?
                 }
             };

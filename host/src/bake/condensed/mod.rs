@@ -12,6 +12,7 @@ mod header;
 mod relaxation;
 mod sizes;
 mod source;
+mod start;
 #[cfg(test)]
 mod tests;
 

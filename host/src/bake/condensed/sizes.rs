@@ -25,6 +25,9 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     });
     Sizes {
         ram: (4 * n + 2 * columns) * scalar + n + tableau,
-        flash: (BLOCK * count(baked.contact) + baked.load.len() + outputs) * scalar + bound,
+        flash: (BLOCK * (baked.matrix.len() + baked.start.blocks.len()) + n) * scalar
+            + baked.start.exchanged.len()
+            + (baked.load.len() + outputs) * scalar
+            + bound,
     }
 }

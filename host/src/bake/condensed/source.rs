@@ -114,10 +114,10 @@ pub struct Controller {{
 {}}}
 
 impl Controller {{
-    /// Before the first tick, which starts with every contact edge touching.
+    /// Before the first tick, which begins with the answer to the scene's own inputs.
     pub const fn new() -> Self {{
         Self {{
-            storage: Storage::new(),
+            storage: Storage::new(data::START),
 {}        }}
     }}
 
@@ -160,6 +160,24 @@ fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
     put(&mut text, "MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", {
         (baked.matrix.len(), blocks(&baked.matrix))
     });
+    let start = match baked.work.pivots {
+        Some(_) => {
+            let doc = "The tableau of the scene's own inputs: where exchanges begin.";
+            let value = (baked.start.blocks.len(), blocks(&baked.start.blocks));
+            put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);
+            let value = (baked.start.exchanged.len(), array(&baked.start.exchanged, 4));
+            put(&mut text, "OPEN", "The edges that are open in it.", "bool", value);
+            "Start { blocks: &TABLEAU, exchanged: &OPEN }"
+        }
+        None => "Start { blocks: &[], exchanged: &[] }",
+    };
+    let _ = write!(
+        text,
+        "\n    /// The scaled openings for the scene's own inputs.\n    pub(super) const START: [Scalar; {}] \
+         = {};\n",
+        baked.start.x.len(),
+        array(&baked.start.x, 4)
+    );
     numbers(
         &mut text,
         "LOAD",
@@ -184,7 +202,7 @@ fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::condensed::{{{uses}outputs::Measure, Condensed}};
+    use signorini_kernel::condensed::{{{uses}outputs::Measure, tableau::Start, Condensed}};
 
     use super::Scalar;
 {text}
@@ -192,6 +210,7 @@ mod data {{
     pub static SYSTEM: Condensed<'static, Scalar> = Condensed {{
         contact: super::CONTACT,
         matrix: &MATRIX,
+        start: {start},
         load: &LOAD,
         outputs: &[{}],
         certificate: {certificate},

@@ -16,7 +16,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE};
 use signorini_kernel::condensed::factor::Factor;
-use signorini_kernel::condensed::tableau::Tableau;
+use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Iterate, pivoting, sor};
 
 const MOST: usize = 64;
@@ -69,7 +69,10 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
     let exchanged = cut(&mut exchanged, n)?;
     let room = cut(&mut room, blocks::count(n))?;
     let mut tableau = Tableau::new(room, exchanged, [cut(column, n)?, cut(next, n)?])?;
-    tableau.reset(&matrix)?;
+    let nothing = [false; MOST];
+    let exchanged = nothing.get(..n).unwrap_or_default();
+    let start = Start { blocks: matrix.blocks(), exchanged };
+    tableau.reset(&start)?;
     let mut solve = |load: &[R]| {
         let iterate = Iterate {
             x: &mut *x,
@@ -77,7 +80,7 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
             scratch: &mut *scratch,
             open: &mut *open,
         };
-        pivoting::find(&matrix, load, &mut tableau, u32::MAX, iterate).map(|_| ())
+        pivoting::find(&matrix, load, &mut tableau, &start, u32::MAX, iterate).map(|_| ())
     };
     meter.count("exact, no edge changes", "n²", n * n, || solve(load))?;
     let mut other = [R::ZERO; MOST];
