@@ -68,14 +68,12 @@ fn rows(size: usize, sources: &Sources) -> Result<String, String> {
     let problem = Problem::read(&header)?;
     let solvers = [
         ("kernel", image::kernel(&folder)?),
-        ("DAQP", Some(image::peer("daqp", &sources.daqp(), &folder)?)),
-        ("OSQP", Some(image::peer("osqp", &sources.osqp(&header, &folder), &folder)?)),
+        ("DAQP", image::peer("daqp", &sources.daqp(), &folder)?),
+        ("OSQP", image::peer("osqp", &sources.osqp(&header, &folder), &folder)?),
     ];
     let mut text = String::new();
     for (name, measured) in solvers {
-        if let Some(measured) = measured {
-            text += &row(name, &problem, &measured)?;
-        }
+        text += &row(name, &problem, &measured)?;
     }
     Ok(text)
 }
@@ -103,12 +101,13 @@ fn condense(size: usize, folder: &Path) -> Result<PathBuf, String> {
     std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
     let header = folder.join("problem.h");
     let scene = root().join(format!("tests/firmware/peers/contact-{size}.toml"));
-    let mut command =
-        cargo(&["run", "--release", "--quiet", "--locked", "--bin", "signorini", "--"]);
-    run_cargo({
-        command.arg("condense").arg(scene).arg("-o").arg(&header);
-        command
-    })?;
+    let source = folder.join("contact.rs");
+    for (words, file) in [(&["condense"][..], &header), (&["bake", "--condensed"], &source)] {
+        let mut command =
+            cargo(&["run", "--quiet", "--locked", "--package", "signorini-host", "--"]);
+        command.args(words).arg(&scene).arg("-o").arg(file);
+        run_cargo(command)?;
+    }
     Ok(header)
 }
 

@@ -13,7 +13,7 @@ enum { TICKS = 1000 };
 
 static float p[M], b[N], x[N];
 
-/* Uniform in [-1, 1): xorshift32 and its upper 24 bits. The same bits come from the images' `draw.rs`. */
+/* Uniform in [-1, 1): xorshift32 and its upper 24 bits. The same bits come from the board's `draw.rs`. */
 static float draw(void) {
     static uint32_t state = 0x2545F491;
     state ^= state << 13;

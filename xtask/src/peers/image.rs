@@ -74,20 +74,20 @@ pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Me
     Ok(Measured { code, ram: data + bss + heap, ticks })
 }
 
-/// Builds and runs the kernel's image, once there is one: `exact`, which takes the baked scene from
-/// `contact.rs` in `folder`, prints the same lines as the peers, and has its tick in a function `solve`.
-pub fn kernel(folder: &Path) -> Result<Option<Measured>, String> {
-    if !root().join("tests/firmware/images/src/bin/exact.rs").exists() {
-        return Ok(None);
-    }
-    let (package, bins) = ("signorini-firmware", &["exact"]);
-    let (command, built) = M4F.build(Build { package, bins, features: &[], scenes: folder })?;
+/// Builds and runs the kernel's image: `exact` takes the scene baked from the same problem, prints the same
+/// lines as the peers, and has its tick in a function `solve`.
+pub fn kernel(folder: &Path) -> Result<Measured, String> {
+    let (package, bins) = ("signorini-scene", &["exact"]);
+    let scenes = folder.join("contact.rs");
+    let what = Build { package, bins, features: &["exact"], scenes: &scenes };
+    let (mut command, built) = M4F.build(what)?;
+    command.env("SIGNORINI_SCENE", &scenes);
     run(command)?;
     let image = built.join("exact");
     let (ram, ticks) = parse(&M4F.run(&image, true)?)?;
     let own = |name: &str| ["signorini_kernel", "5solve"].iter().any(|part| name.contains(part));
     let code = sized(&image)?.iter().filter(|(name, _)| own(name)).map(|(_, size)| size).sum();
-    Ok(Some(Measured { code, ram, ticks }))
+    Ok(Measured { code, ram, ticks })
 }
 
 /// Lines of an image: `@ heap BYTES`, then `COUNTS BITS BITS …` for every tick.

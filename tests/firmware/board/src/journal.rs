@@ -92,6 +92,16 @@ impl Journal<'_> {
         self.hexadecimal(x.bits(), R::DIGITS);
     }
 
+    /// A count, and the bits of scalars: `5 3f800000 00000000`.
+    pub fn record<R: Bits>(&mut self, count: u32, scalars: impl IntoIterator<Item = R>) {
+        self.decimal(count);
+        for scalar in scalars {
+            self.0(" ");
+            self.digits(scalar.bits(), R::DIGITS);
+        }
+        self.0("\n");
+    }
+
     /// A digest of scalars.
     pub fn digest<R: Bits>(&mut self, name: &str, scalars: impl IntoIterator<Item = R>) {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
@@ -106,10 +116,14 @@ impl Journal<'_> {
     }
 
     fn hexadecimal(&mut self, bits: u64, digits: u32) {
+        self.digits(bits, digits);
+        self.0("\n");
+    }
+
+    fn digits(&mut self, bits: u64, digits: u32) {
         for place in (0..digits).rev() {
             self.digit(bits >> (4 * place) & 15);
         }
-        self.0("\n");
     }
 
     fn digit(&mut self, digit: u64) {

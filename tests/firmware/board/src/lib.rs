@@ -6,6 +6,7 @@
 pub mod clock;
 #[cfg(target_os = "none")]
 mod console;
+pub mod draw;
 pub mod journal;
 #[cfg(target_os = "none")]
 pub mod stack;

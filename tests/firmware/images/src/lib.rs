@@ -5,7 +5,6 @@
 #![cfg_attr(not(feature = "desk"), no_std)]
 
 pub mod breach;
-pub mod draw;
 pub mod grid;
 #[cfg(target_os = "none")]
 pub mod meter;
