@@ -11,7 +11,7 @@ use crate::scene::Scene;
 ///
 /// u = x²y + y² + x³, A = \[2, ½; ½, 1\]: f = −(4y + 14x + 2) and on the sides of (−1, 1) × (0, 1)
 /// σ·n = −2.5x² (bottom), 5y + 6.5 (right), 3y − 6.5 (left).
-pub(super) const SMOOTH: &str = r#"
+pub(crate) const SMOOTH: &str = r#"
 mesh = "grid"
 [material.default]
 conductivity = ["2", "0.5", "1"]
@@ -37,7 +37,7 @@ gradient = ["2*x*y + 3*x^2", "x^2 + 2*y"]
 "#;
 
 /// Curved data on two sides of corner cells, a full tensor.
-pub(super) const CURVED: &str = r#"
+pub(crate) const CURVED: &str = r#"
 mesh = "grid"
 [material.default]
 conductivity = ["2", "0.5", "1"]
@@ -52,7 +52,7 @@ gap = "-2 + exp(x)*(1 + x^2)/20"
 "#;
 
 /// A parabola for a gap, all else affine.
-pub(super) const PARABOLA: &str = r#"
+pub(crate) const PARABOLA: &str = r#"
 mesh = "grid"
 [material.default]
 conductivity = "1"
@@ -67,13 +67,13 @@ gap = "-x^2"
 "#;
 
 /// Reads a scene from its text.
-pub(super) fn scene(text: &str) -> Result<Scene> {
+pub(crate) fn scene(text: &str) -> Result<Scene> {
     Scene::parse(text, Path::new("test.toml"))
 }
 
 /// A scene on a grid whose sides `left`, `right` and `dirichlet` (the top) are told apart where the
 /// scene does so.
-pub(super) fn on_grid(text: &str, mesh: Mesh) -> Result<(Scene, Problem)> {
+pub(crate) fn on_grid(text: &str, mesh: Mesh) -> Result<(Scene, Problem)> {
     let scene = scene(text)?;
     let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
     let mesh = if four { with_four_sides(mesh) } else { mesh };
@@ -82,7 +82,7 @@ pub(super) fn on_grid(text: &str, mesh: Mesh) -> Result<(Scene, Problem)> {
 }
 
 /// Parts the catalogue grid's curve `dirichlet` into the sides of the rectangle.
-pub(super) fn with_four_sides(mut mesh: Mesh) -> Mesh {
+pub(crate) fn with_four_sides(mut mesh: Mesh) -> Mesh {
     let contact = mesh.curves.remove(0);
     let rest = mesh.curves.remove(0).edges;
     let lies =
@@ -97,7 +97,7 @@ pub(super) fn with_four_sides(mut mesh: Mesh) -> Mesh {
 }
 
 /// Moves the vertices inside and along the bottom, so that no quad is a parallelogram.
-pub(super) fn distorted(mut mesh: Mesh) -> Mesh {
+pub(crate) fn distorted(mut mesh: Mesh) -> Mesh {
     for (at, [x, y]) in mesh.vertices.iter_mut().enumerate() {
         let (old_x, old_y) = (*x, *y);
         let scatter = (at as f64 * 1.7).sin();

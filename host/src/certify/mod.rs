@@ -22,7 +22,7 @@ mod deviation;
 pub mod ends;
 pub mod exact;
 #[cfg(test)]
-mod fixtures;
+pub(crate) mod fixtures;
 #[cfg(test)]
 mod identity;
 mod metric;
