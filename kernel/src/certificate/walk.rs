@@ -18,8 +18,10 @@ pub(super) fn over_cells<R: Real, I: Index>(
     indicators: &mut [R],
 ) -> Parts<R> {
     let cells = &ground.cells;
-    if features::TRIANGLES && !(features::QUADS || features::VARYING || features::INDICATORS)
-        || cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty()
+    let plain = !(features::QUADS || features::VARYING || features::INDICATORS);
+    if features::TRIANGLES
+        && (plain
+            || cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty())
     {
         return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
     }
