@@ -70,6 +70,16 @@ const LONGEST: u32 = 1 << 18;
 const MOVES: u32 = 64;
 
 impl<R: Real> Search<R> {
+    /// None yet: an ω of 0 and nothing seen, all zeros in memory.
+    pub(crate) const NONE: Self = Self {
+        omega: R::ZERO,
+        phase: Phase::Rising,
+        best: None,
+        previous: None,
+        factor: None,
+        moves: 0,
+    };
+
     /// A search; with a fixed ω, one that is over.
     fn new(relaxation: Relaxation<R>) -> Self {
         let (omega, moves) = match relaxation {

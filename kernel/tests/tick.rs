@@ -9,8 +9,8 @@ use plate::Side;
 use plate::foundation::{Foundation, GAP};
 use signorini_kernel::certificate::{Certificate, Given};
 use signorini_kernel::conforming::VertexData;
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Report, Tick};
+use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
+use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick};
 use signorini_kernel::{Error, Relaxation};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
@@ -34,6 +34,20 @@ impl Store {
             active: vec![true; counts.contact],
             numbers: lengths.map(|length| vec![0.0; length]),
         })
+    }
+
+    /// Goes on from the last tick, with rows that lie elsewhere.
+    fn resumed<'a, const UNKNOWNS: usize>(
+        &'a mut self,
+        foundation: &'a Foundation,
+        rows: &'a mut OwnedRows<f64, u16, QUADS, UNKNOWNS>,
+        progress: Progress<f64>,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
+        let ground = foundation.ground()?;
+        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
+        let (rows, active) = (rows.of(&ground.edges)?, &mut self.active);
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
+        Tick::resume(ground, memory, progress)
     }
 
     fn tick<'a>(
@@ -74,6 +88,30 @@ fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result
     assert_eq!(tick.report(), Some(&warm));
     let counts = foundation.plate.edges()?.counts();
     assert!(tick.u()[counts.free..counts.unknowns()].iter().all(|&u| u >= GAP));
+    Ok(())
+}
+
+#[test]
+fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(), Error> {
+    const UNKNOWNS: usize = 55;
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut kept, mut put_down) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    put_down.active.fill(false);
+    let mut kept = kept.tick(&foundation)?;
+    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let mut progress = Progress::new(Relaxation::Adaptive(1.0))?;
+    for sweeps in [7, 40, 100, 3] {
+        let limits = Limits { share: 0.0, error: 0.0, sweeps };
+        let expected = kept.begin(data(&foundation)?)?.advance(limits, &mut Deadline::never())?;
+        let mut tick = put_down.resumed(&foundation, &mut rows, progress)?;
+        let found = tick.begin(data(&foundation)?)?.advance(limits, &mut Deadline::never())?;
+        assert_eq!((found, tick.u(), tick.tau()), (expected, kept.u(), kept.tau()));
+        progress = tick.progress();
+    }
+    let none = put_down.resumed(&foundation, &mut rows, Progress::NONE).map(|_| ());
+    assert_eq!(none, Err(Error::Relaxation));
+    let mut few = OwnedRows::<f64, u16, QUADS, 3>::new();
+    assert!(put_down.resumed(&foundation, &mut few, progress).is_err());
     Ok(())
 }
 

@@ -18,16 +18,16 @@ pub(super) fn over_cells<R: Real, I: Index>(
     indicators: &mut [R],
 ) -> Parts<R> {
     let cells = &ground.cells;
-    let may_differ = features::QUADS || features::VARYING || features::INDICATORS;
-    let plain = cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty();
-    if features::TRIANGLES && (plain || !may_differ) {
+    let plain = !(features::QUADS || features::VARYING || features::INDICATORS);
+    if features::TRIANGLES
+        && (plain
+            || cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty())
+    {
         return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
     }
     let mut parts = Parts::default();
     for cell in cells.from_leaves() {
         let (number, share) = match cell {
-            Either::Triangle(_) if !features::TRIANGLES => break,
-            Either::Quad(_) if !features::QUADS => break,
             Either::Triangle(cell) => {
                 let load = read(given.loads.triangles, cell.number.at());
                 (cell.number, of_triangle_cell(ground.metric, cell, s, u, load, tau))
@@ -39,9 +39,7 @@ pub(super) fn over_cells<R: Real, I: Index>(
             }
         };
         let Some(share) = share else { break };
-        if features::INDICATORS {
-            write(indicators, number.at(), share.gap);
-        }
+        write(indicators, number.at(), share.gap);
         parts.add(share);
     }
     parts
@@ -76,6 +74,9 @@ fn of_triangle_cell<R: Real, I: Index>(
     load: R,
     tau: &mut [R],
 ) -> Option<Share<R>> {
+    if !features::TRIANGLES {
+        return None;
+    }
     let out = cell.settle(load, tau)?;
     let (s, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
     Some(match metric.varying(cell.number.at()) {
@@ -96,6 +97,9 @@ fn of_quad_cell<R: Real, I: Index>(
     load: R,
     tau: &mut [R],
 ) -> Option<Share<R>> {
+    if !features::QUADS {
+        return None;
+    }
     let out = cell.settle(load, tau)?;
     let (corners, u) = (pick(&cell.vertices, s.vertices)?, pick(&cell.edges, u)?);
     let bubbles = pick(&cell.edges, s.bubbles)?;

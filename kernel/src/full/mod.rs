@@ -58,8 +58,8 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
     pub tick: tick::Memory<'a, R, I, WIDTH>,
     /// Loads and boundary data that inputs change.
     pub data: DataMemory<'a, R, I>,
-    /// What the last tick left; `None` before the first.
-    pub progress: &'a mut Option<Progress<R>>,
+    /// What the last tick left.
+    pub progress: &'a mut Progress<R>,
 }
 
 impl<R: Real, I: Index> Full<'_, R, I> {
@@ -86,16 +86,14 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
         let data = of_data.view(&self.base, &self.ground.edges, oscillation)?;
-        let known = match *progress {
-            Some(known) => known,
-            None => {
-                self.start(data.lower, &mut of_tick);
-                Progress::new(Relaxation::Adaptive(self.omega))?
-            }
-        };
+        let mut known = *progress;
+        if !known.has_begun() {
+            self.start(data.lower, &mut of_tick);
+            known = Progress::new(Relaxation::Adaptive(self.omega))?;
+        }
         let mut tick = Tick::resume(self.ground, of_tick, known)?;
         let report = tick.begin(data)?.advance(limits, deadline)?;
-        *progress = Some(tick.progress());
+        *progress = tick.progress();
         let has_bound = self.has_bound && self.meet(&data.given.ends);
         let verdict = if has_bound { report.verdict } else { Verdict::NotFinite };
         let report = Report { verdict, ..report };

@@ -9,18 +9,30 @@ use crate::real::Real;
 use crate::relaxation::{Relaxation, Search};
 
 /// What a tick leaves to the next one besides its arrays: how far the search for ω has come.
+///
+/// Before the first tick it is [`Progress::NONE`], which is all zeros, so that a `static` that holds it
+/// costs no flash.
 #[derive(Debug, Clone, Copy)]
 pub struct Progress<R> {
     search: Search<R>,
+    begun: bool,
 }
 
 impl<R: Real> Progress<R> {
+    /// No tick yet.
+    pub const NONE: Self = Self { search: Search::NONE, begun: false };
+
+    /// Whether there has been a tick.
+    pub fn has_begun(&self) -> bool {
+        self.begun
+    }
+
     /// That of a first tick; `relaxation` is where ω starts.
     ///
     /// # Errors
     /// An ω outside (0, 2).
     pub fn new(relaxation: Relaxation<R>) -> Result<Self, Error> {
-        Ok(Self { search: Search::checked(relaxation)? })
+        Ok(Self { search: Search::checked(relaxation)?, begun: true })
     }
 }
 
@@ -29,19 +41,22 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// answer and the active set that it left, and what else is in `memory` does not matter.
     ///
     /// # Errors
-    /// Arrays of the wrong length.
+    /// Arrays of the wrong length, [`Progress::NONE`].
     pub fn resume(
         ground: Ground<'a, R, I>,
         memory: Memory<'a, R, I, WIDTH>,
         progress: Progress<R>,
     ) -> Result<Self, Error> {
         check(&ground, &memory)?;
+        if !progress.begun {
+            return Err(Error::Relaxation);
+        }
         Ok(Self { ground, memory, search: progress.search, report: None })
     }
 
     /// What the next tick needs besides the memory.
     pub fn progress(&self) -> Progress<R> {
-        Progress { search: self.search }
+        Progress { search: self.search, begun: true }
     }
 
     /// Sizes of the blocks of edges.

@@ -25,7 +25,7 @@ pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
     bubbles: Vec<R>,
     tau: Vec<R>,
     data: Owned<R>,
-    progress: Option<Progress<R>>,
+    progress: Progress<R>,
 }
 
 /// [`DataMemory`], owned.
@@ -71,7 +71,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
                 curved: vec![Curved::default(); data.curved],
                 transfer: vec![[[R::ZERO; 2]; 8]; data.transfer],
             },
-            progress: None,
+            progress: Progress::NONE,
         }
     }
 

@@ -187,9 +187,9 @@ pub(super) fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.0.push(Item {
         name: "progress".to_owned(),
         doc: "What else the next tick starts from.".to_owned(),
-        of: "Option<Progress<Scalar>>".to_owned(),
-        value: "None".to_owned(),
-        bytes: size_of::<Option<Progress<R>>>(),
+        of: "Progress<Scalar>".to_owned(),
+        value: "Progress::NONE".to_owned(),
+        bytes: size_of::<Progress<R>>(),
     });
     list.0
 }

@@ -10,7 +10,9 @@ mod arrays;
 mod bent;
 mod controller;
 mod data;
+mod driver;
 mod items;
+mod listing;
 mod source;
 #[cfg(test)]
 mod tests;
