@@ -3,11 +3,10 @@
 //!
 //! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
 //! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
-//! wrong side. A round goes over all unknowns and exchanges each that is wrong when its turn comes; for
-//! an M-matrix, which S nearly is, edges that lift off make no other one right again, and edges that
-//! touch down spare some of those behind them. For any other positive definite S rounds need not end: when
-//! for some of them the number of exchanges has not fallen, only the first wrong unknown moves from then
-//! on (Murty). That is finite (Júdice and Pires).
+//! wrong side. The one that is wrong by most is exchanged, until none is: that takes as many exchanges
+//! as edges change sides, or hardly more, where a pass over all that are wrong takes a sixth more. It
+//! need not end for every positive definite S, and after n exchanges the first wrong one is taken instead,
+//! which does (Murty).
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
@@ -18,9 +17,6 @@ use super::blocks::{Blocks, multiply_add};
 use super::tableau::{Start, Tableau};
 use crate::error::Error;
 use crate::real::Real;
-
-/// Rounds without progress before single exchanges begin.
-const PATIENCE: u32 = 3;
 
 /// How many times the limit may be left after a correction.
 const WORN: u32 = 32;
@@ -74,45 +70,45 @@ pub fn find<R: Real>(
     Ok((found, pivots))
 }
 
-/// Rounds of exchanges until nothing is wrong by more than `noise`, which rounding may be.
+/// Exchanges until nothing is wrong by more than `noise`, which rounding may be.
 fn search<R: Real>(
     tableau: &mut Tableau<R>,
     cap: u32,
     noise: R,
     z: &mut [R],
 ) -> Result<(Found, u32), Error> {
-    let (mut fewest, mut patience, mut pivots) = (u32::MAX, PATIENCE, 0);
+    let patience = z.len() as u32;
+    let mut pivots = 0;
     loop {
-        let single = patience == 0;
-        let (mut wrong, mut from) = (0, 0);
-        while let Some(at) = first_wrong(z, tableau.exchanged(), noise, from) {
-            if pivots >= cap {
-                return Ok((Found::OutOfPivots, pivots));
-            }
-            if !tableau.exchange(at, z)? {
-                return Ok((Found::Worn, pivots));
-            }
-            (pivots, wrong, from) = (pivots + 1, wrong + 1, at + 1);
-            if single {
-                break;
-            }
-        }
-        if wrong == 0 {
+        let is_patient = pivots < patience;
+        let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
             return Ok((Found::Exact, pivots));
+        };
+        if pivots >= cap {
+            return Ok((Found::OutOfPivots, pivots));
         }
-        if wrong < fewest && !single {
-            (fewest, patience) = (wrong, PATIENCE);
-        } else {
-            patience = patience.saturating_sub(1);
+        if !tableau.exchange(at, z)? {
+            return Ok((Found::Worn, pivots));
         }
+        pivots += 1;
     }
 }
 
-/// The first unknown from `from` on that is on the wrong side, or NaN.
-fn first_wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, from: usize) -> Option<usize> {
-    let mut sides = z.get(from..)?.iter().zip(exchanged.get(from..)?);
-    let found = sides.position(|(&z, &within)| !((if within { -z } else { z }) >= -noise));
-    found.map(|place| from + place)
+/// The unknown that is on the wrong side by most, or the first that is.
+fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    let mut sides =
+        z.iter().zip(exchanged).map(|(&z, &within)| if within { -z } else { z }).enumerate();
+    if !by_most {
+        return sides.find(|(_, side)| *side < -noise).map(|(at, _)| at);
+    }
+    let lowest =
+        sides.fold(
+            (None, -noise),
+            |(found, lowest), (at, side)| {
+                if side < lowest { (Some(at), side) } else { (found, lowest) }
+            },
+        );
+    lowest.0
 }
 
 /// Σ x_i²
