@@ -6,9 +6,14 @@
 //! ```
 //! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
 
+pub mod budget;
+pub mod choice;
 pub mod condensed;
+pub mod costs;
+pub mod explain;
 pub mod face;
 pub mod full;
 pub mod measure;
 pub mod superposition;
 pub mod text;
+pub mod trial;

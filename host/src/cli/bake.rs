@@ -5,22 +5,27 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::scene_at;
-use crate::bake::condensed::{self, Work};
+use crate::bake::choice::{Choice, Kind, Model};
+use crate::bake::condensed;
+use crate::bake::explain::{explanation, warning};
 use crate::bake::face::Face;
 use crate::bake::full;
-use crate::condense::condense;
 use crate::error::Result;
 use crate::mesh::gmsh;
 use crate::output::atomic::write_atomically;
 use crate::problem::Problem;
+use crate::progress::{say, waiting};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{ScalarKind, unfit};
+use crate::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:
-  signorini bake meshes/scenes/levee.toml -o levee.rs --full
+  signorini bake meshes/scenes/levee.toml -o levee.rs --explain
   signorini bake slab.toml -o slab.rs --full --scalar f64
+
+The smallest model that represents the scene exactly and fits its [target] is chosen: condensed to contact
+edges, inputs and outputs, or full. --condensed and --full ask for one; what does not fit is an error.
 
 In the firmware: mod levee; then static mut CONTROLLER: levee::Controller = levee::Controller::new();";
 
@@ -39,6 +44,9 @@ pub struct Arguments {
     /// The condensed model: contact edges, inputs and outputs alone
     #[arg(long)]
     condensed: bool,
+    /// Print which models were considered and what each feature left out saves
+    #[arg(long)]
+    explain: bool,
     /// Scalar type of the firmware
     #[arg(long, value_enum, default_value = "f32")]
     scalar: ScalarKind,
@@ -52,8 +60,8 @@ impl Arguments {
         let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
         let text = match self.scalar {
-            ScalarKind::F32 => self.text::<f32>(&scene, &problem)?,
-            ScalarKind::F64 => self.text::<f64>(&scene, &problem)?,
+            ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
+            ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
         };
         write_atomically(&self.output, text.as_bytes())?;
         Ok(0)
@@ -61,14 +69,26 @@ impl Arguments {
 }
 
 impl Arguments {
-    fn text<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
-        if self.full {
-            return Ok(full::source(&full::Baked::<R>::new(scene, problem)?));
+    /// The module; what there is to say of it is said.
+    fn source<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
+        let kind = match (self.full, self.condensed) {
+            (true, _) => Some(Kind::Full),
+            (_, true) => Some(Kind::Condensed),
+            _ => None,
+        };
+        let unknowns = problem.topology.counts.unknowns();
+        let choice = waiting(&format!("baking {unknowns} unknowns"), || {
+            Choice::<R>::new(scene, problem, kind, self.explain)
+        })?;
+        if let Some(warning) = warning(&choice) {
+            eprintln!("{warning}");
         }
-        let condensate = condense(scene, problem)?;
-        let work = Work { pivots: Some(condensate.contact as u32), sweeps: 20 };
-        let baked =
-            condensed::Baked::<R>::new(&condensate, work, true).map_err(unfit::<R>(scene))?;
-        Ok(condensed::source(&Face::new(scene, problem)?, &baked))
+        if self.explain {
+            say(explanation(scene, problem, &choice));
+        }
+        Ok(match &choice.candidate().model {
+            Model::Condensed(baked) => condensed::source(&Face::new(scene, problem)?, baked),
+            Model::Full(baked) => full::source(baked),
+        })
     }
 }

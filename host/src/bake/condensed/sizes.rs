@@ -9,6 +9,65 @@ use crate::scalar::Scalar;
 /// Bytes of a block of the matrix, in numbers.
 const BLOCK: usize = 64;
 
+impl<R: Scalar> Baked<R> {
+    /// The parts of the model: name, whether it is there, its bytes of RAM and flash, why.
+    pub fn features(&self) -> impl Iterator<Item = (&'static str, bool, usize, String)> {
+        let (whole, n) = (sizes(self), padded(self.contact));
+        let total = |sizes: Sizes| sizes.ram + sizes.flash;
+        let without = |change: &dyn Fn(&mut Self)| {
+            let mut other = self.clone();
+            change(&mut other);
+            total(whole).saturating_sub(total(sizes(&other)))
+        };
+        let exact = self.work.pivots.is_some();
+        let tableau = without(&|other| {
+            other.work.pivots = None;
+            other.start.blocks.clear();
+            other.start.exchanged.clear();
+        });
+        let bound = without(&|other| other.bound = Err(String::new()));
+        let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
+        let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
+        let scalar = self.scalar();
+        [
+            ("matrix S", self.contact > 0, self.matrix.len() * BLOCK * scalar, {
+                format!("{} contact edges, half of a symmetric matrix", self.contact)
+            }),
+            (
+                "exact method",
+                exact,
+                tableau,
+                match exact {
+                    true => "a tableau, and the one it begins with".to_owned(),
+                    false => "sweeps take less time, or its memory is not there".to_owned(),
+                },
+            ),
+            ("inputs", self.inputs > 1, self.inputs * n * scalar, {
+                format!("{} and the constant part", self.inputs - 1)
+            }),
+            (
+                "error bound",
+                self.bound.is_ok(),
+                bound,
+                match &self.bound {
+                    Ok(bound) => format!("a factor of {} columns", bound.norms.len()),
+                    Err(reason) => reason.clone(),
+                },
+            ),
+            ("corners", corners > 0, corners * self.inputs * scalar, {
+                format!("{corners} touching edges end at a value that may lie above the gap")
+            }),
+            ("floating domain", floating, if floating { self.contact * scalar } else { 0 }, {
+                match floating {
+                    true => "contact alone holds the domain".to_owned(),
+                    false => "a Dirichlet or Robin boundary holds the domain".to_owned(),
+                }
+            }),
+        ]
+        .into_iter()
+    }
+}
+
 /// RAM of the `Controller` and flash of its data, exact but for alignment and lengths of slices.
 pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     let (n, scalar) = (padded(baked.contact), baked.scalar());

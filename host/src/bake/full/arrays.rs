@@ -61,6 +61,11 @@ pub(super) enum Output<R> {
 }
 
 impl<R: Scalar> Baked<R> {
+    /// Whether a cell has four sides.
+    pub fn has_quads(&self) -> bool {
+        !self.quads.is_empty()
+    }
+
     /// Bakes `scene`, whose inputs stand at their defaults.
     ///
     /// # Errors

