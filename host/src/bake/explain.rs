@@ -209,7 +209,7 @@ fn features<R: Scalar>(scene: &Scene, problem: &Problem) -> Vec<Feature> {
             0,
             match read {
                 0 => "no output reads them".to_owned(),
-                _ => format!("{read} outputs read those of their edges alone"),
+                _ => "outputs read those of their own edges alone".to_owned(),
             },
             (3 * triangles + 4 * quads) * scalar,
             each("flux by cells", cells),
