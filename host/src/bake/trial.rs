@@ -1,7 +1,6 @@
 //! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs near the scene's own.
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
-use signorini_kernel::tick::Limits;
 
 use super::{condensed, full};
 use crate::scalar::Scalar;
@@ -30,7 +29,7 @@ pub fn of_condensed<R: Scalar>(baked: &condensed::Baked<R>, defaults: &[f64]) ->
     summary(ticks)
 }
 
-/// That of a full model under its default limits.
+/// That of a full model under the limits that its module has.
 pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
     if baked.has_quads() {
         with_width::<R, QUADS>(baked, defaults)
@@ -42,7 +41,7 @@ pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
 fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
     let mut controller = full::Controller::<R, WIDTH>::new(baked);
     let ticks = inputs::<R>(defaults, FULL_TICKS).filter_map(|inputs| {
-        let (_, report) = controller.tick(&inputs, Limits::default()).ok()?;
+        let (_, report) = controller.tick(&inputs, full::limits()).ok()?;
         Some((0, report.sweeps))
     });
     summary(ticks)

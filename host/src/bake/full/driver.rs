@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::SHARE;
 use super::items::Item;
 use super::source::imports;
 
@@ -26,15 +27,16 @@ pub(super) fn controller(fields: &[Item]) -> String {
 }
 
 fn body(fields: &[Item]) -> String {
-    let mut text = "
-/// When a tick ends: once sweeps have brought the algebraic part of the error bound down to a tenth of it.
-pub const LIMITS: Limits<Scalar> = Limits { error: 0.0, share: 0.1, sweeps: 10_000 };
+    let mut text = format!(
+        "
+/// When a tick ends: once sweeps have brought the algebraic part of the error bound down to this share of it.
+pub const LIMITS: Limits<Scalar> = Limits {{ error: 0.0, share: {SHARE:?}, sweeps: 10_000 }};
 
 /// All memory of the scene; can initialise a `static`.
 #[derive(Debug)]
-pub struct Controller {
+pub struct Controller {{
 "
-    .to_owned();
+    );
     for Item { name, doc, of, .. } in fields {
         let _ = writeln!(text, "    /// {doc}\n    {name}: {of},");
     }

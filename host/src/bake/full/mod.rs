@@ -6,6 +6,10 @@
 //!                                             └─► controller: the same on this machine
 //! ```
 
+use signorini_kernel::tick::Limits;
+
+use crate::scalar::Scalar;
+
 mod arrays;
 mod bent;
 mod controller;
@@ -21,3 +25,12 @@ pub use arrays::Baked;
 pub use controller::Controller;
 pub use items::{Sizes, sizes};
 pub use source::source;
+
+/// What the algebraic part of a tick's bound may be of the whole. Outputs follow the iterate: at a tenth, which is
+/// enough for the bound, they are off by some thousandths.
+pub const SHARE: f64 = 0.01;
+
+/// The limits of a baked module's ticks.
+pub fn limits<R: Scalar>() -> Limits<R> {
+    Limits { share: R::narrow(SHARE), ..Limits::default() }
+}

@@ -71,7 +71,7 @@ fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u6
     let lines = [0.3, -0.2].map(|lift| {
         let defaults = scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
         let inputs: Vec<R> = std::iter::once(R::narrow(lift)).chain(defaults).collect();
-        let (outputs, _) = controller.tick(&inputs, Default::default()).expect("a tick");
+        let (outputs, _) = controller.tick(&inputs, crate::bake::full::limits()).expect("a tick");
         format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
     });
     assert_eq!(printed(&(source(&baked) + MAIN)), lines.concat());
