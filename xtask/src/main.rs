@@ -2,6 +2,7 @@
 //! of the project's crates, so it compiles in seconds.
 
 mod audit;
+mod baked;
 mod board;
 mod boards;
 mod cargo;

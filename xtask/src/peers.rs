@@ -38,6 +38,9 @@ const TICKS: usize = 1000;
 /// Relative errors that the solvers must keep: one that is exact up to rounding, and an iterative one.
 const MOST: [(&str, f64); 3] = [("kernel", 1e-5), ("DAQP", 1e-5), ("OSQP", 5e-4)];
 
+/// What the kernel's median and worst may be of DAQP's.
+const SHARE: f64 = 0.5;
+
 /// Fetches, builds, runs, prints, compares.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
@@ -57,7 +60,8 @@ pub fn run(steps: &mut Steps) {
             table += &rows(size, &sources)?;
         }
         println!("{table}");
-        record::compare(RECORD, &versions()?, &table, bless).map(drop)
+        record::compare(RECORD, &versions()?, &table, bless)?;
+        slower(&table)
     });
 }
 
@@ -96,6 +100,27 @@ fn row(name: &str, problem: &Problem, measured: &Measured) -> Result<String, Str
     Ok(text)
 }
 
+/// `Err` where the kernel takes more than its share of DAQP's instructions.
+fn slower(table: &str) -> Result<(), String> {
+    let rows = |name| table.lines().filter(move |line| line.starts_with(name));
+    let figures = |row: &str| -> Vec<f64> {
+        row.split_whitespace().filter_map(|word| word.parse().ok()).take(3).collect()
+    };
+    let mut compared = 0;
+    for (kernel, peer) in rows("kernel").map(figures).zip(rows("DAQP").map(figures)) {
+        let ([n, median, worst], [of, its_median, its_worst]) = (&kernel[..], &peer[..]) else {
+            return Err("a line of the table lacks figures".to_owned());
+        };
+        if n != of || *median > SHARE * its_median || *worst > SHARE * its_worst {
+            return Err(format!(
+                "n = {n}: {median} and {worst} instructions, DAQP {its_median} and {its_worst}"
+            ));
+        }
+        compared += 1;
+    }
+    if compared == SIZES.len() { Ok(()) } else { Err(format!("{compared} sizes are compared")) }
+}
+
 /// The scene's condensed problem as a C header, by the host.
 fn condense(size: usize, folder: &Path) -> Result<PathBuf, String> {
     std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
@@ -117,4 +142,24 @@ fn versions() -> Result<String, String> {
     let gcc = output(std::process::Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
     let gcc = first_words(&gcc, 1);
     Ok(format!("{rustc}, {}, GCC {gcc}, {}", emulator()?, sources::VERSIONS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_of_the_peer_passes_and_more_does_not() {
+        let table = "M4F, f32 n median worst\n\
+            kernel 16 4400 10280 8000\nDAQP 16 9920 23000 11924\n\
+            kernel 32 14640 34360 8000\nDAQP 32 30600 87480 11924\n\
+            kernel 64 60600 140000 8000\nDAQP 64 121400 407920 11924\n";
+        assert_eq!(slower(table), Ok(()));
+        let why = |table: String| slower(&table).unwrap_err();
+        assert!(why(table.replace("60600", "60800")).contains("n = 64"));
+        assert!(why(table.replace("10280", "11501")).contains("n = 16"));
+        assert!(why(table.replace("kernel 32", "kernel 31")).contains("n = 31"));
+        assert!(why(table.replace("DAQP 16", "OSQP 16")).contains("n = "));
+        assert!(why(String::new()).contains("0 sizes"));
+    }
 }

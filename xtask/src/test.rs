@@ -4,9 +4,6 @@ use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
 use crate::{audit, boards, cost, cross, firmware, no_std, size};
 
-/// Whether `signorini bake` is there for [`firmware::check`].
-const BAKES: bool = false;
-
 /// Formatting, clippy, tests, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
     steps.check("formatting", || {
@@ -40,9 +37,7 @@ pub fn run(steps: &mut Steps) {
     });
     cross::run(steps);
     boards::run(steps);
-    if BAKES {
-        firmware::check(steps);
-    }
+    firmware::check(steps);
     audit::run(steps);
     size::run(steps);
     cost::run(steps);

@@ -1,16 +1,17 @@
-//! The two ways to solve the condensed problem, behind one face.
+//! The ways to solve the condensed problem, behind one face.
 //!
 //! [`Sweeps`] need no memory of their own and cost the same every time; [`Pivots`] hold a tableau of
 //! n (n + 1) / 2 numbers and end with the exact solution, after as many exchanges as edges change
 //! sides. Where these are too many for one tick, sweeps make the best of what there is, and the next
-//! tick goes on exchanging: the answer is feasible and has its bound in any case.
+//! tick goes on exchanging: the answer is feasible and has its bound in any case. Without contact there is
+//! nothing to solve, and [`Linear`] brings no code for it.
 
 use super::Iterate;
 use super::blocks::Blocks;
 use super::pivoting::{self, Found, settle};
 use super::sor;
 use super::tableau::{Start, Tableau};
-use crate::error::Error;
+use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
 /// What ended a solve.
@@ -47,6 +48,17 @@ pub trait Method<R: Real> {
         load: &[R],
         iterate: Iterate<R>,
     ) -> Result<Progress, Error>;
+}
+
+/// No edge is in contact: all outputs are linear in the inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Linear;
+
+impl<R: Real> Method<R> for Linear {
+    fn solve(&mut self, matrix: &Blocks<R>, _: &[R], _: Iterate<R>) -> Result<Progress, Error> {
+        same_length(Array::Contact, matrix.order(), 0)?;
+        Ok(Progress { ended: Ended::Exact, pivots: 0, sweeps: 0 })
+    }
 }
 
 /// Projected SOR.

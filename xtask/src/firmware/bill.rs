@@ -1,12 +1,10 @@
 //! What a scene costs on a board, and whether it is right there.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use super::ticks::{Ticks, text};
-use super::{Options, Programs};
+use super::{Footprint, Options, Programs};
 use crate::json::{object, record, string};
-use crate::symbols::section;
 
 /// Ticks that both programs play.
 const TICKS: usize = 101;
@@ -34,7 +32,7 @@ pub struct Bill {
 }
 
 impl Bill {
-    /// Runs both programs and reads the image's sections.
+    /// Runs both programs and measures the image.
     pub fn new(options: &Options, programs: &Programs) -> Result<Self, String> {
         let board = Ticks::parse(&programs.on_board()?);
         let desk = Ticks::parse(&programs.on_desk()?);
@@ -45,13 +43,12 @@ impl Bill {
         instructions.sort_unstable();
         let at = |at: usize| instructions.get(at).copied().ok_or("a tick was not counted");
         let (median, max) = (at(TICKS / 2)?, at(TICKS - 1)?);
-        let stack = stack(&board)?;
-        let [ram, flash] = sizes(programs.image())?;
+        let Footprint { code, data, ram, stack } = Footprint::new(programs.image(), &board)?;
         let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
         Ok(Self {
             board: options.board,
-            scalar: options.scalar.clone(),
-            scene: options.name(),
+            scalar: options.recipe.scalar.clone(),
+            scene: options.recipe.scene_name(),
             model: word("model").next().unwrap_or_default(),
             names: word("output").map(|digits| text(&digits)).collect(),
             outputs: [board.outputs(), desk.outputs()],
@@ -60,7 +57,7 @@ impl Bill {
             median,
             max,
             ram: ram + stack,
-            flash,
+            flash: code + data,
             stack,
             features: programs.features.clone(),
         })
@@ -117,20 +114,16 @@ impl Bill {
             (None, None) => Ok(()),
         }
     }
-}
 
-/// Bytes of stack; an error where it may have gone deeper than the board could see.
-fn stack(board: &Ticks) -> Result<u64, String> {
-    match board.numbers("stack")?[..] {
-        [depth, watched] if depth < watched => Ok(depth),
-        [depth, watched] => Err(format!("{depth} bytes of stack, {watched} were watched")),
-        _ => Err("the board does not tell its stack".to_owned()),
+    /// `Ok` where a tick takes at most so many instructions in the median. They are counted one by one: the same
+    /// every time.
+    pub fn within(&self, most: Option<u64>) -> Result<(), String> {
+        match most {
+            Some(most) if self.median > most => Err(format!(
+                "{} instructions a tick in the median, {most} are allowed",
+                self.median
+            )),
+            _ => Ok(()),
+        }
     }
-}
-
-/// Bytes of statics in RAM, and of flash.
-fn sizes(image: &Path) -> Result<[u64; 2], String> {
-    let sum = |names: &[&str]| names.iter().map(|name| section(image, name)).sum();
-    let ram: Result<u64, String> = sum(&[".data", ".bss", ".uninit"]);
-    Ok([ram?, sum(&[".vector_table", ".text", ".rodata", ".data"])?])
 }

@@ -2,21 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::baked::Recipe;
 use crate::board::{Board, M4F, M4F_192K, M7};
 
 /// What to put on which board.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// The scene's file.
-    pub scene: PathBuf,
-    /// Its name on the command line.
+    /// The scene, and how it is baked.
+    pub recipe: Recipe,
+    /// The board's name on the command line.
     pub board: &'static str,
-    /// `f32` or `f64`.
-    pub scalar: String,
-    /// `--full` or `--condensed`, where one is forced.
-    pub model: Option<String>,
-    /// `NAME=VALUE`, as they were given.
-    pub inputs: Vec<String>,
     /// The folder of the result.
     pub out: PathBuf,
 }
@@ -51,50 +46,39 @@ The exit status is 0 where all bits are equal, 2 where the command line or the s
 ";
 
 impl Options {
-    /// The f32 model of a scene on a board, for the tests.
-    pub fn new(scene: PathBuf, board: &'static str, out: PathBuf) -> Self {
-        Self { scene, board, scalar: "f32".to_owned(), model: None, inputs: Vec::new(), out }
-    }
-
     /// Reads the words after the verb.
     pub fn parse(words: &[&str]) -> Result<Self, String> {
-        let mut scene = None;
-        let mut options = Self::new(PathBuf::new(), "m4", PathBuf::new());
+        let (mut scene, mut scalar, mut model) = (None, "f32", None);
+        let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0].0, None);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
             match word {
-                "--board" => options.board = known(value()?)?.0,
+                "--board" => board = known(value()?)?.0,
                 "--scalar" => match value()? {
-                    scalar @ ("f32" | "f64") => options.scalar = scalar.to_owned(),
+                    known @ ("f32" | "f64") => scalar = known,
                     other => return Err(format!("--scalar is f32 or f64, not `{other}`")),
                 },
-                "--full" | "--condensed" => match options.model.replace(word.to_owned()) {
+                "--full" | "--condensed" => match model.replace(word.to_owned()) {
                     Some(other) if other != word => return Err(format!("{other} or {word}?")),
                     _ => {}
                 },
-                "--input" => options.inputs.push(value()?.to_owned()),
-                "--out" => options.out = value()?.into(),
+                "--input" => inputs.push(value()?.to_owned()),
+                "--out" => out = Some(PathBuf::from(value()?)),
                 option if option.starts_with('-') => return Err(format!("no option `{option}`")),
                 file if scene.is_none() => scene = Some(PathBuf::from(file)),
                 extra => return Err(format!("one scene at a time, not `{extra}` too")),
             }
         }
-        options.scene = scene.ok_or("no scene given")?;
-        if options.out.as_os_str().is_empty() {
-            options.out = Path::new("out").join(options.name());
-        }
-        Ok(options)
+        let scene = scene.ok_or("no scene given")?;
+        let recipe = Recipe { scene, scalar: scalar.to_owned(), model, inputs };
+        let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
+        Ok(Self { recipe, board, out })
     }
 
     /// The board.
     pub fn board(&self) -> Result<Board, String> {
         known(self.board).map(|(_, board)| board)
-    }
-
-    /// The scene's name.
-    pub fn name(&self) -> String {
-        self.scene.file_stem().unwrap_or_default().display().to_string()
     }
 }
 
@@ -111,12 +95,15 @@ mod tests {
     fn options_stand_in_any_order() {
         let words = ["--board", "m7", "a/b.toml", "--full", "--input", "x=1", "--input", "y=2"];
         let options = Options::parse(&words).unwrap();
-        assert_eq!((options.board, options.scalar.as_str()), ("m7", "f32"));
+        assert_eq!((options.board, options.recipe.scalar.as_str()), ("m7", "f32"));
         assert_eq!(
-            (options.scene.to_str(), options.out.to_str()),
+            (options.recipe.scene.to_str(), options.out.to_str()),
             (Some("a/b.toml"), Some("out/b"))
         );
-        assert_eq!((options.model.as_deref(), options.inputs.len()), (Some("--full"), 2));
+        assert_eq!(
+            (options.recipe.model.as_deref(), options.recipe.inputs.len()),
+            (Some("--full"), 2)
+        );
     }
 
     #[test]

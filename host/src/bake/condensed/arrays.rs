@@ -22,6 +22,17 @@ pub struct Work {
     pub sweeps: u32,
 }
 
+/// What a tick solves with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Solver {
+    /// Nothing: no edge is in contact.
+    Linear,
+    /// Sweeps alone.
+    Sweeps,
+    /// At most so many exchanges, and sweeps where they do not suffice.
+    Exchanges(u32),
+}
+
 /// A condensed scene in the scalar `R`.
 #[derive(Debug, Clone)]
 pub struct Baked<R: Scalar> {
@@ -84,12 +95,20 @@ impl<R: Scalar> Baked<R> {
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             matrix: matrix(condensate),
-            start: Start::new(condensate, work.pivots.is_some())?,
+            start: Start::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
         };
         baked.check().map(|()| baked)
+    }
+
+    pub(super) fn solver(&self) -> Solver {
+        match self.work.pivots {
+            _ if self.contact == 0 => Solver::Linear,
+            None => Solver::Sweeps,
+            Some(most) => Solver::Exchanges(most),
+        }
     }
 
     /// Bytes of one number.

@@ -2,11 +2,11 @@
 
 use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::method::Pivots;
+use signorini_kernel::condensed::method::{Linear, Pivots};
 use signorini_kernel::condensed::tableau::Tableau;
 use signorini_kernel::condensed::{Iterate, Memory, Report};
 
-use super::arrays::Baked;
+use super::arrays::{Baked, Solver};
 use crate::scalar::Scalar;
 
 /// The controller of a condensed scene.
@@ -58,9 +58,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
             let Self { x, residual, scratch, open, load, combination, sum, .. } = self;
             let iterate = Iterate { x, residual, scratch, open };
             let mut memory = Memory { iterate, load, combination, sum };
-            let report = match baked.work.pivots {
-                None => model.tick(&inputs, &mut { baked.sweeps }, &mut memory)?,
-                Some(most) => {
+            let report = match baked.solver() {
+                Solver::Linear => model.tick(&inputs, &mut Linear, &mut memory)?,
+                Solver::Sweeps => model.tick(&inputs, &mut { baked.sweeps }, &mut memory)?,
+                Solver::Exchanges(most) => {
                     let [column, next] = &mut self.columns;
                     let mut tableau =
                         Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;

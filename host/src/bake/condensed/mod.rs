@@ -13,6 +13,7 @@ mod relaxation;
 mod sizes;
 mod source;
 mod start;
+mod statics;
 #[cfg(test)]
 mod tests;
 

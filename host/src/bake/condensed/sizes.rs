@@ -2,7 +2,7 @@
 
 use signorini_kernel::condensed::blocks::{count, padded};
 
-use super::arrays::Baked;
+use super::arrays::{Baked, Solver};
 use crate::bake::full::Sizes;
 use crate::scalar::Scalar;
 
@@ -72,9 +72,9 @@ impl<R: Scalar> Baked<R> {
 pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     let (n, scalar) = (padded(baked.contact), baked.scalar());
     let columns = baked.columns();
-    let tableau = match baked.work.pivots {
-        Some(_) => (BLOCK * count(baked.contact) + 2 * n) * scalar + n,
-        None => 0,
+    let tableau = match baked.solver() {
+        Solver::Exchanges(_) => (BLOCK * count(baked.contact) + 2 * n) * scalar + n,
+        _ => 0,
     };
     let outputs = baked.outputs.len() * (baked.inputs + baked.contact);
     let bound = baked.bound.as_ref().map_or(0, |bound| {
