@@ -42,7 +42,7 @@ pub struct Shortfall {
 }
 
 impl Needs {
-    /// Data of these sizes with the code and the stack of such a model, as measured.
+    /// Data of these sizes with code and stack of such a model, as [`Footprint::measured`].
     pub fn with_code(model: &str, data: Sizes, instructions: Option<f64>) -> Self {
         let Footprint { code, stack } = Footprint::measured(model);
         Self { ram: data.ram as u64 + stack, flash: data.flash as u64 + code, instructions }

@@ -166,7 +166,7 @@ fn condensed_as<R: Scalar>(
     let instructions =
         instructions.map(|((fixed, pivot), sweep)| fixed + pivots * pivot + sweeps * sweep);
     let sizes = condensed::sizes(&baked);
-    let needs = Needs::with_code("condensed", sizes, instructions);
+    let needs = Needs::with_code(", condensed", sizes, instructions);
     let solver = if exact { "exact method" } else { "sweeps alone" };
     let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
     Ok(Candidate {
@@ -220,7 +220,7 @@ fn work<R: Scalar>(costs: &Costs, contact: usize, exact: bool, time: Option<(f64
 fn of_full<R: Scalar>(scene: &Scene, problem: &Problem, budget: &Budget) -> Result<Candidate<R>> {
     let baked = full::Baked::<R>::new(scene, problem)?;
     let sizes = full::sizes(&baked);
-    let memory = Needs::with_code("full", sizes, None);
+    let memory = Needs::with_code(", on ", sizes, None);
     let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
     // A model that has no room is not tried.
     let trial = match budget.shortfalls(&memory).is_empty() {

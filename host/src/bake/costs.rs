@@ -7,6 +7,10 @@ use std::collections::HashMap;
 use crate::scalar::Scalar;
 
 const RECORD: &str = include_str!("../../../tests/firmware/cost.txt");
+/// Code, data, RAM and stack of baked scenes.
+const SIZES: &str = include_str!("../../../tests/firmware/size.txt");
+/// Columns of a scene's name there.
+const NAME: usize = 36;
 /// Columns of a stage, of its unit and of a count.
 const WIDTHS: [usize; 3] = [32, 8, 16];
 
@@ -72,9 +76,19 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// The most of any scene of that model in the record of `cargo xtask size`.
-    pub fn measured(_model: &str) -> Self {
-        Self { code: 28_000, stack: 700 }
+    /// The most of any scene with `model` in its name (`, condensed` or `, on `) in the record of
+    /// `cargo xtask size`.
+    pub fn measured(model: &str) -> Self {
+        let rows = SIZES.lines().filter_map(|line| {
+            let (name, numbers) = line.split_at_checked(NAME)?;
+            let mut numbers = numbers.split_whitespace().map(str::parse);
+            let (code, stack) = (numbers.next()?.ok()?, numbers.nth(2)?.ok()?);
+            name.contains(model).then_some(Self { code, stack })
+        });
+        rows.fold(Self { code: 0, stack: 0 }, |most, row| Self {
+            code: most.code.max(row.code),
+            stack: most.stack.max(row.stack),
+        })
     }
 }
 
@@ -108,6 +122,15 @@ mod tests {
         let dense = costs.of_dense::<f32>("sweep", 64).unwrap_or_default() / 4096.0;
         assert!((2.0..3.0).contains(&dense), "{dense}");
         assert_eq!(costs.of_mesh::<f32>("triangles", "no such stage"), None);
+    }
+
+    #[test]
+    fn the_record_tells_the_code_of_each_model() {
+        for model in [", condensed", ", on "] {
+            let Footprint { code, stack } = Footprint::measured(model);
+            assert!((4_000..64_000).contains(&code), "{model}: {code}");
+            assert!((100..4_000).contains(&stack), "{model}: {stack}");
+        }
     }
 
     #[test]
