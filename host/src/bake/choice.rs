@@ -14,11 +14,11 @@ use super::condensed::{self, Work};
 use super::costs::Costs;
 use super::full;
 use super::trial::{self, Trial};
-use crate::condense::{Condensate, Measure, condense};
+use crate::condense::{Condensate, condense};
 use crate::error::{InputError, Result};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
-use crate::scene::Scene;
+use crate::scene::{Quantity, Scene};
 use crate::solve::unfit;
 
 /// Sweeps that follow where the exchanges of a tick do not suffice.
@@ -61,8 +61,21 @@ pub struct Candidate<R: Scalar> {
     pub needs: Needs,
     /// What its warm ticks do.
     pub trial: Trial,
-    /// What it lacks.
+    /// What of the device it goes beyond.
     pub shortfalls: Vec<Shortfall>,
+    /// An output that it cannot give: it is no choice then, but may be one without that output.
+    pub lacks: Option<String>,
+}
+
+impl<R: Scalar> Candidate<R> {
+    /// Whether the device has room and time for it.
+    pub fn fits(&self) -> bool {
+        self.shortfalls.is_empty()
+    }
+
+    fn may_be_chosen(&self) -> bool {
+        self.fits() && self.lacks.is_none()
+    }
 }
 
 /// All that was considered, and which it is.
@@ -99,7 +112,7 @@ impl<R: Scalar> Choice<R> {
         } else if forced.is_none() {
             excluded.push(format!("condensed: {contact} contact edges, at most {MOST_CONTACTS}"));
         }
-        let fits = candidates.iter().any(|candidate| candidate.shortfalls.is_empty());
+        let fits = candidates.iter().any(Candidate::may_be_chosen);
         if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits)) {
             match of_full(scene, problem, &budget) {
                 Ok(candidate) => candidates.push(candidate),
@@ -107,7 +120,7 @@ impl<R: Scalar> Choice<R> {
                 Err(error) => excluded.push(format!("full: {error}")),
             }
         }
-        let chosen = candidates.iter().position(|candidate| candidate.shortfalls.is_empty());
+        let chosen = candidates.iter().position(Candidate::may_be_chosen);
         match chosen {
             Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
             None => Err(too_large(scene, &candidates).into()),
@@ -126,20 +139,26 @@ fn of_condensed<R: Scalar>(
     condensate: &Condensate,
     budget: &Budget,
 ) -> Result<Vec<Candidate<R>>> {
-    let asked = condensate.outputs.contains(&Measure::Bound);
     let has_bound = condensate.certificate.is_ok();
+    let variants = if has_bound { &[true, false][..] } else { &[true] };
     let mut all = Vec::new();
-    for certified in [true, false] {
-        if certified || (has_bound && !asked) {
-            let mut pair = vec![];
-            for exact in [true, false] {
-                pair.push(condensed_as(scene, condensate, budget, exact, certified)?);
-            }
-            pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
-            all.extend(pair);
+    for &certified in variants {
+        let mut pair = Vec::new();
+        for exact in [true, false] {
+            let mut candidate = condensed_as(scene, condensate, budget, exact, certified)?;
+            candidate.lacks = bound_of(scene).filter(|_| !certified);
+            pair.push(candidate);
         }
+        pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
+        all.extend(pair);
     }
     Ok(all)
+}
+
+/// The name of an output that is the error bound.
+fn bound_of(scene: &Scene) -> Option<String> {
+    let bound = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);
+    bound.map(|output| output.name.value.clone())
 }
 
 fn time(needs: &Needs) -> f64 {
@@ -175,6 +194,7 @@ fn condensed_as<R: Scalar>(
         model: Model::Condensed(Box::new(baked)),
         needs,
         trial,
+        lacks: None,
     })
 }
 
@@ -233,6 +253,7 @@ fn of_full<R: Scalar>(scene: &Scene, problem: &Problem, budget: &Budget) -> Resu
     Ok(Candidate {
         name: "full".to_owned(),
         model: Model::Full(Box::new(baked)),
+        lacks: None,
         shortfalls: budget.shortfalls(&needs),
         needs,
         trial,
@@ -253,12 +274,21 @@ fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -> InputErro
         let factors = candidate.shortfalls.iter().map(|short| short.needed / short.declared);
         factors.fold(1.0, f64::max)
     };
-    let least = candidates.iter().min_by(|a, b| factor(a).total_cmp(&factor(b)));
+    let complete = candidates.iter().filter(|candidate| candidate.lacks.is_none());
+    let least = complete.min_by(|a, b| factor(a).total_cmp(&factor(b)));
     let Some(candidate) = least else { return InputError::new("no model").file(&scene.path) };
     let message: Vec<String> = candidate.shortfalls.iter().map(Shortfall::to_string).collect();
     let message =
         format!("{}: the smallest model ({}) does not fit", message.join("; "), candidate.name);
-    InputError::new(message).file(&scene.path).hint(nearest(candidate, factor(candidate)))
+    let without = candidates.iter().find(|candidate| candidate.fits());
+    let hint = match without.and_then(|candidate| candidate.lacks.as_ref()) {
+        Some(output) => format!(
+            "without output.{output} it would fit; or {}",
+            nearest(candidate, factor(candidate))
+        ),
+        None => nearest(candidate, factor(candidate)),
+    };
+    InputError::new(message).file(&scene.path).hint(hint)
 }
 
 /// The nearest mesh that would fit, from how needs grow.

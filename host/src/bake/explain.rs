@@ -63,12 +63,13 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
         ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", ""].map(str::to_owned),
     ];
     for (at, candidate) in choice.candidates.iter().enumerate() {
-        let Candidate { name, needs, trial, shortfalls, .. } = candidate;
+        let Candidate { name, needs, trial, shortfalls, lacks, .. } = candidate;
         let short: Vec<_> = shortfalls.iter().map(|short| short.key).collect();
-        let verdict = match (at == choice.chosen, short.is_empty()) {
-            (true, _) => "chosen".to_owned(),
-            (false, true) => "would fit".to_owned(),
-            (false, false) => format!("beyond {}", short.join(", ")),
+        let verdict = match (at == choice.chosen, lacks, short.is_empty()) {
+            (true, ..) => "chosen".to_owned(),
+            (_, Some(output), true) => format!("lacks output.{output}"),
+            (_, None, true) => "would fit".to_owned(),
+            (_, _, false) => format!("beyond {}", short.join(", ")),
         };
         rows.push([
             name.clone(),
