@@ -11,7 +11,7 @@ use signorini_kernel::condensed::blocks::padded;
 
 use super::budget::{Budget, Needs, Shortfall};
 use super::condensed::{self, Work};
-use super::costs::Costs;
+use super::costs::{Costs, Footprint};
 use super::full;
 use super::trial::{self, Trial};
 use crate::condense::{Condensate, condense};
@@ -296,7 +296,25 @@ fn nearest<R: Scalar>(candidate: &Candidate<R>, factor: f64) -> String {
     match &candidate.model {
         // Bytes and instructions of dense blocks grow like n².
         Model::Condensed(baked) => {
+            let footprint = Footprint::measured(", condensed");
+            let growing = |short: &Shortfall| {
+                let fixed = match short.key {
+                    "target.ram" => footprint.stack,
+                    "target.flash" => footprint.code,
+                    _ => 0,
+                } as f64;
+                (short.needed - fixed) / (short.declared - fixed)
+            };
+            let factors = candidate.shortfalls.iter().map(growing);
+            let factor = factors.fold(1.0, |most: f64, factor| match factor > 0.0 {
+                true => most.max(factor),
+                // The code alone is too large.
+                false => f64::INFINITY,
+            });
             let fitting = (baked.contact as f64 / factor.sqrt()).floor();
+            if fitting < 1.0 {
+                return "the code of the model alone is larger than that".to_owned();
+            }
             format!(
                 "about {fitting} contact edges would fit instead of {}: coarsen the mesh along the contact \
                  boundary {:.1} times, or let a part of it be no contact; the mesh inside costs nothing",
