@@ -1,0 +1,71 @@
+//! What to do where no model fits.
+
+use super::{Candidate, Model};
+use crate::bake::budget::Shortfall;
+use crate::bake::costs::Footprint;
+use crate::error::InputError;
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+
+/// That nothing fits: the candidate that misses by least, and what would fit.
+pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -> InputError {
+    let factor = |candidate: &Candidate<R>| {
+        let factors = candidate.shortfalls.iter().map(|short| short.needed / short.declared);
+        factors.fold(1.0, f64::max)
+    };
+    let complete = candidates.iter().filter(|candidate| candidate.lacks.is_none());
+    let least = complete.min_by(|a, b| factor(a).total_cmp(&factor(b)));
+    let Some(candidate) = least else { return InputError::new("no model").file(&scene.path) };
+    let message: Vec<String> = candidate.shortfalls.iter().map(Shortfall::to_string).collect();
+    let message =
+        format!("{}: the smallest model ({}) does not fit", message.join("; "), candidate.name);
+    let without = candidates.iter().find(|candidate| candidate.fits());
+    let hint = match without.and_then(|candidate| candidate.lacks.as_ref()) {
+        Some(output) => format!(
+            "without output.{output} it would fit; or {}",
+            nearest(candidate, factor(candidate))
+        ),
+        None => nearest(candidate, factor(candidate)),
+    };
+    InputError::new(message).file(&scene.path).hint(hint)
+}
+
+/// The nearest mesh that would fit, from how needs grow.
+fn nearest<R: Scalar>(candidate: &Candidate<R>, factor: f64) -> String {
+    match &candidate.model {
+        // Bytes and instructions of dense blocks grow like n².
+        Model::Condensed(baked) => {
+            let footprint = Footprint::measured(", condensed");
+            let growing = |short: &Shortfall| {
+                let fixed = match short.key {
+                    "target.ram" => footprint.stack,
+                    "target.flash" => footprint.code,
+                    _ => 0,
+                } as f64;
+                (short.needed - fixed) / (short.declared - fixed)
+            };
+            let factors = candidate.shortfalls.iter().map(growing);
+            let factor = factors.fold(1.0, |most: f64, factor| match factor > 0.0 {
+                true => most.max(factor),
+                // The code alone is too large.
+                false => f64::INFINITY,
+            });
+            let fitting = (baked.contact as f64 / factor.sqrt()).floor();
+            if fitting < 1.0 {
+                return "the code of the model alone is larger than that".to_owned();
+            }
+            format!(
+                "about {fitting} contact edges would fit instead of {}: coarsen the mesh along the contact \
+                 boundary {:.1} times, or let a part of it be no contact; the mesh inside costs nothing",
+                baked.contact,
+                factor.sqrt()
+            )
+        }
+        // Bytes grow like the number of unknowns, instructions like its power 1.5.
+        Model::Full(_) => format!(
+            "a mesh with about {:.1} times fewer unknowns would fit; the condensed model (--condensed) \
+             needs no mesh on the target",
+            factor
+        ),
+    }
+}

@@ -1,0 +1,115 @@
+//! The models there are, each with what it takes.
+
+use super::work::{fixed, work};
+use super::{Candidate, Model};
+use crate::bake::budget::{Budget, Needs};
+use crate::bake::costs::Costs;
+use crate::bake::trial::{self, Trial};
+use crate::bake::{condensed, full};
+use crate::condense::Condensate;
+use crate::error::Result;
+use crate::problem::Problem;
+use crate::scalar::Scalar;
+use crate::scene::{Quantity, Scene};
+use crate::solve::unfit;
+
+/// The variants of the condensed model: with the bound first, and of two the one that takes less time.
+pub(super) fn of_condensed<R: Scalar>(
+    scene: &Scene,
+    condensate: &Condensate,
+    budget: &Budget,
+) -> Result<Vec<Candidate<R>>> {
+    let has_bound = condensate.certificate.is_ok();
+    let variants = if has_bound { &[true, false][..] } else { &[true] };
+    let mut all = Vec::new();
+    for &certified in variants {
+        let mut pair = Vec::new();
+        for exact in [true, false] {
+            let mut candidate = condensed_as(scene, condensate, budget, exact, certified)?;
+            candidate.lacks = bound_of(scene).filter(|_| !certified);
+            pair.push(candidate);
+        }
+        pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
+        all.extend(pair);
+    }
+    Ok(all)
+}
+
+/// The name of an output that is the error bound.
+fn bound_of(scene: &Scene) -> Option<String> {
+    let bound = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);
+    bound.map(|output| output.name.value.clone())
+}
+
+fn time(needs: &Needs) -> f64 {
+    needs.instructions.unwrap_or(f64::INFINITY)
+}
+
+fn condensed_as<R: Scalar>(
+    scene: &Scene,
+    condensate: &Condensate,
+    budget: &Budget,
+    exact: bool,
+    certified: bool,
+) -> Result<Candidate<R>> {
+    let costs = Costs::measured();
+    let fixed = fixed::<R>(&costs, condensate, exact, certified);
+    let work = work::<R>(&costs, condensate.contact, exact, fixed.zip(budget.instructions()));
+    let unfit = unfit::<R>(scene);
+    let baked = condensed::Baked::<R>::new(condensate, work, certified).map_err(unfit)?;
+    let trial = trial::of_condensed(&baked, &condensate.defaults[1..]);
+    let step = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
+    let pivots = f64::from(trial.pivots[0]);
+    let sweeps = f64::from(trial.sweeps[0]);
+    let instructions = fixed.zip(step("exchange")).zip(step("sweep"));
+    let instructions =
+        instructions.map(|((fixed, pivot), sweep)| fixed + pivots * pivot + sweeps * sweep);
+    let sizes = condensed::sizes(&baked);
+    let needs = Needs::with_code(", condensed", sizes, instructions);
+    let solver = if exact { "exact method" } else { "sweeps alone" };
+    let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
+    Ok(Candidate {
+        name: format!("condensed, {solver}{bound}"),
+        shortfalls: budget.shortfalls(&needs),
+        model: Model::Condensed(Box::new(baked)),
+        needs,
+        trial,
+        lacks: None,
+    })
+}
+
+/// The full model, tried where there is room for it.
+pub(super) fn of_full<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    budget: &Budget,
+) -> Result<Candidate<R>> {
+    let baked = full::Baked::<R>::new(scene, problem)?;
+    let sizes = full::sizes(&baked);
+    let memory = Needs::with_code(", on ", sizes, None);
+    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    // A model that has no room is not tried.
+    let trial = match budget.shortfalls(&memory).is_empty() {
+        true => trial::of_full(&baked, &defaults),
+        false => Trial::default(),
+    };
+    let cells = if baked.has_quads() { "quads" } else { "triangles" };
+    let instructions = full_tick::<R>(&Costs::measured(), cells, problem, trial.sweeps[0]);
+    let needs = Needs { instructions: instructions.filter(|_| trial.sweeps[0] > 0), ..memory };
+    Ok(Candidate {
+        name: "full".to_owned(),
+        model: Model::Full(Box::new(baked)),
+        lacks: None,
+        shortfalls: budget.shortfalls(&needs),
+        needs,
+        trial,
+    })
+}
+
+/// Load and rows, sweeps, a certificate.
+fn full_tick<R: Scalar>(costs: &Costs, cells: &str, problem: &Problem, sweeps: u32) -> Option<f64> {
+    let of = |stage: &str| costs.of_mesh::<R>(cells, stage);
+    let (unknowns, number) = (problem.topology.counts.unknowns() as f64, problem.cells() as f64);
+    let rows = of("rows from cells")? + f64::from(sweeps) * of("sweep")?;
+    Some(unknowns * rows + number * (of("load")? + of("certificate")?))
+}

@@ -1,0 +1,127 @@
+//! Which model: the smallest that represents the scene exactly and fits the device.
+//!
+//! ```text
+//!   condensed, exact method │ condensed, sweeps alone │ both without the bound │ full
+//!   ── each with its needs (bytes from its arrays, instructions from counted parts and a trial) ──►
+//!   the first that fits what `[target]` declares
+//! ```
+//! Without the bound a model comes last of its kind, and only where no output asks for it.
+
+mod advice;
+mod candidates;
+mod work;
+
+use super::budget::{Budget, Needs, Shortfall};
+use super::trial::Trial;
+use super::{condensed, full};
+use crate::condense::condense;
+use crate::error::Result;
+use crate::problem::Problem;
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use advice::too_large;
+use candidates::{of_condensed, of_full};
+
+/// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
+const MOST_CONTACTS: usize = 2000;
+
+/// A model that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Contact edges, inputs and outputs alone.
+    Condensed,
+    /// The scene's mesh.
+    Full,
+}
+
+/// A model, ready to be written.
+#[derive(Debug)]
+pub enum Model<R: Scalar> {
+    /// See [`condensed`].
+    Condensed(Box<condensed::Baked<R>>),
+    /// See [`full`].
+    Full(Box<full::Baked<R>>),
+}
+
+/// A model with what it takes.
+#[derive(Debug)]
+pub struct Candidate<R: Scalar> {
+    /// In a few words.
+    pub name: String,
+    /// The model.
+    pub model: Model<R>,
+    /// What it takes.
+    pub needs: Needs,
+    /// What its warm ticks do.
+    pub trial: Trial,
+    /// What of the device it goes beyond.
+    pub shortfalls: Vec<Shortfall>,
+    /// An output that it cannot give: it is no choice then, but may be one without that output.
+    pub lacks: Option<String>,
+}
+
+impl<R: Scalar> Candidate<R> {
+    /// Whether the device has room and time for it.
+    pub fn fits(&self) -> bool {
+        self.shortfalls.is_empty()
+    }
+
+    fn may_be_chosen(&self) -> bool {
+        self.fits() && self.lacks.is_none()
+    }
+}
+
+/// All that was considered, and which it is.
+#[derive(Debug)]
+pub struct Choice<R: Scalar> {
+    /// In the order in which they were considered.
+    pub candidates: Vec<Candidate<R>>,
+    /// Position of the one chosen.
+    pub chosen: usize,
+    /// What the device has.
+    pub budget: Budget,
+    /// Why a model was not considered.
+    pub excluded: Vec<String>,
+}
+
+impl<R: Scalar> Choice<R> {
+    /// Chooses for `scene`; with `compared`, the full model is worked out in any case.
+    ///
+    /// # Errors
+    /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
+    /// was asked for from existing.
+    pub fn new(
+        scene: &Scene,
+        problem: &Problem,
+        forced: Option<Kind>,
+        compared: bool,
+    ) -> Result<Self> {
+        let budget = Budget::of(scene);
+        let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
+        let contact = problem.topology.counts.contact;
+        let few = contact <= MOST_CONTACTS;
+        if forced == Some(Kind::Condensed) || (forced.is_none() && few) {
+            candidates = of_condensed(scene, &condense(scene, problem)?, &budget)?;
+        } else if forced.is_none() {
+            excluded.push(format!("condensed: {contact} contact edges, at most {MOST_CONTACTS}"));
+        }
+        let fits = candidates.iter().any(Candidate::may_be_chosen);
+        if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits)) {
+            match of_full(scene, problem, &budget) {
+                Ok(candidate) => candidates.push(candidate),
+                Err(error) if candidates.is_empty() => return Err(error),
+                Err(error) => excluded.push(format!("full: {error}")),
+            }
+        }
+        let chosen = candidates.iter().position(Candidate::may_be_chosen);
+        match chosen {
+            Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
+            None => Err(too_large(scene, &candidates).into()),
+        }
+    }
+
+    /// The model chosen.
+    pub fn candidate(&self) -> &Candidate<R> {
+        &self.candidates[self.chosen]
+    }
+}

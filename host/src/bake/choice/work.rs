@@ -1,0 +1,61 @@
+//! What a condensed tick costs without changes, and how many exchanges and sweeps that leaves time for.
+
+use signorini_kernel::condensed::blocks::padded;
+
+use crate::bake::condensed::Work;
+use crate::bake::costs::Costs;
+use crate::condense::Condensate;
+use crate::scalar::Scalar;
+
+/// Sweeps that follow where the exchanges of a tick do not suffice.
+const FALLBACK: u32 = 20;
+/// Fewest exchanges that a tick is allowed, whatever the estimate of its time.
+const FEWEST: u32 = 4;
+/// Most sweeps of a model without the exact method.
+const MOST_SWEEPS: u32 = 1000;
+/// Instructions an entry of a load or an output: two loads, a multiply-add, half of a loop.
+const AN_ENTRY: f64 = 4.0;
+
+/// Instructions of a tick in which no edge changes sides.
+pub(super) fn fixed<R: Scalar>(
+    costs: &Costs,
+    condensate: &Condensate,
+    exact: bool,
+    certified: bool,
+) -> Option<f64> {
+    let Condensate { contact, inputs, outputs, .. } = condensate;
+    let (n, m) = (padded(*contact) as f64, *inputs as f64);
+    let entries = n * m + outputs.len() as f64 * (n + m);
+    let solve = if exact { "exact, no edge changes" } else { "product, half of x zero" };
+    let solve = costs.of_dense::<R>(solve, *contact)?;
+    let bound = match certified && condensate.certificate.is_ok() {
+        true => costs.of_dense::<R>("norm of the bound, half of x zero", *contact)?,
+        false => 0.0,
+    };
+    Some(AN_ENTRY * entries + solve + bound)
+}
+
+/// What a tick may do: without a declared time as much as it takes, else what time is left for.
+pub(super) fn work<R: Scalar>(
+    costs: &Costs,
+    contact: usize,
+    exact: bool,
+    time: Option<(f64, f64)>,
+) -> Work {
+    let all = 2 * contact as u32;
+    let pivots = exact.then_some(all.max(1));
+    let unlimited = Work { pivots, sweeps: if exact { FALLBACK } else { MOST_SWEEPS } };
+    let steps = costs.of_dense::<R>("exchange", contact).zip(costs.of_dense::<R>("sweep", contact));
+    let (Some((fixed, budget)), Some((pivot, sweep))) = (time, steps) else { return unlimited };
+    if contact == 0 {
+        return unlimited;
+    }
+    let times = |instructions: f64| (instructions / sweep).floor().clamp(1.0, 1e6) as u32;
+    if !exact {
+        return Work { pivots: None, sweeps: times(budget - fixed).min(MOST_SWEEPS) };
+    }
+    let sweeps = times(0.25 * (budget - fixed)).min(FALLBACK);
+    let left = budget - fixed - f64::from(sweeps) * sweep;
+    let affordable = (left / pivot).floor().clamp(0.0, f64::from(all)) as u32;
+    Work { pivots: Some(affordable.max(FEWEST)), sweeps }
+}
