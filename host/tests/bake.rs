@@ -1,0 +1,145 @@
+//! `signorini bake` and `condense` as users meet them: the module, the budgets, the explanation.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Exit status, standard output and error of `signorini`.
+fn signorini(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(arguments).output();
+    let output = output.expect("the binary runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let stderr = text(&output.stderr);
+    assert!(!stderr.contains("panicked"), "{stderr}");
+    (output.status.code().unwrap_or(-1), text(&output.stdout), stderr)
+}
+
+fn meshes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes")
+}
+
+/// Bakes `scene` of the repository with `changes` made to its text; the source where there is one.
+fn bake(
+    scene: &str,
+    changes: &[(&str, &str)],
+    more: &[&str],
+) -> (i32, String, String, Option<String>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = meshes().join(scene);
+    let mut text = std::fs::read_to_string(&path).expect("the scene");
+    let mesh = path.parent().expect("a folder").canonicalize().expect("the folder");
+    text = text.replace("mesh = \"", &format!("mesh = \"{}/", mesh.display()));
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let changed = folder.path().join("scene.toml");
+    std::fs::write(&changed, text).expect("a scene");
+    let out = folder.path().join("scene.rs");
+    let (changed, place) = (changed.to_string_lossy(), out.to_string_lossy());
+    let mut arguments = vec!["bake", &changed, "-o", &place];
+    arguments.extend(more);
+    let (status, stdout, stderr) = signorini(&arguments);
+    (status, stdout, stderr, std::fs::read_to_string(out).ok())
+}
+
+#[test]
+fn the_levee_is_condensed_and_its_module_says_so() {
+    let (status, _, _, source) = bake("scenes/levee.toml", &[], &[]);
+    let source = source.expect("a module");
+    assert_eq!(status, 0);
+    for part in [
+        "pub const MODEL: &str = \"condensed\";",
+        "pub rain: Scalar,",
+        "pub wet: Scalar,",
+        "pub const CONTACT: usize = 50;",
+        "//! Kernel features:",
+        "scene hash",
+    ] {
+        assert!(source.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_an_error_with_the_shortfall() {
+    let little = [("ram = 196608", "ram = 700")];
+    let (status, _, stderr, source) = bake("scenes/levee.toml", &little, &["--condensed"]);
+    assert_eq!(status, 2);
+    assert!(source.is_none());
+    for part in ["target.ram", "bytes are needed, 700 declared", "contact edges would fit"] {
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+    let hopeless = [("flash = 1048576", "flash = 1000")];
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &hopeless, &[]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("target.flash") && stderr.contains("the code"), "{stderr}");
+    let slow = [("tick = 0.001", "tick = 1e-5")];
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &slow, &["--full"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("target.tick") && stderr.contains("1680 declared"), "{stderr}");
+}
+
+#[test]
+fn a_device_without_room_for_the_tableau_gets_sweeps() {
+    let tight = [("ram = 196608", "ram = 6000")];
+    let (status, _, _, source) = bake("scenes/levee.toml", &tight, &[]);
+    let source = source.expect("a module");
+    assert_eq!(status, 0);
+    assert!(!source.contains("Tableau") && source.contains("pub const SWEEPS"));
+}
+
+#[test]
+fn an_output_that_stands_in_the_way_is_named() {
+    let bound = [
+        ("[output.wet]", "[output.error]\nkind = \"bound\"\n[output.wet]"),
+        ("flash = 1048576", "flash = 45000"),
+    ];
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &bound, &["--condensed"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("without output.error it would fit"), "{stderr}");
+}
+
+#[test]
+fn the_explanation_tells_each_feature() {
+    let (status, stdout, _, _) = bake("scenes/levee.toml", &[], &["--explain"]);
+    assert_eq!(status, 0);
+    for part in
+        ["condensed, exact method", "chosen", "full", "[target]", "quads", "no quads", "tensors"]
+    {
+        assert!(stdout.contains(part), "{part}: {stdout}");
+    }
+    let (_, stdout, _, _) = bake("scenes/slab.toml", &[], &["--explain", "--full"]);
+    assert!(stdout.contains("no triangles") && stdout.contains("Robin edges"), "{stdout}");
+}
+
+#[test]
+fn scenes_that_no_model_represents_are_refused() {
+    let (status, _, stderr, source) = bake("catalogue/moving-tri.toml", &[], &[]);
+    assert_eq!(status, 2);
+    assert!(source.is_none());
+    assert!(stderr.contains("boundary.dirichlet.value") && stderr.contains("[input"), "{stderr}");
+    let (status, _, stderr, _) = bake("scenes/membrane.toml", &[], &["--full"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("--condensed"), "{stderr}");
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &[], &["--input", "snow=1"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("rain, river"), "{stderr}");
+}
+
+#[test]
+fn the_dense_problem_is_a_c_header() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("problem.h");
+    let scene = meshes().join("scenes/strip.toml");
+    let (status, _, _) =
+        signorini(&["condense", &scene.to_string_lossy(), "-o", &out.to_string_lossy()]);
+    let text = std::fs::read_to_string(out).expect("a header");
+    assert_eq!(status, 0);
+    assert!(text.contains("#define N 64 ") && text.contains("#define M 2 "));
+    let start = text.find("S[N * N] = {").expect("S") + "S[N * N] = {".len();
+    let numbers = text[start..].split('}').next().expect("numbers").split(',');
+    let numbers: Vec<f32> =
+        numbers.map(|x| x.trim().trim_end_matches('f').parse().expect("a number")).collect();
+    assert_eq!(numbers.len(), 64 * 64);
+    assert!((0..64).all(|i| numbers[65 * i] == 1.0), "a unit diagonal");
+    assert!((0..64 * 64).all(|at| numbers[at] == numbers[at % 64 * 64 + at / 64]), "symmetric");
+}
