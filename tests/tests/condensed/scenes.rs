@@ -4,6 +4,7 @@ use std::path::Path;
 
 use signorini_host::bake::condensed::{Baked, Work};
 use signorini_host::condense::{Condensate, condense};
+use signorini_host::mesh::Mesh;
 use signorini_host::mesh::structured::Cells;
 use signorini_host::outputs::outputs;
 use signorini_host::problem::Problem;
@@ -33,26 +34,32 @@ impl Model {
     }
 
     /// A random one: 2 to `2 * most` edges along the bottom, up to three sides more.
-    pub fn random(seed: u64, most: u32) -> Self {
+    /// `None` where u_D lies below ψ for the default inputs.
+    pub fn random(seed: u64, most: u32) -> Option<Self> {
         let random = &mut Random::new(seed);
         let text = text(random);
         let (n, cells) = (1 + random.below(most), KINDS[random.below(3) as usize]);
         let moved = random.below(3) > 0;
         let mesh = if moved { scattered(random, n, cells) } else { regular(n, cells) };
-        Self::of_text(format!("seed {seed}, {cells:?} {n}"), &text, mesh)
+        let what = format!("seed {seed}, {cells:?} {n}");
+        match Self::of_text(what, &text, mesh) {
+            Ok(model) => Some(model),
+            Err(error) if error.contains("lies below the gap") => None,
+            Err(error) => panic!("{error}\n{text}"),
+        }
     }
 
-    pub fn of_text(what: String, text: &str, mesh: signorini_host::mesh::Mesh) -> Self {
-        let read = Scene::parse(text, Path::new("test.toml"));
-        let scene = read.unwrap_or_else(|error| panic!("{what}: {error}\n{text}"));
-        let problem = Problem::new(&scene, mesh);
-        let problem = problem.unwrap_or_else(|error| panic!("{what}: {error}\n{text}"));
-        Self::new(what, scene, problem)
+    pub fn of_text(what: String, text: &str, mesh: Mesh) -> Result<Self, String> {
+        let told = |error: &dyn std::fmt::Display| format!("{what}: {error}");
+        let scene = Scene::parse(text, Path::new("test.toml")).map_err(|error| told(&error))?;
+        let problem = Problem::new(&scene, mesh).map_err(|error| told(&error))?;
+        Ok(Self::new(what, scene, problem))
     }
 
     /// The scene on a regular grid.
     pub fn on_grid(text: &str, n: u32, cells: Cells) -> Self {
-        Self::of_text(format!("{cells:?} {n}"), text, regular(n, cells))
+        let model = Self::of_text(format!("{cells:?} {n}"), text, regular(n, cells));
+        model.unwrap_or_else(|error| panic!("{error}\n{text}"))
     }
 
     pub fn baked<R: Scalar>(&self, work: Work) -> Baked<R> {
@@ -61,10 +68,11 @@ impl Model {
     }
 
     /// The full problem at these inputs, solved directly: its outputs in the order of the condensed ones.
-    pub fn full(&self, inputs: &[f64]) -> (Problem, Solution, Vec<Option<f64>>) {
+    /// `None` where u_D lies below ψ.
+    pub fn full(&self, inputs: &[f64]) -> Option<(Problem, Solution, Vec<Option<f64>>)> {
         let (mut scene, mut problem) = (self.scene.clone(), self.problem.clone());
         scene.inputs.iter_mut().zip(inputs).for_each(|(input, p)| input.default = *p);
-        problem.set_time(&scene, 0.0).expect("finite loads");
+        problem.set_time(&scene, 0.0).ok()?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
         let solution = solve(&scene, &problem, &options);
         let solution = solution.unwrap_or_else(|error| panic!("{}: {error}", self.what));
@@ -73,7 +81,7 @@ impl Model {
         let undeclared = ["contact_force", "contact_length"];
         let names = if declared.is_empty() { &undeclared[..] } else { &declared };
         let values = names.iter().map(|name| values[*name]).collect();
-        (problem, solution, values)
+        Some((problem, solution, values))
     }
 }
 
@@ -130,7 +138,10 @@ fn text(random: &mut Random) -> String {
             }
             5..=6 => {
                 let ambient = bent(random);
-                (format!("robin\"\ncoefficient = \"2 + x*y\"\nambient = \"{ambient}\""), &["ambient"])
+                (
+                    format!("robin\"\ncoefficient = \"2 + x*y\"\nambient = \"{ambient}\""),
+                    &["ambient"],
+                )
             }
             _ => (format!("dirichlet\"\nvalue = \"{value} + 0.1*y\""), &["value"]),
         };
@@ -150,6 +161,7 @@ fn text(random: &mut Random) -> String {
     }
     let at = [random.between(-0.9, 0.9), random.between(0.1, 0.9)];
     text += "[output.force]\nkind = \"force\"\n[output.length]\nkind = \"length\"\n";
-    text += "[output.below]\nkind = \"length\"\nof = \"contact\"\n[output.bound]\nkind = \"bound\"\n";
+    text +=
+        "[output.below]\nkind = \"length\"\nof = \"contact\"\n[output.bound]\nkind = \"bound\"\n";
     text + &format!("[output.probe]\nkind = \"probe\"\nat = {at:?}\n")
 }
