@@ -6,6 +6,8 @@
 //! ```
 //! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
 
+#[cfg(test)]
+mod compiled;
 pub mod condensed;
 pub mod face;
 pub mod full;

@@ -5,7 +5,6 @@ use std::path::Path;
 use signorini_host::bake::condensed::{Baked, Work};
 use signorini_host::condense::{Condensate, condense};
 use signorini_host::mesh::Mesh;
-use signorini_host::mesh::structured::Cells;
 use signorini_host::outputs::outputs;
 use signorini_host::problem::Problem;
 use signorini_host::scalar::Scalar;
@@ -54,12 +53,6 @@ impl Model {
         let scene = Scene::parse(text, Path::new("test.toml")).map_err(|error| told(&error))?;
         let problem = Problem::new(&scene, mesh).map_err(|error| told(&error))?;
         Ok(Self::new(what, scene, problem))
-    }
-
-    /// The scene on a regular grid.
-    pub fn on_grid(text: &str, n: u32, cells: Cells) -> Self {
-        let model = Self::of_text(format!("{cells:?} {n}"), text, regular(n, cells));
-        model.unwrap_or_else(|error| panic!("{error}\n{text}"))
     }
 
     pub fn baked<R: Scalar>(&self, work: Work) -> Baked<R> {
