@@ -140,3 +140,21 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
 fn input(name: &str, of: &str, field: &str, pattern: f64) -> String {
     format!("[input.{name}]\nof = \"{of}\"\nfield = \"{field}\"\npattern = {pattern:e}\n")
 }
+
+/// Sources whose mean over every cell is 0: the oscillation is all of the bound, and so is its rounding.
+#[test]
+fn of_nothing_but_oscillation() {
+    let mut text = "mesh = \"none.msh\"\n[material.default]\nconductivity = 1\n".to_owned();
+    text += "[boundary.contact]\nkind = \"contact\"\n[boundary.default]\nkind = \"dirichlet\"\nvalue = 0\n";
+    for at in 0..40 {
+        let pattern = format!("{}.1*sin(8*pi*x)", at % 7 + 1);
+        text += &format!(
+            "[input.f{at}]\nof = \"source\"\nfield = \"f\"\npattern = \"{pattern}\"\ndefault = 1\n"
+        );
+    }
+    let model = Model::of_text("oscillation".to_owned(), &text, regular(4, KINDS[1]));
+    let (model, mut found) = (model.unwrap_or_else(|error| panic!("{error}")), Found::default());
+    let random = &mut Random::new(5);
+    judge::<f32>(&model, |_| random.between(0.1, 1.0), &mut found);
+    assert!(found.bounds > 0 && found.share < 1e-4, "{found:?}");
+}

@@ -149,7 +149,7 @@ fn the_standard_scenes_have_the_outputs_of_the_full_model() {
         let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
         let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
-        let model = Model::new(name.to_owned(), scene, problem);
+        let model = Model::new(name.to_owned(), scene, problem).expect("a model");
         let wide = check::<f64>(&model, CONDENSED, amount, 1);
         let narrow = check::<f32>(&model, CONDENSED_NARROW, amount, 1);
         println!("{name}: {wide:?} {narrow:?}");

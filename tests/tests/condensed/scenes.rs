@@ -26,10 +26,9 @@ pub struct Model {
 }
 
 impl Model {
-    pub fn new(what: String, scene: Scene, problem: Problem) -> Self {
-        let condensate = condense(&scene, &problem);
-        let condensate = condensate.unwrap_or_else(|error| panic!("{what}: {error}"));
-        Self { what, scene, problem, condensate }
+    pub fn new(what: String, scene: Scene, problem: Problem) -> Result<Self, String> {
+        let condensate = condense(&scene, &problem).map_err(|error| format!("{what}: {error}"))?;
+        Ok(Self { what, scene, problem, condensate })
     }
 
     /// A random one: 2 to `2 * most` edges along the bottom, up to three sides more.
@@ -52,7 +51,7 @@ impl Model {
         let told = |error: &dyn std::fmt::Display| format!("{what}: {error}");
         let scene = Scene::parse(text, Path::new("test.toml")).map_err(|error| told(&error))?;
         let problem = Problem::new(&scene, mesh).map_err(|error| told(&error))?;
-        Ok(Self::new(what, scene, problem))
+        Self::new(what, scene, problem)
     }
 
     pub fn baked<R: Scalar>(&self, work: Work) -> Baked<R> {
