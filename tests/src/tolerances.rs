@@ -96,6 +96,10 @@ table! {
         "8 Gauss points are exact: only rounding is left";
     ORDER: "bound of the same mesh with its cells in another order, relative", 1e-10,
         "other roundings and, among equal ways out, other choices for a residual of 1e−13";
+    CONDENSED: "output of the condensed model in f64 against the full one, over its terms", 1e-9,
+        "two exact solves of one problem: 3e-12 at worst over 600 seeds";
+    CONDENSED_NARROW: "output of the condensed model in f32 against the full one, over its terms", 1e-4,
+        "what rounding S to f32 costs: 1e-5 at worst over 600 seeds where λ_min(S) is above 1e-3";
     UNITS: "bound over error in f32, in other units, relative", 1e-6,
         "some roundings of data that are no longer powers of two apart";
 }

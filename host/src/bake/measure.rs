@@ -1,5 +1,6 @@
 //! Outputs as forms: which edges they are read off, with which weights.
 
+use super::text::code;
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::{EdgeKind, Problem};
@@ -63,7 +64,7 @@ pub fn measures(scene: &Scene, problem: &Problem) -> Result<Vec<Measured>> {
 }
 
 fn meaning(quantity: Quantity, of: Option<&str>) -> String {
-    let place = of.map_or("all contact".to_owned(), |of| format!("`{of}`"));
+    let place = of.map_or("all contact".to_owned(), code);
     match quantity {
         Quantity::Flux => {
             format!("∫(A∇u)·n over {place}, outward; unit of a flux times a length.")

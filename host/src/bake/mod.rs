@@ -8,6 +8,8 @@
 
 pub mod budget;
 pub mod choice;
+#[cfg(test)]
+mod compiled;
 pub mod condensed;
 pub mod costs;
 pub mod explain;

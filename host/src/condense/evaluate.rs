@@ -101,7 +101,7 @@ impl Form {
     /// Mends the residual r̂ and returns |δ|; `None` where what is left over has no way out.
     ///
     /// What is mended must be 0 on inactive edges and ≥ 0 on active ones. Where contact alone holds the
-    /// part, the sum of all that was taken leaves through the active edge with the largest residual.
+    /// part, the sum of all that was taken leaves through the edge that is pressed most.
     pub(super) fn mend(&self, openings: &[f64], residual: &mut [f64], x: &[f64]) -> Option<f64> {
         let (mut square, mut surplus) = (0.0, 0.0);
         for ((residual, &x), opening) in residual.iter_mut().zip(x).zip(openings) {
@@ -112,11 +112,13 @@ impl Form {
         }
         if self.floating && square > 0.0 {
             let edges = 0..residual.len();
-            let out = edges.max_by(|&i, &j| residual[i].total_cmp(&residual[j]))?;
+            let force = |edge: usize| residual[edge] / openings[edge];
+            let touching = edges.filter(|&edge| x[edge] == 0.0);
+            let out = touching.max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
             let change = openings[out] * surplus;
             residual[out] += change;
             square += change * change;
-            if x[out] != 0.0 || residual[out] < 0.0 {
+            if residual[out] < 0.0 {
                 return None;
             }
         }

@@ -1,14 +1,14 @@
-//! A dense symmetric matrix as the lower triangle of its 4 × 4 blocks, row by row.
+//! A dense symmetric matrix as the lower triangle of its 8 × 8 blocks, row by row.
 //!
 //! ```text
 //!   | 0       |       block (I, J) stands at I (I + 1) / 2 + J,   J ≤ I,
-//!   | 1 2     |       and holds S[4I + r][4J + c] at [r][c]
+//!   | 1 2     |       and holds S[8I + r][8J + c] at [r][c]
 //!   | 3 4 5   |
 //! ```
 //! Blocks on the diagonal are held whole. A block serves twice, as itself and transposed, so half of
-//! the matrix is all that is stored and read; four numbers of x and of the sum stay in registers for
-//! sixteen products, and of fixed length nothing needs a bounds check. An order that is no multiple of
-//! four is filled up with zeros, and so are vectors: [`padded`] is the length that all arrays have.
+//! the matrix is all that is stored and read; eight numbers of the sum stay in registers for
+//! 64 products, and of fixed length nothing needs a bounds check. An order that is no multiple of
+//! eight is filled up with zeros, and so are vectors: [`padded`] is the length that all arrays have.
 
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
@@ -16,7 +16,7 @@ use crate::real::Real;
 /// Rows and columns of a block.
 pub const SIDE: usize = 8;
 
-/// Sixteen entries, by rows.
+/// Its entries, by rows.
 pub type Block<R> = [[R; SIDE]; SIDE];
 
 /// The length of vectors for a matrix of this order.
@@ -58,7 +58,7 @@ impl<'a, R: Real> Blocks<'a, R> {
     }
 }
 
-/// `sum` += S x, for an x that is 0 where `used` is not set: such groups of four cost nothing.
+/// `sum` += S x, for an x that is 0 where `used` is not set: such groups of eight cost nothing.
 ///
 /// # Errors
 /// Arrays of the wrong length: all have [`padded`] entries.
@@ -139,7 +139,7 @@ pub(super) fn add_transposed<R: Real>(block: &Block<R>, x: &[R; SIDE], sum: &mut
     *sum = total;
 }
 
-/// A vector by groups of four; what its length leaves over is left out.
+/// A vector by groups of eight; what its length leaves over is left out.
 #[inline(always)]
 pub(super) fn groups<T>(vector: &[T]) -> &[[T; SIDE]] {
     vector.as_chunks().0

@@ -18,7 +18,8 @@
 //! ends a touching edge.
 //!
 //! Rounding: p and x are exact by definition. F, S and B were rounded once, and products with them
-//! are off by a few ε of their terms: both are in [`Certificate::rounding`].
+//! are off by a few ε of their terms; so are the sums over edges and inputs that are left, the oscillation
+//! among them. All of it is in [`Certificate::rounding`].
 
 use super::factor::Factor;
 use super::outputs::dot;
@@ -113,13 +114,17 @@ impl<R: Real> Form<'_, R> {
         let gap = (first * first + corner).rounded_sqrt().or_larger(first);
         let all = R::from_count(x.len() as u32).rounded_sqrt();
         let hidden = norm.rounding + nudged + self.reach * (all * doubt + mended.hidden);
-        let rounding = hidden + R::from_count(16) * R::EPSILON * gap;
         let sizes = self.oscillation.iter().zip(inputs);
         let oscillation = sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
+        // Sums of so many terms at most, none of which is negative.
+        let terms = R::from_count((x.len() + inputs.len() + 32) as u32);
+        let rounding = hidden + terms * R::HALF * R::EPSILON * (gap + oscillation);
         let both = (gap * gap + oscillation * oscillation).rounded_sqrt().or_larger(gap);
         let total = oscillation + both + rounding;
         let [gap, algebraic, oscillation, rounding, total] =
             [gap, algebraic, oscillation, rounding, total].map(|part| self.unit * part);
+        // Next to underflow products are off by more than a part of themselves.
+        let (rounding, total) = (rounding + R::TINY, total + R::TINY);
         let certificate = Certificate { gap, algebraic, oscillation, rounding, total };
         Ok((total.finite() && algebraic.finite()).then_some(certificate))
     }
@@ -181,7 +186,7 @@ impl<R: Real> Form<'_, R> {
             let excess = dot(corner.excess, answer.inputs);
             let terms = corner.excess.iter().zip(answer.inputs);
             let size = terms.fold(R::ZERO, |sum, (&e, &p)| sum + (e * p).magnitude());
-            let slack = R::from_count(16) * R::EPSILON * size;
+            let slack = R::from_count(answer.inputs.len() as u32 + 8) * R::EPSILON * size;
             if !(excess >= -slack) {
                 return Ok(None);
             }

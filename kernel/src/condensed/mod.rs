@@ -112,7 +112,7 @@ impl<R: Real> Condensed<'_, R> {
     /// Solves for the inputs p, p_0 = 1 among them, from the last x, and bounds the error.
     ///
     /// # Errors
-    /// Inputs that are not finite: nothing is changed then. Arrays of the wrong length.
+    /// Inputs that are not finite, or loads that overflow: x is what it was then. Arrays of the wrong length.
     pub fn tick<M: Method<R>>(
         &self,
         inputs: &[R],
@@ -122,6 +122,7 @@ impl<R: Real> Condensed<'_, R> {
         all_finite(Array::Load, inputs)?;
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
+        all_finite(Array::Load, memory.load)?;
         let progress = method.solve(&matrix, memory.load, memory.iterate.lend())?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
@@ -138,7 +139,7 @@ impl<R: Real> Condensed<'_, R> {
     /// Output `number` of the last tick, `x` being that of its memory.
     ///
     /// # Errors
-    /// Arrays of the wrong length; no such output.
+    /// Arrays of the wrong length; no such output; a value that overflows.
     pub fn output(
         &self,
         number: usize,
@@ -148,7 +149,13 @@ impl<R: Real> Condensed<'_, R> {
     ) -> Result<R, Error> {
         let stray = Error::OutOfRange { of: Array::Scratch, at: number };
         let measure = self.outputs.get(number).ok_or(stray)?;
-        measure.value(inputs, self.unpadded(x), report.certificate.as_ref())
+        let value = measure.value(inputs, self.unpadded(x), report.certificate.as_ref())?;
+        match measure {
+            Measure::Linear { .. } if !value.finite() => {
+                Err(Error::NotFinite { of: Array::Fluxes, at: number })
+            }
+            _ => Ok(value),
+        }
     }
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {

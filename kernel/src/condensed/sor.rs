@@ -1,9 +1,9 @@
-//! Projected successive over-relaxation on the condensed problem, four rows at a time.
+//! Projected successive over-relaxation on the condensed problem, eight rows at a time.
 //!
 //! ```text
 //!   x_i ← max(0, x_i + ω (b_i − Σ_j S_ij x_j)),      S_ii = 1
 //! ```
-//! The products of four rows are formed with the x there is; then these four are relaxed one after the
+//! The products of eight rows are formed with the x there is; then these eight are relaxed one after the
 //! other, each change being brought to the rows below it. That is Gauss–Seidel, exactly, in another
 //! order of the sums.
 

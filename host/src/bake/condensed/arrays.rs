@@ -183,10 +183,15 @@ impl<R: Scalar> Bound<R> {
         let n = condensate.contact;
         let orders = 0..condensate.inputs + n + form.vertices.len();
         let column = |j: usize| &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-        let norm = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
+        let least = R::TINY.wide();
+        let least_norm = |j: usize| least * f64::from(j as u32 + 1).sqrt();
+        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        let norm = |j: usize| size(j).max(least_norm(j));
         let rows = condensate.matrix.chunks(n.max(1));
         let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
-        let largest = |column: &Vec<f64>| column.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        let largest =
+            |column: &Vec<f64>| column.iter().fold(least, |most: f64, b| most.max(b.abs()));
         // Only their ratios matter.
         let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
         let floating = condensate.multiplier.iter().map(|multiplier| multiplier / most);

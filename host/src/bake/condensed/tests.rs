@@ -1,1 +1,164 @@
+//! The generated text: no warnings, and the bits of the same arrays on this machine.
 
+use super::{Baked, Controller, Work, source};
+use crate::bake::compiled::printed;
+use crate::bake::face::Face;
+use crate::certify::fixtures::on_grid;
+use crate::condense::condense;
+use crate::error::Result;
+use crate::mesh::structured::{Cells, grid};
+use crate::scalar::Scalar;
+
+/// Prints the outputs of a cold and two warm ticks as bits.
+const MAIN: &str = "
+fn main() {
+    static CONTROLLER: std::sync::Mutex<Controller> = std::sync::Mutex::new(Controller::new());
+    let mut controller = CONTROLLER.lock().unwrap();
+    for factor in [1.0, -0.5, 0.25] {
+        let inputs = Inputs::from_array(Inputs::DEFAULT.to_array().map(|value| factor * value));
+        let outputs = controller.tick(inputs).map(|answer| answer.outputs.to_array());
+        println!(\"{:?}\", outputs.map(|outputs| outputs.map(Scalar::to_bits)));
+    }
+}
+";
+
+/// Dirichlet values above the gap at both ends, every kind of output, names that are no identifiers.
+const NAMES: &str = r#"
+title = "a \"title\" of\nlines [m] <b> */"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "-1 - x"
+[boundary."dirichlet"]
+kind = "dirichlet"
+value = "0.1*x"
+[boundary.left]
+kind = "dirichlet"
+value = "0.1*x"
+[boundary."right"]
+kind = "robin"
+coefficient = "2"
+ambient = "y"
+[boundary.contact]
+kind = "contact"
+gap = "-0.3 + 0.1*x^2"
+[input.type]
+of = "contact"
+field = "gap"
+pattern = "cos(3*x)/5"
+default = -0.3
+[input."größe \"q\"\n`code`"]
+of = "right"
+field = "ambient"
+pattern = "1"
+default = 0.7
+[input.inputs]
+of = "source"
+field = "f"
+pattern = "1"
+default = 0.5
+[input.memory]
+of = "source"
+field = "f"
+pattern = "x"
+default = 1e-40
+[output.self]
+kind = "flux"
+of = "dirichlet"
+[output."x \\ y"]
+kind = "force"
+of = "contact"
+[output."X-Y"]
+kind = "length"
+[output.load]
+kind = "probe"
+at = [0.1, 0.4]
+[output."∫"]
+kind = "bound"
+"#;
+
+/// Contact alone holds it, no inputs, no outputs.
+const FLOATING: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.contact]
+kind = "contact"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-1 - x/2"
+"#;
+
+/// Nothing touches.
+const LINEAR: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.default]
+kind = "dirichlet"
+value = "x*y"
+[input.heat]
+of = "source"
+field = "f"
+pattern = "1"
+default = 1.0
+[output.inside]
+kind = "probe"
+at = [0.1, 0.4]
+[output.bound]
+kind = "bound"
+"#;
+
+fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
+    let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+    let condensate = condense(&scene, &problem)?;
+    let baked = Baked::<R>::new(&condensate, work, certified).expect("numbers in range");
+    assert_eq!(baked.without_bound().is_none(), certified);
+    let mut controller = Controller::new(&baked);
+    let lines = [1.0, -0.5, 0.25].map(|factor| {
+        let value = |default: f64| R::narrow(factor) * R::narrow(default);
+        let inputs: Vec<R> = scene.inputs.iter().map(|input| value(input.default)).collect();
+        let (outputs, _) = controller.tick(&inputs).expect("a tick");
+        format!("Ok({:?})\n", outputs.into_iter().map(bits).collect::<Vec<_>>())
+    });
+    assert!(scene.inputs.is_empty() || lines[0] != lines[1]);
+    let text = source(&Face::new(&scene, &problem)?, &baked);
+    assert_eq!(printed(&(text + MAIN)), lines.concat());
+    Ok(())
+}
+
+const PIVOTS: Work = Work { pivots: Some(40), sweeps: 4 };
+const SWEEPS: Work = Work { pivots: None, sweeps: 6 };
+
+#[test]
+fn any_name_with_corners() -> Result<()> {
+    same_bits::<f32>(NAMES, PIVOTS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(NAMES, SWEEPS, true, f64::to_bits)
+}
+
+#[test]
+fn without_a_bound() -> Result<()> {
+    same_bits::<f64>(NAMES, PIVOTS, false, f64::to_bits)
+}
+
+#[test]
+fn without_inputs_on_contact_alone() -> Result<()> {
+    same_bits::<f32>(FLOATING, SWEEPS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(FLOATING, PIVOTS, true, f64::to_bits)
+}
+
+#[test]
+fn without_contact() -> Result<()> {
+    same_bits::<f32>(LINEAR, PIVOTS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(LINEAR, SWEEPS, true, f64::to_bits)
+}
+
+/// Both ends are Dirichlet corners.
+#[test]
+fn the_names_scene_has_corners() -> Result<()> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let form = condense(&scene, &problem)?.certificate.expect("a bound");
+    assert_eq!(form.corners.len(), 1);
+    Ok(())
+}

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::*;
+use crate::bake::condensed::{Baked, Controller, Work};
 use crate::certify::admissible::Admissible;
 use crate::certify::exact::{Distance, distance};
 use crate::certify::fixtures::{SMOOTH, distorted};
@@ -218,6 +219,43 @@ fn of_a_part_that_contact_alone_holds() -> Result<()> {
         }
         assert_eq!(model.condensate.bound(p, &vec![1.0; n]), None, "no way out");
     }
+    Ok(())
+}
+
+/// A tick in f32, cut off after the gap has moved or led to the end: its total is above the true error.
+#[test]
+fn of_a_tick_in_f32() -> Result<()> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/catalogue");
+    let read = |file| std::fs::read_to_string(folder.join(format!("{file}.toml"))).expect("a file");
+    let catalogue = ["h-tri", "j100-tri", "hg-tri"].map(read);
+    let drop =
+        "[input.drop]\nof = \"contact\"\nfield = \"gap\"\npattern = \"-0.2\"\ndefault = 1.0\n";
+    let own = [HELD_BY_CONTACT, SMOOTH].map(str::to_owned);
+    let works = [(Some(100), 0), (Some(1), 0), (Some(3), 2), (None, 1), (None, 6)];
+    let mut cut_off = 0;
+    for text in catalogue.into_iter().chain(own) {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let mut model = Model::new(&(text.clone() + drop), grid(5, cells))?;
+            // The exact solution is that of the gap as it was.
+            model.scene.inputs.iter_mut().for_each(|input| input.default = 0.0);
+            model.problem.set_time(&model.scene, 0.0)?;
+            for (pivots, sweeps) in works {
+                let work = Work { pivots, sweeps };
+                let baked = Baked::<f32>::new(&model.condensate, work, true).expect("in range");
+                let mut controller = Controller::new(&baked);
+                let (_, report) = controller.tick(&[0.0]).expect("a tick");
+                let x: Vec<f64> = controller.x().iter().map(|&x| f64::from(x)).collect();
+                let Some(bound) = report.certificate else { continue };
+                let found = model.distance(&[1.0, 0.0], &x)?;
+                let total = f64::from(bound.total);
+                println!("{cells:?} {work:?}: {total} {found:?}, rounding {}", bound.rounding);
+                assert!(total >= found.combined * (1.0 - 1e-4), "{work:?}: {total} {found:?}");
+                assert!(total >= found.identity * (1.0 - 1e-3), "{work:?}: {total} {found:?}");
+                cut_off += usize::from(bound.algebraic > 0.1 * bound.gap);
+            }
+        }
+    }
+    assert!(cut_off > 10, "{cut_off}");
     Ok(())
 }
 

@@ -1,0 +1,157 @@
+//! Every declared output is that of the full model.
+//!
+//! A deviation is measured against the largest value that the output takes over the ticks, but at least
+//! against the part [`TERMS`] of the largest sum of the sizes of its terms Y_p p + Y_x x: what is a small
+//! difference of large terms is known no better than they are, and many a force is 0. Edges must touch
+//! as they do in the full model, all of them: a random scene is never within rounding of switching.
+//!
+//! f32 holds S to 6e−8, which its smallest eigenvalue λ magnifies whatever solves the problem: 1e−4 of the
+//! terms is asked for as far as λ ≥ 1e−3, in proportion beyond.
+
+use std::path::Path;
+
+use signorini_host::bake::condensed::{Baked, Controller};
+use signorini_host::condense::{Condensate, Measure};
+use signorini_host::mesh::gmsh;
+use signorini_host::problem::Problem;
+use signorini_host::scalar::Scalar;
+use signorini_host::scene::Scene;
+use signorini_kernel::condensed::method::Ended;
+use signorini_tests::random::Random;
+use signorini_tests::tolerances::{CONDENSED, CONDENSED_NARROW, Tolerance};
+
+use crate::scenes::{EXACT, Model};
+
+/// Ticks of each controller.
+const TICKS: usize = 6;
+/// Scenes to draw.
+const SEEDS: u64 = 60;
+/// The part of its terms below which a value is no scale for its own error.
+const TERMS: f64 = 0.01;
+
+/// The largest deviations of one output and what they are to be compared with.
+#[derive(Debug, Clone, Copy, Default)]
+struct Output {
+    off: f64,
+    value: f64,
+    terms: f64,
+}
+
+/// Values of the inputs that f32 holds exactly.
+fn inputs(model: &Model, amount: f64, random: &mut Random) -> Vec<f64> {
+    let mut near = |default: f64| default + amount * (f64::from(random.below(256)) / 64.0 - 2.0);
+    model.scene.inputs.iter().map(|input| f64::from(near(input.default) as f32)).collect()
+}
+
+/// The outputs that are linear, over some ticks from one answer to the next.
+fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) -> Vec<Output> {
+    let baked: Baked<R> = model.baked(EXACT);
+    let mut controller = Controller::new(&baked);
+    let measures = &model.condensate.outputs;
+    let mut all = vec![Output::default(); measures.len()];
+    for _ in 0..TICKS {
+        let p = inputs(model, amount, random);
+        let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
+        let (found, report) = controller.tick(&narrow).expect("a tick");
+        let Some((problem, solution, expected)) = model.full(&p) else {
+            assert_eq!(report.certificate, None, "{}: u_D below the gap", model.what);
+            continue;
+        };
+        assert_eq!(report.ended, Ended::Exact, "{}", model.what);
+        let p: Vec<f64> = std::iter::once(1.0).chain(p).collect();
+        let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
+        let open = solution.u[problem.topology.counts.free..].iter().zip(&problem.loads.gap);
+        let as_in_full = x.iter().zip(open).all(|(&x, (u, gap))| (x == 0.0) == (u == gap));
+        assert!(as_in_full, "{}: other edges touch", model.what);
+        for (((output, measure), found), expected) in
+            all.iter_mut().zip(measures).zip(found).zip(expected)
+        {
+            let (found, lengths) = (found.wide(), || problem.lengths.iter().sum::<f64>());
+            match measure {
+                Measure::Bound => assert_eq!(found.is_finite(), report.certificate.is_some()),
+                Measure::Length { .. } => {
+                    let off = (found - expected.expect("a value")).abs();
+                    assert!(off <= 8.0 * R::EPSILON.wide() * lengths(), "{}: {off}", model.what);
+                }
+                Measure::Linear { of_inputs, of_contact } => {
+                    let expected = expected.expect("a value");
+                    let products = of_inputs.iter().zip(&p).chain(of_contact.iter().zip(&x));
+                    let terms = products.map(|(a, b)| (a * b).abs()).sum();
+                    output.off = output.off.max((found - expected).abs());
+                    output.value = output.value.max(expected.abs());
+                    output.terms = output.terms.max(terms);
+                }
+            }
+        }
+    }
+    all.into_iter().filter(|output| output.off > 0.0).collect()
+}
+
+fn check<R: Scalar>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -> [f64; 2] {
+    let outputs = linear_outputs::<R>(model, amount, &mut Random::new(seed));
+    let most = |of: fn(&Output) -> f64| outputs.iter().map(of).fold(0.0, f64::max);
+    let of_terms = most(|output| output.off / output.terms);
+    let of_values = most(|output| output.off / output.value.max(TERMS * output.terms));
+    let condition = (1e-3 * condition(&model.condensate)).max(1.0);
+    allowed.check(&model.what, of_terms / condition);
+    [of_terms, of_values]
+}
+
+/// 1/λ_min of S, by the inverse power method.
+fn condition(condensate: &Condensate) -> f64 {
+    let n = condensate.contact;
+    let mut l: Vec<Vec<f64>> = condensate.matrix.chunks(n).map(<[f64]>::to_vec).collect();
+    for j in 0..n {
+        for i in j..n {
+            let rest = l[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
+        }
+    }
+    let (mut x, mut size) = (vec![1.0; n], 1.0);
+    for _ in 0..50 {
+        for i in 0..n {
+            x[i] = (x[i] - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
+        }
+        for i in (0..n).rev() {
+            x[i] = (x[i] - (i + 1..n).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
+        }
+        size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        x.iter_mut().for_each(|x| *x /= size);
+    }
+    size
+}
+
+#[test]
+fn random_scenes_have_the_outputs_of_the_full_model() {
+    let mut worst = [[0.0_f64; 2]; 2];
+    let mut drawn = 0;
+    for seed in 0..SEEDS {
+        let Some(model) = Model::random(seed, 5) else { continue };
+        drawn += 1;
+        let wide = check::<f64>(&model, CONDENSED, 1.0, seed);
+        let narrow = check::<f32>(&model, CONDENSED_NARROW, 1.0, seed);
+        CONDENSED.check(&model.what, wide[1]);
+        for (worst, found) in worst.iter_mut().zip([wide, narrow]) {
+            *worst = [worst[0].max(found[0]), worst[1].max(found[1])];
+        }
+    }
+    println!("{drawn} scenes, f64 and f32, of terms and of values: {worst:?}");
+    assert!(drawn > SEEDS / 2);
+}
+
+/// With inputs about as large as in use.
+#[test]
+fn the_standard_scenes_have_the_outputs_of_the_full_model() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
+    for (name, amount) in
+        [("levee", 0.2), ("slab", 2.0), ("strip", 0.1), ("membrane", 0.0), ("pit", 0.0)]
+    {
+        let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
+        let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+        let problem = Problem::new(&scene, mesh).expect("a problem");
+        let model = Model::new(name.to_owned(), scene, problem).expect("a model");
+        let wide = check::<f64>(&model, CONDENSED, amount, 1);
+        let narrow = check::<f32>(&model, CONDENSED_NARROW, amount, 1);
+        println!("{name}: {wide:?} {narrow:?}");
+    }
+}
