@@ -123,8 +123,10 @@ pub fn load_of_triangles<R: Real, I: Index>(
     same_length(Array::Load, load.len(), edges.counts().unknowns())?;
     same_length_or_empty(Array::CellLoads, loads.len(), triangles.len())?;
     load.fill(R::ZERO);
-    for (sides, &integral) in triangles.iter().zip(loads) {
-        spread(sides, integral * R::THIRD, load);
+    if features::TRIANGLES {
+        for (sides, &integral) in triangles.iter().zip(loads) {
+            spread(sides, integral * R::THIRD, load);
+        }
     }
     boundary.add_to_load(edges, load);
     Ok(())

@@ -5,9 +5,11 @@
 //! * Allocation: an image is built without `alloc`; what brings it in does not build.
 //! * Formatting, f64 helpers, code for quads or contact: by the image's symbols. The features
 //!   `broken-…` bring each of them in on purpose, so that a renamed function cannot hide one.
+//! * What a baked scene has no need of: by the functions of its image, inlined ones included.
 
 use std::path::PathBuf;
 
+use crate::audit_baked;
 use crate::board::{Build, M4F};
 use crate::export::scenes;
 use crate::setup;
@@ -16,16 +18,21 @@ use crate::symbols::{allocates, sized};
 use crate::toolchain::output;
 
 /// Something that an image shall not contain.
-struct Absence {
-    what: &'static str,
-    is: fn(&str) -> bool,
+pub struct Absence {
+    /// For a person.
+    pub what: &'static str,
+    /// By the mangled name of a function.
+    pub is: fn(&str) -> bool,
 }
 
-const FORMATTING: Absence = Absence { what: "formatting", is: |name| name.contains("3fmt") };
-const ALLOCATOR: Absence = Absence { what: "allocator", is: allocates };
-const PANIC: Absence = Absence { what: "panic", is: |name| name.contains("panic") };
+/// Text of values.
+pub const FORMATTING: Absence = Absence { what: "formatting", is: |name| name.contains("3fmt") };
+/// A heap.
+pub const ALLOCATOR: Absence = Absence { what: "allocator", is: allocates };
+/// Ways out that the kernel has no need of.
+pub const PANIC: Absence = Absence { what: "panic", is: |name| name.contains("panic") };
 /// The compiler's helpers for f64, by the run-time ABI's names and by their own.
-const DOUBLE: Absence = Absence {
+pub const DOUBLE: Absence = Absence {
     what: "f64 helper",
     is: |name| {
         let abi = name.strip_prefix("__aeabi_").is_some_and(|rest| {
@@ -80,6 +87,7 @@ pub fn run(steps: &mut Steps) {
             caught(free_of("tick_linear", &[feature], absences), reasons)
         });
     }
+    audit_baked::run(steps);
 }
 
 /// `Err` where the image does not link, or names one of the symbols.

@@ -1,9 +1,11 @@
 //! `cargo xtask cross`: the kernel and every image for every core.
 //!
-//! The kernel has no features to choose among: both scalars and both square roots are in the images.
+//! With all features: both scalars and both square roots are in the images. A baked scene, which names the
+//! features that it needs, is built as well; `audit`, `size` and `firmware` build more of them.
 
 use std::fs;
 
+use crate::baked::Recipe;
 use crate::board::{Board, Build, HARDWARE, M4, M4F, M7};
 use crate::cargo::{run as run_cargo, target_dir};
 use crate::export::scenes;
@@ -28,6 +30,11 @@ pub fn run(steps: &mut Steps) {
                 build(&board, Build { package, bins: &[], features: &[], scenes: &scenes()? })
             });
         }
+        steps.check(&format!("a baked scene for the {}", board.name), || {
+            let recipe = Recipe::of("meshes/scenes/levee.toml", "--condensed");
+            let baked = recipe.bake().map_err(|failure| failure.why)?;
+            baked.image(&board, &[]).map(drop)
+        });
     }
     steps.check("the cost image for a real board", || {
         let (package, bins) = ("signorini-firmware", &["cost"]);

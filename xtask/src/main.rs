@@ -2,6 +2,7 @@
 //! of the project's crates, so it compiles in seconds.
 
 mod audit;
+mod audit_baked;
 mod baked;
 mod board;
 mod boards;

@@ -26,6 +26,16 @@ pub fn sized(image: &Path) -> Result<Vec<(String, u64)>, String> {
     Ok(listing.lines().filter_map(|line| Some((name(line)?, size(line).unwrap_or(0)))).collect())
 }
 
+/// The functions that the debug information of an ARM image names: what was inlined, too.
+pub fn inlined(image: &Path) -> Result<Vec<String>, String> {
+    let listing = output(Command::new("arm-none-eabi-objdump").arg("--dwarf=info").arg(image))?;
+    let names = listing.lines().filter(|line| line.contains("DW_AT_linkage_name"));
+    Ok(names
+        .filter_map(|line| line.rsplit(": ").next())
+        .map(|name| name.trim().to_owned())
+        .collect())
+}
+
 /// The size of a section of an ARM image, in bytes.
 pub fn section(image: &Path, name: &str) -> Result<u64, String> {
     let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;

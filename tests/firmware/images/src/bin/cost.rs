@@ -169,9 +169,7 @@ impl Stages for Meter<'_, '_> {
         })?;
         Ok(())
     }
-}
 
-impl Meter<'_, '_> {
     /// The forest and the packed cells, found once, and the certificate of an iterate.
     #[inline(never)]
     fn certificate<R: Bits, const T: usize, const Q: usize, const E: usize>(

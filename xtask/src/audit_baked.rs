@@ -1,0 +1,190 @@
+//! What the images of baked scenes do not contain, functions that were inlined included.
+//!
+//! Each kind of code is looked for where it must not be, and by the same names where it must be: a renamed
+//! function, or a list that misses, fails one of the two.
+
+use std::path::Path;
+
+use crate::audit::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
+use crate::baked::Recipe;
+use crate::board::M4F;
+use crate::steps::Steps;
+use crate::symbols::{inlined, sized};
+
+const ALWAYS: [Absence; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
+
+/// Mesh, rows, assembly, sweeps over them, the forest, and the error bound of cells.
+const FULL: Absence = Absence {
+    what: "code of the full model",
+    is: |name| {
+        let modules = [
+            "4mesh",
+            "5edges",
+            "5cells",
+            "4rows",
+            "4psor",
+            "4flux",
+            "4tick",
+            "4full",
+            "6forest",
+            "7element",
+            "8assembly",
+            "8averages",
+            "8boundary",
+            "9stiffness",
+            "10conforming",
+            "11equilibrium",
+        ];
+        let own = |rest: &str| modules.iter().any(|module| rest.starts_with(module));
+        let parts = ["4walk", "4quad", "8triangle", "8boundary", "5parts"];
+        let bound = |rest: &str| {
+            let part = rest.strip_prefix("11certificate");
+            part.is_some_and(|rest| parts.iter().any(|part| rest.starts_with(part)))
+        };
+        name.split("signorini_kernel").skip(1).any(|rest| own(rest) || bound(rest))
+    },
+};
+/// All that solves a condensed problem.
+const SOLVER: Absence = Absence {
+    what: "code for contact",
+    is: |name| {
+        [
+            "condensed3sor",
+            "condensed8pivoting",
+            "condensed7tableau",
+            "condensed6blocks12multiply_add",
+        ]
+        .iter()
+        .any(|part| name.contains(part))
+    },
+};
+const TRIANGLES: Absence = Absence {
+    what: "triangle code",
+    is: |name| {
+        [
+            "averages12of_triangles",
+            "gather_triangles",
+            "over_triangles",
+            "certificate8triangle",
+            "flux11on_triangle",
+            "crouzeix",
+        ]
+        .iter()
+        .any(|part| name.contains(part))
+    },
+};
+const QUADS: Absence = Absence {
+    what: "quad code",
+    is: |name| {
+        [
+            "averages8of_quads",
+            "gather_cells",
+            "add_quads",
+            "certificate4quad",
+            "flux7on_quad",
+            "rannacher",
+        ]
+        .iter()
+        .any(|part| name.contains(part))
+    },
+};
+const ROBIN: Absence = Absence { what: "Robin code", is: |name| name.contains("E5robin") };
+
+/// A scene, its model, what its image is free of, and what is found in it by the same names.
+struct Image {
+    scene: &'static str,
+    model: &'static str,
+    lacks: &'static [Absence],
+    holds: &'static [Absence],
+}
+
+const IMAGES: [Image; 5] = [
+    Image {
+        scene: "tests/firmware/scenes/linear.toml",
+        model: "--condensed",
+        lacks: &[FULL, TRIANGLES, QUADS, ROBIN, SOLVER],
+        holds: &[],
+    },
+    Image {
+        scene: "meshes/scenes/levee.toml",
+        model: "--condensed",
+        lacks: &[FULL, TRIANGLES, QUADS, ROBIN],
+        holds: &[SOLVER],
+    },
+    Image {
+        scene: "meshes/scenes/levee.toml",
+        model: "--full",
+        lacks: &[SOLVER, QUADS, ROBIN],
+        holds: &[FULL, TRIANGLES],
+    },
+    Image {
+        scene: "meshes/scenes/slab.toml",
+        model: "--full",
+        lacks: &[SOLVER, TRIANGLES],
+        holds: &[FULL, QUADS, ROBIN],
+    },
+    Image {
+        scene: "meshes/scenes/strip.toml",
+        model: "--full",
+        lacks: &[SOLVER, ROBIN],
+        holds: &[FULL, TRIANGLES, QUADS],
+    },
+];
+
+/// A step for each image.
+pub fn run(steps: &mut Steps) {
+    for image in &IMAGES {
+        let recipe = Recipe::of(image.scene, image.model);
+        let name = format!("{} {}", recipe.scene_name(), image.model.trim_start_matches('-'));
+        steps.check(&format!("{name}, baked: what its scene lacks"), || {
+            let baked = recipe.bake().map_err(|failure| failure.why)?;
+            judge(image, &functions(&baked.image(&M4F, &[])?)?)
+        });
+    }
+}
+
+fn judge(image: &Image, names: &[String]) -> Result<(), String> {
+    for absence in ALWAYS.iter().chain(image.lacks) {
+        if let Some(name) = names.iter().find(|name| (absence.is)(name)) {
+            return Err(format!("{}: {name}", absence.what));
+        }
+    }
+    match image.holds.iter().find(|held| !names.iter().any(|name| (held.is)(name))) {
+        Some(held) => Err(format!("no {} is found, which must be there", held.what)),
+        None => Ok(()),
+    }
+}
+
+/// All functions of the image, and those of the kernel that were inlined.
+fn functions(image: &Path) -> Result<Vec<String>, String> {
+    let kernel = inlined(image)?.into_iter().filter(|name| name.contains("signorini_kernel"));
+    let mut names: Vec<_> = sized(image)?.into_iter().map(|(name, _)| name).collect();
+    let own = names.len();
+    names.extend(kernel);
+    // Without these names the image shows little.
+    if names.len() > own { Ok(names) } else { Err("no inlined function of the kernel".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_must_not_and_what_must_be_there_are_both_asked_for() {
+        let solver = "_RNvNtNtCs1_16signorini_kernel9condensed3sor5sweepf".to_owned();
+        let mesh = "_RNvNtCs1_16signorini_kernel8assembly4loadft".to_owned();
+        let [linear, levee, ..] = &IMAGES;
+        assert_eq!(judge(linear, &[]), Ok(()));
+        assert!(judge(linear, &[solver.clone()]).is_err());
+        assert_eq!(judge(levee, &[solver.clone()]), Ok(()));
+        assert!(judge(levee, &[]).is_err());
+        assert!(judge(levee, &[solver, mesh]).is_err());
+    }
+
+    #[test]
+    fn the_bound_of_a_condensed_model_is_its_own() {
+        let of = |path: &str| (FULL.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
+        assert!(of("11certificate4walk10over_cells"));
+        assert!(!of("11certificate11Certificatef") && !of("9condensed11certificate4Form"));
+    }
+}
