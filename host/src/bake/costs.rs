@@ -12,7 +12,7 @@ const SIZES: &str = include_str!("../../../tests/firmware/size.txt");
 /// Columns of a scene's name there.
 const NAME: usize = 36;
 /// Columns of a stage, of its unit and of a count.
-const WIDTHS: [usize; 3] = [32, 8, 16];
+const WIDTHS: [usize; 3] = [36, 8, 16];
 
 /// Cycles an instruction on a Cortex-M4, from the timing table of its manual and the mix of loads (2 cycles)
 /// and multiply-adds (3) in the inner loops: an estimate, which only ever warns.

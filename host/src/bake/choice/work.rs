@@ -16,7 +16,8 @@ const MOST_SWEEPS: u32 = 1000;
 /// Instructions an entry of a load or an output: two loads, a multiply-add, half of a loop.
 const AN_ENTRY: f64 = 4.0;
 
-/// Instructions of a tick in which no edge changes sides.
+/// Instructions of a tick in which no edge changes sides, as if every group of eight edges had an open one:
+/// then a product costs what a sweep does, and all columns of the bound's factor count, not half of them.
 pub(super) fn fixed<R: Scalar>(
     costs: &Costs,
     condensate: &Condensate,
@@ -24,12 +25,13 @@ pub(super) fn fixed<R: Scalar>(
     certified: bool,
 ) -> Option<f64> {
     let Condensate { contact, inputs, outputs, .. } = condensate;
+    let of = |stage: &str| costs.of_dense::<R>(stage, *contact);
     let (n, m) = (padded(*contact) as f64, *inputs as f64);
     let entries = n * m + outputs.len() as f64 * (n + m);
-    let solve = if exact { "exact, no edge changes" } else { "product, half of x zero" };
-    let solve = costs.of_dense::<R>(solve, *contact)?;
+    let (sweep, product) = (of("sweep")?, of("product, half of x zero")?);
+    let solve = if exact { of("exact, no edge changes")? + 2.0 * (sweep - product) } else { sweep };
     let bound = match certified && condensate.certificate.is_ok() {
-        true => costs.of_dense::<R>("norm of the bound, half of x zero", *contact)?,
+        true => 2.0 * of("norm of the bound, half of x zero")?,
         false => 0.0,
     };
     Some(AN_ENTRY * entries + solve + bound)
