@@ -24,7 +24,7 @@ struct Kind {
 }
 
 /// What is condensed, then what is solved on its mesh; the leanest first.
-const KINDS: [Kind; 8] = [
+const KINDS: [Kind; 7] = [
     Kind {
         what: "linear, condensed",
         scene: "tests/firmware/scenes/linear.toml",
@@ -48,12 +48,6 @@ const KINDS: [Kind; 8] = [
         scene: "tests/firmware/scenes/levee-96.toml",
         model: "--condensed",
         most: 32 * 1024,
-    },
-    Kind {
-        what: "linear, on triangles",
-        scene: "tests/firmware/scenes/linear.toml",
-        model: "--full",
-        most: 20 * 1024,
     },
     Kind {
         what: "levee, on triangles",
