@@ -42,6 +42,8 @@ pub struct Condensed<'a, R> {
     pub contact: usize,
     /// S, as [`Blocks::new`] takes it.
     pub matrix: &'a [Block<R>],
+    /// x of the answer in which the first tick begins; zeros are assumed where it ends.
+    pub x: &'a [R],
     /// Where the exact method begins; empty for sweeps alone.
     pub start: Start<'a, R>,
     /// B by columns: [`blocks::padded`] entries for each input, the constant first.

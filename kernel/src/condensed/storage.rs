@@ -17,26 +17,38 @@ pub struct Storage<R, const P: usize, const C: usize> {
     load: [R; P],
     combination: [R; C],
     sum: [R; C],
+    has_begun: bool,
 }
 
 impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
-    /// Begins with this x: zeros, where nothing is known.
-    pub const fn new(x: [R; P]) -> Self {
+    /// Zeros, which take no room in flash: the first tick takes the model's x over.
+    pub const fn new() -> Self {
         Self {
-            x,
+            x: [R::ZERO; P],
             residual: [R::ZERO; P],
             scratch: [R::ZERO; P],
             open: [false; P],
             load: [R::ZERO; P],
             combination: [R::ZERO; C],
             sum: [R::ZERO; C],
+            has_begun: false,
         }
     }
 
     /// The view that [`Condensed::tick`] takes.
-    pub fn memory(&mut self) -> Memory<'_, R> {
-        let Self { x, residual, scratch, open, load, combination, sum } = self;
+    pub fn memory(&mut self, model: &Condensed<R>) -> Memory<'_, R> {
+        let Self { x, residual, scratch, open, load, combination, sum, has_begun } = self;
+        if !*has_begun {
+            x.iter_mut().zip(model.x).for_each(|(x, &given)| *x = given);
+            *has_begun = true;
+        }
         Memory { iterate: Iterate { x, residual, scratch, open }, load, combination, sum }
+    }
+}
+
+impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

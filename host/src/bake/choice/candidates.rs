@@ -1,6 +1,6 @@
 //! The models there are, each with what it takes.
 
-use super::work::{fixed, work};
+use super::work::{fixed, unlimited, within};
 use super::{Candidate, Model};
 use crate::bake::budget::{Budget, Needs};
 use crate::bake::costs::Costs;
@@ -52,12 +52,15 @@ fn condensed_as<R: Scalar>(
     exact: bool,
     certified: bool,
 ) -> Result<Candidate<R>> {
+    let unfit = unfit::<R>(scene);
+    let all = unlimited(condensate.contact, exact);
+    let baked = condensed::Baked::<R>::new(condensate, all, certified).map_err(unfit)?;
+    let trial = trial::of_condensed(&baked, &condensate.defaults[1..]);
     let costs = Costs::measured();
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
-    let work = work::<R>(&costs, condensate.contact, exact, fixed.zip(budget.instructions()));
-    let unfit = unfit::<R>(scene);
-    let baked = condensed::Baked::<R>::new(condensate, work, certified).map_err(unfit)?;
-    let trial = trial::of_condensed(&baked, &condensate.defaults[1..]);
+    let work =
+        within::<R>(&costs, condensate.contact, all, trial, fixed.zip(budget.instructions()));
+    let baked = baked.with_work(work);
     let step = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
     let pivots = f64::from(trial.pivots[0]);
     let sweeps = f64::from(trial.sweeps[0]);

@@ -4,6 +4,7 @@ use signorini_kernel::condensed::blocks::padded;
 
 use crate::bake::condensed::Work;
 use crate::bake::costs::Costs;
+use crate::bake::trial::Trial;
 use crate::condense::Condensate;
 use crate::scalar::Scalar;
 
@@ -37,27 +38,33 @@ pub(super) fn fixed<R: Scalar>(
     Some(AN_ENTRY * entries + solve + bound)
 }
 
-/// What a tick may do: without a declared time as much as it takes, else what time is left for.
-pub(super) fn work<R: Scalar>(
+/// What a tick may do where nothing limits its time.
+pub(super) fn unlimited(contact: usize, exact: bool) -> Work {
+    match exact {
+        true => Work { pivots: Some((2 * contact as u32).max(1)), sweeps: FALLBACK },
+        false => Work { pivots: None, sweeps: MOST_SWEEPS },
+    }
+}
+
+/// What a tick may do in the time declared, and in any case what the ticks of the trial did. `time`: the
+/// instructions of a tick without changes, and those that there are.
+pub(super) fn within<R: Scalar>(
     costs: &Costs,
     contact: usize,
-    exact: bool,
+    all: Work,
+    trial: Trial,
     time: Option<(f64, f64)>,
 ) -> Work {
-    let all = 2 * contact as u32;
-    let pivots = exact.then_some(all.max(1));
-    let unlimited = Work { pivots, sweeps: if exact { FALLBACK } else { MOST_SWEEPS } };
     let steps = costs.of_dense::<R>("exchange", contact).zip(costs.of_dense::<R>("sweep", contact));
-    let (Some((fixed, budget)), Some((pivot, sweep))) = (time, steps) else { return unlimited };
-    if contact == 0 {
-        return unlimited;
-    }
-    let times = |instructions: f64| (instructions / sweep).floor().clamp(1.0, 1e6) as u32;
-    if !exact {
-        return Work { pivots: None, sweeps: times(budget - fixed).min(MOST_SWEEPS) };
-    }
-    let sweeps = times(0.25 * (budget - fixed)).min(FALLBACK);
-    let left = budget - fixed - f64::from(sweeps) * sweep;
-    let affordable = (left / pivot).floor().clamp(0.0, f64::from(all)) as u32;
-    Work { pivots: Some(affordable.max(FEWEST)), sweeps }
+    let (Some((fixed, budget)), Some((pivot, sweep)), true) = (time, steps, contact > 0) else {
+        return all;
+    };
+    let times = |instructions: f64, each: f64| (instructions / each).clamp(0.0, 1e6) as u32;
+    let Some(most) = all.pivots else {
+        let sweeps = times(budget - fixed, sweep).max(trial.sweeps[1]).clamp(1, all.sweeps);
+        return Work { pivots: None, sweeps };
+    };
+    let sweeps = times(0.25 * (budget - fixed), sweep).clamp(1, all.sweeps);
+    let affordable = times(budget - fixed - f64::from(sweeps) * sweep, pivot);
+    Work { pivots: Some(affordable.max(FEWEST).max(trial.pivots[1]).min(most)), sweeps }
 }

@@ -111,6 +111,11 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
+    /// The same with other limits, the exact method staying in or out.
+    pub fn with_work(self, work: Work) -> Self {
+        Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
+    }
+
     /// Bytes of one number.
     pub(super) fn scalar(&self) -> usize {
         size_of::<R>()
@@ -134,8 +139,16 @@ impl<R: Scalar> Baked<R> {
             corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
         let Self { contact, matrix, load, .. } = self;
-        let start = self.start.view();
-        then(&Condensed { contact: *contact, matrix, start, load, outputs: &outputs, certificate })
+        let (x, start) = (&self.start.x, self.start.view());
+        then(&Condensed {
+            contact: *contact,
+            matrix,
+            x,
+            start,
+            load,
+            outputs: &outputs,
+            certificate,
+        })
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -119,7 +119,7 @@ impl Controller {{
     /// Before the first tick, which begins with the answer to the scene's own inputs.
     pub const fn new() -> Self {{
         Self {{
-            storage: Storage::new(data::START),
+            storage: Storage::new(),
 {}        }}
     }}
 
@@ -131,7 +131,7 @@ impl Controller {{
         {pattern}
         let inputs = [{}];
         {method}
-        let mut memory = self.storage.memory();
+        let mut memory = self.storage.memory(&data::SYSTEM);
         let report = data::SYSTEM.tick(&inputs, &mut method, &mut memory)?;
         let x = memory.iterate.x;
         let output = |number| data::SYSTEM.output(number, &inputs, x, &report);

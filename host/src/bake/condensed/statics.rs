@@ -29,7 +29,7 @@ pub(super) fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
     };
     let _ = write!(
         text,
-        "\n    /// The scaled openings for the scene's own inputs.\n    pub(super) const START: [Scalar; {}] \
+        "\n    /// The scaled openings for the scene's own inputs.\n    static START: [Scalar; {}] \
          = {};\n",
         baked.start.x.len(),
         array(&baked.start.x, 4)
@@ -66,6 +66,7 @@ mod data {{
     pub static SYSTEM: Condensed<'static, Scalar> = Condensed {{
         contact: super::CONTACT,
         matrix: &MATRIX,
+        x: &START,
         start: {start},
         load: &LOAD,
         outputs: &[{}],

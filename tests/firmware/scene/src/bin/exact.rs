@@ -30,8 +30,7 @@ struct Memory {
 
 #[entry]
 fn main() -> ! {
-    static mut MEMORY: Memory =
-        Memory { storage: Storage::new([0.0; PADDED]), tableau: TableauStorage::new() };
+    static mut MEMORY: Memory = Memory { storage: Storage::new(), tableau: TableauStorage::new() };
     run(|journal| {
         let Some(clock) = Clock::start() else { end(false) };
         journal.count("@ heap", size_of::<Memory>() as u32);
@@ -48,7 +47,7 @@ fn main() -> ! {
             }
             empty += clock.measure(1, || black_box(())).unwrap_or(0);
             if tick > 0 {
-                let x = &*MEMORY.storage.memory().iterate.x;
+                let x = &*MEMORY.storage.memory(&SYSTEM).iterate.x;
                 let x = x.get(..CONTACT).unwrap_or_default();
                 journal.record(counts.map_or(u32::MAX, |counts| counts - empty), x.iter().copied());
             }
@@ -59,7 +58,7 @@ fn main() -> ! {
 
 /// b = B p, not counted.
 fn load(inputs: &[f32; INPUTS], memory: &mut Memory) {
-    let load = memory.storage.memory().load;
+    let load = memory.storage.memory(&SYSTEM).load;
     load.fill(0.0);
     let inputs = core::iter::once(&1.0).chain(inputs);
     for (column, &p) in SYSTEM.load.chunks_exact(PADDED).zip(inputs) {
@@ -71,7 +70,7 @@ fn load(inputs: &[f32; INPUTS], memory: &mut Memory) {
 #[inline(never)]
 fn solve(memory: &mut Memory) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
-    let lent = memory.storage.memory();
+    let lent = memory.storage.memory(&SYSTEM);
     let mut method = memory.tableau.method(&SYSTEM, u32::MAX, SWEEPS)?;
     method.solve(&matrix, lent.load, lent.iterate).map(|_| ())
 }
