@@ -96,19 +96,17 @@ fn search<R: Real>(
 
 /// The unknown that is on the wrong side by most, or the first that is.
 fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
-    let mut sides =
-        z.iter().zip(exchanged).map(|(&z, &within)| if within { -z } else { z }).enumerate();
-    if !by_most {
-        return sides.find(|(_, side)| *side < -noise).map(|(at, _)| at);
+    let (mut found, mut most) = (None, noise);
+    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
+        // z = −x within, w elsewhere: both are wrong where their signs say otherwise.
+        if (z > R::ZERO) == within && z.magnitude() > most {
+            (found, most) = (Some(at), z.magnitude());
+            if !by_most {
+                break;
+            }
+        }
     }
-    let lowest =
-        sides.fold(
-            (None, -noise),
-            |(found, lowest), (at, side)| {
-                if side < lowest { (Some(at), side) } else { (found, lowest) }
-            },
-        );
-    lowest.0
+    found
 }
 
 /// Σ x_i²
