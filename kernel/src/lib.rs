@@ -52,6 +52,9 @@
 //! into a control loop, and [`full`] drives one by the inputs of a baked scene. Each works on slices and can be used alone; [`workspace`] owns the memory and goes
 //! from mesh to flux. [`components`] tells beforehand whether a solution exists.
 //!
+//! What `signorini bake` writes stands on [`condensed`], a problem of contact edges alone with everything else
+//! eliminated on the host, or on [`full`], the mesh itself with loads that follow inputs.
+//!
 //! ## What is absent
 //!
 //! The kernel never allocates, prints, panics, reads a clock or knows a file format. It adds,

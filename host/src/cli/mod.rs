@@ -17,7 +17,8 @@ Examples:
   signorini solve meshes/scenes/levee.toml          one scene; files in out/levee
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
-  signorini export my.toml -o my.rs --scalar f32    the scene as data for its firmware
+  signorini bake my.toml -o my.rs --explain         the scene as the firmware it needs, and why
+  signorini export my.toml -o my.rs --scalar f32    the scene as data for the kernel's stages
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
 3 the solver stopped before its tolerance (its outputs are written and say so).";
