@@ -24,7 +24,9 @@ pub(super) fn of_condensed<R: Scalar>(
     let mut all = Vec::new();
     for &certified in variants {
         let mut pair = Vec::new();
-        for exact in [true, false] {
+        // Without contact there is nothing to solve.
+        let methods = if condensate.contact > 0 { &[true, false][..] } else { &[false] };
+        for &exact in methods {
             let mut candidate = condensed_as(scene, condensate, budget, exact, certified)?;
             candidate.lacks = bound_of(scene).filter(|_| !certified);
             pair.push(candidate);
@@ -69,7 +71,11 @@ fn condensed_as<R: Scalar>(
         instructions.map(|((fixed, pivot), sweep)| fixed + pivots * pivot + sweeps * sweep);
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(", condensed", sizes, instructions);
-    let solver = if exact { "exact method" } else { "sweeps alone" };
+    let solver = match (condensate.contact, exact) {
+        (0, _) => "linear",
+        (_, true) => "exact method",
+        (_, false) => "sweeps alone",
+    };
     let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
     Ok(Candidate {
         name: format!("condensed, {solver}{bound}"),
