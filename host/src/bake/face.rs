@@ -2,12 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::measure::{Measured, measures};
 use super::text::{array, code, identifiers, prose};
-use crate::error::Result;
+use crate::functional::wanted;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
-use crate::scene::{Field, Scene};
+use crate::scene::{Field, Input, Output, Quantity, Scene};
 
 /// The names and meanings of a scene's inputs and outputs.
 #[derive(Debug, Clone)]
@@ -18,8 +17,6 @@ pub struct Face {
     inputs: Vec<Item>,
     defaults: Vec<f64>,
     outputs: Vec<Item>,
-    /// The outputs as forms.
-    pub measures: Vec<Measured>,
 }
 
 /// A field of `Inputs` or `Outputs`.
@@ -45,39 +42,21 @@ pub struct About<'a> {
 
 impl Face {
     /// That of `scene`.
-    ///
-    /// # Errors
-    /// A probe outside the mesh.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        let measures = measures(scene, problem)?;
-        let docs = scene.inputs.iter().map(|input| {
-            let (field, unit) = match input.field.value {
-                Field::Flux => ("flux", "that of a flux (A∇u)·n"),
-                Field::Value => ("value", "that of u"),
-                Field::Gap => ("gap", "that of u"),
-                Field::Ambient => ("ambient", "that of u"),
-                Field::Source => ("f", "that of the load f"),
-            };
-            let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
-            format!(
-                "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
-                input.default
-            )
-        });
+    pub fn new(scene: &Scene, problem: &Problem) -> Self {
         let names = scene.inputs.iter().map(|input| input.name.value.as_str());
-        let inputs = items(names, docs);
-        let names = measures.iter().map(|output| output.name.as_str());
-        let outputs = items(names, measures.iter().map(|output| output.meaning.clone()));
+        let inputs = items(names, scene.inputs.iter().map(effect));
+        let wanted = wanted(scene);
+        let names = wanted.iter().map(|output| output.name.value.as_str());
+        let outputs = items(names, wanted.iter().map(meaning));
         let file = scene.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self {
+        Self {
             title: scene.title.clone(),
             file,
             hash: hash(scene, problem),
             inputs,
             defaults: scene.inputs.iter().map(|input| input.default).collect(),
             outputs,
-            measures,
-        })
+        }
     }
 
     /// Everything but the controller and its data.
@@ -179,6 +158,40 @@ impl Inputs {
         text += &from_array("pub ", "OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
         text + "}\n" + &answer(about.report)
+    }
+}
+
+/// What an input does, in a sentence.
+fn effect(input: &Input) -> String {
+    let (field, unit) = match input.field.value {
+        Field::Flux => ("flux", "that of a flux (A∇u)·n"),
+        Field::Value => ("value", "that of u"),
+        Field::Gap => ("gap", "that of u"),
+        Field::Ambient => ("ambient", "that of u"),
+        Field::Source => ("f", "that of the load f"),
+    };
+    let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
+    format!(
+        "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
+        input.default
+    )
+}
+
+/// What an output means, in a few words.
+fn meaning(output: &Output) -> String {
+    let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
+    match output.quantity {
+        Quantity::Flux => {
+            format!("∫(A∇u)·n over {place}, outward; unit of a flux times a length.")
+        }
+        Quantity::Force => {
+            format!("∫(σ·n − q) over {place}, σ = A∇u; unit of a flux times a length.")
+        }
+        Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
+        Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
+        Quantity::Bound => {
+            "Bound on the error in the energy norm; infinite where there is none.".to_owned()
+        }
     }
 }
 
