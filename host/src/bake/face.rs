@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::text::{array, code, identifiers, prose};
+use super::item::{Item, braced, from_array, items, names, structure, to_array};
+use super::text::{code, prose};
 use crate::functional::wanted;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
@@ -17,14 +18,6 @@ pub struct Face {
     inputs: Vec<Item>,
     defaults: Vec<f64>,
     outputs: Vec<Item>,
-}
-
-/// A field of `Inputs` or `Outputs`.
-#[derive(Debug, Clone)]
-struct Item {
-    name: String,
-    identifier: String,
-    doc: String,
 }
 
 /// What a model says of itself in the header.
@@ -149,13 +142,13 @@ impl Inputs {
 ";
         let _ = writeln!(text, "    pub const DEFAULT: Self = {defaults};");
         text += &names("INPUTS", &self.inputs);
-        text += &from_array("pub ", "INPUTS", &self.inputs);
+        text += &from_array("INPUTS", &self.inputs);
         text += &to_array("INPUTS", &self.inputs);
         text += "}\n";
         text += &structure("Outputs", "What the controller reads.", &self.outputs);
         text += "\nimpl Outputs {\n";
         text += &names("OUTPUTS", &self.outputs);
-        text += &from_array("pub ", "OUTPUTS", &self.outputs);
+        text += &from_array("OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
         text + "}\n" + &answer(about.report)
     }
@@ -208,74 +201,6 @@ pub struct Answer {{
 }}
 "
     )
-}
-
-fn items<'n>(
-    names: impl Iterator<Item = &'n str> + Clone,
-    docs: impl Iterator<Item = String>,
-) -> Vec<Item> {
-    let identifiers = identifiers(names.clone()).into_iter();
-    names
-        .zip(identifiers)
-        .zip(docs)
-        .map(|((name, identifier), doc)| Item { name: name.to_owned(), identifier, doc })
-        .collect()
-}
-
-fn structure(name: &str, doc: &str, items: &[Item]) -> String {
-    let fields = items
-        .iter()
-        .map(|item| format!("    /// {}\n    pub {}: Scalar,\n", item.doc, item.identifier));
-    let fields: String = fields.collect();
-    let body = if fields.is_empty() { "{}".to_owned() } else { format!("{{\n{fields}}}") };
-    format!("\n/// {doc}\n#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {name} {body}\n")
-}
-
-fn names(count: &str, items: &[Item]) -> String {
-    let names: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
-    let doc = "    /// Their names in the scene.\n";
-    format!("{doc}    pub const NAMES: [&str; {count}] = {};\n", array(&names, 4))
-}
-
-fn from_array(visibility: &str, count: &str, items: &[Item]) -> String {
-    let pattern = list(items);
-    let fields = braced("Self", items.iter().map(|item| item.identifier.clone()));
-    format!(
-        "
-    /// From values in the order of the scene.
-    {visibility}fn from_array({pattern}: [Scalar; {count}]) -> Self {{
-        {fields}
-    }}
-"
-    )
-}
-
-fn to_array(count: &str, items: &[Item]) -> String {
-    let (bound, values) =
-        (braced("Self", items.iter().map(|item| item.identifier.clone())), list(items));
-    format!(
-        "
-    /// The values in the order of the scene.
-    pub fn to_array(self) -> [Scalar; {count}] {{
-        let {bound} = self;
-        {values}
-    }}
-"
-    )
-}
-
-fn list(items: &[Item]) -> String {
-    let all: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
-    format!("[{}]", all.join(", "))
-}
-
-fn braced(name: &str, fields: impl Iterator<Item = String>) -> String {
-    let fields: Vec<_> = fields.collect();
-    if fields.is_empty() {
-        format!("{name} {{}}")
-    } else {
-        format!("{name} {{ {} }}", fields.join(", "))
-    }
 }
 
 /// FNV-1a over what the data are made of.

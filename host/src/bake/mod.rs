@@ -15,6 +15,7 @@ pub mod costs;
 pub mod explain;
 pub mod face;
 pub mod full;
+mod item;
 pub mod superposition;
 pub mod text;
 pub mod trial;
