@@ -9,6 +9,7 @@ pub mod error;
 pub mod export;
 pub mod expression;
 pub mod field;
+pub mod functional;
 pub mod mesh;
 pub mod norms;
 pub mod output;

@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::measure::{Measured, measures};
-use super::text::{array, code, identifiers, prose};
-use crate::error::Result;
+use super::item::{Item, braced, from_array, items, names, structure, to_array};
+use super::text::{code, prose};
+use crate::functional::wanted;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
-use crate::scene::{Field, Scene};
+use crate::scene::{Field, Input, Output, Quantity, Scene};
 
 /// The names and meanings of a scene's inputs and outputs.
 #[derive(Debug, Clone)]
@@ -18,16 +18,6 @@ pub struct Face {
     inputs: Vec<Item>,
     defaults: Vec<f64>,
     outputs: Vec<Item>,
-    /// The outputs as forms.
-    pub measures: Vec<Measured>,
-}
-
-/// A field of `Inputs` or `Outputs`.
-#[derive(Debug, Clone)]
-struct Item {
-    name: String,
-    identifier: String,
-    doc: String,
 }
 
 /// What a model says of itself in the header.
@@ -45,39 +35,21 @@ pub struct About<'a> {
 
 impl Face {
     /// That of `scene`.
-    ///
-    /// # Errors
-    /// A probe outside the mesh.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        let measures = measures(scene, problem)?;
-        let docs = scene.inputs.iter().map(|input| {
-            let (field, unit) = match input.field.value {
-                Field::Flux => ("flux", "that of a flux (A∇u)·n"),
-                Field::Value => ("value", "that of u"),
-                Field::Gap => ("gap", "that of u"),
-                Field::Ambient => ("ambient", "that of u"),
-                Field::Source => ("f", "that of the load f"),
-            };
-            let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
-            format!(
-                "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
-                input.default
-            )
-        });
+    pub fn new(scene: &Scene, problem: &Problem) -> Self {
         let names = scene.inputs.iter().map(|input| input.name.value.as_str());
-        let inputs = items(names, docs);
-        let names = measures.iter().map(|output| output.name.as_str());
-        let outputs = items(names, measures.iter().map(|output| output.meaning.clone()));
+        let inputs = items(names, scene.inputs.iter().map(effect));
+        let wanted = wanted(scene);
+        let names = wanted.iter().map(|output| output.name.value.as_str());
+        let outputs = items(names, wanted.iter().map(meaning));
         let file = scene.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self {
+        Self {
             title: scene.title.clone(),
             file,
             hash: hash(scene, problem),
             inputs,
             defaults: scene.inputs.iter().map(|input| input.default).collect(),
             outputs,
-            measures,
-        })
+        }
     }
 
     /// Everything but the controller and its data.
@@ -170,15 +142,49 @@ impl Inputs {
 ";
         let _ = writeln!(text, "    pub const DEFAULT: Self = {defaults};");
         text += &names("INPUTS", &self.inputs);
-        text += &from_array("pub ", "INPUTS", &self.inputs);
+        text += &from_array("INPUTS", &self.inputs);
         text += &to_array("INPUTS", &self.inputs);
         text += "}\n";
         text += &structure("Outputs", "What the controller reads.", &self.outputs);
         text += "\nimpl Outputs {\n";
         text += &names("OUTPUTS", &self.outputs);
-        text += &from_array("pub ", "OUTPUTS", &self.outputs);
+        text += &from_array("OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
         text + "}\n" + &answer(about.report)
+    }
+}
+
+/// What an input does, in a sentence.
+fn effect(input: &Input) -> String {
+    let (field, unit) = match input.field.value {
+        Field::Flux => ("flux", "that of a flux (A∇u)·n"),
+        Field::Value => ("value", "that of u"),
+        Field::Gap => ("gap", "that of u"),
+        Field::Ambient => ("ambient", "that of u"),
+        Field::Source => ("f", "that of the load f"),
+    };
+    let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
+    format!(
+        "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
+        input.default
+    )
+}
+
+/// What an output means, in a few words.
+fn meaning(output: &Output) -> String {
+    let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
+    match output.quantity {
+        Quantity::Flux => {
+            format!("∫(A∇u)·n over {place}, outward; unit of a flux times a length.")
+        }
+        Quantity::Force => {
+            format!("∫(σ·n − q) over {place}, σ = A∇u; unit of a flux times a length.")
+        }
+        Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
+        Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
+        Quantity::Bound => {
+            "Bound on the error in the energy norm; infinite where there is none.".to_owned()
+        }
     }
 }
 
@@ -195,74 +201,6 @@ pub struct Answer {{
 }}
 "
     )
-}
-
-fn items<'n>(
-    names: impl Iterator<Item = &'n str> + Clone,
-    docs: impl Iterator<Item = String>,
-) -> Vec<Item> {
-    let identifiers = identifiers(names.clone()).into_iter();
-    names
-        .zip(identifiers)
-        .zip(docs)
-        .map(|((name, identifier), doc)| Item { name: name.to_owned(), identifier, doc })
-        .collect()
-}
-
-fn structure(name: &str, doc: &str, items: &[Item]) -> String {
-    let fields = items
-        .iter()
-        .map(|item| format!("    /// {}\n    pub {}: Scalar,\n", item.doc, item.identifier));
-    let fields: String = fields.collect();
-    let body = if fields.is_empty() { "{}".to_owned() } else { format!("{{\n{fields}}}") };
-    format!("\n/// {doc}\n#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {name} {body}\n")
-}
-
-fn names(count: &str, items: &[Item]) -> String {
-    let names: Vec<_> = items.iter().map(|item| item.name.as_str()).collect();
-    let doc = "    /// Their names in the scene.\n";
-    format!("{doc}    pub const NAMES: [&str; {count}] = {};\n", array(&names, 4))
-}
-
-fn from_array(visibility: &str, count: &str, items: &[Item]) -> String {
-    let pattern = list(items);
-    let fields = braced("Self", items.iter().map(|item| item.identifier.clone()));
-    format!(
-        "
-    /// From values in the order of the scene.
-    {visibility}fn from_array({pattern}: [Scalar; {count}]) -> Self {{
-        {fields}
-    }}
-"
-    )
-}
-
-fn to_array(count: &str, items: &[Item]) -> String {
-    let (bound, values) =
-        (braced("Self", items.iter().map(|item| item.identifier.clone())), list(items));
-    format!(
-        "
-    /// The values in the order of the scene.
-    pub fn to_array(self) -> [Scalar; {count}] {{
-        let {bound} = self;
-        {values}
-    }}
-"
-    )
-}
-
-fn list(items: &[Item]) -> String {
-    let all: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
-    format!("[{}]", all.join(", "))
-}
-
-fn braced(name: &str, fields: impl Iterator<Item = String>) -> String {
-    let fields: Vec<_> = fields.collect();
-    if fields.is_empty() {
-        format!("{name} {{}}")
-    } else {
-        format!("{name} {{ {} }}", fields.join(", "))
-    }
 }
 
 /// FNV-1a over what the data are made of.

@@ -1,8 +1,8 @@
 //! A scene as the Rust source of its firmware: static data and a `Controller` for the kernel.
 //!
 //! ```text
-//!   Scene, Problem ─► superposition: every load as base + Σ input · pattern ─┬─► full ────► arrays ─► source
-//!                     measure: every output as a form on u and fluxes       ─┘            face, text ──┘
+//!   Scene, Problem ─┬─► superposition: loads as base + Σ input · pattern ─► full ──────┬─► source
+//!                   └─► condense: a dense problem on contact edges ───────► condensed ─┘  face, text
 //! ```
 //! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
 
@@ -15,7 +15,7 @@ pub mod costs;
 pub mod explain;
 pub mod face;
 pub mod full;
-pub mod measure;
+mod item;
 pub mod superposition;
 pub mod text;
 pub mod trial;

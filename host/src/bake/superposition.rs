@@ -9,12 +9,9 @@ use crate::certify::ends::Ends;
 use crate::certify::oscillation::oscillation;
 use crate::certify::robin::{RobinPoints, robin};
 use crate::error::Result;
-use crate::expression::Expression;
 use crate::problem::{Loads, Problem};
-use crate::scene::{Condition, Located, Scene};
-
-/// A part of the data: 0 is the base, 1 + j what one unit of input j adds.
-pub type Term = usize;
+use crate::scene::Scene;
+use crate::scene::term::{Term, left_with, refuse_time};
 
 /// The data of one part.
 #[derive(Debug, Clone)]
@@ -64,45 +61,4 @@ impl Part {
 /// Data that are not finite.
 pub fn curved_pair(scene: &Scene, problem: &Problem, pair: [Term; 2]) -> Result<Vec<Curved>> {
     curved(&left_with(scene, &pair), problem, 0.0)
-}
-
-/// `scene` with one unit of each of these terms and nothing else.
-fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
-    let mut scene = scene.clone();
-    for (at, input) in scene.inputs.iter_mut().enumerate() {
-        input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
-    }
-    if !terms.contains(&0) {
-        each_load(&mut scene, |load| load.value = Expression::constant(0.0));
-    }
-    scene
-}
-
-fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
-    each(&mut scene.source);
-    for boundary in &mut scene.boundaries {
-        match &mut boundary.condition {
-            Condition::Dirichlet { value } => each(value),
-            Condition::Neumann { flux } => each(flux),
-            Condition::Robin { ambient, .. } => each(ambient),
-            Condition::Contact { gap, flux } => {
-                each(gap);
-                each(flux);
-            }
-        }
-    }
-}
-
-/// Firmware has no clock of the scene's.
-fn refuse_time(scene: &Scene) -> Result<()> {
-    let mut culprit = None;
-    each_load(&mut scene.clone(), |load| {
-        if load.value.uses_time() && culprit.is_none() {
-            culprit = Some(load.clone());
-        }
-    });
-    let Some(culprit) = culprit else { return Ok(()) };
-    let message = format!("{} depends on t, which a baked scene does not have", culprit.value);
-    let hint = "declare an [input.…] for what changes, and set it every tick";
-    Err(scene.error(&culprit, message).hint(hint).into())
 }

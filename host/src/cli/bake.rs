@@ -87,7 +87,7 @@ impl Arguments {
             say(explanation(scene, problem, &choice));
         }
         Ok(match &choice.candidate().model {
-            Model::Condensed(baked) => condensed::source(&Face::new(scene, problem)?, baked),
+            Model::Condensed(baked) => condensed::source(&Face::new(scene, problem), baked),
             Model::Full(baked) => full::source(baked),
         })
     }

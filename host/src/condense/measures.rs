@@ -4,9 +4,9 @@ use super::Measure;
 use super::elimination::Field;
 use super::patterns::Pattern;
 use crate::error::Result;
-use crate::outputs::{Functional, contact_edges};
+use crate::functional::{Functional, Linear, functionals};
 use crate::problem::{Loads, Problem};
-use crate::scene::{Located, Output, Quantity, Scene};
+use crate::scene::Scene;
 
 /// Every declared output; without any, contact force and length.
 ///
@@ -18,33 +18,29 @@ pub(super) fn measures(
     patterns: &[Pattern],
     fields: &[Field],
 ) -> Result<Vec<Measure>> {
-    let undeclared = [Quantity::Force, Quantity::Length].map(|quantity| Output {
-        name: Located { value: String::new(), key: "output".to_owned(), span: 0..0 },
-        quantity,
-        of: None,
-    });
-    let outputs = if scene.outputs.is_empty() { &undeclared[..] } else { &scene.outputs };
-    outputs.iter().map(|output| measure(scene, problem, patterns, fields, output)).collect()
+    let measure = |functional: &Functional| match functional {
+        Functional::Linear(functional) => linear(problem, patterns, fields, functional),
+        Functional::Length(lengths) => length(problem, lengths),
+        Functional::Bound => Measure::Bound,
+    };
+    Ok(functionals(scene, problem)?.iter().map(measure).collect())
 }
 
-fn measure(
-    scene: &Scene,
+fn length(problem: &Problem, lengths: &[(usize, f64)]) -> Measure {
+    let counts = problem.topology.counts;
+    let mut of_contact = vec![0.0; counts.contact];
+    for &(edge, length) in lengths {
+        of_contact[edge - counts.free] = length;
+    }
+    Measure::Length { of_contact }
+}
+
+fn linear(
     problem: &Problem,
     patterns: &[Pattern],
     fields: &[Field],
-    output: &Output,
-) -> Result<Measure> {
-    let free = problem.topology.counts.free;
-    let Some(functional) = Functional::of(scene, problem, output)? else {
-        if output.quantity == Quantity::Bound {
-            return Ok(Measure::Bound);
-        }
-        let mut of_contact = vec![0.0; problem.topology.counts.contact];
-        for edge in contact_edges(scene, problem, output) {
-            of_contact[edge - free] = problem.lengths[edge];
-        }
-        return Ok(Measure::Length { of_contact });
-    };
+    functional: &Linear,
+) -> Measure {
     let silent =
         Loads { contact_flux: vec![0.0; problem.topology.counts.contact], ..Loads::default() };
     let loads = patterns.iter().map(|pattern| &pattern.loads).chain(std::iter::repeat(&silent));
@@ -52,5 +48,5 @@ fn measure(
     let mut of_inputs: Vec<f64> =
         values.map(|(field, loads)| functional.at(problem, loads, &field.u, &field.flux)).collect();
     let of_contact = of_inputs.split_off(patterns.len());
-    Ok(Measure::Linear { of_inputs, of_contact })
+    Measure::Linear { of_inputs, of_contact }
 }

@@ -7,9 +7,9 @@
 use crate::certify::ends::Ends;
 use crate::certify::oscillation::oscillation;
 use crate::error::Result;
-use crate::expression::Expression;
 use crate::problem::{Loads, Problem};
-use crate::scene::{Condition, Located, Scene};
+use crate::scene::Scene;
+use crate::scene::term::{left_with, refuse_time};
 
 /// One pattern.
 pub(super) struct Pattern {
@@ -35,40 +35,7 @@ impl Pattern {
 /// # Errors
 /// A load that changes with t, data that are not finite.
 pub(super) fn patterns(scene: &Scene, problem: &Problem) -> Result<Vec<Pattern>> {
-    let mut base = with_inputs(scene, None);
-    if let Some(load) = loads(&mut base).into_iter().find(|load| load.value.uses_time()) {
-        let message = "changes with t, which a condensed model does not know";
-        let hint = "declare an [input.…] with the part in x and y as its pattern, and set its value each \
-                    tick";
-        return Err(scene.error(load, message).hint(hint).into());
-    }
-    let inputs = (0..scene.inputs.len()).map(|alive| {
-        let mut scene = with_inputs(scene, Some(alive));
-        loads(&mut scene).into_iter().for_each(|load| load.value = Expression::constant(0.0));
-        scene
-    });
-    std::iter::once(base.clone()).chain(inputs).map(|scene| Pattern::new(scene, problem)).collect()
-}
-
-/// The scene with input `alive` at 1 and the others at 0.
-fn with_inputs(scene: &Scene, alive: Option<usize>) -> Scene {
-    let mut scene = scene.clone();
-    for (at, input) in scene.inputs.iter_mut().enumerate() {
-        input.default = if alive == Some(at) { 1.0 } else { 0.0 };
-    }
-    scene
-}
-
-/// All expressions on the right-hand side.
-fn loads(scene: &mut Scene) -> Vec<&mut Located<Expression>> {
-    let mut loads = vec![&mut scene.source];
-    for boundary in &mut scene.boundaries {
-        match &mut boundary.condition {
-            Condition::Dirichlet { value } => loads.push(value),
-            Condition::Neumann { flux } => loads.push(flux),
-            Condition::Robin { ambient, .. } => loads.push(ambient),
-            Condition::Contact { gap, flux } => loads.extend([gap, flux]),
-        }
-    }
-    loads
+    refuse_time(scene)?;
+    let terms = 0..=scene.inputs.len();
+    terms.map(|term| Pattern::new(left_with(scene, &[term]), problem)).collect()
 }

@@ -19,6 +19,7 @@ mod control;
 mod entry;
 mod read;
 mod table;
+pub mod term;
 #[cfg(test)]
 mod tests;
 

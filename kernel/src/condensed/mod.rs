@@ -18,6 +18,7 @@
 
 pub mod blocks;
 pub mod certificate;
+mod correction;
 pub mod factor;
 pub mod method;
 pub mod outputs;

@@ -12,10 +12,10 @@ use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
 use crate::bake::face::Face;
-use crate::bake::measure::Measure;
 use crate::bake::superposition::parts;
 use crate::certify::Certifier;
 use crate::error::{InputError, Result};
+use crate::functional::{Functional, Linear, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
@@ -79,11 +79,11 @@ impl<R: Scalar> Baked<R> {
         assembled.system().map_err(&unfit)?;
         let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
         let ground = certifier.ground(&assembled).map_err(&unfit)?;
-        let face = Face::new(scene, problem)?;
+        let face = Face::new(scene, problem);
+        let functionals = functionals(scene, problem)?;
+        let outputs = functionals.iter().map(|of| output(problem, of)).collect();
         let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
         data.check().map_err(&unfit)?;
-        let counts = problem.topology.counts;
-        let outputs = face.measures.iter().map(|of| output(counts, &of.measure)).collect();
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         Ok(Self { start, outputs, corners: corners(problem), ..Self::of(face, data, &ground) })
     }
@@ -176,19 +176,22 @@ fn refuse_loose(scene: &Scene, parts: &Parts) -> Result<()> {
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
-fn output<R: Scalar>(counts: EdgeCounts, measure: &Measure) -> Output<R> {
+fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> Output<R> {
+    let free = problem.topology.counts.free;
     let all = |edges: &[usize], first| edges.iter().map(|&edge| (edge - first) as u32).collect();
     let shares = |weights: &[(usize, f64)], first| {
         let share =
             |&(edge, weight)| Share { at: (edge - first) as u32, weight: R::narrow(weight) };
         weights.iter().map(share).collect()
     };
-    match measure {
-        Measure::Flux(edges) => Output::Flux(all(edges, 0)),
-        Measure::Force(edges) => Output::Force(all(edges, counts.free)),
-        Measure::Length(weights) => Output::Length(shares(weights, counts.free)),
-        Measure::Probe(weights) => Output::Probe(shares(weights, 0)),
-        Measure::Bound => Output::Bound,
+    match functional {
+        Functional::Linear(Linear::Flux(edges)) => Output::Flux(all(edges, 0)),
+        Functional::Linear(Linear::Force(edges)) => Output::Force(all(edges, free)),
+        Functional::Linear(Linear::Probe(cell, point)) => {
+            Output::Probe(shares(&basis_at(problem, *cell, point), 0))
+        }
+        Functional::Length(lengths) => Output::Length(shares(lengths, free)),
+        Functional::Bound => Output::Bound,
     }
 }
 

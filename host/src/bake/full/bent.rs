@@ -7,12 +7,13 @@ use std::collections::BTreeMap;
 use signorini_kernel::certificate;
 use signorini_kernel::full::{CurvedPart, Product};
 
-use crate::bake::superposition::{Part, Term, curved_pair};
+use crate::bake::superposition::{Part, curved_pair};
 use crate::certify::curved::Curved;
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::scene::term::Term;
 
 /// A curved edge that inputs bend, owned.
 #[derive(Debug, Clone)]

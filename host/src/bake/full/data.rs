@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
 use crate::scene::{Field, Scene};
 
 /// The arrays of [`signorini_kernel::full::Base`], the patterns, the oscillation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Data<R> {
     pub triangles: Vec<R>,
     pub quads: Vec<R>,
@@ -128,28 +128,6 @@ impl<R: Scalar> Data<R> {
         match numbers.into_iter().position(|x| !x.finite()) {
             Some(at) => Err(KernelError::NotFinite { of: Array::Inputs, at }),
             None => Ok(()),
-        }
-    }
-}
-
-impl<R> Default for Data<R> {
-    fn default() -> Self {
-        Self {
-            triangles: Vec::new(),
-            quads: Vec::new(),
-            neumann: Vec::new(),
-            robin: Vec::new(),
-            contact_flux: Vec::new(),
-            gap: Vec::new(),
-            gap_ends: Vec::new(),
-            dirichlet: Vec::new(),
-            dirichlet_ends: Vec::new(),
-            curved: Vec::new(),
-            curved_sums: Vec::new(),
-            transfer: Vec::new(),
-            patterns: Vec::new(),
-            oscillation: Vec::new(),
-            has_bound: false,
         }
     }
 }

@@ -10,6 +10,7 @@ use signorini_kernel::tick::Limits;
 use super::{Baked, Controller, source};
 use crate::certify::fixtures;
 use crate::error::Result;
+use crate::functional::wanted;
 use crate::mesh::gmsh;
 use crate::mesh::structured::{Cells, grid};
 use crate::outputs::outputs;
@@ -112,7 +113,8 @@ fn ticks<R: Scalar, const WIDTH: usize>(
         let solution = solve(&scene, &problem, &Options::default())?;
         let expected = outputs(&scene, &problem, &solution)?;
         let fluxes = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
-        let names = baked.face.measures.iter().map(|measured| &measured.name);
+        let wanted = wanted(&scene);
+        let names = wanted.iter().map(|output| &output.name.value);
         for ((name, found), cold) in
             names.zip(&found).zip(&cold).filter(|((name, _), _)| *name != "bound")
         {

@@ -1,0 +1,53 @@
+//! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
+
+use super::{Condition, Located, Scene};
+use crate::error::Result;
+use crate::expression::Expression;
+
+/// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
+pub type Term = usize;
+
+/// `scene` with one unit of each of these terms and nothing else.
+pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
+    let mut scene = scene.clone();
+    for (at, input) in scene.inputs.iter_mut().enumerate() {
+        input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
+    }
+    if !terms.contains(&0) {
+        each_load(&mut scene, |load| load.value = Expression::constant(0.0));
+    }
+    scene
+}
+
+fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
+    each(&mut scene.source);
+    for boundary in &mut scene.boundaries {
+        match &mut boundary.condition {
+            Condition::Dirichlet { value } => each(value),
+            Condition::Neumann { flux } => each(flux),
+            Condition::Robin { ambient, .. } => each(ambient),
+            Condition::Contact { gap, flux } => {
+                each(gap);
+                each(flux);
+            }
+        }
+    }
+}
+
+/// Refuses loads that change with t: firmware has no clock of the scene's.
+///
+/// # Errors
+/// The first load that does.
+pub fn refuse_time(scene: &Scene) -> Result<()> {
+    let mut culprit = None;
+    each_load(&mut scene.clone(), |load| {
+        if load.value.uses_time() && culprit.is_none() {
+            culprit = Some(load.clone());
+        }
+    });
+    let Some(culprit) = culprit else { return Ok(()) };
+    let message = format!("{} depends on t, which firmware does not know", culprit.value);
+    let hint =
+        "declare an [input.…] with the part in x and y as its pattern, and set it every tick";
+    Err(scene.error(&culprit, message).hint(hint).into())
+}
