@@ -99,6 +99,56 @@ fn an_output_that_stands_in_the_way_is_named() {
 }
 
 #[test]
+fn a_bound_that_is_read_is_not_left_infinite_where_a_model_has_one() {
+    // Where the gap jumps, only the full model has a bound.
+    let jump = [
+        ("gap = \"-y\"\nflux", "gap = \"-y - 0.5\"\nflux"),
+        ("tick = 0.001", "tick = 1.0"),
+        ("[output.wet]", "[output.error]\nkind = \"bound\"\n[output.wet]"),
+    ];
+    let (status, stdout, _, source) = bake("scenes/levee.toml", &jump, &["--explain"]);
+    assert_eq!(status, 0);
+    assert!(source.expect("a module").contains("MODEL: &str = \"full\""), "{stdout}");
+    assert!(stdout.contains("lacks output.error"), "{stdout}");
+    let (_, _, _, source) = bake("scenes/levee.toml", &jump[..2], &[]);
+    assert!(source.expect("a module").contains("MODEL: &str = \"condensed\""));
+    let (_, _, _, source) = bake("scenes/levee.toml", &jump, &["--condensed"]);
+    assert!(source.expect("a module").contains("without an error bound (the gap has a jump"));
+}
+
+#[test]
+fn hints_do_not_promise_meshes_that_cannot_be() {
+    for (model, target) in
+        [("--condensed", "flash = 1000"), ("--full", "flash = 1000"), ("--full", "flash = 20000")]
+    {
+        let small = [("flash = 1048576", target), ("tick = 0.001", "tick = 1.0")];
+        let (status, _, stderr, source) = bake("scenes/levee.toml", &small, &[model]);
+        assert_eq!((status, source), (2, None));
+        assert!(stderr.contains("no mesh is coarse enough"), "{stderr}");
+    }
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &[("clock = 168e6", "")], &[]);
+    assert_eq!(status, 0);
+    assert!(stderr.contains("target.tick is no limit"), "{stderr}");
+}
+
+#[test]
+fn a_scene_is_not_written_over() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = ["levee.toml", "levee.msh"].map(|name| {
+        let copy = folder.path().join(name);
+        std::fs::copy(meshes().join("scenes").join(name), &copy).expect("a copy");
+        copy.to_string_lossy().into_owned()
+    });
+    for file in &files {
+        let before = std::fs::read(file).expect("a file");
+        let (status, _, stderr) = signorini(&["bake", &files[0], "-o", file]);
+        assert_eq!(status, 2);
+        assert!(stderr.contains("-o "), "{stderr}");
+        assert_eq!(before, std::fs::read(file).expect("the same file"));
+    }
+}
+
+#[test]
 fn the_explanation_tells_each_feature() {
     let (status, stdout, _, _) = bake("scenes/levee.toml", &[], &["--explain"]);
     assert_eq!(status, 0);

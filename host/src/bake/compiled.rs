@@ -27,7 +27,7 @@ pub(super) fn printed(text: &str) -> String {
     let mut said = String::new();
     for kernel in kernels(dependencies) {
         let compiled = Command::new(std::env::var("RUSTC").unwrap_or("rustc".to_owned()))
-            .args(["--edition", "2024", "-D", "warnings", "-A", "dead_code"])
+            .args(["--edition", "2024", "-D", "warnings"])
             .arg("-L")
             .arg(dependencies)
             .arg("--extern")

@@ -63,14 +63,15 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
         ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", ""].map(str::to_owned),
     ];
     for (at, candidate) in choice.candidates.iter().enumerate() {
-        let Candidate { name, needs, trial, shortfalls, lacks, .. } = candidate;
+        let Candidate { name, needs, trial, shortfalls, lacks, infinite, .. } = candidate;
         let short: Vec<_> = shortfalls.iter().map(|short| short.key).collect();
-        let verdict = match (at == choice.chosen, lacks, short.is_empty()) {
-            (true, ..) => "chosen".to_owned(),
-            (_, Some(output), true) => format!("lacks output.{output}"),
-            (_, None, true) => "would fit".to_owned(),
-            (_, _, false) => format!("beyond {}", short.join(", ")),
-        };
+        let verdict =
+            match (at == choice.chosen, lacks.as_ref().or(infinite.as_ref()), short.is_empty()) {
+                (true, ..) => "chosen".to_owned(),
+                (_, Some(output), true) => format!("lacks output.{output}"),
+                (_, None, true) => "would fit".to_owned(),
+                (_, _, false) => format!("beyond {}", short.join(", ")),
+            };
         rows.push([
             name.clone(),
             needs.ram.to_string(),

@@ -104,7 +104,9 @@ impl Face {
         };
         table("input", inputs);
         table("output", outputs);
-        lines.iter().map(|line| format!("//! {line}").trim_end().to_owned() + "\n").collect()
+        let lines = lines.iter().map(|line| format!("//! {line}").trim_end().to_owned() + "\n");
+        // A firmware needs not read all that a module offers.
+        lines.chain(["\n#![allow(dead_code, unused_imports)]\n".to_owned()]).collect()
     }
 
     fn types<R: Scalar>(&self, about: &About) -> String {

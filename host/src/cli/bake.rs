@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::scene_at;
+use super::{scene_at, write_beside};
 use crate::bake::choice::{Choice, Kind, Model};
 use crate::bake::condensed;
 use crate::bake::explain::{explanation, warning};
@@ -12,7 +12,6 @@ use crate::bake::face::Face;
 use crate::bake::full;
 use crate::error::Result;
 use crate::mesh::gmsh;
-use crate::output::atomic::write_atomically;
 use crate::problem::Problem;
 use crate::progress::{say, waiting};
 use crate::scalar::Scalar;
@@ -63,7 +62,7 @@ impl Arguments {
             ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
             ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
         };
-        write_atomically(&self.output, text.as_bytes())?;
+        write_beside(&scene, &self.output, &text)?;
         Ok(0)
     }
 }
@@ -80,6 +79,9 @@ impl Arguments {
         let choice = waiting(&format!("baking {unknowns} unknowns"), || {
             Choice::<R>::new(scene, problem, kind, self.explain)
         })?;
+        if scene.target.is_some_and(|target| target.tick.is_some() && target.clock.is_none()) {
+            eprintln!("warning: target.tick is no limit without target.clock");
+        }
         if let Some(warning) = warning(&choice) {
             eprintln!("{warning}");
         }

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::scene_at;
+use super::{scene_at, write_beside};
 use crate::bake::condensed::header;
 use crate::condense::condense;
 use crate::error::Result;
 use crate::mesh::gmsh;
-use crate::output::atomic::write_atomically;
 use crate::problem::Problem;
 
 const EXAMPLES: &str = "\
@@ -35,7 +34,7 @@ impl Arguments {
         let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
         let text = header(&scene, &condense(&scene, &problem)?);
-        write_atomically(&self.output, text.as_bytes())?;
+        write_beside(&scene, &self.output, &text)?;
         Ok(0)
     }
 }

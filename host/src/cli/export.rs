@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::write_beside;
 use crate::error::Result;
 use crate::export::{Origin, export};
 use crate::mesh::gmsh;
-use crate::output::atomic::write_atomically;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solve::ScalarKind;
@@ -48,7 +48,7 @@ impl Arguments {
             ScalarKind::F32 => export::<f32>(origin)?,
             ScalarKind::F64 => export::<f64>(origin)?,
         };
-        write_atomically(&self.output, text.as_bytes())?;
+        write_beside(&scene, &self.output, &text)?;
         Ok(0)
     }
 }

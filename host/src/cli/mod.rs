@@ -65,6 +65,20 @@ impl Cli {
     }
 }
 
+/// Writes a file, unless it is one that the scene is made of.
+fn write_beside(scene: &crate::scene::Scene, output: &std::path::Path, text: &str) -> Result<()> {
+    let own = [&scene.path, &scene.mesh.value];
+    let is_own = |place: &std::path::PathBuf| {
+        own.iter().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
+    };
+    if output.canonicalize().as_ref().is_ok_and(is_own) {
+        let message = format!("-o {}: the scene is made of this file", output.display());
+        let hint = "name another file to write";
+        return Err(crate::error::InputError::new(message).hint(hint).into());
+    }
+    crate::output::atomic::write_atomically(output, text.as_bytes())
+}
+
 /// The scene with the inputs of the command line.
 fn scene_at(path: &std::path::Path, inputs: &[String]) -> Result<crate::scene::Scene> {
     let mut scene = crate::scene::Scene::read(path)?;

@@ -21,38 +21,39 @@ pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -
         format!("{}: the smallest model ({}) does not fit", message.join("; "), candidate.name);
     let without = candidates.iter().find(|candidate| candidate.fits());
     let hint = match without.and_then(|candidate| candidate.lacks.as_ref()) {
-        Some(output) => format!(
-            "without output.{output} it would fit; or {}",
-            nearest(candidate, factor(candidate))
-        ),
-        None => nearest(candidate, factor(candidate)),
+        Some(output) => format!("without output.{output} it would fit; or {}", nearest(candidate)),
+        None => nearest(candidate),
     };
     InputError::new(message).file(&scene.path).hint(hint)
 }
 
-/// The nearest mesh that would fit, from how needs grow.
-fn nearest<R: Scalar>(candidate: &Candidate<R>, factor: f64) -> String {
+/// How many times a mesh is too large, from how needs grow: those of the code alone do not.
+fn growth<R: Scalar>(candidate: &Candidate<R>, footprint: &Footprint) -> f64 {
+    let growing = |short: &Shortfall| {
+        let fixed = match short.key {
+            "target.ram" => footprint.stack,
+            "target.flash" => footprint.code,
+            _ => 0,
+        } as f64;
+        (short.needed - fixed) / (short.declared - fixed)
+    };
+    candidate.shortfalls.iter().map(growing).fold(1.0, |most: f64, factor| match factor > 0.0 {
+        true => most.max(factor),
+        // The code alone is too large.
+        false => f64::INFINITY,
+    })
+}
+
+/// The nearest mesh that would fit.
+fn nearest<R: Scalar>(candidate: &Candidate<R>) -> String {
+    let hopeless = "no mesh is coarse enough: the code alone needs more than that";
     match &candidate.model {
         // Bytes and instructions of dense blocks grow like n².
         Model::Condensed(baked) => {
-            let footprint = Footprint::measured(", condensed");
-            let growing = |short: &Shortfall| {
-                let fixed = match short.key {
-                    "target.ram" => footprint.stack,
-                    "target.flash" => footprint.code,
-                    _ => 0,
-                } as f64;
-                (short.needed - fixed) / (short.declared - fixed)
-            };
-            let factors = candidate.shortfalls.iter().map(growing);
-            let factor = factors.fold(1.0, |most: f64, factor| match factor > 0.0 {
-                true => most.max(factor),
-                // The code alone is too large.
-                false => f64::INFINITY,
-            });
+            let factor = growth(candidate, &Footprint::measured(", condensed"));
             let fitting = (baked.contact as f64 / factor.sqrt()).floor();
             if fitting < 1.0 {
-                return "the code of the model alone is larger than that".to_owned();
+                return hopeless.to_owned();
             }
             format!(
                 "about {fitting} contact edges would fit instead of {}: coarsen the mesh along the contact \
@@ -62,10 +63,13 @@ fn nearest<R: Scalar>(candidate: &Candidate<R>, factor: f64) -> String {
             )
         }
         // Bytes grow like the number of unknowns, instructions like its power 1.5.
-        Model::Full(_) => format!(
-            "a mesh with about {:.1} times fewer unknowns would fit; the condensed model (--condensed) \
-             needs no mesh on the target",
-            factor
-        ),
+        Model::Full(baked) => {
+            let factor = growth(candidate, &Footprint::measured(", on "));
+            let mesh = match factor < baked.unknowns() as f64 {
+                true => format!("a mesh with about {factor:.1} times fewer unknowns would fit"),
+                false => hopeless.to_owned(),
+            };
+            format!("{mesh}; the condensed model (--condensed) needs no mesh on the target")
+        }
     }
 }

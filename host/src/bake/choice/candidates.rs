@@ -29,6 +29,7 @@ pub(super) fn of_condensed<R: Scalar>(
         for &exact in methods {
             let mut candidate = condensed_as(scene, condensate, budget, exact, certified)?;
             candidate.lacks = bound_of(scene).filter(|_| !certified);
+            candidate.infinite = bound_of(scene).filter(|_| !has_bound);
             pair.push(candidate);
         }
         pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
@@ -84,6 +85,7 @@ fn condensed_as<R: Scalar>(
         needs,
         trial,
         lacks: None,
+        infinite: None,
     })
 }
 
@@ -107,8 +109,9 @@ pub(super) fn of_full<R: Scalar>(
     let needs = Needs { instructions: instructions.filter(|_| trial.sweeps[0] > 0), ..memory };
     Ok(Candidate {
         name: "full".to_owned(),
-        model: Model::Full(Box::new(baked)),
         lacks: None,
+        infinite: bound_of(scene).filter(|_| !baked.has_bound()),
+        model: Model::Full(Box::new(baked)),
         shortfalls: budget.shortfalls(&needs),
         needs,
         trial,

@@ -5,7 +5,8 @@
 //!   ── each with its needs (bytes from its arrays, instructions from counted parts and a trial) ──►
 //!   the first that fits what `[target]` declares
 //! ```
-//! Without the bound a model comes last of its kind, and only where no output asks for it.
+//! Without the bound a model comes last of its kind, and only where no output asks for it. A scene of which one
+//! model has no bound at all gets one that has, if there is any, where an output asks for it.
 
 mod advice;
 mod candidates;
@@ -58,6 +59,8 @@ pub struct Candidate<R: Scalar> {
     pub shortfalls: Vec<Shortfall>,
     /// An output that it cannot give: it is no choice then, but may be one without that output.
     pub lacks: Option<String>,
+    /// An output that stays infinite, as this model of the scene has no bound: the last choice.
+    pub infinite: Option<String>,
 }
 
 impl<R: Scalar> Candidate<R> {
@@ -68,6 +71,10 @@ impl<R: Scalar> Candidate<R> {
 
     fn may_be_chosen(&self) -> bool {
         self.fits() && self.lacks.is_none()
+    }
+
+    fn has_all(&self) -> bool {
+        self.may_be_chosen() && self.infinite.is_none()
     }
 }
 
@@ -105,7 +112,7 @@ impl<R: Scalar> Choice<R> {
         } else if forced.is_none() {
             excluded.push(format!("condensed: {contact} contact edges, at most {MOST_CONTACTS}"));
         }
-        let fits = candidates.iter().any(Candidate::may_be_chosen);
+        let fits = candidates.iter().any(Candidate::has_all);
         if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits)) {
             match of_full(scene, problem, &budget) {
                 Ok(candidate) => candidates.push(candidate),
@@ -113,8 +120,8 @@ impl<R: Scalar> Choice<R> {
                 Err(error) => excluded.push(format!("full: {error}")),
             }
         }
-        let chosen = candidates.iter().position(Candidate::may_be_chosen);
-        match chosen {
+        let complete = candidates.iter().position(Candidate::has_all);
+        match complete.or_else(|| candidates.iter().position(Candidate::may_be_chosen)) {
             Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
             None => Err(too_large(scene, &candidates).into()),
         }

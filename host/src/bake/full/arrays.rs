@@ -66,6 +66,11 @@ impl<R: Scalar> Baked<R> {
         !self.quads.is_empty()
     }
 
+    /// Whether these data allow for an error bound.
+    pub fn has_bound(&self) -> bool {
+        self.data.has_bound
+    }
+
     /// Bakes `scene`, whose inputs stand at their defaults.
     ///
     /// # Errors
