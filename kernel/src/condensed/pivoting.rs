@@ -21,6 +21,9 @@ use crate::real::Real;
 /// How many times the limit may be left after a correction.
 const WORN: u32 = 32;
 
+/// An answer may be larger than the load by 1/(this many ε).
+const ABSURD: u32 = 64;
+
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Found {
@@ -28,7 +31,8 @@ pub enum Found {
     Exact,
     /// The exchanges allowed are used up; those made count for the next search.
     OutOfPivots,
-    /// Rounding has eaten the tableau; the next search begins with the first one.
+    /// Rounding has eaten the tableau, or there is no solution: more exchanges than unknowns have not led to
+    /// one. x is zeros then, and the next search begins with the first tableau.
     Worn,
 }
 
@@ -45,8 +49,15 @@ pub fn find<R: Real>(
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
     let Iterate { x, residual, scratch: answer, open } = iterate;
+    let own = square(load).rounded_sqrt();
     tableau.answer(load, answer)?;
-    let size = (square(load) + square(answer)).rounded_sqrt();
+    let mut size = (square(load) + square(answer)).rounded_sqrt();
+    if !(R::from_count(ABSURD) * R::EPSILON * size <= own) {
+        // No matrix that this scalar holds has such an answer: loads without a solution have led here.
+        tableau.reset(start)?;
+        tableau.answer(load, answer)?;
+        size = (square(load) + square(answer)).rounded_sqrt();
+    }
     let (mut found, pivots) = search(tableau, cap, R::TWO * R::EPSILON * size, answer)?;
     tableau.finish();
     take_over(answer, tableau.exchanged(), x);
@@ -64,8 +75,12 @@ pub fn find<R: Real>(
             }
         }
     }
+    if found == Found::OutOfPivots && pivots as usize >= x.len() {
+        found = Found::Worn;
+    }
     if found == Found::Worn {
         tableau.reset(start)?;
+        x.fill(R::ZERO);
     }
     Ok((found, pivots))
 }

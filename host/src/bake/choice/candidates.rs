@@ -7,7 +7,7 @@ use crate::bake::costs::Costs;
 use crate::bake::trial::{self, Trial};
 use crate::bake::{condensed, full};
 use crate::condense::Condensate;
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::{Quantity, Scene};
@@ -19,6 +19,7 @@ pub(super) fn of_condensed<R: Scalar>(
     condensate: &Condensate,
     budget: &Budget,
 ) -> Result<Vec<Candidate<R>>> {
+    refuse_singular::<R>(scene, condensate)?;
     let has_bound = condensate.certificate.is_ok();
     let variants = if has_bound { &[true, false][..] } else { &[true] };
     let mut all = Vec::new();
@@ -36,6 +37,26 @@ pub(super) fn of_condensed<R: Scalar>(
         all.extend(pair);
     }
     Ok(all)
+}
+
+/// A matrix that the scalar type cannot tell from a singular one has no use there.
+fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &Condensate) -> Result<()> {
+    /// Part of an answer that rounding of the matrix may take.
+    const MOST: f64 = 1e-2;
+    let Ok(form) = &condensate.certificate else { return Ok(()) };
+    // reach² is 1/λ_min of the scaled matrix, or near to it.
+    let lost = form.reach.powi(2) * R::EPSILON.wide();
+    if lost <= MOST {
+        return Ok(());
+    }
+    let message = format!(
+        "the condensed problem is nearly singular (1/λ_min = {:.0e}): in {} it would be another one",
+        form.reach.powi(2),
+        R::NAME
+    );
+    let hint = "bake it with --scalar f64, or hold the domain more firmly: a larger transfer coefficient, a \
+                dirichlet boundary";
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
 /// The name of an output that is the error bound.

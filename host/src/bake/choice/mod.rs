@@ -24,7 +24,9 @@ use advice::too_large;
 use candidates::{of_condensed, of_full};
 
 /// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
-const MOST_CONTACTS: usize = 2000;
+const MOST_CONTACTS: usize = 1000;
+/// Bytes of flash beyond which a condensed model is compared with the full one.
+const LARGE: u64 = 1 << 20;
 
 /// A model that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,19 +110,33 @@ impl<R: Scalar> Choice<R> {
         let contact = problem.topology.counts.contact;
         let few = contact <= MOST_CONTACTS;
         if forced == Some(Kind::Condensed) || (forced.is_none() && few) {
-            candidates = of_condensed(scene, &condense(scene, problem)?, &budget)?;
+            match of_condensed(scene, &condense(scene, problem)?, &budget) {
+                Ok(found) => candidates = found,
+                Err(error) if forced.is_some() => return Err(error),
+                Err(error) => excluded.push(format!("condensed: {error}")),
+            }
         } else if forced.is_none() {
             excluded.push(format!("condensed: {contact} contact edges, at most {MOST_CONTACTS}"));
         }
         let fits = candidates.iter().any(Candidate::has_all);
-        if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits)) {
+        let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
+        if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits || large)) {
             match of_full(scene, problem, &budget) {
                 Ok(candidate) => candidates.push(candidate),
                 Err(error) if candidates.is_empty() => return Err(error),
                 Err(error) => excluded.push(format!("full: {error}")),
             }
         }
-        let complete = candidates.iter().position(Candidate::has_all);
+        // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
+        let flash = |at: &usize| candidates[*at].needs.flash;
+        let first = candidates.iter().position(Candidate::has_all);
+        let full = candidates.iter().rposition(Candidate::has_all);
+        let complete = match first.zip(full) {
+            Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => {
+                Some(full)
+            }
+            _ => first,
+        };
         match complete.or_else(|| candidates.iter().position(Candidate::may_be_chosen)) {
             Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
             None => Err(too_large(scene, &candidates).into()),
