@@ -73,7 +73,7 @@ fn what_does_not_fit_is_an_error_with_the_shortfall() {
     assert_eq!(status, 2);
     assert!(stderr.contains("target.flash") && stderr.contains("the code"), "{stderr}");
     let slow = [("tick = 0.001", "tick = 1e-5")];
-    let (status, _, stderr, _) = bake("scenes/levee.toml", &slow, &["--full"]);
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &slow, &[]);
     assert_eq!(status, 2);
     assert!(stderr.contains("target.tick") && stderr.contains("1680 declared"), "{stderr}");
 }

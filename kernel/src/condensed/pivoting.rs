@@ -143,6 +143,7 @@ fn take_over<R: Real>(answer: &[R], exchanged: &[bool], x: &mut [R]) {
 }
 
 /// `residual` = Sx − b, and `open` where x > 0.
+#[inline(never)]
 pub(super) fn settle<R: Real>(
     matrix: &Blocks<R>,
     load: &[R],
@@ -157,6 +158,7 @@ pub(super) fn settle<R: Real>(
 }
 
 /// x_I −= S_II⁻¹ r_I, not below 0.
+#[inline(never)]
 fn correct<R: Real>(
     tableau: &mut Tableau<R>,
     residual: &[R],

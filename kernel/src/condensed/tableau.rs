@@ -77,6 +77,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     ///
     /// # Errors
     /// A tableau of another order.
+    #[inline(never)]
     pub fn reset(&mut self, start: &Start<R>) -> Result<(), Error> {
         same_length(Array::MatrixValues, start.blocks.len(), self.blocks.len())?;
         same_length(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
@@ -96,6 +97,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
+    #[inline(never)]
     pub fn answer(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
         self.respond(load, z)?;
         let given = z.iter_mut().zip(load).zip(self.exchanged.iter());

@@ -122,7 +122,13 @@ impl<R: Scalar> Choice<R> {
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
         if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits || large)) {
             match of_full(scene, problem, &budget) {
-                Ok(candidate) => candidates.push(candidate),
+                Ok(mut candidate) => {
+                    // Its sweeps depend on the inputs: who asks for it is warned, not refused.
+                    if forced.is_some() {
+                        candidate.shortfalls.retain(|short| short.key != "target.tick");
+                    }
+                    candidates.push(candidate);
+                }
                 Err(error) if candidates.is_empty() => return Err(error),
                 Err(error) => excluded.push(format!("full: {error}")),
             }
