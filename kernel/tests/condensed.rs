@@ -168,6 +168,33 @@ fn a_worn_tableau_is_noticed_and_built_anew() -> Result<(), Error> {
     Ok(())
 }
 
+fn recovers<R: Real>() -> Result<(), Error> {
+    let strip = Strip::<R>::loose(12);
+    let mut work = Work::new(&strip)?;
+    let number = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
+    let load = |mean: f64| -> Vec<R> {
+        let entry = |i: usize| if i < 12 { mean + 0.3 * (i as f64).sin() } else { 0.0 };
+        (0..padded(12)).map(entry).map(number).collect()
+    };
+    for pull in [0.1, 0.5, 20.0] {
+        for _ in 0..4 {
+            let (ended, _) = work.exact(&strip, &load(pull), 24)?;
+            assert_ne!(ended, Ended::Exact, "{pull}: nothing holds it");
+            assert!(work.x.iter().all(|x| *x >= R::ZERO && x.finite()));
+        }
+        let (ended, _) = work.exact(&strip, &load(-0.1), 24)?;
+        assert_eq!(ended, Ended::Exact, "after {pull}");
+        assert!(work.defect() < number(1e-5), "{}", work.defect());
+    }
+    Ok(())
+}
+
+#[test]
+fn loads_without_a_solution_leave_no_trace() -> Result<(), Error> {
+    recovers::<f64>()?;
+    recovers::<f32>()
+}
+
 #[test]
 fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
     let strip = Strip::<f64>::new(10);
