@@ -61,11 +61,11 @@ fn the_levee_is_condensed_and_its_module_says_so() {
 
 #[test]
 fn what_does_not_fit_is_an_error_with_the_shortfall() {
-    let little = [("ram = 196608", "ram = 700")];
+    let little = [("ram = 196608", "ram = 1200")];
     let (status, _, stderr, source) = bake("scenes/levee.toml", &little, &["--condensed"]);
     assert_eq!(status, 2);
     assert!(source.is_none());
-    for part in ["target.ram", "bytes are needed, 700 declared", "contact edges would fit"] {
+    for part in ["target.ram", "bytes are needed, 1200 declared", "contact edges would fit"] {
         assert!(stderr.contains(part), "{part}: {stderr}");
     }
     let hopeless = [("flash = 1048576", "flash = 1000")];

@@ -46,7 +46,7 @@ fn growth<R: Scalar>(candidate: &Candidate<R>, footprint: &Footprint) -> f64 {
 
 /// The nearest mesh that would fit.
 fn nearest<R: Scalar>(candidate: &Candidate<R>) -> String {
-    let hopeless = "no mesh is coarse enough: the code alone needs more than that";
+    let hopeless = "no mesh is coarse enough: the code and its stack alone need more than that";
     match &candidate.model {
         // Bytes and instructions of dense blocks grow like n².
         Model::Condensed(baked) => {
