@@ -23,10 +23,13 @@ Examples:
   signorini bake meshes/scenes/levee.toml -o levee.rs --explain
   signorini bake slab.toml -o slab.rs --full --scalar f64
 
-The smallest model that represents the scene exactly and fits its [target] is chosen: condensed to contact
-edges, inputs and outputs, or full. --condensed and --full ask for one; what does not fit is an error.
+The smallest model that represents the scene exactly and fits its [target] is chosen:
+condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one;
+what does not fit is an error.
 
-In the firmware: mod levee; then static mut CONTROLLER: levee::Controller = levee::Controller::new();";
+In the firmware:
+  mod levee;
+  static mut CONTROLLER: levee::Controller = levee::Controller::new();";
 
 /// Arguments of `bake`.
 #[derive(Debug, Args)]
