@@ -21,6 +21,8 @@ pub mod reference;
 pub mod report;
 pub mod scalar;
 pub mod scene;
+pub mod setting;
 pub mod solve;
 pub mod study;
 pub mod tick;
+pub mod trade;

@@ -30,6 +30,7 @@ use std::sync::Arc;
 
 use crate::error::InputError;
 use crate::expression::Expression;
+use crate::setting::Setting;
 
 /// Something read from the scene file, with its place in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +70,8 @@ pub struct Scene {
     pub time: Option<Time>,
     /// The exact solution.
     pub exact: Option<Exact>,
+    /// How to solve it; `None` leaves everything to the command.
+    pub setting: Option<Setting>,
 }
 
 /// The coefficient tensor on one physical surface.

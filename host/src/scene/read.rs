@@ -55,6 +55,7 @@ impl Scene {
             target: root.table("target")?.as_ref().map(read_target).transpose()?,
             time: root.table("time")?.as_ref().map(read_time).transpose()?,
             exact: root.table("exact")?.as_ref().map(read_exact).transpose()?,
+            setting: None,
             path: path.to_owned(),
             text: document.text.clone(),
         })

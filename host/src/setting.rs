@@ -1,0 +1,170 @@
+//! A setting: what trades speed for accuracy, as the `[setting]` of a scene states it.
+//!
+//! ```toml
+//! [setting]
+//! refine = 1            # uniform refinements of the scene's mesh                    [0]
+//! cells = "quads"       # triangles: quads are cut; quads: triangles are paired      [as in the mesh]
+//! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
+//! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
+//! model = "full"        # full or condensed                                          [bake: the smaller]
+//! start = "warm"        # warm: from the tick before; cold: every tick anew          [warm]
+//! omega = 1.93          # a fixed relaxation factor, or "auto"                       [auto]
+//! sweeps = 12           # exactly so many; condensed: instead of the exact method    [none]
+//! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
+//! certificate = true    # the error bound                                            [true]
+//! ```
+//! `sweeps` and `share` exclude each other. The file reads them in [`crate::scene`].
+
+use serde::{Deserialize, Serialize};
+
+/// How a scene is discretised, solved and certified.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Setting {
+    /// Uniform refinements of the scene's mesh.
+    pub refine: u32,
+    /// The cells that the mesh is brought to before it is refined; `None` leaves them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells: Option<CellKind>,
+    /// Number format; `None` leaves it to the command.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scalar: Option<Precision>,
+    /// Square root of the search for ω.
+    pub math: MathKind,
+    /// Full or condensed; `None` leaves it to the command.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<ModelKind>,
+    /// What a tick starts from.
+    pub start: Start,
+    /// Relaxation factor.
+    pub omega: Omega,
+    /// Number of sweeps; `None`: as many as `share` asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweeps: Option<u32>,
+    /// Share of the error bound that is left to sweeps, in (0, 1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// Whether the error bound is computed.
+    pub certificate: bool,
+}
+
+impl Default for Setting {
+    fn default() -> Self {
+        Self {
+            refine: 0,
+            cells: None,
+            scalar: None,
+            math: MathKind::Libm,
+            model: None,
+            start: Start::Warm,
+            omega: Omega::Auto,
+            sweeps: None,
+            share: None,
+            certificate: true,
+        }
+    }
+}
+
+/// Cells with three or four sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CellKind {
+    /// Quads are cut along their shorter diagonal.
+    Triangles,
+    /// Triangles are paired into convex quads; those that find no partner stay.
+    Quads,
+}
+
+/// The number format of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Precision {
+    /// Double precision.
+    #[serde(rename = "f64")]
+    F64,
+    /// Single precision.
+    #[serde(rename = "f32")]
+    F32,
+    /// Sweeps in f32 on residuals in f64.
+    #[serde(rename = "f32+f64")]
+    Mixed,
+}
+
+/// Who takes square roots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MathKind {
+    /// Correctly rounded.
+    Libm,
+    /// Off by up to 6 %, in f32 only.
+    Micromath,
+}
+
+/// What is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ModelKind {
+    /// The scene's mesh.
+    Full,
+    /// Contact edges, inputs and outputs alone.
+    Condensed,
+}
+
+/// What a tick starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Start {
+    /// Nothing.
+    Cold,
+    /// The tick before.
+    Warm,
+}
+
+/// The relaxation factor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Omega {
+    /// This one, inside (0, 2).
+    Fixed(f64),
+    /// Found while sweeping; the text `auto`.
+    #[serde(with = "auto")]
+    Auto,
+}
+
+/// `Omega::Auto` as the text `auto`.
+mod auto {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str("auto")
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        match String::deserialize(deserializer)?.as_str() {
+            "auto" => Ok(()),
+            other => Err(D::Error::custom(format!("`{other}` is no relaxation factor"))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_setting_survives_its_text() {
+        let setting = Setting {
+            refine: 2,
+            cells: Some(CellKind::Quads),
+            scalar: Some(Precision::Mixed),
+            omega: Omega::Fixed(1.93),
+            sweeps: Some(12),
+            certificate: false,
+            ..Setting::default()
+        };
+        for setting in [setting, Setting::default()] {
+            let text = toml::to_string(&setting).unwrap();
+            assert_eq!(toml::from_str::<Setting>(&text), Ok(setting), "{text}");
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What a trade study finds, as `trade.json` holds it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::setting::Setting;
+
+/// The study of one scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trade {
+    /// The scene file's name, without its ending.
+    pub scene: String,
+    /// Its title.
+    pub title: String,
+    /// `host`, `m4f` or `m7`: whose cost decides.
+    pub target: String,
+    /// What errors are measured against, in words.
+    pub truth: String,
+    /// ‖A^½∇u‖ of the solution.
+    pub energy: f64,
+    /// ∫_C (σ·n − q) of the solution.
+    pub force: f64,
+    /// Length of the contact set of the solution.
+    pub length: f64,
+    /// The settings measured.
+    pub points: Vec<Point>,
+    /// Combinations that were not measured.
+    pub skipped: usize,
+    /// Why they were not.
+    pub skipped_reasons: Vec<Skipped>,
+    /// Other solvers on the same problem.
+    pub baselines: Vec<Baseline>,
+    /// What each function of micromath does to the solution.
+    pub math: Vec<FunctionCost>,
+    /// What to take; without a point where nothing meets what was asked.
+    pub recommendation: Recommendation,
+}
+
+/// One setting, measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// In a few words, unique in its study.
+    pub name: String,
+    /// `f32`, `f64`, `f32+f64`.
+    pub scalar: String,
+    /// `libm`, `micromath`.
+    pub math: String,
+    /// `triangles`, `quads`, `mixed`.
+    pub cells: String,
+    /// Uniform refinements of the scene's mesh.
+    pub level: u32,
+    /// Edges not on D.
+    pub unknowns: usize,
+    /// When a tick ends: `share 0.1`, `12 sweeps`, `exact`.
+    pub stop: String,
+    /// Sweeps of a tick in the median; 0 for the exact method.
+    pub sweeps: u32,
+    /// `cold`, `warm`.
+    pub start: String,
+    /// `auto`, `tuned`, `unit`.
+    pub omega: String,
+    /// `full`, `condensed`.
+    pub model: String,
+    /// Whether the bound is computed.
+    pub certificate: bool,
+    /// How far the answer for the default inputs is from the truth.
+    pub error: PointError,
+    /// `error_bound.total` of the same answer; none without certificate.
+    pub bound: Option<f64>,
+    /// Cycles of a tick on this machine, the median.
+    pub cycles: f64,
+    /// (largest − smallest)/median of the repeats.
+    pub cycles_spread: f64,
+    /// Cycles of a tick for each unknown of the mesh.
+    pub cycles_per_unknown: f64,
+    /// Instructions of a tick on the target, the median; none on the host.
+    pub instructions: Option<u64>,
+    /// RAM of the image with its stack.
+    pub ram_bytes: Option<u64>,
+    /// Code and constants of the image.
+    pub flash_bytes: Option<u64>,
+    /// No other point is better in both cost and error.
+    pub pareto: bool,
+    /// The setting, as a scene's `[setting]` has it.
+    pub setting: Setting,
+}
+
+/// Distances to the truth, absolute, in the units of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PointError {
+    /// ‖A^½∇_h(u − u_h)‖
+    pub energy: f64,
+    /// That of s and τ, which the bound bounds; none without certificate.
+    pub combined: Option<f64>,
+    /// ‖u − u_h‖
+    pub l2: f64,
+    /// ‖σ − σ_h‖
+    pub flux: f64,
+    /// |∫_C (σ·n − q) − ∫_C (σ_h·n − q)|
+    pub force: f64,
+    /// Difference of the lengths of the contact sets.
+    pub length: f64,
+}
+
+/// Combinations left out for one reason.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Skipped {
+    /// Why.
+    pub reason: String,
+    /// How many.
+    pub count: usize,
+}
+
+/// What to take.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recommendation {
+    /// A sentence.
+    pub text: String,
+    /// The point.
+    pub point: Option<Point>,
+}
+
+/// A solver on the matrices of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Baseline {
+    /// `kernel PSOR`, `Clarabel`, …
+    pub solver: String,
+    /// `full`, `condensed`, `conforming P1`.
+    pub problem: String,
+    /// Unknowns of that problem.
+    pub unknowns: usize,
+    /// `cold`, `warm`.
+    pub start: String,
+    /// Cycles of a solve on this machine, the median; setup that a loop does once is not in it.
+    pub cycles: f64,
+    /// (largest − smallest)/median of the repeats.
+    pub cycles_spread: f64,
+    /// Cycles over those of the kernel's best answer for the same problem and start.
+    pub ratio: f64,
+    /// Energy distance to the solution of the discrete problem.
+    pub algebraic_error: f64,
+    /// ‖A^½∇_h(u − u_h)‖, where it is another than the kernel's.
+    pub error: Option<PointError>,
+    /// Sweeps or iterations.
+    pub iterations: u32,
+}
+
+/// What one function of micromath does where libm's is replaced by it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FunctionCost {
+    /// `sqrt`, `sin`, …
+    pub function: String,
+    /// Where the scene uses it.
+    pub used_in: String,
+    /// ‖A^½∇_h(u_h − ũ_h)‖ / ‖A^½∇_h u_h‖ of the change.
+    pub energy: f64,
+    /// Change of the contact force, relative.
+    pub force: f64,
+    /// Sweeps more (or fewer) of a cold solve.
+    pub sweeps: i64,
+    /// Instructions that one call saves on an M4F, from the record of counts.
+    pub saved: f64,
+}
