@@ -37,7 +37,6 @@ pub(super) struct Ground<'g> {
 }
 
 /// s and τ in every column.
-#[cfg_attr(not(test), expect(dead_code, reason = "tests compare them with exact solutions"))]
 pub(super) struct Admissibles {
     pub s: Table,
     pub fluxes: Table,

@@ -32,6 +32,7 @@ mod measures;
 mod patterns;
 mod points;
 mod reach;
+mod recovery;
 mod residual;
 #[cfg(test)]
 mod tests;
@@ -47,9 +48,10 @@ use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
 use columns::columns;
 use elimination::{Field, fields};
-use form::{Admissibles, Ground};
+use form::Ground;
 use measures::measures;
 use patterns::patterns;
+pub use recovery::{Recovery, recoverable};
 
 /// A condensed model, in f64.
 #[derive(Debug, Clone)]
@@ -143,8 +145,8 @@ pub fn condense(scene: &Scene, problem: &Problem) -> Result<Condensate> {
     Ok(build(scene, problem)?.0)
 }
 
-/// The condensate, and s and τ of its certificate in the columns of F before they were scaled by U.
-fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Option<Admissibles>)> {
+/// The condensate, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
+fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
     let parts = examined(scene, problem)?;
     let patterns = patterns(scene, problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);
@@ -183,7 +185,7 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Option<Admissi
     };
     condensate.certificate = form;
     condensate.choose_unit();
-    Ok((condensate, admissibles))
+    Ok((condensate, Recovery { fields, admissibles }))
 }
 
 fn examined(scene: &Scene, problem: &Problem) -> Result<Parts> {

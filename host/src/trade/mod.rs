@@ -5,4 +5,6 @@
 //!              truth ─────────┘           └─► trade.json, trade.csv, picture
 //! ```
 
+pub mod plan;
 pub mod record;
+pub mod target;

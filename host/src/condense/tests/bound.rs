@@ -4,11 +4,9 @@ use std::path::Path;
 
 use super::*;
 use crate::bake::condensed::{Baked, Controller, Work};
-use crate::certify::admissible::Admissible;
 use crate::certify::exact::{Distance, distance};
 use crate::certify::fixtures::{SMOOTH, distorted};
-use crate::condense::form::Admissibles;
-use crate::condense::{Condensate, build};
+use crate::condense::{Condensate, Recovery, recoverable};
 use crate::mesh::structured::{Cells, grid};
 use crate::norms::errors;
 
@@ -16,7 +14,7 @@ struct Model {
     scene: Scene,
     problem: Problem,
     condensate: Condensate,
-    admissibles: Admissibles,
+    recovery: Recovery,
 }
 
 impl Model {
@@ -28,9 +26,8 @@ impl Model {
         let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
         let mesh = if four { with_four_sides(mesh) } else { mesh };
         let problem = Problem::new(&scene, mesh)?;
-        let (condensate, admissibles) = build(&scene, &problem)?;
-        let admissibles = admissibles.expect("a certificate");
-        Ok(Self { scene, problem, condensate, admissibles })
+        let (condensate, recovery) = recoverable(&scene, &problem)?;
+        Ok(Self { scene, problem, condensate, recovery })
     }
 
     fn catalogue(file: &str, mesh: Mesh) -> Result<Self> {
@@ -38,42 +35,12 @@ impl Model {
         Self::of(Scene::read(&folder.join(format!("{file}.toml")))?, mesh)
     }
 
-    /// s and the mended τ of (p, x): their numbers in the columns of U = 1.
+    /// That of s and the mended τ of (p, x).
     fn distance(&self, p: &[f64], x: &[f64]) -> Result<Distance> {
-        let (model, form) = (&self.condensate, self.condensate.certificate.as_ref().expect("one"));
-        let Admissibles { s, fluxes, functions } = &self.admissibles;
-        let unit = model.energy_unit;
-        let scaled = |numbers: &[f64]| numbers.iter().map(|x| unit * x).collect::<Vec<_>>();
-        let z: Vec<f64> = [p.to_vec(), scaled(x), scaled(&form.correction(x))].concat();
-        let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
-        let vertices = self.problem.mesh.vertices.len();
-        let values: Vec<f64> = (0..vertices).map(|place| at(s.row(place), &z)).collect();
-        let bubble =
-            |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
-        let bubbles: Vec<f64> = (0..self.problem.ends.len()).map(bubble).collect();
-        let z: Vec<f64> = [p.to_vec(), scaled(&self.mended(p, x))].concat();
-        let tau: Vec<f64> =
-            (0..self.problem.ends.len()).map(|edge| at(fluxes.row(edge), &z)).collect();
+        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
+        let answer = answer.expect("a certificate");
         let exact = self.scene.exact.as_ref().expect("an exact solution");
-        let admissible = Admissible { vertices: &values, bubbles: &bubbles, tau: &tau };
-        distance(&self.scene, exact, &self.problem, &admissible)
-    }
-
-    /// x with which the residual is the mended one, which must be admissible.
-    fn mended(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
-        use faer::linalg::solvers::Solve;
-        let Condensate { contact: n, matrix, opening, .. } = &self.condensate;
-        let form = self.condensate.certificate.as_ref().expect("one");
-        let before = self.condensate.residual(p, x);
-        let mut after = before.clone();
-        form.mend(opening, &mut after, x).expect("a way out");
-        assert!(after.iter().zip(x).all(|(&r, &x)| if x == 0.0 { r >= 0.0 } else { r == 0.0 }));
-        let constant = |i: usize| if form.floating { opening[0] / opening[i] } else { 0.0 };
-        let matrix =
-            faer::Mat::from_fn(*n, *n, |i, j| matrix[n * i + j] + constant(i) * constant(j));
-        let change = faer::Mat::from_fn(*n, 1, |i, _| after[i] - before[i]);
-        let change = matrix.llt(faer::Side::Lower).expect("definite").solve(change);
-        x.iter().enumerate().map(|(i, x)| x + change[(i, 0)]).collect()
+        distance(&self.scene, exact, &self.problem, &answer.admissible())
     }
 
     /// x after some sweeps of projected Gauss–Seidel from nothing.
