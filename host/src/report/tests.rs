@@ -107,6 +107,7 @@ fn full(panel: ScenePanel) -> Report {
             sweeps: vec![1.0, 5.0],
             curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
         }],
+        tradeoff: Some(Tradeoff::default()),
         scenes: vec![panel],
     }
 }

@@ -5,4 +5,14 @@
 //!              truth ─────────┘           └─► trade.json, trade.csv, picture
 //! ```
 
+pub mod csv;
+mod digits;
+#[cfg(test)]
+mod fixtures;
+mod listings;
+pub mod picture;
 pub mod record;
+pub mod records;
+pub mod section;
+pub mod table;
+pub mod verdict;
