@@ -19,7 +19,8 @@ pub fn point(at: usize) -> Point {
     let energy =
         0.06 * h * (1.0 + 6.0 / (1.0 + f64::from(sweeps)).powi(2) + 0.01 * digit(2, 3) as f64);
     let unknowns = 400 << (2 * level);
-    let work = if model == "full" { 20.0 * f64::from(sweeps + 10) } else { 8.0 };
+    let work =
+        if model == "full" { 20.0 * f64::from(sweeps + 10) } else { 8.0 + 0.3 * f64::from(sweeps) };
     let cycles = unknowns as f64 * work * (1.0 + 0.6 * digit(2, 3) as f64);
     let stop = if sweeps == 0 { "exact".to_owned() } else { format!("{sweeps} sweeps") };
     Point {

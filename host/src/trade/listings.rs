@@ -28,7 +28,7 @@ fn cost_header(target: &str) -> Vec<String> {
     if target == "host" {
         texts(["cycles", "cycles/unknown"])
     } else {
-        texts(["instructions", "RAM", "flash"])
+        texts(["instructions", "RAM, bytes", "flash, bytes"])
     }
 }
 
@@ -112,11 +112,11 @@ pub fn math(trade: &Trade) -> Listing {
     Listing { header, rows: rows.collect(), marked: None }
 }
 
-/// `120 combinations not measured: 80 …; 40 …`; nothing when all were.
+/// `120 combinations not measured: REASON (80); REASON (40)`; nothing when all were.
 pub fn skipped(trade: &Trade) -> Option<String> {
     let reasons = trade.skipped_reasons.iter();
     let reasons: Vec<String> = reasons
-        .map(|skipped| format!("{} {}", grouped(skipped.count as u64), skipped.reason))
+        .map(|skipped| format!("{} ({})", skipped.reason, grouped(skipped.count as u64)))
         .collect();
     let plural = if trade.skipped == 1 { "" } else { "s" };
     let count = grouped(trade.skipped as u64);

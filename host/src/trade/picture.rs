@@ -117,6 +117,7 @@ mod tests {
         trade.energy = 0.0;
         assert!(!drawn(&trade).contains(" %</text>"), "percents of nothing");
         trade.target = "m4f".to_owned();
+        trade.points.iter_mut().for_each(|point| point.instructions = None);
         assert!(drawn(&trade).contains("no setting with a cost and an error"));
         trade.points.clear();
         drawn(&trade);

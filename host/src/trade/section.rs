@@ -1,5 +1,7 @@
 //! The records of all scenes as the main report shows them.
 
+use std::collections::BTreeSet;
+
 use super::digits::{or_dash, percent};
 use super::listings::{baselines, costs, front, math, skipped};
 use super::picture::{picture, target_name};
@@ -27,20 +29,14 @@ type Scene<'r> = [Option<&'r Trade>; 2];
 
 /// The scenes of both targets by name.
 fn scenes(records: &Records) -> Vec<Scene<'_>> {
-    let mut names: Vec<&str> =
-        records.host.iter().chain(&records.m4f).map(|trade| trade.scene.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    let of =
-        |trades: &'_ Vec<Trade>, name: &str| trades.iter().position(|trade| trade.scene == name);
-    names
-        .into_iter()
-        .map(|name| {
-            let host = of(&records.host, name).map(|at| &records.host[at]);
-            let m4f = of(&records.m4f, name).map(|at| &records.m4f[at]);
-            [host, m4f]
-        })
-        .collect()
+    let all = records.host.iter().chain(&records.m4f);
+    let names: BTreeSet<&str> = all.map(|trade| trade.scene.as_str()).collect();
+    let both = |name| [named(&records.host, name), named(&records.m4f, name)];
+    names.into_iter().map(both).collect()
+}
+
+fn named<'t>(trades: &'t [Trade], name: &str) -> Option<&'t Trade> {
+    trades.iter().find(|trade| trade.scene == name)
 }
 
 const HEADER: [&str; 11] = [
@@ -51,8 +47,8 @@ const HEADER: [&str; 11] = [
     "cycles/unknown",
     "take on the M4F",
     "instructions",
-    "RAM",
-    "flash",
+    "RAM, bytes",
+    "flash, bytes",
     "Clarabel",
     "OSQP",
 ];
@@ -147,6 +143,15 @@ mod tests {
         assert_eq!(page.matches("<details").count(), 2);
         assert!(page.contains("On the Cortex-M4F") && page.contains("Speed for accuracy"));
         assert!(!page.contains("NaN"));
+    }
+
+    #[test]
+    fn what_would_not_fit_a_board_has_no_numbers_there() {
+        let mut board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        board.recommendation.point = None;
+        board.baselines.clear();
+        let found = section(&Records { host: Vec::new(), m4f: vec![board] }, String::new());
+        assert_eq!(found.summary.rows[0][1..], vec!["–"; HEADER.len() - 1]);
     }
 
     #[test]

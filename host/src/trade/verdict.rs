@@ -65,15 +65,16 @@ pub fn knob_values<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Vec<KnobV
             }
         }
     }
-    let value = |((target, at, value), [studies, points, on_front])| {
+    let value = |(key, sums): ((String, usize, String), [usize; 3])| {
+        let ((target, at, value), [studies, points, on_front]) = (key, sums);
         let (knob, _) = KNOBS[at];
         KnobValue { target, knob, value, studies, points, on_front }
     };
     found.into_iter().map(value).collect()
 }
 
-/// A sentence a target and knob: `Host, scalar: f32 is on a front with 31 of 80 points; f64 never pays
-/// (0 of 40 points in 12 scenes)`.
+/// A sentence a target and knob: `On the host, scalar: f32 is on a front with 31 of 80 points; f64 never
+/// pays (0 of 40 points in 12 scenes)`.
 pub fn sentences(values: &[KnobValue]) -> Vec<String> {
     let groups = values.chunk_by(|a, b| (&a.target, a.knob) == (&b.target, b.knob));
     groups.map(sentence).collect()
@@ -81,13 +82,13 @@ pub fn sentences(values: &[KnobValue]) -> Vec<String> {
 
 fn sentence(values: &[KnobValue]) -> String {
     let (paying, never): (Vec<_>, Vec<_>) = values.iter().partition(|value| value.on_front > 0);
-    let count = |at: usize, value: &KnobValue| {
-        let (name, on_front) = (&value.value, grouped(value.on_front as u64));
-        let points = grouped(value.points as u64);
-        let words = if at == 0 { " is on a front with" } else { "" };
-        format!("{name}{words} {on_front} of {points} points")
-    };
-    let paying = paying.iter().enumerate().map(|(at, value)| count(at, value));
+    let paying = paying.iter().enumerate().map(|(at, value)| {
+        let (on_front, points) = (grouped(value.on_front as u64), grouped(value.points as u64));
+        match at {
+            0 => format!("{} is on a front with {on_front} of {points} points", value.value),
+            _ => format!("{} with {on_front} of {points}", value.value),
+        }
+    });
     let never = never.iter().map(|value| {
         let plural = if value.studies == 1 { "" } else { "s" };
         let points = grouped(value.points as u64);

@@ -15,8 +15,10 @@ use crate::report::scale::{Scale, extent};
 /// Height of the diagram where names don't make it longer.
 const HEIGHT: f64 = 380.0;
 /// From the end of a name to the middle of its point, and to the frame.
-const GAP: f64 = 9.0;
+const GAP: f64 = 12.0;
 const BORDER: f64 = 6.0;
+/// So that rounding shortens no name.
+const SLACK: f64 = 0.5;
 /// From one line of names to the next.
 const LINE: f64 = 15.0;
 /// The most of the picture that is kept free for names at its left.
@@ -53,8 +55,9 @@ impl Layout {
         let errors = shown.iter().map(|point| point.error);
         let [least, most] = extent(errors.chain(shown.iter().copied().filter_map(drawn_bound)))?;
         let unit = Scale::logarithmic(costs, [0.0, 1.0]);
-        let needed =
-            |point: &ParetoPoint| (unit.at(point.cost), width(&point.name, LETTERS) + GAP + BORDER);
+        let needed = |point: &ParetoPoint| {
+            (unit.at(point.cost), width(&point.name, LETTERS) + GAP + BORDER + SLACK)
+        };
         let kept = room(front(shown).map(needed), RIGHT - LEFT).min(MOST_ROOM);
         let across = Scale::logarithmic(costs, [LEFT + kept, RIGHT]);
         let up = Scale::logarithmic([least, most], [top + HEIGHT, top]);
@@ -131,8 +134,13 @@ mod tests {
         let mut points: Vec<_> = (0..front + others).map(point).collect();
         let mut least = f64::INFINITY;
         for point in &mut points {
-            least = least.min(point.error);
-            point.error = if point.front { least } else { 2.0 * point.error };
+            // Each of the front is no worse than the one before, the others are worse than all of it.
+            if point.front {
+                least = least.min(point.error);
+                point.error = least;
+            } else {
+                point.error = 2.0 * point.error.max(least);
+            }
         }
         points
     }

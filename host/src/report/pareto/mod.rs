@@ -184,7 +184,7 @@ fn points(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
     }
     for point in shown.iter().filter(|point| point.recommended) {
         let mut ring = Path::default();
-        ring.polygon(&circle(layout.at(point), 9.0));
+        ring.polygon(&circle(layout.at(point), 8.5));
         svg.path("ring", &ring);
     }
 }
