@@ -1,7 +1,7 @@
 //! What changes from tick to tick: a diagram a quantity, on top of each other over the same time, as a
 //! picture that stands by itself.
 
-use super::loglog::marker;
+use super::loglog::{MARKER, marker};
 use super::page::STYLE;
 use super::scale::{Scale, extent};
 use super::simplify::simplify;
@@ -113,7 +113,7 @@ fn draw_curve(svg: &mut Svg, curve: &Curve, time: &[f64], [along, up]: [&Scale; 
 
 fn markers(svg: &mut Svg, look: usize, points: &[[f64; 2]]) {
     let mut path = Path::default();
-    points.iter().for_each(|&point| path.polygon(&marker(look, point)));
+    points.iter().for_each(|&point| path.polygon(&marker(look, point, MARKER)));
     svg.path(&format!("marker series-{look}"), &path);
 }
 

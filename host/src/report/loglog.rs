@@ -10,8 +10,9 @@ const RIGHT: f64 = 428.0;
 const TOP: f64 = 12.0;
 const BOTTOM: f64 = 286.0;
 /// Looks that the style sheet tells apart; more curves begin again with the first.
-const LOOKS: usize = 6;
-const MARKER: f64 = 3.6;
+pub const LOOKS: usize = 6;
+/// Half the width of a marker, roughly.
+pub const MARKER: f64 = 3.6;
 
 /// A chart being drawn.
 pub struct LogLog {
@@ -28,11 +29,7 @@ impl LogLog {
         let up = Scale::logarithmic(up, [BOTTOM, TOP]);
         let mut svg = Svg::new(WIDTH, HEIGHT, label);
         svg.rectangle("frame", [LEFT, TOP], [RIGHT, BOTTOM]);
-        for (value, label) in across.ticks(5) {
-            let x = across.at(value);
-            svg.line("grid", [x, TOP], [x, BOTTOM]);
-            svg.text("tick", [x, BOTTOM + 18.0], Anchor::Middle, &label);
-        }
+        upright(&mut svg, &across, [TOP, BOTTOM]);
         for (value, label) in up.ticks(5) {
             let y = up.at(value);
             svg.line("grid", [LEFT, y], [RIGHT, y]);
@@ -52,7 +49,7 @@ impl LogLog {
         self.line(index, points);
         let look = index % LOOKS;
         let mut markers = Path::default();
-        points.iter().for_each(|&point| markers.polygon(&marker(look, self.at(point))));
+        points.iter().for_each(|&point| markers.polygon(&marker(look, self.at(point), MARKER)));
         self.svg.path(&format!("marker series-{look}"), &markers);
     }
 
@@ -79,16 +76,28 @@ impl LogLog {
     }
 }
 
+/// The upright grid lines with their values below.
+pub fn upright(svg: &mut Svg, across: &Scale, [top, bottom]: [f64; 2]) {
+    for (value, label) in across.ticks(5) {
+        let x = across.at(value);
+        svg.line("grid", [x, top], [x, bottom]);
+        svg.text("tick", [x, bottom + 18.0], Anchor::Middle, &label);
+    }
+}
+
 /// The pairs that both have a logarithm.
 pub fn positive(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
-    let positive = |value: f64| value.is_normal() && value > 0.0;
-    let pairs = x.iter().zip(y).filter(|&(&x, &y)| positive(x) && positive(y));
+    let pairs = x.iter().zip(y).filter(|&(&x, &y)| has_logarithm(x) && has_logarithm(y));
     pairs.map(|(&x, &y)| [x, y]).collect()
 }
 
+/// Whether a value has a place on a logarithmic axis.
+pub fn has_logarithm(value: f64) -> bool {
+    value.is_normal() && value > 0.0
+}
+
 /// Square, diamond or triangle, so that colour is not the only difference.
-pub fn marker(look: usize, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
-    let r = MARKER;
+pub fn marker(look: usize, [x, y]: [f64; 2], r: f64) -> Vec<[f64; 2]> {
     let offsets: &[[f64; 2]] = match look % 3 {
         0 => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
         1 => &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
@@ -103,7 +112,7 @@ pub fn legend_marker(index: usize) -> String {
     let mut svg = Svg::new(26.0, 12.0, "");
     svg.line(&format!("curve series-{look}"), [1.0, 6.0], [25.0, 6.0]);
     let mut path = Path::default();
-    path.polygon(&marker(look, [13.0, 6.0]));
+    path.polygon(&marker(look, [13.0, 6.0], MARKER));
     svg.path(&format!("marker series-{look}"), &path);
     svg.finish()
 }

@@ -6,7 +6,8 @@
 //!                        │          ├─► contact  λ and the opening along C
 //!                        │          └─► bound    how wrong it can be, and why, in words
 //!                        ├─► convergence  error over mesh width                             ─┬─► loglog
-//!                        └─► sweeps       error bound over sweeps                           ─┘
+//!                        ├─► sweeps       error bound over sweeps                           ─┘
+//!                        └─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
 //! ```
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
@@ -21,24 +22,31 @@ mod convergence;
 mod field;
 mod history;
 mod isobands;
+mod lettering;
 mod loglog;
 mod mosaic;
 mod outline;
 mod page;
 mod panel;
+mod pareto;
 mod plane;
 mod scale;
 mod simplify;
 mod strip;
 mod svg;
 mod sweeps;
+mod table;
 #[cfg(test)]
 mod tests;
+mod tradeoff;
 mod view;
 
 pub use convergence::measured_rate;
 pub use history::history;
 pub use page::html;
+pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
+pub use scale::plain;
+pub use tradeoff::{Listing, TradePanel, TradeStudy, Tradeoff};
 
 use crate::certify::ErrorBound;
 
@@ -59,6 +67,8 @@ pub struct Report {
     pub cut_off: Table,
     /// The bound over sweeps, a picture each.
     pub sweeps: Vec<SweepPlot>,
+    /// What settings cost and how wrong they are.
+    pub tradeoff: Option<Tradeoff>,
     /// The solutions, a panel each.
     pub scenes: Vec<ScenePanel>,
 }

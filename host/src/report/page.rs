@@ -7,7 +7,9 @@ use super::loglog::legend_marker;
 use super::panel::panel;
 use super::svg::escape;
 use super::sweeps::sweeps;
-use super::{Check, ConvergencePlot, Report, ScenePanel, SweepPlot, Table};
+use super::table::checked;
+use super::tradeoff::tradeoff;
+use super::{Check, ConvergencePlot, Report, SweepPlot};
 
 pub(super) const STYLE: &str = include_str!("style.css");
 
@@ -22,7 +24,7 @@ pub fn html(report: &Report) -> String {
     header(&mut page, report);
     page.push_str("<main>\n");
     if !report.table.rows.is_empty() {
-        section(&mut page, "Every run", &table(&report.table, &report.scenes));
+        section(&mut page, "Every run", &checked(&report.table, &report.scenes));
     }
     if !report.checks.is_empty() {
         section(&mut page, "Further checks", &checks(&report.checks));
@@ -32,6 +34,9 @@ pub fn html(report: &Report) -> String {
         section(&mut page, "Convergence", &format!("<div class=\"plots\">\n{plots}</div>\n"));
     }
     cut_off(&mut page, report);
+    if let Some(found) = &report.tradeoff {
+        section(&mut page, "Speed for accuracy", &tradeoff(found));
+    }
     if !report.scenes.is_empty() {
         let panels: String = report.scenes.iter().enumerate().map(panel).collect();
         section(&mut page, "Solutions", &format!("<div class=\"panels\">\n{panels}</div>\n"));
@@ -49,7 +54,7 @@ fn cut_off(page: &mut String, report: &Report) {
     if report.cut_off.rows.is_empty() {
         return;
     }
-    let table = table(&report.cut_off, &report.scenes);
+    let table = checked(&report.cut_off, &report.scenes);
     let plots: String = report.sweeps.iter().filter_map(sweeps_figure).collect();
     let body = format!(
         "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
@@ -96,41 +101,6 @@ pub(super) fn mark(passed: bool) -> &'static str {
     } else {
         "<span class=\"mark fail\" role=\"img\" aria-label=\"FAIL\">✗</span>"
     }
-}
-
-fn table(table: &Table, scenes: &[ScenePanel]) -> String {
-    let numeric: Vec<bool> = (0..table.header.len())
-        .map(|column| table.rows.iter().all(|row| is_number(row.cells.get(column))))
-        .collect();
-    let align = |column: usize| match numeric.get(column) {
-        Some(true) => " class=\"number\"",
-        _ => "",
-    };
-    let mut html = String::from("<div class=\"scroll\">\n<table>\n<thead><tr><th></th>");
-    for (column, name) in table.header.iter().enumerate() {
-        let _ = write!(html, "<th{}>{}</th>", align(column), escape(name));
-    }
-    html.push_str("</tr></thead>\n<tbody>\n");
-    for row in &table.rows {
-        let class = if row.passed { "" } else { " class=\"failed\"" };
-        let _ = write!(html, "<tr{class}><td>{}</td>", mark(row.passed));
-        for (column, cell) in row.cells.iter().enumerate() {
-            let scene = scenes.iter().position(|scene| column == 0 && scene.name == *cell);
-            let text = match scene {
-                Some(scene) => format!("<a href=\"#scene-{scene}\">{}</a>", escape(cell)),
-                None => escape(cell),
-            };
-            let _ = write!(html, "<td{}>{text}</td>", align(column));
-        }
-        html.push_str("</tr>\n");
-    }
-    html + "</tbody>\n</table>\n</div>\n"
-}
-
-/// Numbers, and what stands for a missing one, are aligned to the right.
-fn is_number(cell: Option<&String>) -> bool {
-    let text = cell.map_or("", |cell| cell.trim_start_matches(['+', '-', '−', '–', '<', '≤', ' ']));
-    text.is_empty() || text.starts_with(|first: char| first.is_ascii_digit())
 }
 
 fn checks(checks: &[Check]) -> String {

@@ -41,6 +41,13 @@ impl Scale {
         self.pixels[0] + fraction * (self.pixels[1] - self.pixels[0])
     }
 
+    /// The value that lies at a pixel: the inverse of [`Scale::at`].
+    pub fn value(&self, pixel: f64) -> f64 {
+        let fraction = (pixel - self.pixels[0]) / (self.pixels[1] - self.pixels[0]);
+        let value = self.low + fraction * (self.high - self.low);
+        if self.logarithmic { 10_f64.powf(value) } else { value }
+    }
+
     /// About `count` round values with their labels.
     pub fn ticks(&self, count: usize) -> Vec<(f64, String)> {
         if self.logarithmic { self.decades() } else { self.round_values(count) }
@@ -155,6 +162,9 @@ mod tests {
     fn the_ends_of_the_range_are_the_ends_of_the_axis() {
         let scale = Scale::linear([2.0, 4.0], [100.0, 0.0]);
         assert_eq!((scale.at(2.0), scale.at(3.0), scale.at(4.0)), (100.0, 50.0, 0.0));
+        assert_eq!((scale.value(100.0), scale.value(50.0)), (2.0, 3.0));
+        let scale = Scale::logarithmic([1e-3, 1e4], [20.0, 300.0]);
+        assert!((scale.value(scale.at(2.5)) - 2.5).abs() < 1e-12);
     }
 
     #[test]

@@ -47,6 +47,17 @@ impl Svg {
         }
     }
 
+    /// A path that says what it is when it is pointed at.
+    pub fn explained(&mut self, class: &str, path: &Path, words: &str) {
+        if !path.0.is_empty() {
+            let (path, words) = (&path.0, escape(words));
+            let _ = writeln!(
+                self.text,
+                "<path class=\"{class}\" d=\"{path}\"><title>{words}</title></path>"
+            );
+        }
+    }
+
     /// A path filled with `color`.
     pub fn fill(&mut self, color: &str, path: &Path) {
         if !path.0.is_empty() {
@@ -70,6 +81,11 @@ impl Svg {
 
     /// A line of text, its baseline at `at`.
     pub fn text(&mut self, class: &str, at: [f64; 2], anchor: Anchor, text: &str) {
+        self.abridged(class, at, anchor, text, text);
+    }
+
+    /// A line of text that stands for a longer one, which is shown where it is pointed at.
+    pub fn abridged(&mut self, class: &str, at: [f64; 2], anchor: Anchor, text: &str, whole: &str) {
         if !at.iter().all(|value| value.is_finite()) {
             return;
         }
@@ -79,10 +95,12 @@ impl Svg {
             Anchor::End => "end",
         };
         let [x, y] = at.map(number);
+        let title =
+            if text == whole { String::new() } else { format!("<title>{}</title>", escape(whole)) };
         let text = escape(text);
         let _ = writeln!(
             self.text,
-            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
+            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}{title}</text>"
         );
     }
 
@@ -117,6 +135,14 @@ impl Path {
             self.0.push('Z');
         }
     }
+}
+
+/// A circle as a polygon that looks like one.
+pub fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    const CORNERS: u32 = 32;
+    let angle = |corner: u32| f64::from(corner) * std::f64::consts::TAU / f64::from(CORNERS);
+    let corners = (0..CORNERS).map(|corner| angle(corner).sin_cos());
+    corners.map(|(sin, cos)| [x + radius * cos, y + radius * sin]).collect()
 }
 
 /// At most two decimals and none that say nothing.

@@ -107,7 +107,49 @@ fn full(panel: ScenePanel) -> Report {
             sweeps: vec![1.0, 5.0],
             curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
         }],
+        tradeoff: Some(tradeoff()),
         scenes: vec![panel],
+    }
+}
+
+/// Two settings on a front, one of them with a name that would be markup, and one beside it.
+fn tradeoff() -> Tradeoff {
+    let point = |name: &str, cost: f64, error: f64, front: bool| ParetoPoint {
+        name: name.to_owned(),
+        note: "<cost> & error".to_owned(),
+        cost,
+        error,
+        bound: Some(1.5 * error),
+        front,
+        recommended: name == "f64",
+        ..ParetoPoint::default()
+    };
+    let picture = ParetoPlot {
+        title: "a < b".to_owned(),
+        cost: "cycles".to_owned(),
+        size: 1.0,
+        series: vec!["level 0".to_owned()],
+        points: vec![
+            point("f32 & <fast>", 1e3, 1e-2, true),
+            point("f64", 1e4, 1e-3, true),
+            point("slow", 2e4, f64::NAN, false),
+        ],
+    };
+    let rows = vec![vec!["f32 & <fast>".to_owned(), "1 000".to_owned()]];
+    let front = Listing { header: vec!["a".to_owned(), "b".to_owned()], rows, marked: Some(0) };
+    let study = TradeStudy {
+        heading: "On the host".to_owned(),
+        further: vec![("a < b".to_owned(), front.clone())],
+        picture,
+        front: front.clone(),
+        ..TradeStudy::default()
+    };
+    let scene = TradePanel { studies: vec![study], ..TradePanel::default() };
+    Tradeoff {
+        summary: front,
+        findings: vec!["f32 < f64".to_owned()],
+        sizes: String::new(),
+        scenes: vec![scene],
     }
 }
 
@@ -152,6 +194,7 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("id=\"scene-0\""));
     assert!(page.contains("Failed: 1 of 2 runs"));
     assert!(page.contains("<em>rate 2.00, expected 2</em>"));
+    assert!(page.contains(">f32 &amp; &lt;fast&gt;</text>") && page.contains(">f64</text>"));
     assert!(page.contains("10.0 % of the solution; in truth it is 0.190 off"));
 }
 

@@ -19,6 +19,8 @@ use crate::error::{Error, InputError, Result};
 use crate::output::atomic::write_atomically;
 use crate::progress::{say, steps};
 use crate::report::{Report, html};
+use crate::trade::verdict::{KnobValue, knob_values};
+use crate::trade::{records, section::section};
 use case::Case;
 use checks::Check;
 use convergence::Study;
@@ -31,6 +33,7 @@ struct Results<'r> {
     scenes: &'r [Case],
     convergence: &'r [Study],
     cut_off: &'r [CutOff],
+    knobs: &'r [KnobValue],
     passed: bool,
 }
 
@@ -41,7 +44,9 @@ struct Results<'r> {
 /// Scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let scenes = scenes(&root.join("meshes"))?;
+    let meshes = root.join("meshes");
+    let scenes = scenes(&meshes)?;
+    let trades = records::read(&meshes)?;
     let studies = convergence::planned(root)?;
     let stopped = cut_off::planned(&scenes)?;
     let bar = steps(scenes.len() + studies.len() + stopped.len());
@@ -72,6 +77,7 @@ pub fn run() -> Result<u8> {
         scenes: &cases,
         convergence: &studies,
         cut_off: &stopped,
+        knobs: &knob_values(trades.host.iter().chain(&trades.m4f)),
         passed: failed.is_empty(),
     };
     let json = serde_json::to_string_pretty(&results).unwrap_or_default() + "\n";
@@ -87,6 +93,7 @@ pub fn run() -> Result<u8> {
         convergence: convergence::plots(&studies),
         cut_off: cut_off::table(&stopped),
         sweeps: cut_off::plots(&stopped),
+        tradeoff: Some(section(&trades, String::new())),
         scenes: panels,
     };
     write_atomically(&folder.join("results.json"), json.as_bytes())?;
@@ -99,7 +106,8 @@ pub fn run() -> Result<u8> {
     Ok(u8::from(!failed.is_empty()))
 }
 
-/// The scene files below `folder`, in the order of their names.
+/// The scene files below `folder`, in the order of their names; records of trade studies may hold scenes
+/// too, of settings.
 fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -107,7 +115,7 @@ fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
         for entry in std::fs::read_dir(&folder).map_err(Error::io(&folder))? {
             let path = entry.map_err(Error::io(&folder))?.path();
             if path.is_dir() {
-                folders.push(path);
+                folders.extend((!path.ends_with(records::FOLDER)).then_some(path));
             } else if path.extension().is_some_and(|extension| extension == "toml") {
                 found.push(path);
             }

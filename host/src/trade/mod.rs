@@ -3,8 +3,19 @@
 //! ```text
 //!   scene ─► settings ─► measured points ─┬─► front ─► recommendation ─► scene fragment
 //!              truth ─────────┘           └─► trade.json, trade.csv, picture
+//!   records of many scenes ─► verdict (which knobs pay) ─► section of the main report
 //! ```
 
+pub mod csv;
+mod digits;
+#[cfg(test)]
+pub(crate) mod fixtures;
+mod listings;
+pub mod picture;
 pub mod plan;
 pub mod record;
+pub mod records;
+pub mod section;
+pub mod table;
 pub mod target;
+pub mod verdict;

@@ -1,0 +1,117 @@
+//! Speed for accuracy: one table over all scenes, what it says of the knobs, and a folded block a scene.
+
+use std::fmt::Write;
+
+use super::pareto::{ParetoPlot, pareto};
+use super::svg::escape;
+use super::table::listing;
+
+/// What the settings of scenes cost, and how wrong their answers are.
+#[derive(Debug, Clone, Default)]
+pub struct Tradeoff {
+    /// A row a scene.
+    pub summary: Listing,
+    /// What follows for all of them, a sentence each.
+    pub findings: Vec<String>,
+    /// A study of problem sizes, as HTML; empty where there is none.
+    pub sizes: String,
+    /// The scenes; the section says what to do where there are none.
+    pub scenes: Vec<TradePanel>,
+}
+
+/// A table of facts.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// A text for each column.
+    pub rows: Vec<Vec<String>>,
+    /// The row that stands out.
+    pub marked: Option<usize>,
+}
+
+/// One scene, on one or more targets.
+#[derive(Debug, Clone, Default)]
+pub struct TradePanel {
+    /// The scene file's name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// What was measured, a target each.
+    pub studies: Vec<TradeStudy>,
+}
+
+/// One scene on one target.
+#[derive(Debug, Clone, Default)]
+pub struct TradeStudy {
+    /// Whose cost decides.
+    pub heading: String,
+    /// What to take, a sentence.
+    pub recommendation: String,
+    /// Remarks: what errors are measured against, what was skipped.
+    pub notes: Vec<String>,
+    /// Error over cost.
+    pub picture: ParetoPlot,
+    /// The points of the front.
+    pub front: Listing,
+    /// Further tables, each with its heading; those without rows are left out.
+    pub further: Vec<(String, Listing)>,
+}
+
+/// The body of the section.
+pub fn tradeoff(found: &Tradeoff) -> String {
+    let mut html = String::new();
+    if found.scenes.is_empty() {
+        html +=
+            "<p class=\"lead\">No committed trade record: run <code>signorini trade</code></p>\n";
+    } else {
+        html += LEAD;
+        html += &listing(&found.summary);
+        html += &findings(&found.findings);
+    }
+    if !found.sizes.is_empty() {
+        let _ = write!(html, "<h3>From small problems to large ones</h3>\n{}", found.sizes);
+    }
+    html.extend(found.scenes.iter().map(panel));
+    html
+}
+
+const LEAD: &str = "<p class=\"lead\">What a user can turn, measured: each scene was solved with many \
+                    settings. Errors are true ones, as parts of the solution’s energy; bounds are \
+                    certified. The last columns are the cycles of other solvers for the same condensed problem, \
+                    from the answer of the tick before, over those of the kernel.</p>\n";
+
+fn findings(sentences: &[String]) -> String {
+    if sentences.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from("<ul class=\"findings\">\n");
+    for sentence in sentences {
+        let _ = writeln!(html, "<li>{}</li>", escape(sentence));
+    }
+    html + "</ul>\n"
+}
+
+fn panel(scene: &TradePanel) -> String {
+    let (name, title) = (escape(&scene.name), escape(&scene.title));
+    let studies: String = scene.studies.iter().map(study).collect();
+    format!(
+        "<details class=\"card\">\n<summary>{name}<small>{title}</small></summary>\n{studies}</details>\n"
+    )
+}
+
+fn study(study: &TradeStudy) -> String {
+    let heading = escape(&study.heading);
+    let recommendation = escape(&study.recommendation);
+    let picture = pareto(&study.picture).map(|picture| format!("<figure>\n{picture}</figure>\n"));
+    let mut html = format!(
+        "<h3>{heading}</h3>\n<p class=\"taken\">{recommendation}</p>\n{}{}{}",
+        picture.unwrap_or_default(),
+        listing(&study.front),
+        findings(&study.notes)
+    );
+    for (heading, table) in study.further.iter().filter(|(_, table)| !table.rows.is_empty()) {
+        let _ = write!(html, "<h4>{}</h4>\n{}", escape(heading), listing(table));
+    }
+    html
+}
