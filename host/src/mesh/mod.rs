@@ -9,6 +9,8 @@ pub mod pairing;
 pub mod refine;
 pub mod shape;
 pub mod structured;
+#[cfg(test)]
+mod tests;
 
 /// Cells and named groups, before any scene gives the names a meaning.
 ///
