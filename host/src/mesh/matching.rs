@@ -54,7 +54,9 @@ impl Graph<'_> {
     }
 
     fn join(&mut self, edge: u32) {
-        self.edges[edge as usize].map(|node| self.pair[node as usize] = Some(edge));
+        for node in self.edges[edge as usize] {
+            self.pair[node as usize] = Some(edge);
+        }
     }
 
     /// The other end of an edge.
@@ -80,7 +82,9 @@ impl Graph<'_> {
                     return self.take(&steps, next, edge);
                 };
                 let partner = self.across(pair, neighbour);
-                [neighbour, partner].map(|node| self.seen[node as usize] = root + 1);
+                for node in [neighbour, partner] {
+                    self.seen[node as usize] = root + 1;
+                }
                 steps.push(Step { node: partner, from: Some((next, edge)) });
             }
             next += 1;

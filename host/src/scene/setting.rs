@@ -54,7 +54,11 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     }
 }
 
-fn read<T>(table: &Table, key: &str, as_what: impl Fn(&Entry) -> Result<T>) -> Result<Option<T>> {
+fn read<'a, T>(
+    table: &Table<'a>,
+    key: &str,
+    as_what: impl Fn(&Entry<'a>) -> Result<T>,
+) -> Result<Option<T>> {
     table.get(key).as_ref().map(as_what).transpose()
 }
 
