@@ -64,7 +64,7 @@ fn check<R: Scalar>(model: &Model<R, u32>) -> std::result::Result<(), Error> {
 fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> String {
     let counts = model.counts;
     let half_edges = array("half_edges", model.half_edges);
-    let file = scene.path.file_name().unwrap_or_default();
+    let file = scene.file().file_name().unwrap_or_default();
     let fields = [
         format!("title: {:?}", model.title),
         array("vertices", model.vertices),

@@ -41,7 +41,7 @@ impl Face {
         let wanted = wanted(scene);
         let names = wanted.iter().map(|output| output.name.value.as_str());
         let outputs = items(names, wanted.iter().map(meaning));
-        let file = scene.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let file = scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
         Self {
             title: scene.title.clone(),
             file,
@@ -67,7 +67,7 @@ impl Face {
         self.outputs.iter().map(|item| item.identifier.as_str())
     }
 
-    /// The hash of scene, mesh and default inputs.
+    /// The hash of scene, setting, mesh and default inputs.
     pub fn hash(&self) -> u64 {
         self.hash
     }
@@ -81,7 +81,7 @@ impl Face {
             about.text.to_owned(),
             String::new(),
             format!(
-                "From {}, scene hash {hash:016x} (scene file, mesh, default inputs).",
+                "From {}, scene hash {hash:016x} (scene file, setting, mesh, default inputs).",
                 code(file)
             ),
             format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
@@ -214,6 +214,8 @@ fn hash(scene: &Scene, problem: &Problem) -> u64 {
         }
     };
     take(scene.text.as_bytes());
+    // A fragment's setting is no part of that text.
+    scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
     scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
     let mesh = &problem.mesh;
     mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));

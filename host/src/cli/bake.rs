@@ -11,7 +11,7 @@ use crate::bake::explain::{explanation, warning};
 use crate::bake::face::Face;
 use crate::bake::full;
 use crate::error::Result;
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::progress::{say, waiting};
 use crate::scalar::Scalar;
@@ -60,7 +60,7 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let text = match self.scalar {
             ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
             ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,

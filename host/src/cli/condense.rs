@@ -8,7 +8,7 @@ use super::{scene_at, write_beside};
 use crate::bake::condensed::header;
 use crate::condense::condense;
 use crate::error::Result;
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::problem::Problem;
 
 const EXAMPLES: &str = "\
@@ -32,7 +32,7 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let text = header(&scene, &condense(&scene, &problem)?);
         write_beside(&scene, &self.output, &text)?;
         Ok(0)

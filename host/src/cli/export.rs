@@ -7,7 +7,7 @@ use clap::Args;
 use super::write_beside;
 use crate::error::Result;
 use crate::export::{Origin, export};
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solve::ScalarKind;
@@ -42,7 +42,7 @@ impl Arguments {
         for input in &self.input {
             scene.set_input(input)?;
         }
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let origin = Origin { scene: &scene, problem: &problem };
         let text = match self.scalar {
             ScalarKind::F32 => export::<f32>(origin)?,

@@ -67,9 +67,9 @@ impl Cli {
 
 /// Writes a file, unless it is one that the scene is made of.
 fn write_beside(scene: &crate::scene::Scene, output: &std::path::Path, text: &str) -> Result<()> {
-    let own = [&scene.path, &scene.mesh.value];
+    let own = [&scene.path, &scene.mesh.value].into_iter().chain(&scene.fragment);
     let is_own = |place: &std::path::PathBuf| {
-        own.iter().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
+        own.clone().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
     };
     if output.canonicalize().as_ref().is_ok_and(is_own) {
         let message = format!("-o {}: the scene is made of this file", output.display());

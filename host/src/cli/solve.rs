@@ -7,7 +7,7 @@ use clap::Args;
 use super::place::Place;
 use crate::error::{Error, Result};
 use crate::field::CellField;
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::norms::{Errors, of_solution};
 use crate::output::atomic::write_atomically;
 use crate::output::edges::edges_csv;
@@ -56,8 +56,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
-        let mesh = gmsh::read(&scene.mesh.value)?;
-        let problem = Problem::new(&scene, mesh)?;
+        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let options = Options {
             scalar: self.scalar,
             solver: self.solver,

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::place::Place;
 use crate::error::{Error, Result};
-use crate::mesh::gmsh;
+use crate::mesh::{adapted, gmsh};
 use crate::output::atomic::write_atomically;
 use crate::output::ticks::ticks_csv;
 use crate::problem::Problem;
@@ -65,7 +65,7 @@ impl Arguments {
             Some(path) => log::read(path, &scene)?,
             None => schedule::moments(&scene, self.ticks)?,
         };
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, gmsh::read(mesh)?));
         let coarse = coarse.transpose()?;
         let bar = steps(moments.len());

@@ -1,9 +1,16 @@
 //! A mesh as it was read: coordinates in f64, cells by kind, physical groups by name.
 
+pub mod adapted;
 pub mod check;
+pub mod cut;
 pub mod gmsh;
+mod matching;
+pub mod pairing;
+pub mod refine;
 pub mod shape;
 pub mod structured;
+#[cfg(test)]
+mod tests;
 
 /// Cells and named groups, before any scene gives the names a meaning.
 ///
@@ -30,6 +37,24 @@ pub struct Surface {
     pub name: String,
     /// Its cells, ascending, without repetition.
     pub cells: Vec<u32>,
+}
+
+impl Mesh {
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.triangles.len() + self.quads.len()
+    }
+
+    /// The surfaces of a mesh whose cell `c` lies in cell `origins[c]` of this one.
+    fn inherited(&self, origins: &[u32]) -> Vec<Surface> {
+        let inherited = |surface: &Surface| {
+            let mut inside = vec![false; self.cells()];
+            surface.cells.iter().for_each(|&cell| inside[cell as usize] = true);
+            let cells = (0..).zip(origins).filter(|&(_, &origin)| inside[origin as usize]);
+            Surface { name: surface.name.clone(), cells: cells.map(|(cell, _)| cell).collect() }
+        };
+        self.surfaces.iter().map(inherited).collect()
+    }
 }
 
 /// A physical curve.

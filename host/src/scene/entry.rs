@@ -1,7 +1,7 @@
 //! A value of the scene file, read as what it should be: text, number, expression, array.
 
 use std::fmt::Display;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
@@ -44,7 +44,7 @@ impl<'a> Entry<'a> {
     /// A finite number.
     pub fn number(&self) -> Result<f64> {
         let value = match self.at.value {
-            DeValue::Integer(integer) => whole(integer),
+            DeValue::Integer(integer) => rounded(integer),
             DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
             _ => return Err(self.expected("a number").into()),
         };
@@ -64,17 +64,41 @@ impl<'a> Entry<'a> {
         }
     }
 
+    /// A number between two others, neither of them.
+    pub fn inside(&self, low: f64, high: f64) -> Result<f64> {
+        match self.number()? {
+            value if low < value && value < high => Ok(value),
+            value => Err(self.error(format_args!("{value} is not inside ({low}, {high})")).into()),
+        }
+    }
+
     /// A positive whole number of bytes.
     pub fn bytes(&self) -> Result<u64> {
-        let bytes = match self.at.value {
-            DeValue::Integer(integer) => {
-                u64::from_str_radix(integer.as_str(), integer.radix()).ok()
-            }
-            _ => None,
-        };
-        bytes
+        self.natural()
             .filter(|&bytes| bytes > 0)
             .ok_or_else(|| self.expected("a positive whole number of bytes").into())
+    }
+
+    /// A whole number of this range.
+    pub fn whole(&self, range: RangeInclusive<u32>) -> Result<u32> {
+        let number = self.natural().and_then(|number| u32::try_from(number).ok());
+        number.filter(|number| range.contains(number)).ok_or_else(|| {
+            let (low, high) = range.into_inner();
+            self.expected(&format!("a whole number from {low} to {high}")).into()
+        })
+    }
+
+    fn natural(&self) -> Option<u64> {
+        let DeValue::Integer(integer) = self.at.value else { return None };
+        u64::from_str_radix(integer.as_str(), integer.radix()).ok()
+    }
+
+    /// True or false.
+    pub fn boolean(&self) -> Result<bool> {
+        match self.at.value {
+            DeValue::Boolean(value) => Ok(*value),
+            _ => Err(self.expected("true or false").into()),
+        }
     }
 
     /// A number, or a text that is an expression in `variables`.
@@ -146,7 +170,7 @@ impl<'a> Entry<'a> {
 }
 
 /// A whole number of any size, rounded.
-fn whole(integer: &DeInteger<'_>) -> f64 {
+fn rounded(integer: &DeInteger<'_>) -> f64 {
     let text = integer.as_str();
     match i64::from_str_radix(text, integer.radix()) {
         Ok(value) => value as f64,

@@ -9,15 +9,17 @@
 //! | robin | σ·n = coefficient (ambient − u) |
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0 |
 //!
-//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `control` (sections into the
-//! model below). Every part of the model knows where it stands, so that whoever finds it wrong
+//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `control`, `setting` (sections
+//! into the model below); a `fragment` gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
 //! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
 //! The names are not compared with the mesh here.
 
 mod boundary;
 mod control;
 mod entry;
+mod fragment;
 mod read;
+mod setting;
 mod table;
 pub mod term;
 #[cfg(test)]
@@ -72,6 +74,8 @@ pub struct Scene {
     pub exact: Option<Exact>,
     /// How to solve it; `None` leaves everything to the command.
     pub setting: Option<Setting>,
+    /// The file that extends the scene, if one does: title and setting stand there.
+    pub fragment: Option<PathBuf>,
 }
 
 /// The coefficient tensor on one physical surface.
@@ -215,6 +219,11 @@ pub struct Exact {
 }
 
 impl Scene {
+    /// The file to be named for it: the fragment, if one extends the scene.
+    pub fn file(&self) -> &Path {
+        self.fragment.as_ref().unwrap_or(&self.path)
+    }
+
     /// The error that `at` is wrong: `FILE:LINE: KEY: message`, with its place underlined.
     pub fn error<T>(&self, at: &Located<T>, message: impl Display) -> InputError {
         at.error(&self.path, &self.text, message)

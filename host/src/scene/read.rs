@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use super::boundary::read_boundary;
 use super::control::{read_input, read_output};
 use super::entry::Entry;
+use super::fragment::read_fragment;
+use super::setting::read_setting;
 use super::table::{Document, Table};
 use super::{Exact, Located, Material, Scene, Target, Time};
 use crate::error::{InputError, Result};
@@ -14,52 +16,74 @@ use crate::expression::{Expression, Variables};
 
 const LARGEST_FILE: usize = 1 << 20;
 
-const SECTIONS: [&str; 10] = [
-    "title", "mesh", "material", "source", "boundary", "input", "output", "target", "time", "exact",
+const SECTIONS: [&str; 12] = [
+    "title", "mesh", "material", "source", "boundary", "input", "output", "target", "time",
+    "exact", "setting", "extends",
 ];
 
 impl Scene {
-    /// Reads and checks the scene file at `path`; the mesh file is not touched.
+    /// Reads and checks the scene file at `path`, and the one it extends, if it is a fragment; the
+    /// mesh file is not touched.
     pub fn read(path: &Path) -> Result<Self> {
-        let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes))
-            .map_err(|error| unreadable(path, error.to_string()))?;
-        let text = std::str::from_utf8(&bytes).map_err(|error| {
-            let line =
-                bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
-            unreadable(path, "not UTF-8 text".to_owned()).line(line)
-        })?;
-        Self::parse(text, path)
+        read(&load(path)?)
     }
 
-    /// Reads and checks the scene `text`; `path` names it in messages, and the mesh is found from
-    /// there.
+    /// Reads and checks the scene `text`; `path` names it in messages, and mesh and extended scene
+    /// are found from there.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        if text.len() > LARGEST_FILE {
-            return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
-        }
-        let document = Document { path: path.to_owned(), text: text.into() };
-        let entries = document.parse()?;
-        let root = Table::root(&document, &entries);
-        root.only("the scene", &SECTIONS)?;
-        let boundaries = at_least_one(&root, "boundary", read_boundary)?;
-        Ok(Self {
-            title: read_title(&root)?,
-            mesh: read_mesh(&root)?,
-            materials: at_least_one(&root, "material", read_material)?,
-            source: read_source(&root)?,
-            inputs: each(&root, "input", |table| read_input(table, &boundaries))?,
-            outputs: each(&root, "output", |table| read_output(table, &boundaries))?,
-            boundaries,
-            target: root.table("target")?.as_ref().map(read_target).transpose()?,
-            time: root.table("time")?.as_ref().map(read_time).transpose()?,
-            exact: root.table("exact")?.as_ref().map(read_exact).transpose()?,
-            setting: None,
-            path: path.to_owned(),
-            text: document.text.clone(),
-        })
+        read(&document(text.as_bytes(), path)?)
     }
+}
+
+/// The file at `path`.
+pub(super) fn load(path: &Path) -> Result<Document> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(path, error.to_string()))?;
+    document(&bytes, path)
+}
+
+fn document(bytes: &[u8], path: &Path) -> Result<Document> {
+    if bytes.len() > LARGEST_FILE {
+        return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
+    }
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        unreadable(path, "not UTF-8 text".to_owned()).line(line)
+    })?;
+    Ok(Document { path: path.to_owned(), text: text.into() })
+}
+
+fn read(document: &Document) -> Result<Scene> {
+    let entries = document.parse()?;
+    let root = Table::root(document, &entries);
+    match root.get("extends") {
+        Some(extends) => read_fragment(&root, &extends),
+        None => read_scene(&root),
+    }
+}
+
+/// A scene that stands on its own.
+pub(super) fn read_scene(root: &Table) -> Result<Scene> {
+    root.only("the scene", &SECTIONS)?;
+    let boundaries = at_least_one(root, "boundary", read_boundary)?;
+    Ok(Scene {
+        title: read_title(root)?,
+        mesh: read_mesh(root)?,
+        materials: at_least_one(root, "material", read_material)?,
+        source: read_source(root)?,
+        inputs: each(root, "input", |table| read_input(table, &boundaries))?,
+        outputs: each(root, "output", |table| read_output(table, &boundaries))?,
+        boundaries,
+        target: root.table("target")?.as_ref().map(read_target).transpose()?,
+        time: root.table("time")?.as_ref().map(read_time).transpose()?,
+        exact: root.table("exact")?.as_ref().map(read_exact).transpose()?,
+        setting: root.table("setting")?.as_ref().map(read_setting).transpose()?,
+        fragment: None,
+        path: root.document.path.clone(),
+        text: root.document.text.clone(),
+    })
 }
 
 fn unreadable(path: &Path, message: String) -> InputError {

@@ -58,15 +58,21 @@ impl<'a> Table<'a> {
 
     /// Refuses keys other than `allowed`; `what` names the table in the message.
     pub fn only(&self, what: &str, allowed: &[&str]) -> Result<()> {
+        self.foreign(what, allowed).map_or(Ok(()), |error| {
+            Err(error.hint(format!("allowed here: {}", allowed.join(", "))).into())
+        })
+    }
+
+    /// The error of the first key that is not among `allowed`, still without a hint.
+    pub fn foreign(&self, what: &str, allowed: &[&str]) -> Option<InputError> {
         let foreign = self
             .entries
             .keys()
             .filter(|key| !allowed.contains(&key.get_ref().as_ref()))
             .min_by_key(|key| key.span().start);
-        foreign.map_or(Ok(()), |key| {
+        foreign.map(|key| {
             let at = self.locate(key.get_ref(), key.span(), ());
-            let error = self.document.error(&at, format_args!("unknown key of {what}"));
-            Err(error.hint(format!("allowed here: {}", allowed.join(", "))).into())
+            self.document.error(&at, format_args!("unknown key of {what}"))
         })
     }
 

@@ -10,7 +10,7 @@ use super::cost::{self, Cost};
 use super::panel::panel;
 use crate::cycles;
 use crate::error::Result;
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::report::ScenePanel;
 use crate::scene::Scene;
@@ -60,7 +60,7 @@ pub struct Run {
 /// Solves the scene at `path` three times and compares.
 pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
     let scene = Scene::read(path)?;
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let direct = Options { solver: SolverKind::Direct, ..Options::default() };
     let reference = solve(&scene, &problem, &direct)?;

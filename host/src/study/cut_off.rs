@@ -8,7 +8,7 @@ use super::bound::Certified;
 use super::checks::Check;
 use super::threads::on_two_threads;
 use crate::error::Result;
-use crate::mesh::gmsh;
+use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::report::{self, SweepPlot, TableRow};
 use crate::scene::Scene;
@@ -58,7 +58,7 @@ pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
 impl Plan {
     fn run(&self) -> Result<CutOff> {
         let (name, scene) = (self.name.clone(), &self.scene);
-        let problem = Problem::new(scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(scene, adapted::of_scene(scene)?)?;
         let converged = solve(scene, &problem, &Options::default())?;
         let energy = converged.energy(&problem);
         let (mut stops, mut checks) = (Vec::new(), Vec::new());

@@ -1,6 +1,7 @@
 //! A complete scene, and what may be left out of it.
 
 mod malformed;
+mod setting;
 
 use std::path::{Path, PathBuf};
 
