@@ -5,4 +5,7 @@
 //!              truth ─────────┘           └─► trade.json, trade.csv, picture
 //! ```
 
+pub mod journal;
+pub mod mpi;
 pub mod record;
+pub mod shard;
