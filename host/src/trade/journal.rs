@@ -308,7 +308,7 @@ mod tests {
     fn a_value_of_another_kind_is_not_known() {
         let folder = folder();
         let mut journal = open(&folder, "1/1");
-        journal.add("case", &"skipped: no room").unwrap();
+        journal.add("case", &"skipped: no room".to_owned()).unwrap();
         assert_eq!(journal.known::<Point>("case"), None);
     }
 

@@ -55,7 +55,6 @@ impl Session {
         let worst = ranks.worst(done.as_ref().map_or_else(|error| error.exit_status(), |()| 0));
         let merged =
             if ranks.rank() == 0 { merge().map(|status| status.max(worst)) } else { Ok(0) };
-        ranks.wait();
         done.and(merged)
     }
 }
@@ -87,7 +86,7 @@ mod ranks {
     /// How long a rank that waits sleeps at a time.
     const NAP: Duration = Duration::from_millis(20);
 
-    /// All ranks of the job. Dropped on each rank once, even where one panics: that ends MPI for all.
+    /// All ranks of the job. When dropped, as by a panic too, it waits until it is on every rank.
     pub(super) struct Ranks {
         world: SimpleCommunicator,
         // Declared last: dropped, it ends MPI.
