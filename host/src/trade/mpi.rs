@@ -86,7 +86,8 @@ mod ranks {
     /// How long a rank that waits sleeps at a time.
     const NAP: Duration = Duration::from_millis(20);
 
-    /// All ranks of the job. When dropped, as by a panic too, it waits until it is on every rank.
+    /// All ranks of the job. When dropped, by a panic too, it waits until it is on every rank: the end of
+    /// Open MPI waits likewise, but the standard does not promise it.
     pub(super) struct Ranks {
         world: SimpleCommunicator,
         // Declared last: dropped, it ends MPI.
