@@ -14,6 +14,7 @@ mod firmware;
 mod json;
 mod no_std;
 mod peers;
+mod ranks;
 mod record;
 mod replay;
 mod setup;

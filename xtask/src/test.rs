@@ -2,9 +2,9 @@
 
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
-use crate::{audit, boards, cost, cross, firmware, no_std, size};
+use crate::{audit, boards, cost, cross, firmware, no_std, ranks, size};
 
-/// Formatting, clippy, tests, documentation, the kernel without std, the images.
+/// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
     steps.check("formatting", || {
         require("fmt", "rustfmt")?;
@@ -19,7 +19,8 @@ pub fn run(steps: &mut Steps) {
         let what = ["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"];
         run_cargo(cargo(&what))
     });
-    steps.step("tests", tests);
+    steps.step("tests", || counted(&["test", "--workspace", "--locked", "--no-fail-fast"]));
+    ranks::run(steps);
     steps.check("documentation", || {
         let mut doc = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
         doc.env("RUSTDOCFLAGS", "-D warnings");
@@ -43,11 +44,10 @@ pub fn run(steps: &mut Steps) {
     cost::run(steps);
 }
 
-/// Unit tests, integration tests and the examples in the documentation.
-fn tests() -> (Tally, Option<String>) {
+/// Runs `cargo test` with these words and counts its tests.
+pub fn counted(words: &[&str]) -> (Tally, Option<String>) {
     let mut tally = Tally::default();
-    let command = cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
-    let ended = run_with_lines(command, |line| {
+    let ended = run_with_lines(cargo(words), |line| {
         if let Some(binary) = result_line(line) {
             tally.passed += binary.passed;
             tally.failed += binary.failed;

@@ -10,12 +10,15 @@ pub mod csv;
 mod digits;
 #[cfg(test)]
 pub(crate) mod fixtures;
+pub mod journal;
 mod listings;
+pub mod mpi;
 pub mod picture;
 pub mod plan;
 pub mod record;
 pub mod records;
 pub mod section;
+pub mod shard;
 pub mod table;
 pub mod target;
 pub mod verdict;

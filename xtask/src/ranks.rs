@@ -1,0 +1,42 @@
+//! Campaigns on two ranks of MPI: tests that `cargo test` leaves out, since they need an installed MPI.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::setup::install_packages;
+use crate::steps::{Steps, Tally};
+use crate::test::counted;
+use crate::toolchain::output;
+
+/// An MPI, and what its bindings are made with.
+const PACKAGES: [&str; 3] = ["libopenmpi-dev", "openmpi-bin", "libclang-dev"];
+
+/// The whole workspace, as the tests before, so that its dependencies are compiled already.
+const TESTS: [&str; 7] =
+    ["test", "--workspace", "--locked", "--features", "signorini-host/mpi", "--test", "ranks"];
+
+/// The step.
+pub fn run(steps: &mut Steps) {
+    steps.step("two ranks under MPI", || match ensure() {
+        Ok(()) => counted(&TESTS),
+        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+    });
+}
+
+/// `Ok` where all is there, installed just now where need be and possible.
+fn ensure() -> Result<(), String> {
+    let Err(why) = missing() else { return Ok(()) };
+    install_packages(&PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
+    missing()
+}
+
+fn missing() -> Result<(), String> {
+    for program in ["mpicc", "mpirun"] {
+        output(Command::new(program).arg("--version"))?;
+    }
+    // A library without a program to ask; elsewhere the build says whether it is there.
+    if Path::new("/etc/debian_version").exists() {
+        output(Command::new("dpkg-query").args(["--show", "libclang-dev"]))?;
+    }
+    Ok(())
+}
