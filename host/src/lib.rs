@@ -21,6 +21,7 @@ pub mod reference;
 pub mod report;
 pub mod scalar;
 pub mod scene;
+pub mod search;
 pub mod setting;
 pub mod solve;
 pub mod study;

@@ -9,6 +9,7 @@
 //! bound² = identity², whatever S and τ are, is a test of the bound from both sides. Nothing is
 //! clipped: where S or τ are not admissible, single terms are negative.
 
+use signorini_kernel::Tensor;
 use signorini_kernel::geometry::scaled_normal;
 
 use super::admissible::Admissible;
@@ -104,11 +105,8 @@ impl Study<'_> {
             let local = cell.local(point.reference);
             let (u, gradient) = exact_at(scene, self.exact, point.x, self.problem.time)?;
             let (a, s) = (conductivity.at(point.x), s.at(&local)?);
-            let (sigma, tau) = (apply(&a, gradient), tau.sample(&point).flux);
-            let error = minus(gradient, s.gradient);
-            let flux_error = minus(sigma, tau);
-            let energy = product(&a, error, error) + product(&inverse(&a), flux_error, flux_error);
-            squares.combined += point.weight * energy;
+            let tau = tau.sample(&point).flux;
+            squares.combined += point.weight * in_cell(&a, gradient, s.gradient, tau);
             let missing = f.at(point.x[0], point.x[1]) - cell.spread(load, local.determinant);
             squares.rest += 2.0 * point.weight * (s.value - u) * missing;
         }
@@ -152,10 +150,7 @@ impl Study<'_> {
         let coefficient = Sum::alone(self.scene, coefficient, self.problem.time);
         for point in self.edge_points(edge)? {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
-            let mut square = h * (point.u - point.s).powi(2);
-            if h > 0.0 {
-                square += (point.sigma - point.tau).powi(2) / h;
-            }
+            let square = on_robin(h, point.u - point.s, point.sigma - point.tau);
             squares.combined += point.weight * square;
         }
         Ok(())
@@ -188,6 +183,18 @@ impl Study<'_> {
     }
 }
 
-fn minus(v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
+/// |A^½(∇u − ∇S)|² + |A^{−½}(A∇u − τ)|² at a point.
+pub(crate) fn in_cell(a: &Tensor<f64>, u: [f64; 2], s: [f64; 2], tau: [f64; 2]) -> f64 {
+    let (error, flux_error) = (minus(u, s), minus(apply(a, u), tau));
+    product(a, error, error) + product(&inverse(a), flux_error, flux_error)
+}
+
+/// h(u − S)² + ((σ − τ)·n)²/h at a point of the Robin boundary.
+pub(crate) fn on_robin(h: f64, error: f64, flux_error: f64) -> f64 {
+    let square = h * error * error;
+    if h > 0.0 { square + flux_error * flux_error / h } else { square }
+}
+
+pub(crate) fn minus(v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
     [v[0] - w[0], v[1] - w[1]]
 }

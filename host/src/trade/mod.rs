@@ -21,4 +21,5 @@ pub mod section;
 pub mod shard;
 pub mod table;
 pub mod target;
+pub mod truth;
 pub mod verdict;
