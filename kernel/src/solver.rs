@@ -64,7 +64,7 @@ impl<R: Real> Settings<R> {
     ///
     /// The best ω tells it: √(1 − μ²) = (2 − ω)/ω and λ_min = 1 − μ give λ_min ≈ (2 − ω)²/8. At a
     /// contrast of 10⁴ this reaches 10⁷, and a residual of 1e−11 is no comfort.
-    fn amplification(&self, omega: R) -> R {
+    pub fn amplification(&self, omega: R) -> R {
         match self.relaxation {
             Relaxation::Fixed(_) => R::ONE,
             Relaxation::Adaptive(_) => R::from_count(8) / ((R::TWO - omega) * (R::TWO - omega)),

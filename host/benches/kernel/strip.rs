@@ -1,34 +1,89 @@
-//! The problem that is timed: the catalogue's grid, triangles and quads in turn, u_D = r^(3/2) cos(3θ/2),
-//! ψ = 0: contact where x < 0, about half of the bottom.
+//! The problems that are timed: the catalogue's grids, u_D = r^(3/2) cos(3θ/2), ψ = 0: contact where x < 0,
+//! about half of the bottom.
 
+use std::cell::OnceCell;
 use std::path::Path;
 
+use criterion::Bencher;
 use signorini_host::mesh::structured::{Cells, grid};
-use signorini_host::problem::Problem;
+use signorini_host::problem::{Assembled, Parts, Problem};
+use signorini_host::scalar::Scalar;
 use signorini_host::scene::Scene;
 
 const SCENE: &str = r#"
 mesh = "none.msh"
 [material.default]
 conductivity = "1"
-[source]
-f = "-0.1"
 [boundary.contact]
 kind = "contact"
-[boundary.default]
+[boundary.dirichlet]
 kind = "dirichlet"
 value = "(x^2 + y^2)^0.75 * cos(1.5*atan2(y, x))"
+[input.load]
+of = "source"
+field = "f"
+pattern = "1"
+default = -0.1
 "#;
 
-/// The problem on 2n × n squares.
-pub fn problem(n: u32) -> Problem {
-    let scene = Scene::parse(SCENE, Path::new("strip.toml")).expect("the scene is well-formed");
-    Problem::new(&scene, grid(n, Cells::Mixed)).expect("the scene fits the mesh")
+/// The scene with a load that is `factor` times its default.
+pub fn scene(factor: f64) -> Scene {
+    let mut scene = Scene::parse(SCENE, Path::new("strip.toml")).expect("the scene is well-formed");
+    scene.inputs[0].default *= factor;
+    scene
 }
 
-/// Edges not on the Dirichlet boundary: sides of squares and diagonals of every other square, without the
-/// 4n at the top and at both ends.
-pub fn unknowns(n: u32) -> usize {
-    let n = n as usize;
-    2 * n * (n + 1) + n * (2 * n + 1) + n * n - 4 * n
+/// A stage in one scalar.
+pub type Stage = fn(&mut Bencher, &Strip);
+
+/// A grid of 2n × n squares, with its problem as soon as somebody needs it.
+pub struct Strip {
+    pub n: u32,
+    pub cells: Cells,
+    problem: OnceCell<Problem>,
+}
+
+impl Strip {
+    pub fn new(n: u32, cells: Cells) -> Self {
+        Self { n, cells, problem: OnceCell::new() }
+    }
+
+    pub fn problem(&self) -> &Problem {
+        self.problem.get_or_init(|| self.loaded(1.0))
+    }
+
+    /// The problem with another load.
+    pub fn loaded(&self, factor: f64) -> Problem {
+        let mesh = grid(self.n, self.cells);
+        Problem::new(&scene(factor), mesh).expect("the scene fits the mesh")
+    }
+
+    pub fn assembled<R: Scalar>(&self) -> Assembled<'_, R> {
+        Assembled::new(self.problem()).expect("the scalar holds the problem")
+    }
+
+    /// Times what depends on how long rows are: `short` on triangles, else `long`.
+    pub fn widen(&self, bencher: &mut Bencher, short: Stage, long: Stage) {
+        if self.problem().mesh.quads.is_empty() {
+            short(bencher, self)
+        } else {
+            long(bencher, self)
+        }
+    }
+
+    pub fn parts(&self) -> Parts {
+        Parts::examine(&scene(1.0), self.problem()).expect("D holds the strip")
+    }
+
+    /// Edges not on the Dirichlet boundary: sides and diagonals of squares without the 4n at the top and at
+    /// both ends.
+    pub fn unknowns(&self) -> usize {
+        let n = self.n as usize;
+        let diagonals = match self.cells {
+            Cells::Triangles => 2 * n * n,
+            Cells::Mixed => n * n,
+            Cells::Quads => 0,
+        };
+        2 * n * (n + 1) + n * (2 * n + 1) + diagonals - 4 * n
+    }
 }

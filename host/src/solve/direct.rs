@@ -6,8 +6,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
-use super::{Clock, Fluxes, Found, ScalarKind, Seconds, Solution, finish, unfit};
-use crate::certify::{Certified, Data};
+use super::{Clock, ScalarKind, Solution, Solved, conclude, unfit};
 use crate::error::{InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::reference::{self, Factor, ReferenceError};
@@ -31,14 +30,9 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
     let residual = system.residual(&u);
     let sweeps = found.steps as u32;
     let outcome = Outcome { status: Status::Converged, sweeps, conjugate: 0, residual, omega: 0.0 };
-    let solve = clock.lap();
-    let fluxes = Fluxes::recover(&assembled, &u, &[]).map_err(&unfit)?;
-    let flux = clock.lap();
-    let data = Data::new(scene, problem)?;
-    let certified = Certified::new(scene, problem, parts, &assembled, &data, &u).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
-    let found = Found { outcome, u, fluxes, certified, seconds };
-    Ok(finish(problem, parts, &assembled, found, ScalarKind::F64))
+    let scalar = ScalarKind::F64;
+    let solved = Solved { outcome, u, low: Vec::new(), scalar, assembly, clock };
+    conclude(scene, problem, parts, &assembled, solved)
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

@@ -1,11 +1,17 @@
 //! One contact problem solved: by the kernel in either scalar, or by the faer reference.
 
 mod direct;
+mod mixed;
 mod options;
 mod solution;
+#[cfg(test)]
+mod tests;
+mod tuned;
 
+pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution, status_name};
+pub use tuned::{Trials, tuned_omega};
 
 use std::time::Instant;
 
@@ -82,18 +88,44 @@ fn by_kernel<R: Scalar>(
         iterate::<R, { rows::QUADS }>
     };
     let outcome = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
-    let outcome = outcome.map_err(&unfit)?;
+    let (outcome, scalar) = (outcome.map_err(&unfit)?, options.scalar);
+    let solved = Solved { outcome, u, low, scalar, assembly, clock };
+    conclude(scene, problem, parts, &assembled, solved)
+}
+
+/// An iterate, and the time up to its assembly.
+struct Solved<R> {
+    outcome: Outcome<R>,
+    u: Vec<R>,
+    /// The low part of u, or nothing.
+    low: Vec<R>,
+    scalar: ScalarKind,
+    assembly: f64,
+    /// Started after the assembly.
+    clock: Clock,
+}
+
+/// Fluxes, certificate and what is read off.
+fn conclude<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    parts: &Parts,
+    assembled: &Assembled<R>,
+    solved: Solved<R>,
+) -> Result<Solution> {
+    let unfit = unfit::<R>(scene);
+    let Solved { outcome, u, low, scalar, assembly, mut clock } = solved;
     if outcome.status == Status::NotFinite {
         return Err(overflow::<R>(scene));
     }
     let solve = clock.lap();
-    let fluxes = Fluxes::recover(&assembled, &u, &low).map_err(&unfit)?;
+    let fluxes = Fluxes::recover(assembled, &u, &low).map_err(&unfit)?;
     let flux = clock.lap();
     let data = Data::new(scene, problem)?;
-    let certified = Certified::new(scene, problem, parts, &assembled, &data, &u).map_err(&unfit)?;
+    let certified = Certified::new(scene, problem, parts, assembled, &data, &u).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
     let found = Found { outcome, u, fluxes, certified, seconds };
-    Ok(finish(problem, parts, &assembled, found, options.scalar))
+    Ok(finish(problem, parts, assembled, found, scalar))
 }
 
 /// Sweeps with rows of `WIDTH` entries and refines; `low` becomes the low part of `u`.

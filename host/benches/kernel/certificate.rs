@@ -1,0 +1,41 @@
+//! The error bound alone, and a whole tick of the full model.
+
+use criterion::Bencher;
+use signorini_host::bake::full::{Baked, Controller, limits};
+use signorini_host::certify::{Certifier, Data};
+use signorini_host::scalar::Scalar;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+
+use crate::strip::{Strip, scene};
+
+/// The bound of an iterate.
+pub fn certificate<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
+    let (scene, problem, parts) = (scene(1.0), strip.problem(), strip.parts());
+    let assembled = strip.assembled::<R>();
+    let certifier = Certifier::new(&scene, problem, &parts, &assembled);
+    let mut certifier = certifier.expect("D holds the strip");
+    let data = Data::new(&scene, problem).expect("the data are finite");
+    let u = assembled.start();
+    let bound = certifier.certify(&parts, &assembled, &data, &u).expect("one mesh");
+    assert!(bound.is_some());
+    bencher.iter(|| certifier.certify(&parts, &assembled, &data, &u));
+}
+
+/// Loads from inputs, sweeps with certificates until the bound is settled, outputs; the load is up and down
+/// by 10 % from tick to tick.
+pub fn tick<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
+    strip.widen(bencher, tick_wide::<R, TRIANGLES>, tick_wide::<R, QUADS>);
+}
+
+fn tick_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+    let scene = scene(1.0);
+    let baked = Baked::<R>::new(&scene, strip.problem()).expect("the strip can be baked");
+    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    let mut loads = [0.9, 1.1].map(|factor| R::narrow(factor * scene.inputs[0].default));
+    let mut tick = || {
+        loads.reverse();
+        controller.tick(&loads[..1], limits())
+    };
+    assert!(tick().is_ok_and(|(_, report)| report.verdict.certificate().is_some()));
+    bencher.iter(tick);
+}

@@ -1,0 +1,53 @@
+//! What a mesh costs before any number is computed on it.
+
+use criterion::{BatchSize, Bencher};
+use signorini_host::scalar::Scalar;
+use signorini_kernel::edges::Block;
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::numbering::{NumberingBuffers, number};
+
+use crate::strip::Strip;
+
+pub fn vertices<R: Scalar>(strip: &Strip) -> Vec<[R; 2]> {
+    strip.problem().mesh.vertices.iter().map(|vertex| vertex.map(R::narrow)).collect()
+}
+
+/// Indices, orientation, convexity.
+pub fn check<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
+    let (vertices, mesh) = (vertices::<R>(strip), &strip.problem().mesh);
+    bencher.iter(|| Mesh::new(&vertices, &mesh.triangles, &mesh.quads).is_ok());
+}
+
+/// Edges from cells.
+pub fn numbering<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
+    let (vertices, mesh) = (vertices::<R>(strip), &strip.problem().mesh);
+    let mesh = Mesh::new(&vertices, &mesh.triangles, &mesh.quads).expect("the cells are convex");
+    let sides = mesh.half_edges();
+    let memory = || Memory {
+        of_triangles: vec![[0; 3]; mesh.triangles().len()],
+        of_quads: vec![[0; 4]; mesh.quads().len()],
+        half_edges: vec![[0; 2]; sides],
+        at_vertex: vec![[0; 2]; vertices.len()],
+        next: vec![0; sides],
+    };
+    let run = |memory: &mut Memory| {
+        let buffers = NumberingBuffers {
+            of_triangles: &mut memory.of_triangles,
+            of_quads: &mut memory.of_quads,
+            half_edges: &mut memory.half_edges,
+            at_vertex: &mut memory.at_vertex,
+            next: &mut memory.next,
+        };
+        number(&mesh, buffers, |_| Some(Block::Free)).map(|edges| edges.counts().edges())
+    };
+    assert_eq!(run(&mut memory()), Ok(strip.problem().topology.counts.edges()));
+    bencher.iter_batched_ref(memory, run, BatchSize::LargeInput);
+}
+
+struct Memory {
+    of_triangles: Vec<[u32; 3]>,
+    of_quads: Vec<[u32; 4]>,
+    half_edges: Vec<[u32; 2]>,
+    at_vertex: Vec<[u32; 2]>,
+    next: Vec<u32>,
+}

@@ -1,0 +1,69 @@
+//! Accuracy beyond what sweeps in f32 alone reach.
+
+use criterion::{BatchSize, Bencher};
+use signorini_host::scalar::Scalar;
+use signorini_host::solve::Mixed;
+use signorini_kernel::Libm;
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Settings, Solver};
+
+use crate::strip::Strip;
+
+/// To the last digit of the scalar, with corrections of the defect.
+pub fn refined<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
+    strip.widen(bencher, refined_wide::<R, TRIANGLES>, refined_wide::<R, QUADS>);
+}
+
+fn refined_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+    let assembled = strip.assembled::<R>();
+    let system = assembled.system().expect("the numbers are finite");
+    let boundary = assembled.boundary().expect("the records are admissible");
+    let (edges, counts) = (assembled.edges(), system.counts());
+    let zeros = |length| vec![R::ZERO; length];
+    let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
+    let [mut low, mut direction] = [zeros(counts.edges()), zeros(counts.edges())];
+    let [mut defect, mut residual] = [zeros(counts.unknowns()), zeros(counts.unknowns())];
+    let mut lower = zeros(counts.contact);
+    let run = |u: &mut Vec<R>| {
+        let buffers = RefinementBuffers {
+            rows: Rows::new(edges, &mut memory)?,
+            low: &mut low,
+            defect: &mut defect,
+            lower: &mut lower,
+            conjugate: ConjugateBuffers { direction: &mut direction, residual: &mut residual },
+        };
+        let settings = Settings { accuracy: R::EPSILON, ..Settings::default() };
+        refinement::run::<R, u32, Libm, WIDTH>(&system, &boundary, settings, 6, u, buffers)
+    };
+    bencher.iter_batched_ref(|| assembled.start(), run, BatchSize::LargeInput);
+}
+
+const DEEP: f64 = 1e-12;
+
+/// Sweeps in f64.
+pub fn pure(bencher: &mut Bencher, strip: &Strip) {
+    strip.widen(bencher, pure_wide::<TRIANGLES>, pure_wide::<QUADS>);
+}
+
+fn pure_wide<const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
+    let assembled = strip.assembled::<f64>();
+    let system = assembled.system().expect("the numbers are finite");
+    let mut memory = vec![Row::<f64, u32, WIDTH>::EMPTY; system.counts().unknowns()];
+    let run = |u: &mut Vec<f64>| {
+        let mut rows = Rows::new(assembled.edges(), &mut memory)?;
+        let settings = Settings { tolerance: DEEP, ..Settings::default() };
+        Solver::<f64>::new(settings)?.run(&system, &mut rows, u)
+    };
+    bencher.iter_batched_ref(|| assembled.start(), run, BatchSize::LargeInput);
+}
+
+/// Sweeps in f32 on residuals in f64.
+pub fn mixed(bencher: &mut Bencher, strip: &Strip) {
+    let mut mixed = Mixed::new(strip.problem(), &strip.parts()).expect("f32 holds the problem");
+    let start = mixed.assembled().start();
+    let settings = Settings { tolerance: DEEP, ..Settings::default() };
+    let run = |u: &mut Vec<f64>| mixed.run(settings, u);
+    bencher.iter_batched_ref(|| start.clone(), run, BatchSize::LargeInput);
+}

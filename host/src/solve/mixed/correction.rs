@@ -1,0 +1,52 @@
+//! What is left of u, as a contact problem in f32.
+
+use signorini_kernel::edges::EdgeCounts;
+use signorini_kernel::signorini::System;
+
+/// A contact problem for the rest of u, in f32 and in the unit s.
+#[derive(Debug)]
+pub(super) struct Correction {
+    pub load: Vec<f32>,
+    pub lower: Vec<f32>,
+    /// One entry an edge, 0 on Dirichlet edges.
+    pub v: Vec<f32>,
+}
+
+impl Correction {
+    pub fn new(counts: EdgeCounts) -> Self {
+        Self {
+            load: vec![0.0; counts.unknowns()],
+            lower: vec![0.0; counts.contact],
+            v: vec![0.0; counts.edges()],
+        }
+    }
+
+    /// Starts from v = 0.
+    pub fn pose(&mut self, system: &System<f64, u32>, unit: f64, u: &[f64]) {
+        let rows = system.matrix().iter().zip(system.load());
+        for (load, (row, &b)) in self.load.iter_mut().zip(rows) {
+            *load = ((b - row.dot(u)) / unit) as f32;
+        }
+        let on_contact = u.iter().skip(system.counts().free);
+        for (lower, (&psi, &own)) in
+            self.lower.iter_mut().zip(system.lower().iter().zip(on_contact))
+        {
+            *lower = ((psi - own) / unit) as f32;
+        }
+        self.v.fill(0.0);
+    }
+
+    /// Adds it to u.
+    pub fn add_to(&self, system: &System<f64, u32>, unit: f64, u: &mut [f64]) {
+        for (u, &v) in u.iter_mut().zip(&self.v) {
+            *u += unit * f64::from(v);
+        }
+        let free = system.counts().free;
+        let bounds = self.v.iter().skip(free).zip(&self.lower).zip(system.lower());
+        for (u, ((v, lower), &psi)) in u.iter_mut().skip(free).zip(bounds) {
+            if v == lower || *u < psi {
+                *u = psi;
+            }
+        }
+    }
+}
