@@ -1,11 +1,14 @@
 //! The bridge between the host's f64 and the kernel's scalar.
 
-use signorini_kernel::Real;
+use signorini_kernel::{Libm, Math, Micromath, Real};
 
 /// A kernel scalar that the host can convert.
 pub trait Scalar: Real + Send + Sync {
     /// Its name on the command line.
     const NAME: &'static str;
+
+    /// The fastest square root there is for it.
+    type Fast: Math<Self>;
 
     /// Rounds to the scalar; too large a number becomes infinite, which the kernel refuses.
     fn narrow(x: f64) -> Self;
@@ -16,6 +19,8 @@ pub trait Scalar: Real + Send + Sync {
 
 impl Scalar for f64 {
     const NAME: &'static str = "f64";
+
+    type Fast = Libm;
 
     fn narrow(x: f64) -> Self {
         x
@@ -28,6 +33,8 @@ impl Scalar for f64 {
 
 impl Scalar for f32 {
     const NAME: &'static str = "f32";
+
+    type Fast = Micromath;
 
     fn narrow(x: f64) -> Self {
         x as f32

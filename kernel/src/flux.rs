@@ -10,6 +10,7 @@ use crate::assembly::CellLoads;
 use crate::edges::Edges;
 use crate::element::{crouzeix_raviart, rannacher_turek};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 use crate::stiffness::Stiffness;
@@ -135,19 +136,23 @@ pub fn recover<R: Real, I: Index>(
     let mut gathered =
         Gathered { half_edges: edges.half_edges(), flux, found: Recovered::default() };
     let mut half = 0;
-    for (at, (sides, k)) in edges.of_triangles().iter().zip(stiffness.triangles).enumerate() {
-        let mut out = on_triangle(k, &pick(sides, u), read(loads.triangles, at));
-        if !low.is_empty() {
-            out = sum(out, crouzeix_raviart::product(k, &pick(sides, low)));
+    if features::TRIANGLES {
+        for (at, (sides, k)) in edges.of_triangles().iter().zip(stiffness.triangles).enumerate() {
+            let mut out = on_triangle(k, &pick(sides, u), read(loads.triangles, at));
+            if !low.is_empty() {
+                out = sum(out, crouzeix_raviart::product(k, &pick(sides, low)));
+            }
+            sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
         }
-        sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
-    for (at, (sides, k)) in edges.of_quads().iter().zip(stiffness.quads).enumerate() {
-        let mut out = on_quad(k, &pick(sides, u), read(loads.quads, at));
-        if !low.is_empty() {
-            out = sum(out, rannacher_turek::product(k, &pick(sides, low)));
+    if features::QUADS {
+        for (at, (sides, k)) in edges.of_quads().iter().zip(stiffness.quads).enumerate() {
+            let mut out = on_quad(k, &pick(sides, u), read(loads.quads, at));
+            if !low.is_empty() {
+                out = sum(out, rannacher_turek::product(k, &pick(sides, low)));
+            }
+            sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
         }
-        sides.iter().zip(out).for_each(|(edge, out)| gathered.add(edge.at(), &mut half, out));
     }
     Ok(gathered.found)
 }

@@ -7,11 +7,11 @@ use std::cell::Cell;
 
 use plate::Side;
 use plate::foundation::{Foundation, GAP};
-use signorini_kernel::certificate::{Certificate, Given};
+use signorini_kernel::certificate::{Certificate, Given, Verdict};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
 use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick};
-use signorini_kernel::{Error, Relaxation};
+use signorini_kernel::{Error, Libm, Relaxation, flux};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
@@ -160,6 +160,50 @@ fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> 
         let report = tick.begin(data(&foundation)?)?.advance(limits, &mut deadline)?;
         assert_eq!((report.ended, report.sweeps), (Ended::Settled, sweeps));
     }
+    Ok(())
+}
+
+#[test]
+fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut with, mut without) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let (mut with, mut without) = (with.tick(&foundation)?, without.tick(&foundation)?);
+    let ground = foundation.ground()?;
+    for sweeps in [13, 4] {
+        let limits = Limits { share: 0.0, error: 0.0, sweeps };
+        let never = &mut Deadline::never();
+        let certified = with.begin(data(&foundation)?)?.advance(limits, never)?;
+        let mut running = without.begin(data(&foundation)?)?;
+        let found = running.advance_uncertified::<Libm, _>(limits, never)?;
+        assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
+        assert_eq!((found.verdict, found.residual), (Verdict::NotAsked, certified.residual));
+        assert_eq!(without.u(), with.u());
+        let (loads, mut flux) = (data(&foundation)?.given.loads, vec![0.0; with.u().len()]);
+        flux::recover(&ground.edges, ground.stiffness, loads, with.u(), &[], &mut flux)?;
+        assert_eq!(without.tau(), flux);
+        assert_ne!(without.tau(), with.tau());
+    }
+    Ok(())
+}
+
+#[test]
+fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let mut running = tick.begin(data(&foundation)?)?;
+    let left = Cell::new(100_u32);
+    let remaining = || left.replace(left.get() - 10);
+    let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
+    let late = running.advance_uncertified::<Libm, _>(Limits::default(), &mut deadline)?;
+    assert_eq!((late.ended, late.sweeps), (Ended::OutOfTime, 7));
+    let never = &mut Deadline::never();
+    let end = running.advance_uncertified::<Libm, _>(Limits::default(), never)?;
+    assert_eq!(end.ended, Ended::Settled);
+    assert!(end.residual < 1e-13 && end.sweeps > 50, "{end:?}");
+    // What sweeps have left over is far below the error of the mesh.
+    let after = running.advance(Limits { sweeps: 0, ..Limits::default() }, never)?;
+    assert!(certificate(&after).algebraic < 1e-6 * certificate(&after).total, "{after:?}");
     Ok(())
 }
 

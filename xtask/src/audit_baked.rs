@@ -88,6 +88,18 @@ const QUADS: Absence = Absence {
         .any(|part| name.contains(part))
     },
 };
+/// The error bound on a mesh. (That of a condensed model is its own.)
+const BOUND: Absence = Absence {
+    what: "code of the error bound",
+    is: |name| {
+        let modules = ["8averages", "10conforming", "11equilibrium"];
+        let certificate = ["11certificate7certify", "11certificate4walk", "11certificate8boundary"];
+        let parts = ["11certificate4quad", "11certificate8triangle", "11certificate5parts"];
+        let names = || modules.iter().chain(&certificate).chain(&parts);
+        let own = |rest: &str| names().any(|part| rest.starts_with(part));
+        name.split("signorini_kernel").skip(1).any(own)
+    },
+};
 const ROBIN: Absence = Absence { what: "Robin code", is: |name| name.contains("E5robin") };
 
 /// A scene, its model, what its image is free of, and what is found in it by the same names.
@@ -98,7 +110,7 @@ struct Image {
     holds: &'static [Absence],
 }
 
-const IMAGES: [Image; 5] = [
+const IMAGES: [Image; 6] = [
     Image {
         scene: "tests/firmware/scenes/linear.toml",
         model: "--condensed",
@@ -115,6 +127,12 @@ const IMAGES: [Image; 5] = [
         scene: "meshes/scenes/levee.toml",
         model: "--full",
         lacks: &[SOLVER, QUADS, ROBIN],
+        holds: &[FULL, TRIANGLES, BOUND],
+    },
+    Image {
+        scene: "tests/firmware/scenes/levee-plain.toml",
+        model: "--full",
+        lacks: &[SOLVER, QUADS, ROBIN, BOUND],
         holds: &[FULL, TRIANGLES],
     },
     Image {
@@ -186,5 +204,8 @@ mod tests {
         let of = |path: &str| (FULL.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
         assert!(of("11certificate4walk10over_cells"));
         assert!(!of("11certificate11Certificatef") && !of("9condensed11certificate4Form"));
+        let bound = |path: &str| (BOUND.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
+        assert!(bound("11certificate7certifyft") && bound("11equilibrium6impose"));
+        assert!(!bound("4psor5sweep") && !bound("9condensed11certificate7certify"));
     }
 }

@@ -1,11 +1,13 @@
 //! Scenes as `signorini bake` writes them, and the images that hold them.
 //!
-//! Every module and every program is kept under a name of its own: scene, scalar, model and inputs. Verbs that
-//! run at the same time do not take each other's.
+//! Every module and every program is kept under a name of its own: scene, path, scalar, model and inputs. Verbs
+//! that run at the same time do not take each other's.
 
-use std::fs;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
 
 use crate::board::{Board, Build};
 use crate::cargo::{cargo, root, run as run_cargo, target_dir};
@@ -21,8 +23,8 @@ const FEATURES: &str = "//! Kernel features:";
 pub struct Recipe {
     /// The scene's file.
     pub scene: PathBuf,
-    /// `f32` or `f64`.
-    pub scalar: String,
+    /// `f32` or `f64`, where one is forced.
+    pub scalar: Option<String>,
     /// `--full` or `--condensed`, where one is forced.
     pub model: Option<String>,
     /// `NAME=VALUE`, as they were given.
@@ -58,7 +60,7 @@ impl Recipe {
     pub fn of(scene: &str, model: &str) -> Self {
         Self {
             scene: root().join(scene),
-            scalar: "f32".to_owned(),
+            scalar: Some("f32".to_owned()),
             model: Some(model.to_owned()),
             inputs: Vec::new(),
         }
@@ -70,10 +72,33 @@ impl Recipe {
     }
 
     fn name(&self) -> String {
-        let model = self.model.as_deref().unwrap_or_default();
-        let inputs: String = self.inputs.iter().map(|input| format!("_{input}")).collect();
-        let name = format!("{}_{}{model}{inputs}", self.scene_name(), self.scalar);
+        let scalar = self.scalar.iter().map(|scalar| format!("_{scalar}"));
+        let inputs = self.inputs.iter().map(|input| format!("_{input}"));
+        let asked: String = scalar.chain(self.model.clone()).chain(inputs).collect();
+        let name = format!("{}-{:08x}{asked}", self.scene_name(), self.place());
         name.replace(['/', '\\'], "_")
+    }
+
+    /// A hash of the scene's path: scenes of the same name in different folders are kept apart.
+    fn place(&self) -> u32 {
+        let path = self.scene.canonicalize().unwrap_or_else(|_| self.scene.clone());
+        let mut hash = DefaultHasher::new();
+        path.hash(&mut hash);
+        hash.finish() as u32
+    }
+
+    /// The program that bakes: the one that the environment names, else the checkout's.
+    fn command(&self) -> Command {
+        if let Some(program) = env::var_os("SIGNORINI") {
+            return Command::new(program);
+        }
+        // The build that tests and exports use, optimised like a release.
+        let mut command = cargo(&["run", "--locked", "--package", "signorini-host"]);
+        if !std::io::stderr().is_terminal() {
+            command.arg("--quiet");
+        }
+        command.arg("--manifest-path").arg(root().join("Cargo.toml")).arg("--");
+        command
     }
 
     /// Writes the module; the command tells itself what is wrong with a scene.
@@ -81,19 +106,16 @@ impl Recipe {
         let folder = folder()?;
         let name = self.name();
         let fresh = folder.join(format!("{name}.{}.rs", std::process::id()));
-        // The build that tests and exports use, optimised like a release.
-        let mut command = cargo(&["run", "--locked", "--package", "signorini-host"]);
-        if !std::io::stderr().is_terminal() {
-            command.arg("--quiet");
+        let mut command = self.command();
+        command.arg("bake").arg(&self.scene).arg("-o").arg(&fresh).args(&self.model);
+        if let Some(scalar) = &self.scalar {
+            command.args(["--scalar", scalar]);
         }
-        command.arg("--manifest-path").arg(root().join("Cargo.toml"));
-        command.args(["--", "bake"]).arg(&self.scene).arg("-o").arg(&fresh);
-        command.args(["--scalar", &self.scalar]).args(&self.model);
         for input in &self.inputs {
             command.args(["--input", input]);
         }
         // Where this one was called: the scene's path is from there.
-        command.current_dir(std::env::current_dir().map_err(|error| error.to_string())?);
+        command.current_dir(env::current_dir().map_err(|error| error.to_string())?);
         let status = command.status().map_err(|error| error.to_string())?;
         if !status.success() {
             let _ = fs::remove_file(&fresh);
@@ -175,8 +197,16 @@ mod tests {
     #[test]
     fn every_recipe_has_a_name_of_its_own() {
         let recipe = Recipe::of("meshes/scenes/levee.toml", "--full");
-        assert_eq!(recipe.name(), "levee_f32--full");
-        let wet = Recipe { inputs: vec!["rain=2".to_owned()], ..recipe };
-        assert_eq!(wet.name(), "levee_f32--full_rain=2");
+        let name = recipe.name();
+        assert!(name.starts_with("levee-") && name.ends_with("_f32--full"), "{name}");
+        let wet = Recipe { inputs: vec!["rain=2".to_owned()], ..recipe.clone() };
+        assert_eq!(wet.name(), format!("{name}_rain=2"));
+        let free = Recipe { scalar: None, model: None, ..recipe.clone() };
+        assert_eq!(Some(free.name()), name.strip_suffix("_f32--full").map(str::to_owned));
+        // Called alike, elsewhere.
+        let elsewhere = Recipe::of("somewhere/levee.toml", "--full");
+        assert_ne!(elsewhere.name(), name);
+        let detour = Recipe::of("meshes/../meshes/scenes/levee.toml", "--full");
+        assert_eq!(detour.name(), name);
     }
 }

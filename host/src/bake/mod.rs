@@ -16,6 +16,7 @@ pub mod explain;
 pub mod face;
 pub mod full;
 mod item;
+pub mod setting;
 pub mod superposition;
 pub mod text;
 pub mod trial;

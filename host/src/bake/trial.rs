@@ -41,7 +41,7 @@ pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
 fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
     let mut controller = full::Controller::<R, WIDTH>::new(baked);
     let ticks = inputs::<R>(defaults, FULL_TICKS).filter_map(|inputs| {
-        let (_, report) = controller.tick(&inputs, full::limits()).ok()?;
+        let (_, report) = controller.tick(&inputs).ok()?;
         Some((0, report.sweeps))
     });
     summary(ticks)

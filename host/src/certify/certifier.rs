@@ -101,7 +101,7 @@ impl<R: Scalar> Certifier<R> {
         let verdict = certificate::certify(&ground, &data.given(assembled)?, iterate, buffers)?;
         Ok(match verdict {
             Verdict::Certified(certificate) => Some(certificate),
-            Verdict::Pulled { .. } | Verdict::NotFinite => None,
+            Verdict::Pulled { .. } | Verdict::NotFinite | Verdict::NotAsked => None,
         })
     }
 

@@ -5,17 +5,19 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{scene_at, write_beside};
-use crate::bake::choice::{Choice, Kind, Model};
+use crate::bake::choice::{Choice, Model};
 use crate::bake::condensed;
 use crate::bake::explain::{explanation, warning};
 use crate::bake::face::Face;
 use crate::bake::full;
+use crate::bake::setting;
 use crate::error::Result;
 use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::progress::{say, waiting};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::setting::ModelKind;
 use crate::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
@@ -24,8 +26,8 @@ Examples:
   signorini bake slab.toml -o slab.rs --full --scalar f64
 
 The smallest model that represents the scene exactly and fits its [target] is chosen:
-condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one;
-what does not fit is an error.
+condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one,
+and win over the scene's [setting]; what does not fit is an error.
 
 In the firmware:
   mod levee;
@@ -49,9 +51,9 @@ pub struct Arguments {
     /// Print which models were considered and what each feature left out saves
     #[arg(long)]
     explain: bool,
-    /// Scalar type of the firmware
-    #[arg(long, value_enum, default_value = "f32")]
-    scalar: ScalarKind,
+    /// Scalar type of the firmware [default: the scene's setting.scalar, else f32]
+    #[arg(long, value_enum)]
+    scalar: Option<ScalarKind>,
     /// Another default of an input; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     input: Vec<String>,
@@ -61,7 +63,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
-        let text = match self.scalar {
+        let text = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
             ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
         };
@@ -74,8 +76,8 @@ impl Arguments {
     /// The module; what there is to say of it is said.
     fn source<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
         let kind = match (self.full, self.condensed) {
-            (true, _) => Some(Kind::Full),
-            (_, true) => Some(Kind::Condensed),
+            (true, _) => Some(ModelKind::Full),
+            (_, true) => Some(ModelKind::Condensed),
             _ => None,
         };
         let unknowns = problem.topology.counts.unknowns();

@@ -6,6 +6,7 @@
 //!   records of many scenes ─► verdict (which knobs pay) ─► section of the main report
 //! ```
 
+pub mod board;
 pub mod csv;
 mod digits;
 #[cfg(test)]

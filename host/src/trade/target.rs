@@ -1,7 +1,13 @@
-//! Whose cost decides. (A stand-in until the measurement on boards is here.)
+//! Whose cost decides.
 
-/// Host or board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+use std::fmt;
+
+use clap::ValueEnum;
+
+use super::board::Board;
+
+/// This machine or an emulated board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Target {
     /// This machine.
     Host,
@@ -9,4 +15,33 @@ pub enum Target {
     M4f,
     /// A Cortex-M7.
     M7,
+}
+
+impl Target {
+    /// What a tick's cost is counted in.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Host => "cycles",
+            Self::M4f | Self::M7 => "instructions",
+        }
+    }
+
+    /// The board, unless it is this machine.
+    pub fn board(self) -> Option<Board> {
+        match self {
+            Self::Host => None,
+            Self::M4f => Some(Board::M4f),
+            Self::M7 => Some(Board::M7),
+        }
+    }
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Host => "host",
+            Self::M4f => "m4f",
+            Self::M7 => "m7",
+        })
+    }
 }

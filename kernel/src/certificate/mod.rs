@@ -129,6 +129,8 @@ pub enum Verdict<R> {
     },
     /// No bound: the numbers overflow.
     NotFinite,
+    /// No bound: nobody asked for one.
+    NotAsked,
 }
 
 impl<R: Real> Verdict<R> {
@@ -136,7 +138,7 @@ impl<R: Real> Verdict<R> {
     pub fn certificate(&self) -> Option<&Certificate<R>> {
         match self {
             Self::Certified(certificate) => Some(certificate),
-            Self::Pulled { .. } | Self::NotFinite => None,
+            Self::Pulled { .. } | Self::NotFinite | Self::NotAsked => None,
         }
     }
 }

@@ -24,9 +24,10 @@ use crate::conforming::VertexData;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
 use crate::index::{Index, read};
+use crate::math::{Libm, Math};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
-use crate::tick::{self, Deadline, Limits, Progress, Report, Tick};
+use crate::tick::{self, Deadline, Limits, Progress, Report, Running, Tick};
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -47,8 +48,8 @@ pub struct Full<'a, R, I> {
     pub corners: &'a [[I; 2]],
     /// Where u starts off the contact and Dirichlet edges.
     pub start: R,
-    /// Where ω starts.
-    pub omega: R,
+    /// How ω is chosen.
+    pub relaxation: Relaxation<R>,
 }
 
 /// Memory of a baked scene (borrowed).
@@ -79,6 +80,56 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
+        self.tick_with::<Libm, WIDTH, F>(inputs, limits, deadline, memory, outputs)
+    }
+
+    /// The same with the square root of `M` in the search for ω.
+    ///
+    /// # Errors
+    /// As for [`Full::tick`].
+    pub fn tick_with<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
+            running.advance_with::<M, F>(limits, deadline)
+        };
+        self.answer(inputs, memory, outputs, advance)
+    }
+
+    /// The same without a bound, in the manner of [`Running::advance_uncertified`]: an image that calls this
+    /// alone has no code for the certificate. The memory of s is not used, and of the ground only edges and
+    /// element matrices; the rest of either may be empty.
+    ///
+    /// # Errors
+    /// As for [`Full::tick`].
+    pub fn tick_uncertified<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
+            running.advance_uncertified::<M, F>(limits, deadline)
+        };
+        self.answer(inputs, memory, outputs, advance)
+    }
+
+    /// A tick that `advance` brings to its end.
+    #[inline(always)]
+    fn answer<const WIDTH: usize>(
+        &self,
+        inputs: &[R],
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+        advance: impl FnOnce(&mut Running<'_, '_, R, I, WIDTH>) -> Result<Report<R>, Error>,
+    ) -> Result<Report<R>, Error> {
         same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
         same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
         all_finite(Array::Inputs, inputs)?;
@@ -89,19 +140,26 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let mut known = *progress;
         if !known.has_begun() {
             self.start(data.lower, &mut of_tick);
-            known = Progress::new(Relaxation::Adaptive(self.omega))?;
+            known = Progress::new(self.relaxation)?;
         }
         let mut tick = Tick::resume(self.ground, of_tick, known)?;
-        let report = tick.begin(data)?.advance(limits, deadline)?;
+        let report = advance(&mut tick.begin(data)?)?;
         *progress = tick.progress();
-        let has_bound = self.has_bound && self.meet(&data.given.ends);
-        let verdict = if has_bound { report.verdict } else { Verdict::NotFinite };
-        let report = Report { verdict, ..report };
+        let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
         let answer = functional::Answer { tick: &tick, data: &data, report: &report };
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
         }
         Ok(report)
+    }
+
+    /// The verdict that the data allow for.
+    fn allowed(&self, verdict: Verdict<R>, ends: &VertexData<R>) -> Verdict<R> {
+        match verdict {
+            Verdict::NotAsked => verdict,
+            _ if self.has_bound && self.meet(ends) => verdict,
+            _ => Verdict::NotFinite,
+        }
     }
 
     /// Whether u_D ≥ ψ where C meets D, up to rounding.

@@ -20,6 +20,7 @@
 mod report;
 mod resume;
 mod running;
+mod uncertified;
 
 pub use report::{Deadline, Ended, Limits, Report};
 pub use resume::Progress;
@@ -43,7 +44,7 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
     pub load: &'a mut [R],
     /// Whether a contact edge was active, one entry each.
     pub active: &'a mut [bool],
-    /// s at the vertices.
+    /// s at the vertices; as many as the mesh has.
     pub vertices: &'a mut [R],
     /// The bubbles of s, one entry an edge; may be empty where there are no quads.
     pub bubbles: &'a mut [R],

@@ -6,19 +6,19 @@ use crate::contact;
 use crate::equilibrium::Iterate;
 use crate::error::Error;
 use crate::index::Index;
-use crate::math::Libm;
+use crate::math::{Libm, Math};
 use crate::psor;
 use crate::real::Real;
 
 /// Sweeps before the first certificate of a tick, and at least between two.
-const FEWEST: u32 = 4;
+pub(super) const FEWEST: u32 = 4;
 
 /// A tick with its data: [`Running::advance`] it as often as there is time.
 #[derive(Debug)]
 pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
-    tick: &'t mut Tick<'a, R, I, WIDTH>,
-    data: Data<'t, R, I>,
-    sweeps: u32,
+    pub(super) tick: &'t mut Tick<'a, R, I, WIDTH>,
+    pub(super) data: Data<'t, R, I>,
+    pub(super) sweeps: u32,
     /// Sweeps at the last measurement of the defect.
     measured: u32,
     next_certificate: u32,
@@ -50,6 +50,20 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
+        self.advance_with::<Libm, F>(limits, deadline)
+    }
+
+    /// The same with the square root of `M` in the search for ω.
+    ///
+    /// # Errors
+    /// As for [`Running::advance`].
+    pub fn advance_with<M: Math<R>, F: FnMut() -> u32>(
+        &mut self,
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<Report<R>, Error> {
+        // No certificate can end it but by one of these.
+        let looks = limits.error > R::ZERO || limits.share > R::ZERO;
         let last = self.sweeps.saturating_add(limits.sweeps);
         loop {
             let cut = if self.sweeps >= last {
@@ -60,7 +74,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 Some(Ended::OutOfTime)
             };
             let known = self.verdict.is_some();
-            if cut.is_some() || known || self.is_due(deadline) {
+            if cut.is_some() || known || (looks && self.is_due(deadline)) {
                 let verdict = self.certified()?;
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);
@@ -76,7 +90,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                     return self.report(Ended::OutOfTime, verdict);
                 }
             }
-            self.sweep()?;
+            self.sweep::<M>()?;
         }
     }
 
@@ -89,7 +103,8 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
             && deadline.allows_to_look()
     }
 
-    fn sweep(&mut self) -> Result<(), Error> {
+    /// A sweep, and a look at ω where it is time for one.
+    pub(super) fn sweep<M: Math<R>>(&mut self) -> Result<(), Error> {
         let memory = &mut self.tick.memory;
         psor::sweep(&memory.rows, self.data.lower, memory.u)?;
         self.sweeps += 1;
@@ -102,13 +117,13 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         // At the rounding limit the residual falls no faster whatever ω is: nothing to learn, and an ω led
         // astray would stay for the ticks to come.
         if defect.largest > self.rounding() {
-            self.tick.search.look::<Libm>(defect.sum, active, self.sweeps - self.measured);
+            self.tick.search.look::<M>(defect.sum, active, self.sweeps - self.measured);
         }
         self.measured = self.sweeps;
         if self.tick.search.omega == before { Ok(()) } else { self.relax_anew() }
     }
 
-    fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
+    pub(super) fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
         let (memory, lower) = (&self.tick.memory, self.data.lower);
         let defect = psor::defect(&memory.rows, lower, memory.u)?;
         let counts = self.tick.ground.edges.counts();
@@ -154,9 +169,14 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 return Ok(false);
             }
         }
+        let residual = self.measure()?.0.largest;
+        Ok(self.is_rounding(residual))
+    }
+
+    /// Whether the residual may be all rounding.
+    pub(super) fn is_rounding(&self, residual: R) -> bool {
         // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
-        let kept = self.measure()?.0.largest * (R::TWO - self.tick.search.omega);
-        Ok(kept <= self.rounding())
+        residual * (R::TWO - self.tick.search.omega) <= self.rounding()
     }
 
     /// What rounding alone can make of the residual: a row's terms are at most a few times the largest u.
@@ -182,7 +202,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         self.next_certificate = self.sweeps.saturating_add(wait);
     }
 
-    fn report(&mut self, ended: Ended, verdict: Verdict<R>) -> Result<Report<R>, Error> {
+    pub(super) fn report(&mut self, ended: Ended, verdict: Verdict<R>) -> Result<Report<R>, Error> {
         let residual = self.measure()?.0.largest;
         let counts = self.tick.ground.edges.counts();
         let Tick { memory, search, report, .. } = &mut *self.tick;
@@ -211,7 +231,9 @@ fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
         Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
         Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),
         // Without a bound there may still be a solution.
-        Verdict::Certified(_) | Verdict::Pulled { .. } | Verdict::NotFinite => None,
+        Verdict::Certified(_) | Verdict::Pulled { .. } | Verdict::NotFinite | Verdict::NotAsked => {
+            None
+        }
     }
 }
 

@@ -23,6 +23,7 @@ pub struct Bill {
     difference: Option<String>,
     /// A tick without an answer.
     refused: Option<String>,
+    first: u64,
     median: u64,
     max: u64,
     ram: u64,
@@ -40,6 +41,7 @@ impl Bill {
             return Err(format!("the board has played {} of {TICKS} ticks", board.count()));
         }
         let mut instructions = board.numbers("instructions")?;
+        let first = instructions.first().copied().ok_or("the first tick was not counted")?;
         instructions.sort_unstable();
         let at = |at: usize| instructions.get(at).copied().ok_or("a tick was not counted");
         let (median, max) = (at(TICKS / 2)?, at(TICKS - 1)?);
@@ -47,13 +49,14 @@ impl Bill {
         let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
         Ok(Self {
             board: options.board,
-            scalar: options.recipe.scalar.clone(),
+            scalar: word("scalar").next().unwrap_or_default(),
             scene: options.recipe.scene_name(),
             model: word("model").next().unwrap_or_default(),
             names: word("output").map(|digits| text(&digits)).collect(),
             outputs: [board.outputs(), desk.outputs()],
             difference: board.difference(&desk),
             refused: desk.refused().map(str::to_owned),
+            first,
             median,
             max,
             ram: ram + stack,
@@ -70,8 +73,8 @@ impl Bill {
             record(self.names.iter().enumerate().map(|(at, name)| (name.as_str(), value(at))))
         };
         let [board, desk] = &self.outputs;
-        let instructions =
-            record([("median", self.median.to_string()), ("max", self.max.to_string())]);
+        let instructions = [("first", self.first), ("median", self.median), ("max", self.max)];
+        let instructions = record(instructions.map(|(name, count)| (name, count.to_string())));
         let features: Vec<String> = self.features.iter().map(|name| string(name)).collect();
         object(&[
             ("board", string(self.board)),

@@ -27,8 +27,8 @@ from within a tenth of its default (±0.1 where that is 0), the same on both.
 
 Options:
   --board m4|m4-192k|m7    mps2-an386, netduinoplus2 (an STM32F405), mps2-an500 [m4]
-  --scalar f32|f64         [f32]
-  --full, --condensed      forces a model
+  --scalar f32|f64         [the scene's setting.scalar, else f32]
+  --full, --condensed      forces a model, whatever the scene's setting says
   --input NAME=VALUE       the default of an input; repeatable
   --out DIR                where firmware.json goes [out/SCENE]
 
@@ -48,7 +48,7 @@ The exit status is 0 where all bits are equal, 2 where the command line or the s
 impl Options {
     /// Reads the words after the verb.
     pub fn parse(words: &[&str]) -> Result<Self, String> {
-        let (mut scene, mut scalar, mut model) = (None, "f32", None);
+        let (mut scene, mut scalar, mut model) = (None, None, None);
         let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0].0, None);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
@@ -56,7 +56,7 @@ impl Options {
             match word {
                 "--board" => board = known(value()?)?.0,
                 "--scalar" => match value()? {
-                    known @ ("f32" | "f64") => scalar = known,
+                    known @ ("f32" | "f64") => scalar = Some(known.to_owned()),
                     other => return Err(format!("--scalar is f32 or f64, not `{other}`")),
                 },
                 "--full" | "--condensed" => match model.replace(word.to_owned()) {
@@ -71,7 +71,7 @@ impl Options {
             }
         }
         let scene = scene.ok_or("no scene given")?;
-        let recipe = Recipe { scene, scalar: scalar.to_owned(), model, inputs };
+        let recipe = Recipe { scene, scalar, model, inputs };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
         Ok(Self { recipe, board, out })
     }
@@ -95,7 +95,7 @@ mod tests {
     fn options_stand_in_any_order() {
         let words = ["--board", "m7", "a/b.toml", "--full", "--input", "x=1", "--input", "y=2"];
         let options = Options::parse(&words).unwrap();
-        assert_eq!((options.board, options.recipe.scalar.as_str()), ("m7", "f32"));
+        assert_eq!((options.board, options.recipe.scalar), ("m7", None));
         assert_eq!(
             (options.recipe.scene.to_str(), options.out.to_str()),
             (Some("a/b.toml"), Some("out/b"))

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::thread;
 
 use super::Options;
 use crate::baked::Failure;
@@ -23,10 +24,15 @@ impl Programs {
     pub fn build(options: &Options) -> Result<Self, Failure> {
         let board = options.board()?;
         let baked = options.recipe.bake()?;
-        let image = baked
-            .image(&board, &[])
-            .map_err(|why| format!("{why}: no image for {}, see above", options.board))?;
-        Ok(Self { board, image, desk: baked.desk()?, features: baked.features })
+        // Two builds in two folders: neither waits for the other.
+        let (image, desk) = thread::scope(|scope| {
+            let desk = scope.spawn(|| baked.desk());
+            let image = baked.image(&board, &[]);
+            (image, desk.join().unwrap_or_else(|_| Err("the desk's build panicked".to_owned())))
+        });
+        let image =
+            image.map_err(|why| format!("{why}: no image for {}, see above", options.board))?;
+        Ok(Self { board, image, desk: desk?, features: baked.features })
     }
 
     /// What the board prints.

@@ -1,9 +1,10 @@
 //! The models there are, each with what it takes.
 
-use super::work::{fixed, unlimited, within};
+use super::work::{allowed, fixed, within};
 use super::{Candidate, Model};
 use crate::bake::budget::{Budget, Needs};
 use crate::bake::costs::Costs;
+use crate::bake::setting::checked;
 use crate::bake::trial::{self, Trial};
 use crate::bake::{condensed, full};
 use crate::condense::Condensate;
@@ -11,6 +12,7 @@ use crate::error::{InputError, Result};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::{Quantity, Scene};
+use crate::setting::Setting;
 use crate::solve::unfit;
 
 /// The variants of the condensed model: with the bound first, and of two the one that takes less time.
@@ -19,16 +21,23 @@ pub(super) fn of_condensed<R: Scalar>(
     condensate: &Condensate,
     budget: &Budget,
 ) -> Result<Vec<Candidate<R>>> {
+    let setting = checked::<R>(scene)?;
     refuse_singular::<R>(scene, condensate)?;
     let has_bound = condensate.certificate.is_ok();
-    let variants = if has_bound { &[true, false][..] } else { &[true] };
+    let variants = match (setting.certificate, has_bound) {
+        (false, _) => &[false][..],
+        (true, true) => &[true, false],
+        (true, false) => &[true],
+    };
     let mut all = Vec::new();
     for &certified in variants {
         let mut pair = Vec::new();
         // Without contact there is nothing to solve.
-        let methods = if condensate.contact > 0 { &[true, false][..] } else { &[false] };
+        let sweeps_alone = condensate.contact == 0 || setting.sweeps.is_some();
+        let methods = if sweeps_alone { &[false][..] } else { &[true, false] };
         for &exact in methods {
-            let mut candidate = condensed_as(scene, condensate, budget, exact, certified)?;
+            let mut candidate =
+                condensed_as(scene, condensate, budget, &setting, [exact, certified])?;
             candidate.lacks = bound_of(scene).filter(|_| !certified);
             candidate.infinite = bound_of(scene).filter(|_| !has_bound);
             pair.push(candidate);
@@ -76,17 +85,18 @@ fn condensed_as<R: Scalar>(
     scene: &Scene,
     condensate: &Condensate,
     budget: &Budget,
-    exact: bool,
-    certified: bool,
+    setting: &Setting,
+    [exact, certified]: [bool; 2],
 ) -> Result<Candidate<R>> {
     let unfit = unfit::<R>(scene);
-    let all = unlimited(condensate.contact, exact);
+    let all = allowed(setting, condensate.contact, exact);
     let baked = condensed::Baked::<R>::new(condensate, all, certified).map_err(unfit)?;
+    let baked = baked.with_setting(setting);
     let trial = trial::of_condensed(&baked, &condensate.defaults[1..]);
     let costs = Costs::measured();
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
-    let work =
-        within::<R>(&costs, condensate.contact, all, trial, fixed.zip(budget.instructions()));
+    let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
+    let work = within::<R>(&costs, condensate.contact, all, trial, time);
     let baked = baked.with_work(work);
     let step = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
     let pivots = f64::from(trial.pivots[0]);
@@ -129,10 +139,12 @@ pub(super) fn of_full<R: Scalar>(
         false => Trial::default(),
     };
     let cells = if baked.has_quads() { "quads" } else { "triangles" };
-    let instructions = full_tick::<R>(&Costs::measured(), cells, problem, trial.sweeps[0]);
+    let last = if baked.is_certified() { "certificate" } else { "flux by edges" };
+    let costs = Costs::measured();
+    let instructions = full_tick::<R>(&costs, cells, problem, trial.sweeps[0], last);
     let needs = Needs { instructions: instructions.filter(|_| trial.sweeps[0] > 0), ..memory };
     Ok(Candidate {
-        name: "full".to_owned(),
+        name: if baked.is_certified() { "full" } else { "full, no error bound" }.to_owned(),
         lacks: None,
         infinite: bound_of(scene).filter(|_| !baked.has_bound()),
         model: Model::Full(Box::new(baked)),
@@ -142,10 +154,16 @@ pub(super) fn of_full<R: Scalar>(
     })
 }
 
-/// Load and rows, sweeps, a certificate.
-fn full_tick<R: Scalar>(costs: &Costs, cells: &str, problem: &Problem, sweeps: u32) -> Option<f64> {
+/// Load and rows, sweeps, and what comes last.
+fn full_tick<R: Scalar>(
+    costs: &Costs,
+    cells: &str,
+    problem: &Problem,
+    sweeps: u32,
+    last: &str,
+) -> Option<f64> {
     let of = |stage: &str| costs.of_mesh::<R>(cells, stage);
     let (unknowns, number) = (problem.topology.counts.unknowns() as f64, problem.cells() as f64);
     let rows = of("rows from cells")? + f64::from(sweeps) * of("sweep")?;
-    Some(unknowns * rows + number * (of("load")? + of("certificate")?))
+    Some(unknowns * rows + number * (of("load")? + of(last)?))
 }

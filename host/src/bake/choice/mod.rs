@@ -20,6 +20,7 @@ use crate::error::Result;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::setting::ModelKind;
 use advice::too_large;
 use candidates::{of_condensed, of_full};
 
@@ -27,15 +28,6 @@ use candidates::{of_condensed, of_full};
 const MOST_CONTACTS: usize = 1000;
 /// Bytes of flash beyond which a condensed model is compared with the full one.
 const LARGE: u64 = 1 << 20;
-
-/// A model that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Contact edges, inputs and outputs alone.
-    Condensed,
-    /// The scene's mesh.
-    Full,
-}
 
 /// A model, ready to be written.
 #[derive(Debug)]
@@ -94,7 +86,8 @@ pub struct Choice<R: Scalar> {
 }
 
 impl<R: Scalar> Choice<R> {
-    /// Chooses for `scene`; with `compared`, the full model is worked out in any case.
+    /// Chooses for `scene`, as its setting asks where `forced` does not; with `compared`, the full model is
+    /// worked out in any case.
     ///
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
@@ -102,14 +95,15 @@ impl<R: Scalar> Choice<R> {
     pub fn new(
         scene: &Scene,
         problem: &Problem,
-        forced: Option<Kind>,
+        forced: Option<ModelKind>,
         compared: bool,
     ) -> Result<Self> {
         let budget = Budget::of(scene);
+        let forced = forced.or(scene.setting.and_then(|setting| setting.model));
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
         let few = contact <= MOST_CONTACTS;
-        if forced == Some(Kind::Condensed) || (forced.is_none() && few) {
+        if forced == Some(ModelKind::Condensed) || (forced.is_none() && few) {
             match of_condensed(scene, &condense(scene, problem)?, &budget) {
                 Ok(found) => candidates = found,
                 Err(error) if forced.is_some() => return Err(error),
@@ -120,7 +114,7 @@ impl<R: Scalar> Choice<R> {
         }
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
-        if forced == Some(Kind::Full) || (forced.is_none() && (compared || !fits || large)) {
+        if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
             match of_full(scene, problem, &budget) {
                 Ok(mut candidate) => {
                     // Its sweeps depend on the inputs: who asks for it is warned, not refused.

@@ -7,6 +7,7 @@ use crate::bake::costs::Costs;
 use crate::bake::trial::Trial;
 use crate::condense::Condensate;
 use crate::scalar::Scalar;
+use crate::setting::Setting;
 
 /// Sweeps that follow where the exchanges of a tick do not suffice.
 const FALLBACK: u32 = 20;
@@ -38,11 +39,11 @@ pub(super) fn fixed<R: Scalar>(
     Some(AN_ENTRY * entries + solve + bound)
 }
 
-/// What a tick may do where nothing limits its time.
-pub(super) fn unlimited(contact: usize, exact: bool) -> Work {
+/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number.
+pub(super) fn allowed(setting: &Setting, contact: usize, exact: bool) -> Work {
     match exact {
         true => Work { pivots: Some((2 * contact as u32).max(1)), sweeps: FALLBACK },
-        false => Work { pivots: None, sweeps: MOST_SWEEPS },
+        false => Work { pivots: None, sweeps: setting.sweeps.unwrap_or(MOST_SWEEPS) },
     }
 }
 

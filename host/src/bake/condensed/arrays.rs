@@ -12,6 +12,7 @@ use super::relaxation::best_omega;
 use super::start::Start;
 use crate::condense::{self, Condensate};
 use crate::scalar::Scalar;
+use crate::setting::{Omega, Setting, Start as From};
 
 /// How much the solver of a baked model may do in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +45,8 @@ pub struct Baked<R: Scalar> {
     pub work: Work,
     /// The factor of the sweeps and when they end.
     pub sweeps: Sweeps<R>,
+    /// Whether every tick starts anew, from the answer to the scene's own inputs.
+    pub cold: bool,
     pub(super) matrix: Vec<Block<R>>,
     pub(super) start: Start<R>,
     pub(super) load: Vec<R>,
@@ -94,6 +97,7 @@ impl<R: Scalar> Baked<R> {
             inputs: condensate.inputs,
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
+            cold: false,
             matrix: matrix(condensate),
             start: Start::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
@@ -109,6 +113,19 @@ impl<R: Scalar> Baked<R> {
             None => Solver::Sweeps,
             Some(most) => Solver::Exchanges(most),
         }
+    }
+
+    /// The same as a setting has it: its ω, its start, and where it gives a number of sweeps no end before
+    /// them but at a fixed point.
+    pub fn with_setting(self, setting: &Setting) -> Self {
+        let mut sweeps = self.sweeps;
+        if let Omega::Fixed(omega) = setting.omega {
+            sweeps.omega = R::narrow(omega);
+        }
+        if setting.sweeps.is_some() {
+            sweeps.tolerance = R::ZERO;
+        }
+        Self { sweeps, cold: setting.start == From::Cold, ..self }
     }
 
     /// The same with other limits, the exact method staying in or out.

@@ -53,6 +53,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
     /// Inputs that are not finite.
     pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
         let baked = self.baked;
+        if baked.cold {
+            self.x.clone_from(&baked.start.x);
+            self.is_built = false;
+        }
         let inputs: Vec<R> = std::iter::once(R::ONE).chain(inputs.iter().copied()).collect();
         baked.with_model(|model| {
             let Self { x, residual, scratch, open, load, combination, sum, .. } = self;

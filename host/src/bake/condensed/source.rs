@@ -123,12 +123,12 @@ impl Controller {{
 {}        }}
     }}
 
-    /// Answers for these inputs, from where the last tick ended.
+    /// Answers for these inputs, from {}.
     ///
     /// # Errors
     /// Inputs that are not finite; the last answer stays.
     pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {{
-        {pattern}
+{}        {pattern}
         let inputs = [{}];
         {method}
         let mut memory = self.storage.memory(&data::SYSTEM);
@@ -150,6 +150,12 @@ pub use data::SYSTEM;
 ",
         only("    tableau: TableauStorage<Scalar, PADDED, BLOCKS>,\n"),
         only("            tableau: TableauStorage::new(),\n"),
+        if baked.cold {
+            "the answer to the scene's own inputs"
+        } else {
+            "where the last tick ended"
+        },
+        if baked.cold { "        *self = Self::new();\n" } else { "" },
         given.join(", "),
         outputs.join(", "),
     )

@@ -7,7 +7,10 @@ use crate::certify::fixtures::on_grid;
 use crate::condense::condense;
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
+use crate::problem::Problem;
 use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::setting::{Omega, Setting, Start};
 
 /// Prints the outputs of a cold and two warm ticks as bits.
 const MAIN: &str = "
@@ -115,7 +118,16 @@ fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> 
     let condensate = condense(&scene, &problem)?;
     let baked = Baked::<R>::new(&condensate, work, certified).expect("numbers in range");
     assert_eq!(baked.without_bound().is_none(), certified);
-    let mut controller = Controller::new(&baked);
+    same_bits_of(&scene, &problem, &baked, bits)
+}
+
+fn same_bits_of<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    baked: &Baked<R>,
+    bits: fn(R) -> u64,
+) -> Result<()> {
+    let mut controller = Controller::new(baked);
     let lines = [1.0, -0.5, 0.25].map(|factor| {
         let value = |default: f64| R::narrow(factor) * R::narrow(default);
         let inputs: Vec<R> = scene.inputs.iter().map(|input| value(input.default)).collect();
@@ -123,7 +135,7 @@ fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> 
         format!("Ok({:?})\n", outputs.into_iter().map(bits).collect::<Vec<_>>())
     });
     assert!(scene.inputs.is_empty() || lines[0] != lines[1]);
-    let text = source(&Face::new(&scene, &problem), &baked);
+    let text = source(&Face::new(scene, problem), baked);
     assert_eq!(printed(&(text + MAIN)), lines.concat());
     Ok(())
 }
@@ -152,6 +164,33 @@ fn without_inputs_on_contact_alone() -> Result<()> {
 fn without_contact() -> Result<()> {
     same_bits::<f32>(LINEAR, PIVOTS, true, |x| x.to_bits().into())?;
     same_bits::<f64>(LINEAR, SWEEPS, true, f64::to_bits)
+}
+
+#[test]
+fn with_a_setting() -> Result<()> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let condensate = condense(&scene, &problem)?;
+    let setting = Setting {
+        sweeps: Some(6),
+        omega: Omega::Fixed(1.2),
+        start: Start::Cold,
+        ..Setting::default()
+    };
+    for work in [SWEEPS, PIVOTS] {
+        let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
+        let baked = baked.with_setting(&setting);
+        same_bits_of(&scene, &problem, &baked, |x| x.to_bits().into())?;
+        let mut controller = Controller::new(&baked);
+        let defaults: Vec<_> = scene.inputs.iter().map(|input| input.default as f32).collect();
+        let moved: Vec<_> = defaults.iter().map(|value| -value).collect();
+        let [first, other, again] = [&defaults, &moved, &defaults].map(|inputs| {
+            let (outputs, report) = controller.tick(inputs).expect("a tick");
+            (outputs, report)
+        });
+        assert_eq!(first, again);
+        assert!(work != SWEEPS || other.1.sweeps == 6);
+    }
+    Ok(())
 }
 
 /// Both ends are Dirichlet corners.

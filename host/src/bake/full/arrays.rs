@@ -8,10 +8,13 @@ use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::full::Share;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::tick::Limits;
 use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
+use super::limits;
 use crate::bake::face::Face;
+use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
 use crate::certify::Certifier;
 use crate::error::{InputError, Result};
@@ -19,6 +22,7 @@ use crate::functional::{Functional, Linear, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::setting::{MathKind, Omega, Setting, Start};
 use crate::solve::unfit;
 
 /// A scene as the full model takes it, in the scalar `R`.
@@ -47,7 +51,34 @@ pub struct Baked<R: Scalar> {
     pub(super) outputs: Vec<Output<R>>,
     pub(super) corners: Vec<[u32; 2]>,
     pub(super) start: R,
-    pub(super) omega: R,
+    pub(super) how: How<R>,
+}
+
+/// How its ticks are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct How<R> {
+    pub relaxation: Relaxation<R>,
+    pub limits: Limits<R>,
+    pub certified: bool,
+    /// Every tick starts anew.
+    pub cold: bool,
+    /// The search for ω takes the fast square root.
+    pub fast: bool,
+}
+
+impl<R: Scalar> How<R> {
+    fn new(setting: &Setting, unknowns: usize) -> Self {
+        Self {
+            relaxation: match setting.omega {
+                Omega::Fixed(omega) => Relaxation::Fixed(R::narrow(omega)),
+                Omega::Auto => Relaxation::for_unknowns(unknowns),
+            },
+            limits: limits(setting),
+            certified: setting.certificate,
+            cold: setting.start == Start::Cold,
+            fast: setting.math == MathKind::Micromath,
+        }
+    }
 }
 
 /// An output with its arrays.
@@ -63,7 +94,7 @@ pub(super) enum Output<R> {
 impl<R: Scalar> Baked<R> {
     /// Whether a cell has four sides.
     pub fn has_quads(&self) -> bool {
-        !self.quads.is_empty()
+        !self.of_quads.is_empty()
     }
 
     /// Whether these data allow for an error bound.
@@ -71,12 +102,23 @@ impl<R: Scalar> Baked<R> {
         self.data.has_bound
     }
 
-    /// Bakes `scene`, whose inputs stand at their defaults.
+    /// The limits of its ticks.
+    pub fn limits(&self) -> Limits<R> {
+        self.how.limits
+    }
+
+    /// Whether its ticks have a certificate.
+    pub fn is_certified(&self) -> bool {
+        self.how.certified
+    }
+
+    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
-    /// A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
+    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
     /// scalar type cannot hold.
     pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let setting = checked::<R>(scene)?;
         let held = Parts::examine(scene, problem)?;
         refuse_loose(scene, &held)?;
         let unfit = unfit::<R>(scene);
@@ -90,18 +132,18 @@ impl<R: Scalar> Baked<R> {
         let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
         data.check().map_err(&unfit)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
-        Ok(Self { start, outputs, corners: corners(problem), ..Self::of(face, data, &ground) })
+        let how = How::new(&setting, problem.topology.counts.unknowns());
+        let corners = corners(problem);
+        let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
+        Ok(if how.certified { baked } else { baked.without_bound() })
     }
 
-    fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>) -> Self {
+    fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>, how: How<R>) -> Self {
         let Ground { mesh, edges, stiffness, cells, metric, reach } = ground;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = !metric.at_points.is_empty();
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
         let needs_order = varies || !cells.quads().is_empty();
-        let omega = match Relaxation::<R>::for_unknowns(edges.counts().unknowns()) {
-            Relaxation::Adaptive(omega) | Relaxation::Fixed(omega) => omega,
-        };
         Self {
             face,
             counts: edges.counts(),
@@ -125,7 +167,26 @@ impl<R: Scalar> Baked<R> {
             outputs: Vec::new(),
             corners: Vec::new(),
             start: R::ZERO,
-            omega,
+            how,
+        }
+    }
+
+    /// Without everything that only the certificate reads.
+    fn without_bound(self) -> Self {
+        Self {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            quads: Vec::new(),
+            packed_triangles: Vec::new(),
+            packed_quads: Vec::new(),
+            vertex_weights: Vec::new(),
+            edge_weights: Vec::new(),
+            order: Vec::new(),
+            metric: Vec::new(),
+            metric_place: Vec::new(),
+            corners: Vec::new(),
+            data: self.data.without_bound(),
+            ..self
         }
     }
 
@@ -154,8 +215,8 @@ impl<R: Scalar> Baked<R> {
     /// The features of the kernel that the scene needs.
     pub fn features(&self) -> Vec<&'static str> {
         let needs = [
-            ("triangles", !self.triangles.is_empty()),
-            ("quads", !self.quads.is_empty()),
+            ("triangles", !self.of_triangles.is_empty()),
+            ("quads", !self.of_quads.is_empty()),
             ("varying", !self.metric.is_empty()),
             ("contact", self.counts.contact > 0),
             ("robin", !self.data.robin.is_empty()),

@@ -8,6 +8,7 @@ use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
+use signorini_kernel::{Libm, Math};
 
 use super::arrays::{Baked, Output};
 use super::data::{Data, Pattern};
@@ -75,16 +76,27 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         }
     }
 
-    /// Outputs and report for these inputs, from where the last tick ended.
+    /// Outputs and report for these inputs, within the limits of the baked module.
     ///
     /// # Errors
     /// Inputs that are not finite or of another number; a `WIDTH` that is not that of the mesh.
-    pub fn tick(
+    pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), KernelError> {
+        self.tick_within(inputs, self.baked.how.limits)
+    }
+
+    /// The same within other limits.
+    ///
+    /// # Errors
+    /// As for [`Controller::tick`].
+    pub fn tick_within(
         &mut self,
         inputs: &[R],
         limits: Limits<R>,
     ) -> Result<(Vec<R>, Report<R>), KernelError> {
         let (baked, data) = (self.baked, &mut self.data);
+        if baked.how.cold {
+            self.progress = Progress::NONE;
+        }
         let ground = baked.ground();
         let memory = Memory {
             tick: tick::Memory {
@@ -112,13 +124,50 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
             progress: &mut self.progress,
         };
         let mut outputs = vec![R::ZERO; baked.outputs.len()];
-        let report = baked
-            .with(|full| full.tick(inputs, limits, &mut Deadline::never(), memory, &mut outputs))?;
+        let report = match baked.how.fast {
+            true => baked.run::<R::Fast, WIDTH>(inputs, limits, memory, &mut outputs)?,
+            false => baked.run::<Libm, WIDTH>(inputs, limits, memory, &mut outputs)?,
+        };
         Ok((outputs, report))
+    }
+
+    /// Means of u over the edges.
+    pub fn u(&self) -> &[R] {
+        &self.u
+    }
+
+    /// ∫τ·n of every edge along its direction: balanced, or of a tick without certificate σ_h of (15).
+    pub fn tau(&self) -> &[R] {
+        &self.tau
+    }
+
+    /// s at the vertices; empty without a certificate.
+    pub fn vertices(&self) -> &[R] {
+        &self.vertices
+    }
+
+    /// The bubbles of s, one an edge; empty without quads or certificate.
+    pub fn bubbles(&self) -> &[R] {
+        &self.bubbles
     }
 }
 
 impl<R: Scalar> Baked<R> {
+    /// The call that the module has in its `tick_within`.
+    fn run<M: Math<R>, const WIDTH: usize>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        memory: Memory<R, u32, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, KernelError> {
+        let never = &mut Deadline::never();
+        self.with(|full| match self.how.certified {
+            true => full.tick_with::<M, WIDTH, _>(inputs, limits, never, memory, outputs),
+            false => full.tick_uncertified::<M, WIDTH, _>(inputs, limits, never, memory, outputs),
+        })
+    }
+
     /// Lends the arrays as the kernel takes them.
     fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
         let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();
@@ -136,7 +185,7 @@ impl<R: Scalar> Baked<R> {
             has_bound: self.data.has_bound,
             corners: &self.corners,
             start: self.start,
-            omega: self.omega,
+            relaxation: self.how.relaxation,
         })
     }
 }

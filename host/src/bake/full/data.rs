@@ -100,6 +100,23 @@ impl<R: Scalar> Data<R> {
         Ok(data)
     }
 
+    /// Without everything that only the certificate reads.
+    pub fn without_bound(mut self) -> Self {
+        for pattern in &mut self.patterns {
+            if let Pattern::Ambient { points, .. } = pattern {
+                points.clear();
+            }
+        }
+        Self {
+            curved: Vec::new(),
+            curved_sums: Vec::new(),
+            transfer: Vec::new(),
+            oscillation: Vec::new(),
+            has_bound: false,
+            ..self
+        }
+    }
+
     /// A load that is 0 and stays it has no array; one that an input changes has all its entries.
     fn leave_out_zeros(&mut self, problem: &Problem) {
         let fit = |array: &mut Vec<R>, varies: bool, length: usize| {

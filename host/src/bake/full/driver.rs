@@ -2,13 +2,16 @@
 
 use std::fmt::Write as _;
 
-use super::SHARE;
+use super::arrays::How;
 use super::items::Item;
 use super::source::imports;
+use crate::scalar::Scalar;
 
 /// What the controller may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("Error", "Error"),
+    ("Libm", "Libm"),
+    ("Micromath", "Micromath"),
     ("Robin", "boundary::Robin"),
     ("Neumann", "boundary::Neumann"),
     ("Curved", "certificate::Curved"),
@@ -21,21 +24,26 @@ const NAMES: &[(&str, &str)] = &[
 ];
 
 /// The struct with its memory, and what it does.
-pub(super) fn controller(fields: &[Item]) -> String {
-    let text = body(fields);
+pub(super) fn controller<R: Scalar>(fields: &[Item], how: &How<R>) -> String {
+    let text = body(fields, how);
     imports(NAMES, &text, "") + &text
 }
 
-fn body(fields: &[Item]) -> String {
+fn body<R: Scalar>(fields: &[Item], how: &How<R>) -> String {
     let mut text = format!(
         "
-/// When a tick ends: once sweeps have brought the algebraic part of the error bound down to this share of it.
-pub const LIMITS: Limits<Scalar> = Limits {{ error: 0.0, share: {SHARE:?}, sweeps: 10_000 }};
+/// When a tick ends: {}.
+pub const LIMITS: Limits<Scalar> =
+    Limits {{ error: {:?}, share: {:?}, sweeps: {} }};
 
 /// All memory of the scene; can initialise a `static`.
 #[derive(Debug)]
 pub struct Controller {{
-"
+",
+        ends(how),
+        how.limits.error,
+        how.limits.share,
+        how.limits.sweeps
     );
     for Item { name, doc, of, .. } in fields {
         let _ = writeln!(text, "    /// {doc}\n    {name}: {of},");
@@ -53,8 +61,9 @@ impl Controller {
     text += "        }
     }
 
-    /// Answers for these inputs, from where the last tick ended.
-    ///
+";
+    let _ = writeln!(text, "    /// Answers for these inputs, {}.", from(how));
+    text += "    ///
     /// # Errors
     /// Inputs that are not finite, or whose loads are not; the last answer stays.
     pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {
@@ -71,7 +80,11 @@ impl Controller {
         limits: Limits<Scalar>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer, Error> {
-        let memory = Memory {
+";
+    if how.cold {
+        text += "        self.progress = Progress::NONE;\n";
+    }
+    text += "        let memory = Memory {
             tick: signorini_kernel::tick::Memory {
                 rows: self.rows.of(&data::FULL.ground.edges)?,
 ";
@@ -88,13 +101,18 @@ impl Controller {
             let _ = writeln!(text, "                {of}: &mut self.{field},");
         }
     }
-    text + "                ..DataMemory::default()
+    text += "                ..DataMemory::default()
             },
             progress: &mut self.progress,
         };
         let mut outputs = [0.0; OUTPUTS];
-        let report = data::FULL.tick(&inputs.to_array(), limits, deadline, memory, &mut outputs)?;
-        Ok(Answer { outputs: Outputs::from_array(outputs), report })
+";
+    let _ = writeln!(
+        text,
+        "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory, &mut outputs)?;",
+        call(how)
+    );
+    text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })
     }
 }
 
@@ -104,6 +122,32 @@ impl Default for Controller {
     }
 }
 "
+}
+
+/// What ends a tick.
+fn ends<R: Scalar>(how: &How<R>) -> &'static str {
+    match (how.limits.share > R::ZERO, how.certified) {
+        (false, _) => "after exactly so many sweeps",
+        (true, false) => "once the residual is down to rounding",
+        (true, true) => {
+            "once sweeps have brought the algebraic part of the error bound down to this share of it"
+        }
+    }
+}
+
+/// Where a tick starts.
+fn from<R: Scalar>(how: &How<R>) -> &'static str {
+    if how.cold { "from a cold start" } else { "from where the last tick ended" }
+}
+
+/// The kernel's tick.
+fn call<R: Scalar>(how: &How<R>) -> String {
+    let math = if how.fast { "Micromath" } else { "Libm" };
+    match how.certified {
+        true if !how.fast => "tick".to_owned(),
+        true => format!("tick_with::<{math}, _, _>"),
+        false => format!("tick_uncertified::<{math}, _, _>"),
+    }
 }
 
 /// Fields of the controller, as the kernel's `DataMemory` calls them.

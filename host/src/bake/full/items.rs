@@ -171,7 +171,7 @@ pub(super) fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.reserve::<bool>("active", "Which contact edges were active.", "bool", "false", counts.contact);
     list.reserve::<R>("vertices", "The continuous function of the error bound, at the vertices.", "Scalar", "0.0", baked.vertices.len());
     list.reserve::<R>("bubbles", "The same on edges of quads.", "Scalar", "0.0", if baked.quads.is_empty() { 0 } else { counts.edges() });
-    list.reserve::<R>("tau", "The fluxes of the error bound.", "Scalar", "0.0", counts.edges());
+    list.reserve::<R>("tau", if baked.how.certified { "The fluxes of the error bound." } else { "The fluxes." }, "Scalar", "0.0", counts.edges());
     let why = "with what the inputs add.";
     list.reserve::<R>("source_of_triangles", &format!("`SOURCE_OF_TRIANGLES` {why}"), "Scalar", "0.0", data.triangles);
     list.reserve::<R>("source_of_quads", &format!("`SOURCE_OF_QUADS` {why}"), "Scalar", "0.0", data.quads);
@@ -231,12 +231,12 @@ impl<R: Scalar> Baked<R> {
 
     /// Room in a packed row.
     pub(super) fn width(&self) -> usize {
-        if self.quads.is_empty() { TRIANGLES } else { QUADS }
+        if self.of_quads.is_empty() { TRIANGLES } else { QUADS }
     }
 
     /// The index type: the shorter one that can number everything.
     pub(super) fn index(&self) -> &'static str {
-        let half_edges = 3 * self.triangles.len() + 4 * self.quads.len();
+        let half_edges = 3 * self.of_triangles.len() + 4 * self.of_quads.len();
         let addressable = (u16::LIMIT - 1) / size_of::<R>();
         let ends = 2 * self.counts.contact.max(self.counts.dirichlet);
         let numbered = half_edges.max(self.vertices.len()).max(ends);

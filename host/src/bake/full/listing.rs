@@ -34,6 +34,7 @@ const NAMES: &[(&str, &str)] = &[
     ("Product", "full::Product"),
     ("Share", "full::Share"),
     ("Mesh", "Mesh"),
+    ("Relaxation", "Relaxation"),
     ("Stiffness", "stiffness::Stiffness"),
     ("Tensor", "Tensor"),
 ];
@@ -108,7 +109,7 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         has_bound: {has_bound},
         corners: {},
         start: {:?},
-        omega: {:?},
+        relaxation: Relaxation::{:?},
     }};
 ",
         at("VERTICES"),
@@ -144,7 +145,7 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         lines(&outputs),
         at("CORNERS"),
         baked.start,
-        baked.omega,
+        baked.how.relaxation,
     )
 }
 

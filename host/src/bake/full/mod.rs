@@ -9,6 +9,7 @@
 use signorini_kernel::tick::Limits;
 
 use crate::scalar::Scalar;
+use crate::setting::Setting;
 
 mod arrays;
 mod bent;
@@ -30,7 +31,11 @@ pub use source::source;
 /// enough for the bound, they are off by some thousandths.
 pub const SHARE: f64 = 0.01;
 
-/// The limits of a baked module's ticks.
-pub fn limits<R: Scalar>() -> Limits<R> {
-    Limits { share: R::narrow(SHARE), ..Limits::default() }
+/// The limits of a baked module's ticks: exactly so many sweeps where the setting says how many, whatever is
+/// left to do after fewer; else its share of the bound, or [`SHARE`].
+pub fn limits<R: Scalar>(setting: &Setting) -> Limits<R> {
+    match setting.sweeps {
+        Some(sweeps) => Limits { error: R::ZERO, share: R::ZERO, sweeps },
+        None => Limits { share: R::narrow(setting.share.unwrap_or(SHARE)), ..Limits::default() },
+    }
 }

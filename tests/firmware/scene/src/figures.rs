@@ -38,6 +38,7 @@ impl<R: Bits> Figures for Verdict<R> {
             Self::Certified(certificate) => certificate.tell(journal),
             Self::Pulled { edge } => journal.count("pulled", *edge as u32),
             Self::NotFinite => journal.text("no bound: not finite"),
+            Self::NotAsked => journal.text("no bound: not asked"),
         }
     }
 }

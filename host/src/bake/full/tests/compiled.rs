@@ -2,11 +2,15 @@
 
 use signorini_kernel::rows;
 
+use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
 use crate::bake::compiled::printed;
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
+use crate::problem::Problem;
 use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::setting::{MathKind, Omega, Setting, Start};
 
 /// Prints the outputs of a cold and a warm tick as bits.
 const MAIN: &str = "
@@ -22,12 +26,20 @@ fn main() {
 
 fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u64) -> Result<()> {
     let (scene, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
-    let baked = Baked::<R>::new(&scene, &problem)?;
+    same_bits_of::<R, WIDTH>(&scene, &problem, bits)
+}
+
+fn same_bits_of<R: Scalar, const WIDTH: usize>(
+    scene: &Scene,
+    problem: &Problem,
+    bits: impl Fn(R) -> u64,
+) -> Result<()> {
+    let baked = Baked::<R>::new(scene, problem)?;
     let mut controller = Controller::<R, WIDTH>::new(&baked);
     let lines = [0.3, -0.2].map(|lift| {
         let defaults = scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
         let inputs: Vec<R> = std::iter::once(R::narrow(lift)).chain(defaults).collect();
-        let (outputs, _) = controller.tick(&inputs, crate::bake::full::limits()).expect("a tick");
+        let (outputs, _) = controller.tick(&inputs).expect("a tick");
         format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
     });
     assert_eq!(printed(&(source(&baked) + MAIN)), lines.concat());
@@ -42,4 +54,20 @@ fn triangles_in_f32() -> Result<()> {
 #[test]
 fn both_kinds_of_cells_in_f64() -> Result<()> {
     same_bits::<f64, { rows::QUADS }>(Cells::Mixed, f64::to_bits)
+}
+
+#[test]
+fn with_a_setting() -> Result<()> {
+    let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
+    let (of_fast, problem) = scene(BENT, Cells::Mixed, fast)?;
+    same_bits_of::<f32, { rows::QUADS }>(&of_fast, &problem, |x| x.to_bits().into())?;
+    let plain = Setting {
+        start: Start::Cold,
+        omega: Omega::Fixed(1.4),
+        sweeps: Some(12),
+        certificate: false,
+        ..Setting::default()
+    };
+    let (of_plain, problem) = scene(unbounded(), Cells::Mixed, plain)?;
+    same_bits_of::<f32, { rows::QUADS }>(&of_plain, &problem, |x| x.to_bits().into())
 }

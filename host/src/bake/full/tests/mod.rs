@@ -1,6 +1,7 @@
 //! Baked arrays through the kernel, against the solver on the same scene.
 
 mod compiled;
+mod setting;
 
 use std::path::Path;
 
@@ -102,8 +103,8 @@ fn ticks<R: Scalar, const WIDTH: usize>(
     let mut warm = Controller::<R, WIDTH>::new(&baked);
     for values in steps {
         let inputs: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
-        let (found, report) = warm.tick(&inputs, to_the_end()).expect("a tick");
-        let cold = Controller::<R, WIDTH>::new(&baked).tick(&inputs, to_the_end());
+        let (found, report) = warm.tick_within(&inputs, to_the_end()).expect("a tick");
+        let cold = Controller::<R, WIDTH>::new(&baked).tick_within(&inputs, to_the_end());
         let (cold, _) = cold.expect("a cold tick");
         let (mut scene, mut problem) = (scene.clone(), problem.clone());
         for (input, value) in scene.inputs.iter_mut().zip(*values) {
@@ -183,15 +184,15 @@ fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
     assert_eq!(baked.corners.len(), 1);
     let mut controller = Controller::<f64, { rows::TRIANGLES }>::new(&baked);
     let (outputs, _) =
-        controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
     assert!(outputs[4].is_finite());
     // u_D = 1 − 1.5 below ψ = 0.7 − 0.2 at (1, 0).
     let (outputs, report) =
-        controller.tick(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+        controller.tick_within(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
     assert!(outputs[4].is_infinite() && report.verdict.certificate().is_none());
-    assert!(controller.tick(&[f64::NAN; 6], to_the_end()).is_err());
+    assert!(controller.tick_within(&[f64::NAN; 6], to_the_end()).is_err());
     let (outputs, _) =
-        controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
     assert!(outputs[4].is_finite());
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! A baked scene on the machine at hand: the lines of the board, and as notes what it is that they show.
 //!
 //! ```text
+//!   @ scalar f32
 //!   @ model condensed
 //!   @ output 73656570616765       a name, its bytes in hexadecimal digits
 //! ```
@@ -9,12 +10,13 @@ use std::sync::{Mutex, PoisonError};
 
 use signorini_board::journal::Journal;
 use signorini_scene::play::play;
-use signorini_scene::scene::{Controller, MODEL, Outputs};
+use signorini_scene::scene::{Controller, MODEL, Outputs, Scalar};
 
 /// A static, as on a board: it may be larger than a stack.
 static CONTROLLER: Mutex<Controller> = Mutex::new(Controller::new());
 
 fn main() {
+    println!("@ scalar {}", std::any::type_name::<Scalar>());
     println!("@ model {MODEL}");
     for name in Outputs::NAMES {
         let digits: String = name.bytes().map(|byte| format!("{byte:02x}")).collect();
