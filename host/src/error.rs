@@ -52,6 +52,11 @@ impl InputError {
         Self { file: None, line: None, message: message.into(), hint: None, excerpt: None }
     }
 
+    /// What is wrong, without its place.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
     /// Adds what to do about it.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());

@@ -5,6 +5,7 @@ pub mod certify;
 pub mod cli;
 pub mod condense;
 pub mod cycles;
+pub mod engine;
 pub mod error;
 pub mod export;
 pub mod expression;

@@ -66,7 +66,7 @@ impl Default for Setting {
 }
 
 /// Cells with three or four sides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CellKind {
     /// Quads are cut along their shorter diagonal.

@@ -6,6 +6,7 @@ mod export;
 mod place;
 mod solve;
 mod tick;
+mod trade;
 
 use clap::{Parser, Subcommand};
 
@@ -18,6 +19,7 @@ Examples:
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
   signorini bake my.toml -o my.rs --explain         the scene as the firmware it needs, and why
+  signorini trade my.toml --max-error 1%            what speed costs in accuracy, and the setting to take
   signorini export my.toml -o my.rs --scalar f32    the scene as data for the kernel's stages
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
@@ -42,6 +44,8 @@ enum Command {
     Tick(tick::Arguments),
     /// Write a scene as a module of firmware: its data and a controller for them
     Bake(bake::Arguments),
+    /// Measure speed against accuracy: many settings of a scene, and the one to take
+    Trade(trade::Arguments),
     /// Write the dense contact problem of a scene as a C header, for other solvers
     Condense(condense::Arguments),
     /// Write a scene as static data of a Rust program for a microcontroller
@@ -58,6 +62,7 @@ impl Cli {
             Some(Command::Solve(arguments)) => arguments.run(),
             Some(Command::Tick(arguments)) => arguments.run(),
             Some(Command::Bake(arguments)) => arguments.run(),
+            Some(Command::Trade(arguments)) => arguments.run(),
             Some(Command::Condense(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),

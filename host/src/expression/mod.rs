@@ -101,6 +101,12 @@ impl Expression {
         self.is_constant() == Some(0.0)
     }
 
+    /// The expression of x and y that it is at the time t.
+    #[must_use]
+    pub fn at_time(&self, t: f64) -> Self {
+        Self { text: self.text.clone(), program: self.program.at_time(t) }
+    }
+
     /// Whether t occurs.
     pub fn uses_time(&self) -> bool {
         self.program.uses_time()

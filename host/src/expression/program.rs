@@ -72,6 +72,26 @@ impl Program {
         self.steps.contains(&Step::Variable(Variable::T))
     }
 
+    /// The same with t replaced by a number.
+    pub fn at_time(&self, t: f64) -> Self {
+        let mut builder = Builder::default();
+        for &step in &self.steps {
+            match step {
+                Step::Variable(Variable::T) => builder.operand(Step::Constant(t)),
+                Step::Constant(_) | Step::Variable(_) => builder.operand(step),
+                Step::Unary(operation) => {
+                    builder.unary(operation);
+                    Some(())
+                }
+                Step::Binary(operation) => {
+                    builder.binary(operation);
+                    Some(())
+                }
+            };
+        }
+        builder.finish()
+    }
+
     /// The result at the point (x, y, t).
     pub fn run<N: Number>(&self, at: [N; 3]) -> N {
         let mut stack = [N::constant(0.0); STACK];

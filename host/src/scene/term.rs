@@ -19,6 +19,20 @@ pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
     scene
 }
 
+impl Scene {
+    /// The scene as it stands at t = 0, for whoever knows no time.
+    #[must_use]
+    pub fn at_rest(mut self) -> Self {
+        let rest = |load: &mut Located<Expression>| load.value = load.value.at_time(0.0);
+        each_load(&mut self, rest);
+        if let Some(exact) = &mut self.exact {
+            rest(&mut exact.u);
+            exact.gradient.iter_mut().for_each(rest);
+        }
+        self
+    }
+}
+
 fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {

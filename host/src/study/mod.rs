@@ -19,8 +19,9 @@ use crate::error::{Error, InputError, Result};
 use crate::output::atomic::write_atomically;
 use crate::progress::{say, steps};
 use crate::report::{Report, html};
+use crate::trade::records::{self, RECORD};
+use crate::trade::section::section;
 use crate::trade::verdict::{KnobValue, knob_values};
-use crate::trade::{records, section::section};
 use case::Case;
 use checks::Check;
 use convergence::Study;
@@ -43,10 +44,9 @@ struct Results<'r> {
 /// # Errors
 /// Scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let meshes = root.join("meshes");
-    let scenes = scenes(&meshes)?;
-    let trades = records::read(&meshes)?;
+    let root = root();
+    let scenes = scenes(&root.join("meshes"))?;
+    let trades = records::read(&root.join(RECORD))?;
     let studies = convergence::planned(root)?;
     let stopped = cut_off::planned(&scenes)?;
     let bar = steps(scenes.len() + studies.len() + stopped.len());
@@ -106,16 +106,23 @@ pub fn run() -> Result<u8> {
     Ok(u8::from(!failed.is_empty()))
 }
 
-/// The scene files below `folder`, in the order of their names; records of trade studies may hold scenes
-/// too, of settings.
-fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
+/// The checkout.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+/// The scene files below `folder`, in the order of their names.
+///
+/// # Errors
+/// A folder that cannot be read, or without scenes.
+pub fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).map_err(Error::io(&folder))? {
             let path = entry.map_err(Error::io(&folder))?.path();
             if path.is_dir() {
-                folders.extend((!path.ends_with(records::FOLDER)).then_some(path));
+                folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "toml") {
                 found.push(path);
             }

@@ -7,12 +7,17 @@
 //! ```
 
 pub mod board;
+pub mod campaign;
 pub mod csv;
 mod digits;
+pub mod files;
 #[cfg(test)]
 pub(crate) mod fixtures;
+pub mod fragment;
+pub mod front;
 pub mod journal;
 mod listings;
+pub mod measure;
 pub mod mpi;
 pub mod picture;
 pub mod plan;
@@ -20,6 +25,7 @@ pub mod record;
 pub mod records;
 pub mod section;
 pub mod shard;
+pub mod study;
 pub mod table;
 pub mod target;
 pub mod truth;

@@ -179,6 +179,9 @@ impl Combination {
         if condensed && self.start == Start::Cold {
             return Some("a condensed model starts at its default inputs");
         }
+        if self.scalar == Precision::Mixed && self.start == Start::Warm {
+            return Some("f32+f64 is for single solves on the host");
+        }
         if condensed && self.scalar == Precision::Mixed {
             return Some("f32+f64 is for the full model on the host");
         }

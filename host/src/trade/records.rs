@@ -1,8 +1,8 @@
 //! The committed records, as `signorini trade` without arguments writes them.
 //!
 //! ```text
-//! meshes/trade/SCENE/trade.json        on the host
-//! meshes/trade/m4f/SCENE/trade.json    on the Cortex-M4F
+//! host/SCENE/trade.json    on this machine
+//! m4f/SCENE/trade.json     on the Cortex-M4F
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use super::record::Trade;
 use crate::error::{Error, Result};
 
-/// The folder of all records, below that of the scenes.
-pub const FOLDER: &str = "trade";
+/// The folder of all records, from the root of the checkout.
+pub const RECORD: &str = "host/benches/trade";
 
 /// What was found in it, by the names of the scenes.
 #[derive(Debug, Clone, Default)]
@@ -22,13 +22,12 @@ pub struct Records {
     pub m4f: Vec<Trade>,
 }
 
-/// Reads whatever records there are below the folder of the scenes.
+/// Reads whatever records there are in `folder`.
 ///
 /// # Errors
 /// A record that cannot be read, with its name.
-pub fn read(meshes: &Path) -> Result<Records> {
-    let folder = meshes.join(FOLDER);
-    Ok(Records { host: read_folder(&folder)?, m4f: read_folder(&folder.join("m4f"))? })
+pub fn read(folder: &Path) -> Result<Records> {
+    Ok(Records { host: read_folder(&folder.join("host"))?, m4f: read_folder(&folder.join("m4f"))? })
 }
 
 fn read_folder(folder: &Path) -> Result<Vec<Trade>> {
@@ -65,17 +64,16 @@ mod tests {
 
     #[test]
     fn what_is_there_is_read_by_target_and_name() {
-        let meshes = tempfile::tempdir().unwrap();
-        let none = read(meshes.path()).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let none = read(folder.path()).unwrap();
         assert!(none.host.is_empty() && none.m4f.is_empty());
-        let folder = meshes.path().join("trade");
         let (pit, levee) = (trade("pit", 3), trade("levee", 5));
         let board = Trade { target: "m4f".to_owned(), ..trade("pit", 2) };
-        write(&folder, &pit);
-        write(&folder, &levee);
-        write(&folder.join("m4f"), &board);
-        std::fs::write(folder.join("sizes.json"), "{}").unwrap();
-        let found = read(meshes.path()).unwrap();
+        write(&folder.path().join("host"), &pit);
+        write(&folder.path().join("host"), &levee);
+        write(&folder.path().join("m4f"), &board);
+        std::fs::write(folder.path().join("host/sizes.json"), "{}").unwrap();
+        let found = read(folder.path()).unwrap();
         let known = |trades: &[Trade]| {
             let known = trades.iter().map(|t| (t.scene.clone(), t.target.clone(), t.points.len()));
             known.collect::<Vec<_>>()
@@ -86,10 +84,10 @@ mod tests {
 
     #[test]
     fn a_broken_record_fails_with_its_name() {
-        let meshes = tempfile::tempdir().unwrap();
-        let path = write(&meshes.path().join("trade"), &trade("pit", 1));
+        let folder = tempfile::tempdir().unwrap();
+        let path = write(&folder.path().join("host"), &trade("pit", 1));
         std::fs::write(&path, "{\"scene\": \"pit\"").unwrap();
-        let error = read(meshes.path()).unwrap_err();
+        let error = read(folder.path()).unwrap_err();
         assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
         assert_eq!(error.exit_status(), 1);
     }

@@ -30,6 +30,11 @@ impl Shard {
         self.count == 1
     }
 
+    /// How many processes there are.
+    pub fn count(self) -> usize {
+        self.count
+    }
+
     /// Whether the case with this position in the list, counted from 0, belongs to this shard.
     pub fn takes(self, case: usize) -> bool {
         case % self.count == self.index - 1

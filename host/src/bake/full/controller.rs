@@ -141,6 +141,11 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         &self.tau
     }
 
+    /// Means of ψ over the contact edges in the last tick.
+    pub fn lower(&self) -> &[R] {
+        if self.data.gap.is_empty() { &self.baked.data.gap } else { &self.data.gap }
+    }
+
     /// s at the vertices; empty without a certificate.
     pub fn vertices(&self) -> &[R] {
         &self.vertices

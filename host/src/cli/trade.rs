@@ -1,0 +1,103 @@
+//! `signorini trade`: speed against accuracy, measured.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::error::{InputError, Result};
+use crate::progress::{say, steps};
+use crate::trade::campaign::{Campaign, Ended};
+use crate::trade::front::{Tolerance, Wish};
+use crate::trade::shard::Shard;
+use crate::trade::table::text;
+use crate::trade::target::Target;
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini trade meshes/scenes/levee.toml
+  signorini trade meshes/scenes/levee.toml --target m4f --budget-cycles 100000
+  signorini trade bar.toml --max-error 1% --out out/bar
+  signorini trade scenes/*.toml --shard 2/4
+
+A study plans up to 60 settings of a scene (number format, mesh, cells, sweeps, start, ω, model, bound), measures each,
+and recommends one. It leaves trade.json, trade.csv, trade.svg and recommended.toml, a fragment of a
+scene that solve, bake and `cargo xtask firmware` take. A scene with a [setting] is measured in that alone.
+Without a scene it renews the record of every standard scene, on the host and on the M4F.
+
+Interrupted, the same command goes on where it was. --shard 1/4 … 4/4 share the work among processes that see the same
+folder; the same command without --shard then puts their parts together.";
+
+/// Arguments of `trade`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// Scene files (TOML) [default: every standard scene]
+    scenes: Vec<PathBuf>,
+    /// The most that a tick may cost: cycles on the host, instructions on m4f and m7
+    #[arg(long, value_name = "N", value_parser = budget)]
+    budget_cycles: Option<f64>,
+    /// The largest energy error, absolute or (with %) as a part of the solution's energy norm
+    #[arg(long, value_name = "E")]
+    max_error: Option<Tolerance>,
+    /// Whose cost decides: this machine's, or that of an emulated Cortex-M4F or M7 [default: host]
+    #[arg(long, value_enum)]
+    target: Option<Target>,
+    /// Where the files go, for several scenes in a folder each [default: out/SCENE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// This process's share of the cases, i of n
+    #[arg(long, value_name = "i/n")]
+    shard: Option<Shard>,
+}
+
+fn budget(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(budget) if budget.is_finite() && budget > 0.0 => Ok(budget),
+        _ => Err("expected a positive number, such as 200000".to_owned()),
+    }
+}
+
+impl Arguments {
+    pub(super) fn run(self) -> Result<u8> {
+        let wish = Wish { budget: self.budget_cycles, error: self.max_error };
+        let campaign = match self.scenes.is_empty() {
+            true => Campaign::standard(self.target, self.out.as_deref())?,
+            false => Campaign::of(
+                &self.scenes,
+                self.target.unwrap_or(Target::Host),
+                self.out.as_deref(),
+            )?,
+        };
+        let bar = steps(0);
+        let ended = campaign.run(self.shard, &wish, &mut |case| {
+            bar.set_length(case.of as u64);
+            bar.set_position(case.number as u64);
+            bar.set_message(case.name.to_owned());
+        });
+        bar.finish_and_clear();
+        let Ended { trades, left, status } = ended?;
+        for (folder, trade) in &trades {
+            say(text(trade));
+            say(format_args!("written to {}", folder.display()));
+        }
+        if left > 0 {
+            say(format_args!(
+                "{left} scenes wait for other processes: the same command without --shard puts the parts together"
+            ));
+        }
+        refused(&trades, &wish).map(|refused| refused.max(status))
+    }
+}
+
+/// A wish that nothing meets is wrong input; the studies are written all the same.
+fn refused(trades: &[(PathBuf, crate::trade::record::Trade)], wish: &Wish) -> Result<u8> {
+    let unmet = trades.iter().find(|(_, trade)| trade.recommendation.point.is_none());
+    match unmet {
+        Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {
+            let message = format!("{}: {}", trade.scene, trade.recommendation.text);
+            let hint = "ask for less, or refine the mesh: every setting measured is in trade.csv";
+            Err(InputError::new(message).hint(hint).into())
+        }
+        _ => Ok(0),
+    }
+}

@@ -1,0 +1,97 @@
+//! The condensed model.
+
+use signorini_kernel::condensed::Report;
+use signorini_kernel::condensed::method::Ended;
+use signorini_kernel::solver::Status;
+
+use super::{Answer, Engine};
+use crate::bake::choice::{Choice, Model};
+use crate::bake::condensed::{Baked, Controller};
+use crate::certify::ErrorBound;
+use crate::condense::{Condensate, Recovery, recoverable};
+use crate::error::{InputError, Result};
+use crate::problem::Problem;
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::setting::ModelKind;
+use crate::solve::unfit;
+
+struct Condensed<'b, R: Scalar> {
+    scene: &'b Scene,
+    condensate: &'b Condensate,
+    recovery: &'b Recovery,
+    baked: &'b Baked<R>,
+    controller: Controller<'b, R>,
+    inputs: Vec<R>,
+    report: Option<Report<R>>,
+}
+
+/// Lends it.
+pub(super) fn with<R: Scalar, T>(
+    scene: &Scene,
+    problem: &Problem,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let (condensate, recovery) = recoverable(scene, problem)?;
+    let choice = Choice::<R>::new(scene, problem, Some(ModelKind::Condensed), false)?;
+    let Model::Condensed(baked) = &choice.candidate().model else {
+        let message = "setting.model: there is no condensed model of this scene";
+        return Err(InputError::new(message).file(&scene.path).into());
+    };
+    then(&mut Condensed {
+        scene,
+        condensate: &condensate,
+        recovery: &recovery,
+        baked,
+        controller: Controller::new(baked),
+        inputs: Vec::new(),
+        report: None,
+    })
+}
+
+impl<R: Scalar> Engine for Condensed<'_, R> {
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
+        self.inputs.clear();
+        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
+        let (_, report) = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        self.report = Some(report);
+        Ok(report.sweeps)
+    }
+
+    fn restart(&mut self) {
+        self.controller = Controller::new(self.baked);
+    }
+
+    fn answer(&self, problem: &Problem) -> Result<Answer> {
+        let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
+        let p: Vec<f64> =
+            std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
+        let (u, flux) = self.recovery.field(self.condensate, &p, &x);
+        let counts = problem.topology.counts;
+        let pressed = flux.iter().skip(counts.free).zip(&problem.loads.contact_flux);
+        let certificate = self.report.as_ref().and_then(|report| report.certificate.as_ref());
+        let certified = self.recovery.admissible(self.condensate, problem, &p, &x);
+        Ok(Answer {
+            status: self.report.map_or(Status::OutOfSweeps, |report| match report.ended {
+                Ended::Exact | Ended::Converged => Status::Converged,
+                Ended::OutOfWork => Status::OutOfSweeps,
+            }),
+            sweeps: self.report.map_or(0, |report| report.sweeps),
+            omega: self.baked.sweeps.omega.wide(),
+            residual: largest_violation(&self.condensate.residual(&p, &x), &x),
+            force: pressed.map(|(flux, q)| flux - q).sum(),
+            active: x.iter().map(|&x| x == 0.0).collect(),
+            bound: certificate.map(ErrorBound::new),
+            certified: certified.filter(|_| certificate.is_some()).unwrap_or_default(),
+            u,
+            flux,
+        })
+    }
+}
+
+/// max |min(x, r)| over max x: how far complementarity fails.
+fn largest_violation(residual: &[f64], x: &[f64]) -> f64 {
+    let size = x.iter().chain(residual).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let violations = residual.iter().zip(x).map(|(r, x)| r.min(*x).abs());
+    violations.fold(0.0, f64::max) / size
+}

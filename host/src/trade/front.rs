@@ -1,0 +1,160 @@
+//! The Pareto front, and the setting to take.
+
+use super::record::{Point, Recommendation, Trade};
+use super::target::Target;
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Wish {
+    /// Most cycles of a tick on the host, most instructions on a board.
+    pub budget: Option<f64>,
+    /// Largest energy error.
+    pub error: Option<Tolerance>,
+}
+
+/// A largest error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    /// In the unit of ‖A^½∇u‖.
+    Absolute(f64),
+    /// A part of ‖A^½∇u‖.
+    Relative(f64),
+}
+
+impl std::str::FromStr for Tolerance {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (number, percent) = match text.strip_suffix('%') {
+            Some(number) => (number.trim_end(), true),
+            None => (text, false),
+        };
+        match number.parse::<f64>() {
+            Ok(value) if value.is_finite() && value > 0.0 => Ok(match percent {
+                true => Self::Relative(value / 100.0),
+                false => Self::Absolute(value),
+            }),
+            _ => Err(
+                "expected a positive number, such as 0.02, or a part of the solution, such as 1%"
+                    .to_owned(),
+            ),
+        }
+    }
+}
+
+impl Point {
+    /// What a tick costs: cycles on the host, instructions on a board.
+    pub fn cost(&self) -> f64 {
+        self.instructions.map_or(self.cycles, |instructions| instructions as f64)
+    }
+}
+
+/// Marks the points than which no other is better in both cost and error.
+pub fn mark(points: &mut [Point]) {
+    let places: Vec<_> = points.iter().map(|point| (point.cost(), point.error.energy)).collect();
+    for (point, &(cost, error)) in points.iter_mut().zip(&places) {
+        point.pareto = !places.iter().any(|&(other, less)| other < cost && less < error);
+    }
+}
+
+/// Slack within which an error counts as the best that a mesh allows for.
+const AS_GOOD: f64 = 1.1;
+
+/// The point for a wish: the cheapest that is accurate enough, the most accurate that is cheap enough. Without a wish
+/// the cheapest that is as accurate as the scene's own mesh, solved in full.
+pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
+    let points = || trade.points.iter().filter(|point| point.scalar != "f32+f64");
+    let cheap = |point: &&Point| wish.budget.is_none_or(|budget| point.cost() <= budget);
+    let most = match wish.error {
+        Some(Tolerance::Absolute(error)) => Some(error),
+        Some(Tolerance::Relative(part)) => Some(part * trade.energy),
+        None if wish.budget.is_some() => None,
+        None => {
+            let own = points().filter(|point| point.level == 0 && point.setting.cells.is_none());
+            own.map(|point| AS_GOOD * point.error.energy).min_by(f64::total_cmp)
+        }
+    };
+    match most {
+        Some(most) => points()
+            .filter(cheap)
+            .filter(|point| point.error.energy <= most)
+            .min_by(|a, b| a.cost().total_cmp(&b.cost()).then(by_error(a, b))),
+        None => {
+            points().filter(cheap).min_by(|a, b| by_error(a, b).then(a.cost().total_cmp(&b.cost())))
+        }
+    }
+}
+
+fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
+    a.error.energy.total_cmp(&b.error.energy)
+}
+
+/// The point with its sentence; without one, what comes nearest.
+pub fn recommend(trade: &Trade, wish: &Wish, target: Target) -> Recommendation {
+    match choose(trade, wish) {
+        Some(point) => {
+            Recommendation { text: sentence(trade, point, target), point: Some(point.clone()) }
+        }
+        None => Recommendation { text: nothing(trade, wish, target), point: None },
+    }
+}
+
+fn sentence(trade: &Trade, point: &Point, target: Target) -> String {
+    let Point { name, error, bound, .. } = point;
+    let percent = |part: f64, whole: f64| {
+        format!("{:.2} %", 100.0 * part / whole.abs().max(f64::MIN_POSITIVE))
+    };
+    let certified = match bound {
+        Some(bound) => format!("certified {}", percent(*bound, trade.energy)),
+        None => "not certified".to_owned(),
+    };
+    let force = match trade.force {
+        0.0 => String::new(),
+        force => format!("; contact force within {}", percent(error.force, force)),
+    };
+    format!(
+        "For {} {} a tick take {name}: energy error {} ({certified}){force}.",
+        thousands(point.cost()),
+        target.unit(),
+        percent(error.energy, trade.energy)
+    )
+}
+
+fn nothing(trade: &Trade, wish: &Wish, target: Target) -> String {
+    let cheapest = trade.points.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let best = trade.points.iter().min_by(|a, b| by_error(a, b));
+    let (Some(cheapest), Some(best)) = (cheapest, best) else {
+        return "No setting could be measured.".to_owned();
+    };
+    let asked = match (wish.budget, wish.error) {
+        (Some(budget), Some(_)) => {
+            format!("accurate enough within {} {}", thousands(budget), target.unit())
+        }
+        (Some(budget), None) => format!("within {} {}", thousands(budget), target.unit()),
+        _ => "accurate enough".to_owned(),
+    };
+    format!(
+        "No setting measured is {asked}: the cheapest, {}, takes {} {} with an error of {:.3e}; the most accurate, {}, \
+         takes {} with {:.3e}.",
+        cheapest.name,
+        thousands(cheapest.cost()),
+        target.unit(),
+        cheapest.error.energy,
+        best.name,
+        thousands(best.cost()),
+        best.error.energy
+    )
+}
+
+/// A whole number, its thousands apart.
+pub fn thousands(number: f64) -> String {
+    let digits = format!("{number:.0}");
+    let mut text = String::new();
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at) % 3 == 0 && digits.as_bytes()[at - 1] != b'-' {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}

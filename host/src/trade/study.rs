@@ -1,0 +1,344 @@
+//! The study of one scene: plan, truth, points, other solvers; interrupted, it goes on where it was.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::board::{self, Measured};
+use super::front::{Wish, mark, recommend};
+use super::journal::Journal;
+use super::plan::{Ground, Plan};
+use super::record::{Baseline, FunctionCost, Point, Recommendation, Skipped, Trade};
+use super::shard::Shard;
+use super::target::Target;
+use super::truth::Truth;
+use super::{fragment, measure};
+use crate::bake::face::Face;
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, adapted::adapted, gmsh};
+use crate::problem::{Parts, Problem};
+use crate::scene::Scene;
+use crate::setting::{CellKind, Precision, Setting};
+use crate::solve::tuned_omega;
+
+/// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The scene, its data at t = 0.
+    pub scene: Scene,
+    /// Its name.
+    pub name: String,
+    /// Whose cost decides.
+    pub target: Target,
+    /// The folder of its files.
+    pub folder: PathBuf,
+}
+
+/// What of a study is known.
+#[derive(Debug)]
+pub enum Progress {
+    /// All of it.
+    Whole(Box<Trade>),
+    /// This process's cases; others have the rest.
+    Part,
+}
+
+/// A setting measured, or why it could not be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Case {
+    Point(Box<Point>),
+    Left(String),
+}
+
+/// What is known of the truth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Facts {
+    words: String,
+    energy: f64,
+    force: f64,
+    length: f64,
+}
+
+/// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
+const FINEST: usize = 16_000;
+/// Refinements at most.
+const LEVELS: u32 = 2;
+/// What a tuned ω brings the algebraic error down to, from a cold start.
+const GOAL: f64 = 1e-3;
+
+impl Study {
+    /// Opens the scene at `path`.
+    ///
+    /// # Errors
+    /// A scene that cannot be read.
+    pub fn open(path: &Path, target: Target, folder: PathBuf) -> Result<Self> {
+        let scene = Scene::read(path)?.at_rest();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { scene, name, target, folder })
+    }
+
+    /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
+    /// this process's. `done` hears of every case: how many there are, and what it was.
+    ///
+    /// # Errors
+    /// Wrong input, files that cannot be written.
+    pub fn run(
+        &self,
+        shard: Shard,
+        by_scene: bool,
+        wish: &Wish,
+        done: &mut dyn FnMut(usize, &str),
+    ) -> Result<Progress> {
+        let mut meshes = Meshes::new(&self.scene)?;
+        let fingerprint = self.fingerprint(&mut meshes)?;
+        let mut journal = Journal::open(&self.folder, shard, &fingerprint)?;
+        let plan = self.plan(&mut meshes, &mut journal)?;
+        let mine = |case: usize| by_scene || shard.takes(case);
+        let extras = if self.is_alone() { 0 } else { 2 };
+        let all = plan.settings.len() + extras;
+        let mut truth = None;
+        let mut cases = Vec::new();
+        for (at, setting) in plan.settings.iter().enumerate() {
+            let case = self.case(setting, mine(at), &mut meshes, &mut truth, &mut journal)?;
+            done(all, case.as_ref().map_or("", Case::name));
+            cases.extend(case);
+        }
+        let (mut baselines, mut functions) = (Some(Vec::new()), Some(Vec::new()));
+        if extras > 0 {
+            let problem = meshes.problem(None, 0)?;
+            let solvers = || Ok(Vec::new());
+            baselines = once(&mut journal, "baselines", mine(all - 2), solvers)?;
+            done(all, "other solvers");
+            let of_math = || Ok(Vec::new());
+            functions = once(&mut journal, "math", mine(all - 1), of_math)?;
+            done(all, "micromath");
+        }
+        let facts = journal.known::<Facts>("truth");
+        let whole = (cases.len() == plan.settings.len(), facts, baselines, functions);
+        let (true, Some(facts), Some(baselines), Some(functions)) = whole else {
+            return Ok(Progress::Part);
+        };
+        if !shard.is_whole() {
+            return Ok(Progress::Part);
+        }
+        let trade = self.together(plan.skipped, facts, cases, baselines, functions, wish);
+        super::files::write(&self.folder, &self.scene, &trade)?;
+        journal.close()?;
+        Ok(Progress::Whole(Box::new(trade)))
+    }
+
+    /// A scene with a setting of its own is measured in that alone.
+    fn is_alone(&self) -> bool {
+        self.scene.setting.is_some()
+    }
+
+    fn fingerprint(&self, meshes: &mut Meshes) -> Result<String> {
+        let hash = Face::new(&self.scene, meshes.problem(None, 0)?).hash();
+        Ok(format!("{hash:016x} {} {}", self.target, env!("CARGO_PKG_VERSION")))
+    }
+
+    fn plan(&self, meshes: &mut Meshes, journal: &mut Journal) -> Result<Plan> {
+        if let Some(setting) = self.scene.setting {
+            return Ok(Plan { settings: vec![setting], skipped: Vec::new() });
+        }
+        let other_cells = meshes.other_cells()?;
+        let problem = meshes.problem(None, 0)?;
+        let parts = Parts::examine(&self.scene, problem)?.counts;
+        let is_loose = parts.contact + parts.floating > 0;
+        let tuned = || match is_loose {
+            true => Ok(None),
+            false => tuned_omega(&self.scene, problem, Precision::F64, GOAL).map(Some),
+        };
+        let tuned: Option<f64> = once(journal, "tuned", true, tuned)?.flatten();
+        Ok(Plan::new(&Ground {
+            target: self.target,
+            other_cells,
+            finest: finest(problem),
+            has_inputs: !self.scene.inputs.is_empty(),
+            is_loose,
+            unknowns: problem.topology.counts.unknowns(),
+            tuned,
+        }))
+    }
+
+    /// What is known of a setting, measured now where it is this process's; `None`: another has it.
+    fn case(
+        &self,
+        setting: &Setting,
+        mine: bool,
+        meshes: &mut Meshes,
+        truth: &mut Option<Truth>,
+        journal: &mut Journal,
+    ) -> Result<Option<Case>> {
+        let key = serde_json::to_string(setting).unwrap_or_default();
+        if let Some(known) = journal.known(&key) {
+            return Ok(Some(known));
+        }
+        if !mine {
+            return Ok(None);
+        }
+        if truth.is_none() {
+            let found = self.truth(meshes)?;
+            let facts = Facts {
+                words: found.words(),
+                energy: found.energy(),
+                force: found.force(),
+                length: found.length(),
+            };
+            journal.add("truth", &facts)?;
+            *truth = Some(found);
+        }
+        let Some(truth) = truth else { return Ok(None) };
+        let case = match self.measured(setting, meshes, truth) {
+            Ok(case) => case,
+            // What one setting does not allow for is no reason to leave the others.
+            Err(Error::Input(error)) if !self.is_alone() => Case::Left(error.message().to_owned()),
+            Err(error) => return Err(error),
+        };
+        journal.add(&key, &case)?;
+        Ok(Some(case))
+    }
+
+    fn truth(&self, meshes: &Meshes) -> Result<Truth> {
+        let level = finest(&Problem::new(&self.scene, meshes.own.clone())?);
+        let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
+        Truth::new(&self.scene, meshes.own(), level, refined)
+    }
+
+    fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
+        let scene = Scene { setting: Some(*setting), ..self.scene.clone() };
+        let mut point =
+            measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
+        if let Some(board) = self.target.board() {
+            let folder = self.folder.join("points");
+            let file = folder.join(format!("{:016x}.toml", digest(&point.name)));
+            fragment::write(&file, &scene, setting, &point.name)?;
+            match board::measure(&file, board, &folder)? {
+                Measured::Runs(footprint) => {
+                    point.instructions = Some(footprint.instructions);
+                    point.ram_bytes = Some(footprint.ram);
+                    point.flash_bytes = Some(footprint.flash);
+                }
+                Measured::Impossible(reason) => return Ok(Case::Left(reason)),
+            }
+        }
+        Ok(Case::Point(Box::new(point)))
+    }
+
+    fn together(
+        &self,
+        mut skipped: Vec<Skipped>,
+        facts: Facts,
+        cases: Vec<Case>,
+        baselines: Vec<Baseline>,
+        math: Vec<FunctionCost>,
+        wish: &Wish,
+    ) -> Trade {
+        let mut points = Vec::new();
+        for case in cases {
+            match case {
+                Case::Point(point) => points.push(*point),
+                Case::Left(reason) => match skipped.iter_mut().find(|known| known.reason == reason)
+                {
+                    Some(known) => known.count += 1,
+                    None => skipped.push(Skipped { reason, count: 1 }),
+                },
+            }
+        }
+        mark(&mut points);
+        let mut trade = Trade {
+            scene: self.name.clone(),
+            title: self.scene.title.clone(),
+            target: self.target.to_string(),
+            truth: facts.words,
+            energy: facts.energy,
+            force: facts.force,
+            length: facts.length,
+            points,
+            skipped: skipped.iter().map(|skipped| skipped.count).sum(),
+            skipped_reasons: skipped,
+            baselines,
+            math,
+            recommendation: Recommendation { text: String::new(), point: None },
+        };
+        trade.recommendation = recommend(&trade, wish, self.target);
+        trade
+    }
+}
+
+impl Case {
+    fn name(&self) -> &str {
+        match self {
+            Self::Point(point) => &point.name,
+            Self::Left(reason) => reason,
+        }
+    }
+}
+
+/// What the journal knows under `key`, or what `work` finds, where it is this process's to find.
+fn once<T: Serialize + DeserializeOwned + PartialEq>(
+    journal: &mut Journal,
+    key: &str,
+    mine: bool,
+    work: impl FnOnce() -> Result<T>,
+) -> Result<Option<T>> {
+    if let Some(known) = journal.known(key) {
+        return Ok(Some(known));
+    }
+    if !mine {
+        return Ok(None);
+    }
+    let found = work()?;
+    journal.add(key, &found)?;
+    Ok(Some(found))
+}
+
+/// How often the scene's mesh is refined at most.
+fn finest(problem: &Problem) -> u32 {
+    let unknowns = problem.topology.counts.unknowns();
+    (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
+}
+
+fn digest(text: &str) -> u64 {
+    use std::hash::{DefaultHasher, Hash, Hasher};
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The meshes of a study, each made once.
+struct Meshes {
+    scene: Scene,
+    own: Mesh,
+    made: HashMap<(Option<CellKind>, u32), Problem>,
+}
+
+impl Meshes {
+    fn new(scene: &Scene) -> Result<Self> {
+        let own = gmsh::read(&scene.mesh.value)?;
+        let scene = Scene { setting: None, ..scene.clone() };
+        Ok(Self { scene, own, made: HashMap::new() })
+    }
+
+    fn own(&self) -> &Mesh {
+        &self.own
+    }
+
+    /// The kind of cells that the mesh is not yet made of, where it can be brought to them.
+    fn other_cells(&self) -> Result<Option<CellKind>> {
+        let kind =
+            if self.own.triangles.is_empty() { CellKind::Triangles } else { CellKind::Quads };
+        let other = adapted(self.own.clone(), Some(kind), 0)?;
+        Ok((other.triangles.len() != self.own.triangles.len()).then_some(kind))
+    }
+
+    fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {
+        if !self.made.contains_key(&(cells, level)) {
+            let mesh = adapted(self.own.clone(), cells, level)?;
+            self.made.insert((cells, level), Problem::new(&self.scene, mesh)?);
+        }
+        Ok(&self.made[&(cells, level)])
+    }
+}

@@ -1,0 +1,261 @@
+//! `signorini trade` as users meet it: a study of a small scene, its files, its recommendation, its wishes, its
+//! interruptions.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+use signorini_host::mesh::gmsh;
+
+/// Exit status, standard output and error of `signorini`.
+fn signorini(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(arguments).output();
+    let output = output.expect("the binary runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let stderr = text(&output.stderr);
+    assert!(!stderr.contains("panicked"), "{stderr}");
+    (output.status.code().unwrap_or(-1), text(&output.stdout), stderr)
+}
+
+/// A strip of 8 × 4 squares, cut, warmed from above, with an input.
+const SCENE: &str = r#"
+title = "a small strip"
+mesh = "strip.msh"
+[material.default]
+conductivity = "1"
+[source]
+f = "-2"
+[boundary.contact]
+kind = "contact"
+gap = "-0.2"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "0.1*x"
+[input.load]
+of = "source"
+field = "f"
+pattern = "1"
+default = 0.5
+"#;
+
+/// The mesh of [`SCENE`]: MSH 2.2.
+fn mesh() -> String {
+    let (columns, rows) = (8, 4);
+    let vertex = |i: usize, j: usize| j * (columns + 1) + i + 1;
+    let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"contact\"\n1 2 \
+                    \"dirichlet\"\n2 3 \"plate\"\n$EndPhysicalNames\n"
+        .to_owned();
+    text += &format!("$Nodes\n{}\n", (columns + 1) * (rows + 1));
+    for j in 0..=rows {
+        for i in 0..=columns {
+            text += &format!("{} {} {} 0\n", vertex(i, j), i as f64 / 4.0 - 1.0, j as f64 / 4.0);
+        }
+    }
+    let mut elements = Vec::new();
+    for i in 0..columns {
+        elements.push(format!("1 2 1 1 {} {}", vertex(i, 0), vertex(i + 1, 0)));
+        elements.push(format!("1 2 2 2 {} {}", vertex(i, rows), vertex(i + 1, rows)));
+    }
+    for j in 0..rows {
+        for i in [0, columns] {
+            elements.push(format!("1 2 2 2 {} {}", vertex(i, j), vertex(i, j + 1)));
+        }
+        for i in 0..columns {
+            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+            let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
+            elements.push(format!("2 2 3 3 {a} {b} {c}"));
+            elements.push(format!("2 2 3 3 {a} {c} {d}"));
+        }
+    }
+    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
+    for (at, element) in elements.iter().enumerate() {
+        text += &format!("{} {element}\n", at + 1);
+    }
+    text + "$EndElements\n"
+}
+
+/// A folder with the scene in it.
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("strip.msh"), mesh()).expect("a mesh");
+        std::fs::write(folder.path().join("strip.toml"), SCENE).expect("a scene");
+        assert!(gmsh::read(&folder.path().join("strip.msh")).is_ok());
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// `signorini trade` on the scene, into `out`.
+    fn trade(&self, out: &str, more: &[&str]) -> (i32, String, String) {
+        let (scene, out) = (self.path("strip.toml"), self.path(out));
+        let mut arguments = vec!["trade", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
+        arguments.extend(more);
+        signorini(&arguments)
+    }
+
+    fn record(&self, out: &str) -> Value {
+        read(&self.path(out).join("trade.json"))
+    }
+}
+
+fn read(path: &Path) -> Value {
+    let text =
+        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn number(point: &Value, key: &str) -> f64 {
+    let place = format!("/{}", key.replace('.', "/"));
+    point.pointer(&place).and_then(Value::as_f64).unwrap_or_else(|| panic!("{key}: {point}"))
+}
+
+fn points(record: &Value) -> &[Value] {
+    record["points"].as_array().expect("points")
+}
+
+/// One study serves all that is asked of its files: it takes some seconds.
+#[test]
+fn a_study_says_what_it_measured() {
+    let bench = Bench::new();
+    let (status, stdout, stderr) = bench.trade("out", &[]);
+    assert_eq!(status, 0, "{stderr}");
+    let record = bench.record("out");
+    let all = points(&record);
+    assert!(all.len() > 30 && all.len() <= 60, "{}", all.len());
+    assert!(record["skipped"].as_u64().is_some_and(|skipped| skipped > 100));
+    every_point_is_sound(all);
+    the_front_is_the_front(all);
+    the_recommendation_is_kept(&bench, &record);
+    let text = record["recommendation"]["text"].as_str().unwrap();
+    assert!(stdout.contains(text.split(':').next().unwrap()), "{stdout}");
+    for file in ["trade.csv", "trade.svg", "recommended.toml"] {
+        assert!(bench.path("out").join(file).is_file(), "{file}");
+    }
+    let lines = std::fs::read_to_string(bench.path("out/trade.csv")).unwrap();
+    assert_eq!(lines.lines().count(), all.len() + 1);
+    let left: Vec<_> = std::fs::read_dir(bench.path("out")).unwrap().flatten().collect();
+    assert!(
+        !left.iter().any(|entry| entry.file_name().to_string_lossy().contains("jsonl")),
+        "{left:?}"
+    );
+}
+
+fn every_point_is_sound(all: &[Value]) {
+    for point in all {
+        assert!(number(point, "error.energy") > 0.0 && number(point, "cycles") > 0.0);
+        assert!(point["instructions"].is_null() && point["ram_bytes"].is_null());
+        assert_eq!(point["bound"].is_null(), point["certificate"] == false, "{point}");
+        if !point["bound"].is_null() {
+            // The reference is finer, not exact: its own error stands between the two.
+            assert!(number(point, "bound") > 0.97 * number(point, "error.combined"), "{point}");
+        }
+    }
+    let has = |key: &str, value: &str| all.iter().any(|point| point[key] == value);
+    for (key, values) in [
+        ("scalar", ["f32", "f64", "f32+f64"]),
+        ("omega", ["auto", "tuned", "unit"]),
+        ("start", ["warm", "cold", "warm"]),
+        ("model", ["full", "condensed", "full"]),
+        ("cells", ["triangles", "quads", "quads"]),
+        ("math", ["libm", "micromath", "libm"]),
+    ] {
+        assert!(values.iter().all(|value| has(key, value)), "{key}");
+    }
+}
+
+fn the_front_is_the_front(all: &[Value]) {
+    for point in all {
+        let better = |other: &&Value| {
+            number(other, "cycles") < number(point, "cycles")
+                && number(other, "error.energy") < number(point, "error.energy")
+        };
+        assert_eq!(point["pareto"] == true, !all.iter().any(|other| better(&other)), "{point}");
+    }
+}
+
+/// The fragment, studied and solved alone, gives the error that was promised.
+fn the_recommendation_is_kept(bench: &Bench, record: &Value) {
+    let promised = &record["recommendation"]["point"];
+    let fragment = bench.path("out/recommended.toml");
+    let (status, _, stderr) = signorini(&[
+        "trade",
+        fragment.to_str().unwrap(),
+        "--out",
+        bench.path("alone").to_str().unwrap(),
+    ]);
+    assert_eq!(status, 0, "{stderr}");
+    let alone = bench.record("alone");
+    assert_eq!(points(&alone).len(), 1);
+    let [found, asked] = [&alone["points"][0], promised].map(|point| number(point, "error.energy"));
+    assert!((found / asked - 1.0).abs() < 1e-6, "{found} {asked}");
+    let solved = bench.path("solved");
+    let (status, _, stderr) =
+        signorini(&["solve", fragment.to_str().unwrap(), "--out", solved.to_str().unwrap()]);
+    assert_eq!(status, 0, "{stderr}");
+    let summary = read(&solved.join("summary.json"));
+    assert_eq!(summary["unknowns"], promised["unknowns"]);
+    let module = bench.path("module.rs");
+    let (status, _, stderr) =
+        signorini(&["bake", fragment.to_str().unwrap(), "-o", module.to_str().unwrap()]);
+    assert_eq!(status, 0, "{stderr}");
+    let source = std::fs::read_to_string(module).unwrap();
+    let model = format!("pub const MODEL: &str = {};", promised["model"]);
+    assert!(source.contains(&model), "{model}");
+}
+
+#[test]
+fn wishes_pick_the_best_point_or_say_that_there_is_none() {
+    let bench = Bench::new();
+    let shards = [bench.trade("out", &["--shard", "1/2"]), bench.trade("out", &["--shard", "2/2"])];
+    for (status, stdout, stderr) in shards {
+        assert_eq!(status, 0, "{stderr}");
+        assert!(stdout.contains("without --shard"), "{stdout}");
+    }
+    assert!(!bench.path("out/trade.json").exists());
+    // An interruption in the middle of a line.
+    let journal = bench.path("out/points-2-of-2.jsonl");
+    let text = std::fs::read(&journal).unwrap();
+    std::fs::write(&journal, &text[..text.len() - 7]).unwrap();
+    let (status, _, stderr) = bench.trade("out", &["--max-error", "30%"]);
+    assert_eq!(status, 0, "{stderr}");
+    let record = bench.record("out");
+    let energy = number(&record, "energy");
+    let chosen = &record["recommendation"]["point"];
+    let good = points(&record).iter().filter(|point| number(point, "error.energy") <= 0.3 * energy);
+    let least = good.map(|point| number(point, "cycles")).fold(f64::INFINITY, f64::min);
+    assert_eq!(number(chosen, "cycles"), least);
+
+    let (status, _, stderr) = bench.trade("none", &["--max-error", "1e-30"]);
+    assert_eq!(status, 2, "{stderr}");
+    assert!(stderr.contains("the most accurate"), "{stderr}");
+    let record = bench.record("none");
+    assert!(record["recommendation"]["point"].is_null());
+    assert!(!bench.path("none/recommended.toml").exists());
+}
+
+#[test]
+fn wrong_words_are_named() {
+    let bench = Bench::new();
+    for (more, part) in [
+        (&["--shard", "3/2"][..], "--shard"),
+        (&["--max-error", "-1"], "--max-error"),
+        (&["--budget-cycles", "0"], "--budget-cycles"),
+        (&["--target", "m3"], "m3"),
+    ] {
+        let (status, _, stderr) = bench.trade("out", more);
+        assert_eq!(status, 2, "{stderr}");
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+    let scene = bench.path("strip.toml");
+    let scene = scene.to_str().unwrap();
+    let (status, _, stderr) = signorini(&["trade", scene, scene]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("two scenes of one name"), "{stderr}");
+}
