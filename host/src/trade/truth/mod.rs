@@ -10,6 +10,7 @@
 mod distance;
 mod exact;
 mod places;
+mod recovery;
 mod reference;
 #[cfg(test)]
 mod tests;
