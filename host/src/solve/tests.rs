@@ -16,6 +16,12 @@ fn meshes(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes").join(folder)
 }
 
+fn standard_scenes() -> impl Iterator<Item = PathBuf> {
+    let files = ["catalogue", "scenes"].map(|folder| std::fs::read_dir(meshes(folder)).unwrap());
+    let paths = files.into_iter().flatten().map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+}
+
 fn read(path: &Path) -> Result<(Scene, Problem)> {
     let scene = Scene::read(path)?;
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
@@ -32,31 +38,25 @@ fn distance(u: &[f64], reference: &[f64]) -> f64 {
 
 #[test]
 fn mixed_precision_is_as_accurate_as_f64_on_every_standard_scene() -> Result<()> {
-    for folder in ["catalogue", "scenes"] {
-        for entry in std::fs::read_dir(meshes(folder)).unwrap() {
-            let path = entry.unwrap().path();
-            if path.extension().is_none_or(|ending| ending != "toml") {
-                continue;
-            }
-            let (scene, problem) = read(&path)?;
-            let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-            let reference = solve(&scene, &problem, &direct)?;
-            let found = mixed(&scene, &problem, &Options::default())?;
-            let pure = solve(&scene, &problem, &Options::default())?;
-            let far = distance(&found.u, &reference.u);
-            let name = path.file_stem().unwrap().to_string_lossy();
-            println!(
-                "{name:18} {:6} unknowns {:6} sweeps ({:6} in f64) {far:.1e} {:.1e} {:?}",
-                problem.topology.counts.unknowns(),
-                found.sweeps,
-                pure.sweeps,
-                distance(&pure.u, &reference.u),
-                found.status,
-            );
-            assert!(found.converged(), "{name}: {:?}", found.status);
-            assert!(far < 1e-8, "{name}: {far:e}");
-            assert_eq!(found.contact_active, reference.contact_active, "{name}");
-        }
+    for path in standard_scenes() {
+        let (scene, problem) = read(&path)?;
+        let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+        let reference = solve(&scene, &problem, &direct)?;
+        let found = mixed(&scene, &problem, &Options::default())?;
+        let pure = solve(&scene, &problem, &Options::default())?;
+        let far = distance(&found.u, &reference.u);
+        let name = path.file_stem().unwrap().to_string_lossy();
+        println!(
+            "{name:18} {:6} unknowns {:6} sweeps ({:6} in f64) {far:.1e} {:.1e} {:?}",
+            problem.topology.counts.unknowns(),
+            found.sweeps,
+            pure.sweeps,
+            distance(&pure.u, &reference.u),
+            found.status,
+        );
+        assert!(found.converged(), "{name}: {:?}", found.status);
+        assert!(far < 1e-8, "{name}: {far:e}");
+        assert_eq!(found.contact_active, reference.contact_active, "{name}");
     }
     Ok(())
 }
@@ -91,24 +91,28 @@ fn nothing_is_left_to_do_from_the_solution() -> Result<()> {
     Ok(())
 }
 
-/// An error below a tenth of the discretisation's is where the catalogue's table of effort stops: for H on
-/// n = 16, 924 sweeps at ω = 1 and 67 at the best of 1.7, 1.8, 1.9, 1.95, 1.97.
+/// The catalogue's table of effort finds its best between 1.8 and 1.9 on H with n = 16.
 #[test]
 fn the_tuned_factor_needs_the_fewest_sweeps() -> Result<()> {
-    let (scene, problem) = read(&meshes("catalogue/h-tri.toml"))?;
-    let goal = 0.01;
-    let omega = tuned_omega(&scene, &problem, Precision::F64, goal)?;
-    let trials = Trials::<f64>::new(&scene, &problem, goal)?;
-    let count = |relaxation| trials.sweeps(relaxation, 10_000).unwrap().unwrap();
-    let tuned = count(Relaxation::Fixed(omega));
-    let auto = count(Relaxation::Adaptive(1.0));
-    let unit = count(Relaxation::Fixed(1.0));
-    println!("ω {omega}: tuned {tuned}, auto {auto}, unit {unit}");
-    assert!(tuned <= auto && auto <= unit, "{tuned}, {auto}, {unit}");
-    assert!((1.8..1.95).contains(&omega), "{omega}");
-    assert!((50..100).contains(&tuned) && (700..1200).contains(&unit), "{tuned}, {unit}");
-    let by_hand = [1.7, 1.8, 1.85, 1.9, 1.95].map(|omega| count(Relaxation::Fixed(omega)));
-    assert!(by_hand.iter().all(|&sweeps| sweeps + 1 >= tuned), "{by_hand:?}, {tuned}");
+    let goal = 1e-4;
+    for path in standard_scenes() {
+        let (scene, problem) = read(&path)?;
+        let omega = tuned_omega(&scene, &problem, Precision::F64, goal)?;
+        let trials = Trials::<f64>::new(&scene, &problem, goal)?;
+        let count = |relaxation| trials.sweeps(relaxation, 50_000).unwrap().unwrap_or(u32::MAX);
+        let tuned = count(Relaxation::Fixed(omega));
+        let auto = count(Relaxation::Adaptive(1.0));
+        let unit = count(Relaxation::Fixed(1.0));
+        let name = path.file_stem().unwrap().to_string_lossy();
+        println!("{name:18} tuned {tuned:5} (ω = {omega:.4}), auto {auto:5}, unit {unit:5}");
+        assert!(tuned <= auto && tuned <= unit, "{name}: {tuned}, {auto}, {unit}");
+        let by_hand = [1.7, 1.8, 1.9, 1.95].map(|omega| count(Relaxation::Fixed(omega)));
+        assert!(by_hand.iter().all(|&sweeps| sweeps + 4 >= tuned), "{name}: {by_hand:?}, {tuned}");
+        if name == "h-tri" {
+            assert!((1.8..1.95).contains(&omega), "{omega}");
+            assert!(auto <= unit && 5 * tuned < unit, "{tuned}, {auto}, {unit}");
+        }
+    }
     Ok(())
 }
 
