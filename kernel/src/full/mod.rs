@@ -122,7 +122,6 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     }
 
     /// A tick that `advance` brings to its end.
-    #[inline(always)]
     fn answer<const WIDTH: usize>(
         &self,
         inputs: &[R],

@@ -62,8 +62,12 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
-        // No certificate can end it but by one of these.
-        let looks = limits.error > R::ZERO || limits.share > R::ZERO;
+        self.next_certificate = match limits.error > R::ZERO || limits.share > R::ZERO {
+            // Nothing that a certificate could say would end it.
+            false => u32::MAX,
+            true if self.next_certificate == u32::MAX => self.sweeps.saturating_add(FEWEST),
+            true => self.next_certificate,
+        };
         let last = self.sweeps.saturating_add(limits.sweeps);
         loop {
             let cut = if self.sweeps >= last {
@@ -74,7 +78,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
                 Some(Ended::OutOfTime)
             };
             let known = self.verdict.is_some();
-            if cut.is_some() || known || (looks && self.is_due(deadline)) {
+            if cut.is_some() || known || self.is_due(deadline) {
                 let verdict = self.certified()?;
                 if let Some(ended) = judge(&verdict, &limits).or(cut) {
                     return self.report(ended, verdict);

@@ -42,6 +42,9 @@ either way on the others, whose timer counts no finer. RAM is all statics (.data
 stack; stack is the deepest of all ticks, and part of RAM; flash is .vector_table, .text, .rodata and .data.
 All are of the whole image, with its start-up and console.
 
+The scene is baked by `signorini bake` of this checkout, or by the program that SIGNORINI names in the
+environment.
+
 The exit status is 0 where all bits are equal, 2 where the command line or the scene is wrong.
 ";
 
