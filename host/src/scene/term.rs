@@ -19,7 +19,8 @@ pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
     scene
 }
 
-fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
+/// Visits the load f, then the loads of every boundary in the order of the file.
+pub(crate) fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
         match &mut boundary.condition {

@@ -5,4 +5,5 @@
 //!              truth ─────────┘           └─► trade.json, trade.csv, picture
 //! ```
 
+pub mod math;
 pub mod record;
