@@ -5,7 +5,7 @@
 //! which, and leaves the expression as it is. Constants stay those of f64: what has no variable in it is
 //! computed before a device sees it.
 
-use micromath::F32;
+use micromath::{F32, F32Ext};
 
 use super::operation::{Binary, Unary};
 use super::program::Numbers;
@@ -108,7 +108,7 @@ impl Unary {
             Self::Cos => a.cos(),
             Self::Tan => a.tan(),
             Self::Asin => a.asin(),
-            Self::Acos => a.acos(),
+            Self::Acos => F32(F32Ext::acos(a.0)),
             Self::Atan => a.atan(),
             Self::Sinh => (a.exp() - (-a).exp()) / F32(2.0),
             Self::Cosh => (a.exp() + (-a).exp()) / F32(2.0),

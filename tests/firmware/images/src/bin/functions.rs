@@ -9,7 +9,7 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use micromath::F32;
+use micromath::{F32, F32Ext};
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::meter::Meter;
@@ -88,7 +88,7 @@ fn fast(meter: &mut Meter) -> Result<(), Error> {
     one(meter, "cos", &given.angles, |x| F32(x).cos().0)?;
     one(meter, "tan", &given.angles, |x| F32(x).tan().0)?;
     one(meter, "asin", &given.ratios, |x| F32(x).asin().0)?;
-    one(meter, "acos", &given.ratios, |x| F32(x).acos().0)?;
+    one(meter, "acos", &given.ratios, F32Ext::acos)?;
     one(meter, "atan", &given.angles, |x| F32(x).atan().0)?;
     two(meter, "atan2", &given.ratios, &given.angles, |y, x| F32(y).atan2(F32(x)).0)?;
     one(meter, "exp", &given.exponents, |x| F32(x).exp().0)?;
