@@ -110,11 +110,11 @@ impl Unary {
             Self::Asin => a.asin(),
             Self::Acos => F32(F32Ext::acos(a.0)),
             Self::Atan => a.atan(),
-            Self::Sinh => (a.exp() - (-a).exp()) / F32(2.0),
-            Self::Cosh => (a.exp() + (-a).exp()) / F32(2.0),
-            Self::Tanh => F32::ONE - F32(2.0) / ((a + a).exp() + F32::ONE),
-            Self::Exp => a.exp(),
-            Self::Ln => a.ln(),
+            Self::Sinh => (exp(a) - exp(-a)) / F32(2.0),
+            Self::Cosh => (exp(a) + exp(-a)) / F32(2.0),
+            Self::Tanh => F32::ONE - F32(2.0) / (exp(a + a) + F32::ONE),
+            Self::Exp => exp(a),
+            Self::Ln => ln(a),
             Self::Sqrt => a.sqrt(),
             Self::Abs => a.abs(),
             Self::Sign => F32(self.apply(f64::from(a.0)) as f32),
@@ -135,11 +135,32 @@ impl Binary {
     /// The value at `a`, `b` with micromath's function.
     fn fast(self, a: F32, b: F32) -> F32 {
         match self {
-            Self::Power => a.powf(b),
+            Self::Power => power(a, b),
             Self::Atan2 => a.atan2(b),
             _ => F32(self.apply(f64::from(a.0), f64::from(b.0)) as f32),
         }
     }
+}
+
+// micromath's integers overflow outside these ranges, which panics where overflow is checked and yields
+// arbitrary bits where it is not. The exact value stands there instead.
+
+/// e^±RANGE is a normal number.
+const RANGE: f32 = 87.0;
+
+fn exp(a: F32) -> F32 {
+    if a.0.abs() < RANGE { a.exp() } else { F32(a.0.exp()) }
+}
+
+fn ln(a: F32) -> F32 {
+    if a.0 > 0.0 { a.ln() } else { F32(a.0.ln()) }
+}
+
+fn power(a: F32, b: F32) -> F32 {
+    // Not −0.
+    let base = a + F32::ZERO;
+    let within = base.0 != 0.0 && (b.0 * ln(base.abs()).0).abs() < RANGE;
+    if within { base.powf(b) } else { F32(base.0.powf(b.0)) }
 }
 
 /// f64.
