@@ -138,6 +138,14 @@ pub fn install_handler() {
 }
 
 impl Error {
+    /// What is wrong, without the file that it stands in.
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Input(error) => error.message.clone(),
+            Self::Io { .. } | Self::Check(_) => self.to_string(),
+        }
+    }
+
     /// Wraps an I/O failure with the file it concerns.
     pub fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();

@@ -50,6 +50,12 @@ impl Costs {
         self.0.get(&(format!("{} {cells}", R::NAME), stage.to_owned())).copied()
     }
 
+    /// Instructions that a call of this function in f32 saves where it is micromath's instead of libm's.
+    pub fn saved_by(&self, function: &str) -> Option<f64> {
+        let of = |library: &str| self.0.get(&(format!("f32 {library}"), function.to_owned()));
+        Some(of("libm")? - of("micromath")?)
+    }
+
     /// Instructions of a stage on a dense problem with n contact edges: the quadratic through the sizes
     /// counted. In f64, which was counted at one size, they grow like n².
     pub fn of_dense<R: Scalar>(&self, stage: &str, n: usize) -> Option<f64> {
@@ -113,6 +119,7 @@ fn columns(line: &str) -> (String, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expression::Elementary;
 
     #[test]
     fn the_record_tells_what_a_sweep_costs() {
@@ -122,6 +129,21 @@ mod tests {
         let dense = costs.of_dense::<f32>("sweep", 64).unwrap_or_default() / 4096.0;
         assert!((2.0..3.0).contains(&dense), "{dense}");
         assert_eq!(costs.of_mesh::<f32>("triangles", "no such stage"), None);
+    }
+
+    #[test]
+    fn the_record_tells_what_each_function_of_micromath_saves() {
+        let costs = Costs::measured();
+        for function in Elementary::ALL {
+            let saved = costs.saved_by(function.name());
+            assert!(
+                saved.is_some_and(|saved| saved.abs() < 5_000.0),
+                "{}: {saved:?}",
+                function.name()
+            );
+        }
+        assert!(costs.saved_by("negation").is_some_and(|saved| saved.abs() < 1.0));
+        assert_eq!(costs.saved_by("no such function"), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Dual numbers a + a′·ε, ε² = 0: arithmetic on them carries the gradient along by the chain rule.
 
 use super::operation::{Binary, Unary};
-use super::program::Number;
+use super::program::Numbers;
 
 /// A value and its gradient with respect to (x, y).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,24 +10,28 @@ pub(super) struct Dual {
     pub gradient: [f64; 2],
 }
 
-impl Number for Dual {
-    fn constant(value: f64) -> Self {
-        Self { value, gradient: [0.0, 0.0] }
+/// Dual numbers over f64.
+pub(super) struct Duals;
+
+impl Numbers for Duals {
+    type Number = Dual;
+
+    fn constant(&self, value: f64) -> Dual {
+        Dual { value, gradient: [0.0, 0.0] }
     }
 
-    fn unary(self, operation: Unary) -> Self {
-        let slope = operation.derivative(self.value);
-        Self {
-            value: operation.apply(self.value),
-            gradient: self.gradient.map(|change| along(slope, change)),
+    fn unary(&self, operation: Unary, a: Dual) -> Dual {
+        let slope = operation.derivative(a.value);
+        Dual {
+            value: operation.apply(a.value),
+            gradient: a.gradient.map(|change| along(slope, change)),
         }
     }
 
-    fn binary(self, operation: Binary, other: Self) -> Self {
-        let [left, right] = operation.partials(self.value, other.value);
-        let total =
-            |axis: usize| along(left, self.gradient[axis]) + along(right, other.gradient[axis]);
-        Self { value: operation.apply(self.value, other.value), gradient: [total(0), total(1)] }
+    fn binary(&self, operation: Binary, a: Dual, b: Dual) -> Dual {
+        let [left, right] = operation.partials(a.value, b.value);
+        let total = |axis: usize| along(left, a.gradient[axis]) + along(right, b.gradient[axis]);
+        Dual { value: operation.apply(a.value, b.value), gradient: [total(0), total(1)] }
     }
 }
 

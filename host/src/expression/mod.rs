@@ -9,11 +9,13 @@
 //! ```
 //!
 //! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, or by dual
-//! numbers (`dual`) a value and its gradient. What each operation is stands in `operation`.
+//! numbers (`dual`) a value and its gradient. What each operation is stands in `operation`, and
+//! what a device would make of it in `arithmetic`.
 //!
 //! Evaluation follows IEEE: outside its domain an expression is NaN or infinite, and whoever asked
 //! decides what that means there. Hence `min` and `max` pass a NaN on instead of dropping it.
 
+mod arithmetic;
 mod dual;
 mod lexer;
 mod operation;
@@ -25,15 +27,19 @@ mod tests;
 use std::fmt;
 use std::ops::Range;
 
-use dual::Dual;
+use dual::{Dual, Duals};
 use program::Program;
 use thiserror::Error;
+
+pub use arithmetic::{Arithmetic, Elementary};
+use arithmetic::{Doubles, Replaced, Singles};
 
 /// A parsed expression: evaluates without allocation, cannot fail.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
     text: String,
     program: Program,
+    arithmetic: Arithmetic,
 }
 
 /// The variables that an expression may use.
@@ -61,23 +67,36 @@ impl Expression {
     /// Reads `text`; a name outside `variables`, `pi` and the functions is an error, and so is a
     /// constant expression without a finite value.
     pub fn parse(text: &str, variables: Variables) -> Result<Self, ParseError> {
-        Ok(Self { text: text.to_owned(), program: parser::parse(text, variables)? })
+        let program = parser::parse(text, variables)?;
+        Ok(Self { text: text.to_owned(), program, arithmetic: Arithmetic::default() })
     }
 
     /// The expression whose value is `value` everywhere.
     pub fn constant(value: f64) -> Self {
-        Self { text: format!("{value:?}"), program: Program::constant(value) }
+        let program = Program::constant(value);
+        Self { text: format!("{value:?}"), program, arithmetic: Arithmetic::default() }
+    }
+
+    /// The same expression, evaluated with other numbers and functions.
+    #[must_use]
+    pub fn with_arithmetic(&self, arithmetic: Arithmetic) -> Self {
+        Self { arithmetic, ..self.clone() }
     }
 
     /// The value at the point (x, y) and the time t; a coordinate −0.0 is read as 0.0.
     pub fn eval(&self, x: f64, y: f64, t: f64) -> f64 {
-        match self.program.value() {
-            Some(value) => value,
-            None => self.program.run([x + 0.0, y + 0.0, t]),
+        if let Some(value) = self.program.value() {
+            return value;
+        }
+        let at = [x + 0.0, y + 0.0, t];
+        match self.arithmetic {
+            Arithmetic::Double => self.program.run(&Doubles, at),
+            Arithmetic::Single => f64::from(self.program.run(&Singles, at.map(|x| x as f32))),
+            Arithmetic::Fast(function) => self.program.run(&Replaced(function), at),
         }
     }
 
-    /// The value and its gradient (∂/∂x, ∂/∂y) at (x, y) and t.
+    /// The value and its gradient (∂/∂x, ∂/∂y) at (x, y) and t, in f64 whatever the arithmetic.
     ///
     /// At a kink: the derivative of `abs` and `sign` at 0 is 0, `min` and `max` take the argument
     /// that they return.
@@ -87,7 +106,7 @@ impl Expression {
             Dual { value: y + 0.0, gradient: [0.0, 1.0] },
             Dual { value: t, gradient: [0.0, 0.0] },
         ];
-        let Dual { value, gradient } = self.program.run(at);
+        let Dual { value, gradient } = self.program.run(&Duals, at);
         (value, gradient)
     }
 
@@ -105,6 +124,11 @@ impl Expression {
     #[must_use]
     pub fn at_time(&self, t: f64) -> Self {
         Self { text: self.text.clone(), program: self.program.at_time(t) }
+    }
+
+    /// How often a device calls `function` to evaluate this once.
+    pub fn calls(&self, function: Elementary) -> usize {
+        self.program.calls(function)
     }
 
     /// Whether t occurs.

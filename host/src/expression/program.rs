@@ -3,6 +3,7 @@
 //! `2*x + y` is `2 x * y +`: operands are pushed, an operation replaces the topmost one or two by
 //! its result. The machine's stack has a fixed size, so running allocates nothing.
 
+use super::arithmetic::Elementary;
 use super::operation::{Binary, Unary};
 
 /// The most operands that may wait on the stack.
@@ -25,25 +26,12 @@ pub(super) enum Variable {
     T = 2,
 }
 
-/// What the machine computes with: numbers, or numbers with their gradient.
-pub(super) trait Number: Copy {
-    fn constant(value: f64) -> Self;
-    fn unary(self, operation: Unary) -> Self;
-    fn binary(self, operation: Binary, other: Self) -> Self;
-}
-
-impl Number for f64 {
-    fn constant(value: f64) -> Self {
-        value
-    }
-
-    fn unary(self, operation: Unary) -> Self {
-        operation.apply(self)
-    }
-
-    fn binary(self, operation: Binary, other: Self) -> Self {
-        operation.apply(self, other)
-    }
+/// What the machine computes with, such as numbers, or numbers with their gradient.
+pub(super) trait Numbers {
+    type Number: Copy;
+    fn constant(&self, value: f64) -> Self::Number;
+    fn unary(&self, operation: Unary, a: Self::Number) -> Self::Number;
+    fn binary(&self, operation: Binary, a: Self::Number, b: Self::Number) -> Self::Number;
 }
 
 /// Steps that leave one value.
@@ -92,24 +80,36 @@ impl Program {
         builder.finish()
     }
 
+    /// How often a device calls `function` to run this.
+    pub fn calls(&self, function: Elementary) -> usize {
+        let calls = |step: &&Step| match step {
+            Step::Unary(operation) => operation.elementary() == Some(function),
+            Step::Binary(operation) => operation.elementary() == Some(function),
+            Step::Constant(_) | Step::Variable(_) => false,
+        };
+        self.steps.iter().filter(calls).count()
+    }
+
     /// The result at the point (x, y, t).
-    pub fn run<N: Number>(&self, at: [N; 3]) -> N {
-        let mut stack = [N::constant(0.0); STACK];
+    pub fn run<N: Numbers>(&self, numbers: &N, at: [N::Number; 3]) -> N::Number {
+        let mut stack = [numbers.constant(0.0); STACK];
         let mut height = 0;
         for step in &self.steps {
             match *step {
                 Step::Constant(value) => {
-                    stack[height] = N::constant(value);
+                    stack[height] = numbers.constant(value);
                     height += 1;
                 }
                 Step::Variable(variable) => {
                     stack[height] = at[variable as usize];
                     height += 1;
                 }
-                Step::Unary(operation) => stack[height - 1] = stack[height - 1].unary(operation),
+                Step::Unary(operation) => {
+                    stack[height - 1] = numbers.unary(operation, stack[height - 1]);
+                }
                 Step::Binary(operation) => {
                     height -= 1;
-                    stack[height - 1] = stack[height - 1].binary(operation, stack[height]);
+                    stack[height - 1] = numbers.binary(operation, stack[height - 1], stack[height]);
                 }
             }
         }

@@ -33,7 +33,8 @@ impl Scene {
     }
 }
 
-fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
+/// Visits the load f, then the loads of every boundary in the order of the file.
+pub(crate) fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
         match &mut boundary.condition {

@@ -17,6 +17,7 @@ pub mod fragment;
 pub mod front;
 pub mod journal;
 mod listings;
+pub mod math;
 pub mod measure;
 pub mod mpi;
 pub mod picture;

@@ -144,19 +144,27 @@ pub struct Baseline {
     pub iterations: u32,
 }
 
-/// What one function of micromath does where libm's is replaced by it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// What one function of micromath does where libm's is replaced by it. Changes are relative; none where the
+/// solution is zero there, or where there is no solution with that function.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct FunctionCost {
-    /// `sqrt`, `sin`, …
+    /// `sqrt`, `sin`, …; `f32 with libm` for load data in f32 with no function of micromath.
     pub function: String,
-    /// Where the scene uses it.
+    /// Where the scene uses it: keys of its loads, `search for ω`, `lengths of edges`.
     pub used_in: String,
     /// ‖A^½∇_h(u_h − ũ_h)‖ / ‖A^½∇_h u_h‖ of the change.
-    pub energy: f64,
-    /// Change of the contact force, relative.
-    pub force: f64,
-    /// Sweeps more (or fewer) of a cold solve.
-    pub sweeps: i64,
+    pub energy: Option<f64>,
+    /// Change of the contact force.
+    pub force: Option<f64>,
+    /// Change of the length of the contact set.
+    pub length: Option<f64>,
+    /// Sweeps more (or fewer) of a cold solve in f32; none where it is the loads that change.
+    pub sweeps: Option<i64>,
+    /// Calls: a tick's, where the loads are evaluated once on each cell or edge; a cold solve's; one for each
+    /// active edge.
+    pub calls: u64,
     /// Instructions that one call saves on an M4F, from the record of counts.
     pub saved: f64,
+    /// What else is to be said, such as why there is no solution.
+    pub note: Option<String>,
 }

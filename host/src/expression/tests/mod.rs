@@ -1,5 +1,6 @@
 //! Values against an independent calculator, gradients against differences, messages.
 
+mod arithmetic;
 mod naive;
 
 use super::{Expression, ParseError, Variables};

@@ -1,0 +1,229 @@
+//! What an expression is computed in: f64, or what a device without f64 makes of it.
+//!
+//! A controller whose loads move in time evaluates them itself, in f32, with the functions of libm or
+//! with those of micromath, which are shorter and wrong by up to some percent. [`Arithmetic`] says
+//! which, and leaves the expression as it is. Constants stay those of f64: what has no variable in it is
+//! computed before a device sees it.
+
+use micromath::{F32, F32Ext};
+
+use super::operation::{Binary, Unary};
+use super::program::Numbers;
+
+/// The numbers and functions that an expression is evaluated with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Arithmetic {
+    /// f64 throughout.
+    #[default]
+    Double,
+    /// f32 throughout, each operation correctly rounded; libm is one unit in the last place away from it.
+    Single,
+    /// f64 throughout but for this function, which is micromath's.
+    Fast(Elementary),
+}
+
+/// A function that micromath has; sinh, cosh and tanh are made of its exp.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elementary {
+    /// √a
+    Sqrt,
+    /// sin a
+    Sin,
+    /// cos a
+    Cos,
+    /// tan a
+    Tan,
+    /// arcsin a
+    Asin,
+    /// arccos a
+    Acos,
+    /// arctan a
+    Atan,
+    /// The angle of the point (b, a).
+    Atan2,
+    /// eᵃ
+    Exp,
+    /// ln a
+    Ln,
+    /// aᵇ
+    Power,
+}
+
+impl Elementary {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Sqrt,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Asin,
+        Self::Acos,
+        Self::Atan,
+        Self::Atan2,
+        Self::Exp,
+        Self::Ln,
+        Self::Power,
+    ];
+
+    /// Its name in libm and micromath.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sqrt => "sqrt",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Asin => "asin",
+            Self::Acos => "acos",
+            Self::Atan => "atan",
+            Self::Atan2 => "atan2",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Power => "powf",
+        }
+    }
+}
+
+impl Unary {
+    /// The function that a device calls for it, if it calls one.
+    pub fn elementary(self) -> Option<Elementary> {
+        match self {
+            Self::Negate | Self::Abs | Self::Sign => None,
+            Self::Sin => Some(Elementary::Sin),
+            Self::Cos => Some(Elementary::Cos),
+            Self::Tan => Some(Elementary::Tan),
+            Self::Asin => Some(Elementary::Asin),
+            Self::Acos => Some(Elementary::Acos),
+            Self::Atan => Some(Elementary::Atan),
+            Self::Sinh | Self::Cosh | Self::Tanh | Self::Exp => Some(Elementary::Exp),
+            Self::Ln => Some(Elementary::Ln),
+            Self::Sqrt => Some(Elementary::Sqrt),
+        }
+    }
+
+    /// The value at `a` with micromath's function.
+    fn fast(self, a: F32) -> F32 {
+        match self {
+            Self::Negate => -a,
+            Self::Sin => a.sin(),
+            Self::Cos => a.cos(),
+            Self::Tan => a.tan(),
+            Self::Asin => a.asin(),
+            Self::Acos => F32(F32Ext::acos(a.0)),
+            Self::Atan => a.atan(),
+            Self::Sinh => (exp(a) - exp(-a)) / F32(2.0),
+            Self::Cosh => (exp(a) + exp(-a)) / F32(2.0),
+            Self::Tanh => F32::ONE - F32(2.0) / (exp(a + a) + F32::ONE),
+            Self::Exp => exp(a),
+            Self::Ln => ln(a),
+            Self::Sqrt => a.sqrt(),
+            Self::Abs => a.abs(),
+            Self::Sign => F32(self.apply(f64::from(a.0)) as f32),
+        }
+    }
+}
+
+impl Binary {
+    /// The function that a device calls for it, if it calls one.
+    pub fn elementary(self) -> Option<Elementary> {
+        match self {
+            Self::Power => Some(Elementary::Power),
+            Self::Atan2 => Some(Elementary::Atan2),
+            _ => None,
+        }
+    }
+
+    /// The value at `a`, `b` with micromath's function.
+    fn fast(self, a: F32, b: F32) -> F32 {
+        match self {
+            Self::Power => power(a, b),
+            Self::Atan2 => a.atan2(b),
+            _ => F32(self.apply(f64::from(a.0), f64::from(b.0)) as f32),
+        }
+    }
+}
+
+// micromath's integers overflow outside these ranges, which panics where overflow is checked and yields
+// arbitrary bits where it is not. The exact value stands there instead.
+
+/// e^±RANGE is a normal number.
+const RANGE: f32 = 87.0;
+
+fn exp(a: F32) -> F32 {
+    if a.0.abs() < RANGE { a.exp() } else { F32(a.0.exp()) }
+}
+
+fn ln(a: F32) -> F32 {
+    if a.0 > 0.0 { a.ln() } else { F32(a.0.ln()) }
+}
+
+fn power(a: F32, b: F32) -> F32 {
+    // Not −0.
+    let base = a + F32::ZERO;
+    let within = base.0 != 0.0 && (b.0 * ln(base.abs()).0).abs() < RANGE;
+    if within { base.powf(b) } else { F32(base.0.powf(b.0)) }
+}
+
+/// f64.
+pub(super) struct Doubles;
+
+impl Numbers for Doubles {
+    type Number = f64;
+
+    fn constant(&self, value: f64) -> f64 {
+        value
+    }
+
+    fn unary(&self, operation: Unary, a: f64) -> f64 {
+        operation.apply(a)
+    }
+
+    fn binary(&self, operation: Binary, a: f64, b: f64) -> f64 {
+        operation.apply(a, b)
+    }
+}
+
+/// f32; rounding what f64 gives rounds sums, products and quotients correctly.
+pub(super) struct Singles;
+
+impl Numbers for Singles {
+    type Number = f32;
+
+    fn constant(&self, value: f64) -> f32 {
+        value as f32
+    }
+
+    fn unary(&self, operation: Unary, a: f32) -> f32 {
+        operation.apply(f64::from(a)) as f32
+    }
+
+    fn binary(&self, operation: Binary, a: f32, b: f32) -> f32 {
+        operation.apply(f64::from(a), f64::from(b)) as f32
+    }
+}
+
+/// f64 with one function from micromath.
+pub(super) struct Replaced(pub Elementary);
+
+impl Numbers for Replaced {
+    type Number = f64;
+
+    fn constant(&self, value: f64) -> f64 {
+        value
+    }
+
+    fn unary(&self, operation: Unary, a: f64) -> f64 {
+        if operation.elementary() == Some(self.0) {
+            f64::from(operation.fast(F32(a as f32)).0)
+        } else {
+            operation.apply(a)
+        }
+    }
+
+    fn binary(&self, operation: Binary, a: f64, b: f64) -> f64 {
+        if operation.elementary() == Some(self.0) {
+            f64::from(operation.fast(F32(a as f32), F32(b as f32)).0)
+        } else {
+            operation.apply(a, b)
+        }
+    }
+}
