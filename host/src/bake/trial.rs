@@ -60,7 +60,7 @@ fn summary(ticks: impl Iterator<Item = (u32, u32)>) -> Trial {
 
 /// The scene's own inputs, then such within a tenth of them (within ±0.1 where they are 0), as
 /// `cargo xtask firmware` draws them.
-fn inputs<R: Scalar>(defaults: &[f64], ticks: usize) -> impl Iterator<Item = Vec<R>> {
+pub(crate) fn inputs<R: Scalar>(defaults: &[f64], ticks: usize) -> impl Iterator<Item = Vec<R>> {
     let mut state = 0x5169_0e1d_u32;
     let mut tenth = move || {
         state ^= state << 13;
