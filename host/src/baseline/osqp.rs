@@ -79,14 +79,14 @@ struct Answer {
 /// The solver on its problem, until it is dropped.
 pub(super) struct Osqp {
     /// Whether an answer is polished by a solve on the constraints found active.
-    pub polish: bool,
+    polish: bool,
     child: Child,
     questions: BufWriter<ChildStdin>,
     answers: BufReader<ChildStdout>,
 }
 
 impl Osqp {
-    pub fn new(program: &Path, quadratic: &Quadratic) -> Result<Self> {
+    pub fn new(program: &Path, quadratic: &Quadratic, polish: bool) -> Result<Self> {
         let mut command = Command::new(program);
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
@@ -94,7 +94,7 @@ impl Osqp {
             return Err(failed("OSQP's process has no pipes"));
         };
         let (questions, answers) = (BufWriter::new(questions), BufReader::new(answers));
-        let mut osqp = Self { polish: false, child, questions, answers };
+        let mut osqp = Self { polish, child, questions, answers };
         let (starts, rows, values) = quadratic.matrix.upper();
         let ticks = quadratic.ticks.iter();
         let ticks = ticks.map(|tick| Data { load: &tick.load, lower: &tick.lower }).collect();

@@ -90,8 +90,8 @@ impl Ring<'_> {
         take("Clarabel", contest.hold("Clarabel", &mut Clarabel::new(contest.quadratic)));
         let Some(program) = self.osqp else { return };
         for (name, polish) in [("OSQP", false), ("OSQP, polished", true)] {
-            let osqp = Osqp::new(program, contest.quadratic);
-            take(name, osqp.and_then(|osqp| contest.hold(name, &mut Osqp { polish, ..osqp })));
+            let osqp = Osqp::new(program, contest.quadratic, polish);
+            take(name, osqp.and_then(|mut osqp| contest.hold(name, &mut osqp)));
         }
     }
 

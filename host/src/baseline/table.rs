@@ -23,7 +23,7 @@ const HEADER: [&str; 12] = [
 /// One line a solver and size, the verdicts and remarks below.
 pub fn table(sizes: &Sizes) -> String {
     let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY);
+    table.load_style(presets::NOTHING);
     table.set_content_arrangement(ContentArrangement::Disabled).set_header(HEADER);
     for size in &sizes.rows {
         lines(size).into_iter().for_each(|line| {

@@ -7,7 +7,7 @@ use crate::trade::record::Baseline;
 /// condensing is itself more than a solve. Conforming P1 solves another problem and is left out.
 pub(super) fn verdict(unknowns: usize, baselines: &[Baseline]) -> String {
     let fair = |start: &'static str| {
-        let reached = |b: &&Baseline| b.algebraic_error <= b.target && b.start == start;
+        let reached = move |b: &&Baseline| b.algebraic_error <= b.target && b.start == start;
         baselines.iter().filter(reached).filter(|b| b.problem != "conforming P1")
     };
     let fastest =
