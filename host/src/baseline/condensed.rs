@@ -7,6 +7,8 @@
 //! S comes from the reference factorisation, so that loads may be any: [`crate::condense`] takes patterns
 //! with inputs, and its matrix and loads are these. ‖x − x*‖_Ŝ is the energy distance of the full fields.
 
+use faer::MatRef;
+
 use crate::condense::Condensate;
 use crate::error::Result;
 use crate::reference::{Factor, Linear};
@@ -45,9 +47,22 @@ pub(super) fn condensed(full: &Quadratic, factor: &Factor) -> Result<(Quadratic,
         outputs: Vec::new(),
         certificate: Err("left out".to_owned()),
         energy_unit: 1.0,
-        held_by_contact: vec![(0..n).filter(|&i| full.floating.get(i) == Some(&true)).collect()],
+        held_by_contact: held_by_contact(full, schur),
     };
     Ok((Quadratic { matrix, ticks, answers, floating: full.floating.clone() }, condensate))
+}
+
+/// The contact unknowns of each part that contact alone holds: S knows nothing from one part to another.
+fn held_by_contact(full: &Quadratic, schur: MatRef<f64>) -> Vec<Vec<usize>> {
+    let mut held: Vec<Vec<usize>> = Vec::new();
+    for i in (0..full.contact()).filter(|&i| full.floating.get(i) == Some(&true)) {
+        let together = |part: &&mut Vec<usize>| part.iter().any(|&j| schur[(i, j)] != 0.0);
+        match held.iter_mut().find(together) {
+            Some(part) => part.push(i),
+            None => held.push(vec![i]),
+        }
+    }
+    held
 }
 
 /// b̃ of every tick.

@@ -48,8 +48,9 @@ const SHARE: f64 = 0.01;
 /// All solvers on the problem of a scene and on its condensed problem, with remarks: who could not run and
 /// why, and how long condensing takes.
 ///
-/// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads scaled by one
-/// factor and what contact asks for (ψ, q) by another, both in [0.9, 1.1], so that the contact set moves.
+/// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads multiplied
+/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q) by another 1 ± 0.1, so that
+/// the contact set moves.
 ///
 /// # Errors
 /// A problem without a solution. A solver that fails is a remark.
@@ -60,7 +61,7 @@ pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<(Vec<Baseline>, Vec<
     let mut notes = Vec::new();
     let program = osqp::program();
     notes.extend(program.err().map(str::to_owned));
-    let moments = Moment::drawn(scene, problem.time, TICKS);
+    let moments = Moment::drawn(scene, problem, TICKS);
     let error = discretisation_error(scene, problem, &mut notes)?;
     let ring = Ring {
         scene,

@@ -9,7 +9,6 @@ use super::sizes::{Sizes, size};
 use super::{of_scene, table};
 use crate::condense::condense;
 use crate::mesh::gmsh;
-use crate::mesh::structured::{Cells, grid};
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
 
@@ -55,7 +54,7 @@ fn contact_moves() {
         let scene = read(file);
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
         let parts = Parts::examine(&scene, &problem).unwrap();
-        let moments = Moment::drawn(&scene, 0.0, 20);
+        let moments = Moment::drawn(&scene, &problem, 20);
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
         let free = full.free();
         let touching = |(u, tick): (&Vec<f64>, &super::quadratic::Tick)| {
@@ -70,11 +69,10 @@ fn contact_moves() {
 /// The condensed problem is the one that is baked.
 #[test]
 fn condensed_as_baked() {
-    let mut scene = read("scenes/slab.toml");
-    scene.path = PathBuf::from("slab.toml");
+    let scene = read("scenes/slab.toml");
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
     let parts = Parts::examine(&scene, &problem).unwrap();
-    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&scene, 0.0, 2)).unwrap();
+    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 2)).unwrap();
     let (ours, model) = condensed(&full, &factor).unwrap();
     let baked = condense(&scene, &problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
@@ -87,15 +85,15 @@ fn condensed_as_baked() {
     }
 }
 
-/// Contact alone holds the membrane: semi-coercive, and still all agree.
+/// On a scene of its own mesh.
 #[test]
 fn a_scene_with_every_solver_but_osqp() {
     let scene = read("scenes/strip.toml");
-    let problem = Problem::new(&scene, grid_or_file(&scene)).unwrap();
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
     let found = super::ring::Ring {
         scene: &scene,
         problem: &problem,
-        moments: &Moment::drawn(&scene, 0.0, 2),
+        moments: &Moment::drawn(&scene, &problem, 2),
         target: 1e-2 * super::discretisation_error(&scene, &problem, &mut Vec::new()).unwrap(),
         osqp: None,
         coarser: &[],
@@ -103,10 +101,6 @@ fn a_scene_with_every_solver_but_osqp() {
     .hold(&mut Vec::new())
     .unwrap();
     assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{found:?}");
-}
-
-fn grid_or_file(scene: &Scene) -> crate::mesh::Mesh {
-    gmsh::read(&scene.mesh.value).unwrap()
 }
 
 /// The tables of both products, with OSQP where it can be built: a release build tells the truth.
@@ -136,5 +130,4 @@ fn tables() {
             );
         }
     }
-    let _ = grid(1, Cells::Quads);
 }

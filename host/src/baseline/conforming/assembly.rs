@@ -66,23 +66,22 @@ pub(super) fn data(problem: &Problem, vertices: &Vertices, moment: &Moment) -> R
         (vec![f64::NEG_INFINITY; counts.contact], vec![0.0; counts.dirichlet]);
     for edge in 0..problem.ends.len() {
         add_flux(problem, vertices, moment, edge, &mut load)?;
-        let [field, factor] = match problem.kinds[edge] {
-            EdgeKind::Dirichlet => [Some((Field::Value, moment.loads)), None],
-            EdgeKind::Contact => [None, Some((Field::Gap, moment.contact))],
+        let field = match problem.kinds[edge] {
+            EdgeKind::Dirichlet => Field::Value,
+            EdgeKind::Contact => Field::Gap,
             _ => continue,
         };
-        let Some((field, factor)) = field.or(factor) else { continue };
         let sum = Sum::on_edge(&moment.scene, problem, edge, field, moment.time);
         let Some(sum) = sum else { continue };
         for vertex in problem.ends[edge] {
             let at = vertices.number[vertex as usize];
             let [x, y] = problem.mesh.vertices[vertex as usize];
-            let value = factor * sum.finite(sum.at(x, y), [x, y])?;
+            let value = sum.finite(sum.at(x, y), [x, y])?;
             match (field, at.checked_sub(counts.unknowns())) {
-                (Field::Value, Some(given)) => dirichlet[given] = value,
+                (Field::Value, Some(given)) => dirichlet[given] = moment.loads.at(x) * value,
                 (Field::Gap, None) => {
                     let lower = &mut lower[at - counts.free];
-                    *lower = lower.max(value);
+                    *lower = lower.max(moment.contact * value);
                 }
                 _ => {}
             }
@@ -113,7 +112,7 @@ fn add_source(
             let value = f.finite(f.at(point.x[0], point.x[1]), point.x)?;
             for (vertex, lambda) in cell.iter().zip(point.reference) {
                 let share = point.weight * value * lambda;
-                load[vertices.number[*vertex as usize]] += moment.loads * share;
+                load[vertices.number[*vertex as usize]] += moment.loads.at(point.x[0]) * share;
             }
         }
     }
@@ -129,10 +128,9 @@ fn add_flux(
     load: &mut [f64],
 ) -> Result<()> {
     let (scene, time) = (&moment.scene, moment.time);
-    let (field, factor) = match problem.kinds[edge] {
-        EdgeKind::Contact => (Field::Flux, moment.contact),
-        EdgeKind::Neumann => (Field::Flux, moment.loads),
-        EdgeKind::Robin => (Field::Ambient, moment.loads),
+    let field = match problem.kinds[edge] {
+        EdgeKind::Contact | EdgeKind::Neumann => Field::Flux,
+        EdgeKind::Robin => Field::Ambient,
         EdgeKind::Interior | EdgeKind::Dirichlet => return Ok(()),
     };
     let Some(sum) = Sum::on_edge(scene, problem, edge, field, time) else { return Ok(()) };
@@ -142,10 +140,14 @@ fn add_flux(
     };
     for (k, vertex) in problem.ends[edge].into_iter().enumerate() {
         let hat = hat(problem, edge, k);
-        let both = |x, y| transfer(x, y) * sum.at(x, y) * hat(x, y);
+        let factor = |x| match problem.kinds[edge] {
+            EdgeKind::Contact => moment.contact,
+            _ => moment.loads.at(x),
+        };
+        let both = |x, y| factor(x) * transfer(x, y) * sum.at(x, y) * hat(x, y);
         let segment = problem.segment(edge);
         let mean = sum.finite(mean_on_edge(segment, both), segment[0])?;
-        load[vertices.number[vertex as usize]] += factor * problem.lengths[edge] * mean;
+        load[vertices.number[vertex as usize]] += problem.lengths[edge] * mean;
     }
     Ok(())
 }
