@@ -1,6 +1,7 @@
 //! Scenes, meshes, the reference solver and the report around `signorini-kernel`.
 
 pub mod bake;
+pub mod baseline;
 pub mod certify;
 pub mod cli;
 pub mod condense;

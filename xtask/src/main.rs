@@ -13,6 +13,7 @@ mod export;
 mod firmware;
 mod json;
 mod no_std;
+mod osqp;
 mod peers;
 mod ranks;
 mod record;
@@ -44,7 +45,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 10] = [
+const VERBS: [Verb; 11] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -95,6 +96,11 @@ const VERBS: [Verb; 10] = [
         about: "other solvers on the same board and problems; not part of `test`",
         work: Work::Steps(peers::run),
     },
+    Verb {
+        name: "osqp",
+        about: "builds OSQP for the trade study; the last line is the program's path",
+        work: Work::Command(osqp::command),
+    },
 ];
 
 const EXAMPLES: &str = "\
@@ -104,7 +110,7 @@ Examples:
   cargo xtask cost --bless    writes the record anew (boards, cost, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
 
-Each verb but `firmware` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+Each verb but `firmware` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {

@@ -36,18 +36,18 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.
-struct Reduced {
-    row_ptr: Vec<u32>,
-    col_idx: Vec<u32>,
-    values: Vec<f64>,
-    load: Vec<f64>,
-    floating: Vec<bool>,
+pub(crate) struct Reduced {
+    pub row_ptr: Vec<u32>,
+    pub col_idx: Vec<u32>,
+    pub values: Vec<f64>,
+    pub load: Vec<f64>,
+    pub floating: Vec<bool>,
 }
 
 impl Reduced {
     /// A part held by nothing gets a spring to 0 at one of its edges: in balance, that spring
     /// carries no force, and it only picks one of the solutions.
-    fn new(
+    pub fn new(
         problem: &Problem,
         parts: &Parts,
         assembled: &Assembled<f64>,

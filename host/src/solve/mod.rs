@@ -29,6 +29,7 @@ use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+pub(crate) use direct::Reduced;
 pub(crate) use solution::centre_floating;
 
 /// Solves `problem`.

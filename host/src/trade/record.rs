@@ -134,10 +134,17 @@ pub struct Baseline {
     pub cycles: f64,
     /// (largest − smallest)/median of the repeats.
     pub cycles_spread: f64,
-    /// Cycles over those of the kernel's best answer for the same problem and start.
+    /// The loosest tolerance, in powers of ten, at which `algebraic_error` comes to lie within `target`.
+    pub tolerance: f64,
+    /// Cycles over those of the kernel's best answer in f64 for the same problem and start; conforming
+    /// P1 is compared with the full problem.
     pub ratio: f64,
-    /// Energy distance to the solution of the discrete problem.
+    /// Cycles over those of the kernel's condensed model in f64, same start.
+    pub to_condensed: Option<f64>,
+    /// Energy distance to the solution of the discrete problem, the largest of all ticks.
     pub algebraic_error: f64,
+    /// What that should be at most: 1 % of the discretisation error.
+    pub target: f64,
     /// ‖A^½∇_h(u − u_h)‖, where it is another than the kernel's.
     pub error: Option<PointError>,
     /// Sweeps or iterations.
