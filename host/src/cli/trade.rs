@@ -45,6 +45,9 @@ pub struct Arguments {
     /// Where the files go, for several scenes in a folder each [default: out/SCENE]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Leave out the other solvers and the study of micromath
+    #[arg(long)]
+    no_peers: bool,
     /// This process's share of the cases, i of n
     #[arg(long, value_name = "i/n")]
     shard: Option<Shard>,
@@ -61,7 +64,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let wish = Wish { budget: self.budget_cycles, error: self.max_error };
         let campaign = match self.scenes.is_empty() {
-            true => Campaign::standard(self.target, self.out.as_deref())?,
+            true => Campaign::standard(self.target, self.out.as_deref(), !self.no_peers)?,
             false => Campaign::of(
                 &self.scenes,
                 self.target.unwrap_or(Target::Host),

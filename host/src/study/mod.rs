@@ -93,7 +93,7 @@ pub fn run() -> Result<u8> {
         convergence: convergence::plots(&studies),
         cut_off: cut_off::table(&stopped),
         sweeps: cut_off::plots(&stopped),
-        tradeoff: Some(section(&trades, String::new())),
+        tradeoff: Some(section(&trades)),
         scenes: panels,
     };
     write_atomically(&folder.join("results.json"), json.as_bytes())?;

@@ -7,14 +7,17 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::files::json;
 use super::front::Wish;
 use super::mpi;
 use super::record::Trade;
-use super::records::RECORD;
+use super::records::{RECORD, SIZES};
 use super::shard::Shard;
 use super::study::{Progress, Study};
 use super::target::Target;
+use crate::baseline;
 use crate::error::{InputError, Result};
+use crate::output::atomic::write_atomically;
 use crate::study::{root, scenes};
 
 /// Studies, and whether the study of sizes goes with them.
@@ -51,7 +54,12 @@ impl Campaign {
     ///
     /// # Errors
     /// A scene that cannot be read; two of the same name.
-    pub fn of(paths: &[PathBuf], target: Target, out: Option<&Path>) -> Result<Self> {
+    pub fn of(
+        paths: &[PathBuf],
+        target: Target,
+        out: Option<&Path>,
+        with_peers: bool,
+    ) -> Result<Self> {
         let mut names = BTreeMap::new();
         let mut studies = Vec::new();
         for path in paths {
@@ -73,7 +81,7 @@ impl Campaign {
                 let hint = "name a directory, or one that does not exist yet";
                 return Err(InputError::new(message).hint(hint).into());
             }
-            studies.push(Study::open(path, target, folder)?);
+            studies.push(Study::open(path, target, folder, with_peers)?);
         }
         Ok(Self { studies, sizes: None })
     }
@@ -82,7 +90,7 @@ impl Campaign {
     ///
     /// # Errors
     /// No checkout.
-    pub fn standard(target: Option<Target>, out: Option<&Path>) -> Result<Self> {
+    pub fn standard(target: Option<Target>, out: Option<&Path>, with_peers: bool) -> Result<Self> {
         let root = root();
         let paths = scenes(&root.join("meshes"))?;
         let record = out.map_or_else(|| root.join(RECORD), Path::to_owned);
@@ -93,7 +101,8 @@ impl Campaign {
                 .extend(Self::of(&paths, target, Some(&record.join(target.to_string())))?.studies);
         }
         let on_host = studies.iter().any(|study| study.target == Target::Host);
-        Ok(Self { studies, sizes: on_host.then(|| record.join("sizes.json")) })
+        let sizes = (on_host && with_peers).then(|| record.join(SIZES));
+        Ok(Self { studies, sizes })
     }
 
     /// Runs this process's cases. Under MPI each rank has its share, and the first puts the parts together.
@@ -142,6 +151,14 @@ impl Campaign {
                 Progress::Part => ended.left += 1,
             }
             before += of;
+        }
+        if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
+            let done = std::cell::RefCell::new(done);
+            let tell = |name: &str| {
+                (done.borrow_mut())(Case { number: before, of: before + 1, name });
+            };
+            let sizes = baseline::sizes(tell)?;
+            write_atomically(file, json(&sizes).as_bytes())?;
         }
         Ok(ended)
     }

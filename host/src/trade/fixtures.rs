@@ -26,6 +26,7 @@ pub fn point(at: usize) -> Point {
     Point {
         name: format!("{model}, level {level}, {scalar}, {stop}"),
         scalar: scalar.to_owned(),
+        notes: Vec::new(),
         math: "libm".to_owned(),
         cells: "triangles".to_owned(),
         level,

@@ -29,6 +29,8 @@ pub struct Trade {
     pub skipped_reasons: Vec<Skipped>,
     /// Other solvers on the same problem.
     pub baselines: Vec<Baseline>,
+    /// Remarks on these: who could not run and why.
+    pub notes: Vec<String>,
     /// What each function of micromath does to the solution.
     pub math: Vec<FunctionCost>,
     /// What to take; without a point where nothing meets what was asked.

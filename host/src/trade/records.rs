@@ -3,15 +3,22 @@
 //! ```text
 //! host/SCENE/trade.json    on this machine
 //! m4f/SCENE/trade.json     on the Cortex-M4F
+//! sizes.json               other solvers over the size of the problem
 //! ```
 
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
+
 use super::record::Trade;
+use crate::baseline::Sizes;
 use crate::error::{Error, Result};
 
 /// The folder of all records, from the root of the checkout.
 pub const RECORD: &str = "host/benches/trade";
+
+/// The study of sizes, in that folder.
+pub const SIZES: &str = "sizes.json";
 
 /// What was found in it, by the names of the scenes.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +27,8 @@ pub struct Records {
     pub host: Vec<Trade>,
     /// Costs on the Cortex-M4F.
     pub m4f: Vec<Trade>,
+    /// Other solvers over the size of the problem.
+    pub sizes: Option<Sizes>,
 }
 
 /// Reads whatever records there are in `folder`.
@@ -27,7 +36,12 @@ pub struct Records {
 /// # Errors
 /// A record that cannot be read, with its name.
 pub fn read(folder: &Path) -> Result<Records> {
-    Ok(Records { host: read_folder(&folder.join("host"))?, m4f: read_folder(&folder.join("m4f"))? })
+    let sizes = folder.join(SIZES);
+    Ok(Records {
+        host: read_folder(&folder.join("host"))?,
+        m4f: read_folder(&folder.join("m4f"))?,
+        sizes: if sizes.is_file() { Some(read_record(&sizes)?) } else { None },
+    })
 }
 
 fn read_folder(folder: &Path) -> Result<Vec<Trade>> {
@@ -40,7 +54,7 @@ fn read_folder(folder: &Path) -> Result<Vec<Trade>> {
     paths.iter().map(|path| read_record(path)).collect()
 }
 
-fn read_record(path: &Path) -> Result<Trade> {
+fn read_record<T: DeserializeOwned>(path: &Path) -> Result<T> {
     let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
     serde_json::from_str(&text).map_err(|cause| {
         let name = path.display();

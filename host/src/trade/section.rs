@@ -8,10 +8,11 @@ use super::picture::{picture, target_name};
 use super::record::{Baseline, Point, Trade};
 use super::records::Records;
 use super::verdict::{certificate, knob_values, sentences};
+use crate::baseline;
 use crate::report::{Listing, TradePanel, TradeStudy, Tradeoff, plain};
 
-/// Everything of the section; `sizes` is the study of problem sizes as HTML, empty where there is none.
-pub fn section(records: &Records, sizes: String) -> Tradeoff {
+/// Everything of the section.
+pub fn section(records: &Records) -> Tradeoff {
     let all = || records.host.iter().chain(&records.m4f);
     let mut findings = sentences(&knob_values(all()));
     findings.extend(certificate(&records.host));
@@ -19,7 +20,7 @@ pub fn section(records: &Records, sizes: String) -> Tradeoff {
     Tradeoff {
         summary: summary(&scenes),
         findings,
-        sizes,
+        sizes: records.sizes.as_ref().map(baseline::table).unwrap_or_default(),
         scenes: scenes.iter().map(panel).collect(),
     }
 }
@@ -127,6 +128,7 @@ fn study(trade: &Trade) -> TradeStudy {
 mod tests {
     use super::super::fixtures::trade;
     use super::*;
+    use crate::baseline;
     use crate::report::{Report, html};
 
     #[test]

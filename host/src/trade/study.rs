@@ -14,8 +14,9 @@ use super::record::{Baseline, FunctionCost, Point, Recommendation, Skipped, Trad
 use super::shard::Shard;
 use super::target::Target;
 use super::truth::Truth;
-use super::{fragment, measure};
+use super::{fragment, math, measure};
 use crate::bake::face::Face;
+use crate::baseline;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, adapted::adapted, gmsh};
 use crate::problem::{Parts, Problem};
@@ -34,6 +35,8 @@ pub struct Study {
     pub target: Target,
     /// The folder of its files.
     pub folder: PathBuf,
+    /// Whether other solvers and micromath are studied too.
+    pub with_peers: bool,
 }
 
 /// What of a study is known.
@@ -73,10 +76,10 @@ impl Study {
     ///
     /// # Errors
     /// A scene that cannot be read.
-    pub fn open(path: &Path, target: Target, folder: PathBuf) -> Result<Self> {
+    pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
         let scene = Scene::read(path)?.at_rest();
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { scene, name, target, folder })
+        Ok(Self { scene, name, target, folder, with_peers })
     }
 
     /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
@@ -96,7 +99,7 @@ impl Study {
         let mut journal = Journal::open(&self.folder, shard, &fingerprint)?;
         let plan = self.plan(&mut meshes, &mut journal)?;
         let mine = |case: usize| by_scene || shard.takes(case);
-        let extras = if self.is_alone() { 0 } else { 2 };
+        let extras = if self.is_alone() || !self.with_peers { 0 } else { 2 };
         let all = plan.settings.len() + extras;
         let mut truth = None;
         let mut cases = Vec::new();
@@ -105,13 +108,13 @@ impl Study {
             done(all, case.as_ref().map_or("", Case::name));
             cases.extend(case);
         }
-        let (mut baselines, mut functions) = (Some(Vec::new()), Some(Vec::new()));
+        let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
         if extras > 0 {
             let problem = meshes.problem(None, 0)?;
-            let solvers = || Ok(Vec::new());
+            let solvers = || baseline::of_scene(&self.scene, problem);
             baselines = once(&mut journal, "baselines", mine(all - 2), solvers)?;
             done(all, "other solvers");
-            let of_math = || Ok(Vec::new());
+            let of_math = || math::of_scene(&self.scene, problem);
             functions = once(&mut journal, "math", mine(all - 1), of_math)?;
             done(all, "micromath");
         }
@@ -232,7 +235,7 @@ impl Study {
         mut skipped: Vec<Skipped>,
         facts: Facts,
         cases: Vec<Case>,
-        baselines: Vec<Baseline>,
+        (baselines, notes): (Vec<Baseline>, Vec<String>),
         math: Vec<FunctionCost>,
         wish: &Wish,
     ) -> Trade {
@@ -260,6 +263,7 @@ impl Study {
             skipped: skipped.iter().map(|skipped| skipped.count).sum(),
             skipped_reasons: skipped,
             baselines,
+            notes,
             math,
             recommendation: Recommendation { text: String::new(), point: None },
         };

@@ -28,6 +28,7 @@ pub fn text(trade: &Trade) -> String {
     for (heading, table) in further.iter().filter(|(_, table)| !table.rows.is_empty()) {
         let _ = write!(text, "\n{heading}\n{}", lines(table));
     }
+    trade.notes.iter().for_each(|note| text += &format!("* {note}\n"));
     let skipped = skipped(trade).map_or(String::new(), |skipped| skipped + "\n");
     let _ = write!(text, "\n{skipped}{}\n", trade.recommendation.text);
     text
