@@ -50,7 +50,7 @@ fn all_solvers_agree_on_small_grids() {
 /// Contact moves from tick to tick, so that warm starts have something to do.
 #[test]
 fn contact_moves() {
-    for file in ["catalogue/h-tri.toml", "scenes/levee.toml"] {
+    for file in ["catalogue/h-tri.toml", "scenes/benbelgacem.toml"] {
         let scene = read(file);
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
         let parts = Parts::examine(&scene, &problem).unwrap();

@@ -60,14 +60,16 @@ fn advice(
 ) -> String {
     let mut text = String::new();
     let is_kernel = |b: &Baseline| b.solver.starts_with("kernel");
-    match (is_kernel(cold), is_kernel(warm_on_full)) {
-        (true, true) => text += "Sweeps lose nowhere on the full problem.",
-        (true, false) => text += &format!("PSOR loses warm: take the {}", warm_on_full.solver),
-        (false, true) => text += &format!("PSOR loses cold: take the {}", cold.solver),
-        (false, false) => {
-            text += &format!("PSOR loses cold and warm: take the {}", warm_on_full.solver);
-        }
-    }
+    let loses = match (is_kernel(cold), is_kernel(warm_on_full)) {
+        (true, true) => None,
+        (true, false) => Some(("warm", warm_on_full)),
+        (false, true) => Some(("cold", cold)),
+        (false, false) => Some(("cold and warm", warm_on_full)),
+    };
+    text += &match loses {
+        None => "PSOR loses nowhere on the full problem.".to_owned(),
+        Some((start, to)) => format!("PSOR loses {start}: take {}.", to.solver),
+    };
     if let (Some(cascade), Some(psor)) = (cascade, psor) {
         text +=
             &format!(" A start from coarse to fine costs {:.2} of a cold PSOR.", cascade / psor);
