@@ -201,37 +201,3 @@ fn every_scene_can_be_its_own_reference() {
         assert!(found.energy > 0.0 && truth.energy() > found.energy, "{name}: {found:?}");
     }
 }
-
-#[test]
-fn temp_times() {
-    let scene = read("catalogue/h-tri.toml");
-    let lap = |what: &str, since: std::time::Instant| {
-        println!("TIME {what}: {:.3}", since.elapsed().as_secs_f64())
-    };
-    let now = std::time::Instant::now;
-    let t = now();
-    let truth = reference(&scene, &grid(192, Cells::Triangles));
-    lap("build", t);
-    println!("{}", truth.words());
-    let t = now();
-    let truth_exact = exact(&scene, &grid(12, Cells::Triangles));
-    lap("build exact", t);
-    for cells in [Cells::Triangles, Cells::Quads] {
-        for n in [12, 24, 48] {
-            let (problem, solution) = solved(&scene, grid(n, cells));
-            let answer = Answer::from(&solution);
-            let bare = Answer { certified: None, ..answer };
-            for (what, truth) in [("reference", &truth), ("exact", &truth_exact)] {
-                for which in ["first", "again"] {
-                    let t = now();
-                    let e = truth.errors(&scene, &problem, &answer).unwrap();
-                    lap(&format!("{what} {cells:?} {n} {which}"), t);
-                    println!("{e:?}");
-                }
-                let t = now();
-                truth.errors(&scene, &problem, &bare).unwrap();
-                lap(&format!("{what} {cells:?} {n} bare"), t);
-            }
-        }
-    }
-}
