@@ -1,7 +1,7 @@
 //! The error bound alone, and a whole tick of the full model.
 
 use criterion::Bencher;
-use signorini_host::bake::full::{Baked, Controller, limits};
+use signorini_host::bake::full::{Baked, Controller};
 use signorini_host::certify::{Certifier, Data};
 use signorini_host::scalar::Scalar;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
@@ -34,7 +34,7 @@ fn tick_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip
     let mut loads = [0.9, 1.1].map(|factor| R::narrow(factor * scene.inputs[0].default));
     let mut tick = || {
         loads.reverse();
-        controller.tick(&loads[..1], limits())
+        controller.tick(&loads[..1])
     };
     assert!(tick().is_ok_and(|(_, report)| report.verdict.certificate().is_some()));
     bencher.iter(tick);

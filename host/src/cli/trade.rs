@@ -69,6 +69,7 @@ impl Arguments {
                 &self.scenes,
                 self.target.unwrap_or(Target::Host),
                 self.out.as_deref(),
+                !self.no_peers,
             )?,
         };
         let bar = steps(0);

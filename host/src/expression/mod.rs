@@ -123,7 +123,7 @@ impl Expression {
     /// The expression of x and y that it is at the time t.
     #[must_use]
     pub fn at_time(&self, t: f64) -> Self {
-        Self { text: self.text.clone(), program: self.program.at_time(t) }
+        Self { program: self.program.at_time(t), ..self.clone() }
     }
 
     /// How often a device calls `function` to evaluate this once.

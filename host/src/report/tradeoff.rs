@@ -13,7 +13,7 @@ pub struct Tradeoff {
     pub summary: Listing,
     /// What follows for all of them, a sentence each.
     pub findings: Vec<String>,
-    /// A study of problem sizes, as HTML; empty where there is none.
+    /// A study of problem sizes, as a table in text; empty where there is none.
     pub sizes: String,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
@@ -70,7 +70,11 @@ pub fn tradeoff(found: &Tradeoff) -> String {
         html += &findings(&found.findings);
     }
     if !found.sizes.is_empty() {
-        let _ = write!(html, "<h3>From small problems to large ones</h3>\n{}", found.sizes);
+        let _ = write!(
+            html,
+            "<h3>From small problems to large ones</h3>\n<pre>{}</pre>\n",
+            escape(&found.sizes)
+        );
     }
     html.extend(found.scenes.iter().map(panel));
     html

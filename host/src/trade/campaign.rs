@@ -97,8 +97,9 @@ impl Campaign {
         let targets = target.map_or(vec![Target::Host, Target::M4f], |target| vec![target]);
         let mut studies = Vec::new();
         for target in targets {
-            studies
-                .extend(Self::of(&paths, target, Some(&record.join(target.to_string())))?.studies);
+            let folder = record.join(target.to_string());
+            let peers = with_peers && target == Target::Host;
+            studies.extend(Self::of(&paths, target, Some(&folder), peers)?.studies);
         }
         let on_host = studies.iter().any(|study| study.target == Target::Host);
         let sizes = (on_host && with_peers).then(|| record.join(SIZES));

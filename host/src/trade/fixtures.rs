@@ -26,7 +26,6 @@ pub fn point(at: usize) -> Point {
     Point {
         name: format!("{model}, level {level}, {scalar}, {stop}"),
         scalar: scalar.to_owned(),
-        notes: Vec::new(),
         math: "libm".to_owned(),
         cells: "triangles".to_owned(),
         level,
@@ -90,13 +89,15 @@ pub fn trade(scene: &str, count: usize) -> Trade {
             baseline("Clarabel", 24.0, 9),
             baseline("OSQP", 150.0, 75),
         ],
+        notes: Vec::new(),
         math: vec![FunctionCost {
             function: "sqrt".to_owned(),
             used_in: "the search for ω".to_owned(),
-            energy: 3e-7,
-            force: 1e-6,
-            sweeps: -2,
+            energy: Some(3e-7),
+            force: Some(1e-6),
+            sweeps: Some(-2),
             saved: 18.0,
+            ..FunctionCost::default()
         }],
         recommendation: Recommendation { text, point: taken },
     }
@@ -109,6 +110,9 @@ fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
         unknowns: 96,
         start: "warm".to_owned(),
         cycles: 9_876.0 * ratio,
+        tolerance: 1e-6,
+        to_condensed: Some(ratio),
+        target: 1e-4,
         cycles_spread: 0.042,
         ratio,
         algebraic_error: 1e-9 * ratio,

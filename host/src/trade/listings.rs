@@ -96,17 +96,23 @@ pub fn math(trade: &Trade) -> Listing {
         "used in",
         "energy %",
         "force %",
+        "length %",
         "sweeps",
+        "calls",
         "instructions saved a call",
+        "remark",
     ]);
     let rows = trade.math.iter().map(|function| {
         vec![
             function.function.clone(),
             function.used_in.clone(),
-            percent(function.energy, 1.0),
-            percent(function.force, 1.0),
-            format!("{:+}", function.sweeps).replace('-', "−"),
+            or_dash(function.energy, |change| percent(change, 1.0)),
+            or_dash(function.force, |change| percent(change, 1.0)),
+            or_dash(function.length, |change| percent(change, 1.0)),
+            or_dash(function.sweeps, |more| format!("{more:+}").replace('-', "−")),
+            grouped(function.calls),
             plain(function.saved),
+            function.note.clone().unwrap_or_default(),
         ]
     });
     Listing { header, rows: rows.collect(), marked: None }

@@ -128,14 +128,17 @@ fn study(trade: &Trade) -> TradeStudy {
 mod tests {
     use super::super::fixtures::trade;
     use super::*;
-    use crate::baseline;
     use crate::report::{Report, html};
 
     #[test]
     fn a_row_a_scene_with_both_targets() {
         let board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
-        let records = Records { host: vec![trade("levee", 8), trade("pit", 8)], m4f: vec![board] };
-        let found = section(&records, String::new());
+        let records = Records {
+            host: vec![trade("levee", 8), trade("pit", 8)],
+            m4f: vec![board],
+            sizes: None,
+        };
+        let found = section(&records);
         let [levee, pit] = &found.summary.rows[..] else { panic!("{:?}", found.summary) };
         assert_eq!((levee.len(), &*levee[0], &*levee[5]), (HEADER.len(), "levee", "–"));
         assert_eq!((&*pit[9], &*pit[10]), ("24.0×", "150×"));
@@ -152,15 +155,14 @@ mod tests {
         let mut board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
         board.recommendation.point = None;
         board.baselines.clear();
-        let found = section(&Records { host: Vec::new(), m4f: vec![board] }, String::new());
+        let found = section(&Records { m4f: vec![board], ..Records::default() });
         assert_eq!(found.summary.rows[0][1..], vec!["–"; HEADER.len() - 1]);
     }
 
     #[test]
     fn without_a_record_the_section_says_how_to_get_one() {
-        let found = section(&Records::default(), "<p>sizes</p>".to_owned());
+        let found = section(&Records::default());
         let page = html(&Report { tradeoff: Some(found), ..Report::default() });
         assert!(page.contains("No committed trade record: run <code>signorini trade</code>"));
-        assert!(page.contains("<p>sizes</p>"));
     }
 }
