@@ -77,7 +77,9 @@ impl Study {
     /// # Errors
     /// A scene that cannot be read.
     pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
-        let scene = Scene::read(path)?.at_rest();
+        let mut scene = Scene::read(path)?.at_rest();
+        // What a scene declares of its device is no limit here.
+        scene.target = scene.target.filter(|_| target != Target::Host);
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { scene, name, target, folder, with_peers })
     }
