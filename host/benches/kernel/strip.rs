@@ -20,6 +20,7 @@ f = "-0.1"
 kind = "contact"
 [boundary.dirichlet]
 kind = "dirichlet"
+value = "0"
 [input.rise]
 of = "dirichlet"
 field = "value"
