@@ -21,8 +21,8 @@ pub fn certificate<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
     bencher.iter(|| certifier.certify(&parts, &assembled, &data, &u));
 }
 
-/// Loads from inputs, sweeps with certificates until the bound is settled, outputs; the load is up and down
-/// by 10 % from tick to tick.
+/// Data from inputs, sweeps with certificates until the bound is settled, outputs; u_D is up and down by
+/// 10 % from tick to tick.
 pub fn tick<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
     strip.widen(bencher, tick_wide::<R, TRIANGLES>, tick_wide::<R, QUADS>);
 }
@@ -31,10 +31,10 @@ fn tick_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip
     let scene = scene(1.0);
     let baked = Baked::<R>::new(&scene, strip.problem()).expect("the strip can be baked");
     let mut controller = Controller::<R, WIDTH>::new(&baked);
-    let mut loads = [0.9, 1.1].map(|factor| R::narrow(factor * scene.inputs[0].default));
+    let mut inputs = [0.9, 1.1].map(|factor| R::narrow(factor * scene.inputs[0].default));
     let mut tick = || {
-        loads.reverse();
-        controller.tick(&loads[..1])
+        inputs.reverse();
+        controller.tick(&inputs[..1])
     };
     assert!(tick().is_ok_and(|(_, report)| report.verdict.certificate().is_some()));
     bencher.iter(tick);

@@ -60,14 +60,14 @@ fn sweep<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate) {
     });
 }
 
-/// A warm tick of the exact method, its outputs included; the load is up and down by 10 %.
+/// A warm tick of the exact method, its outputs included; u_D is up and down by 10 %.
 fn tick<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate, certified: bool) {
     let baked = baked::<R>(condensate, certified);
     let mut controller = Controller::new(&baked);
-    let mut loads = [0.9, 1.1].map(|factor| R::narrow(factor * condensate.defaults[1]));
+    let mut inputs = [0.9, 1.1].map(|factor| R::narrow(factor * condensate.defaults[1]));
     bencher.iter(|| {
-        loads.reverse();
-        controller.tick(&loads[..1])
+        inputs.reverse();
+        controller.tick(&inputs[..1])
     });
 }
 

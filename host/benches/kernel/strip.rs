@@ -14,19 +14,21 @@ const SCENE: &str = r#"
 mesh = "none.msh"
 [material.default]
 conductivity = "1"
+[source]
+f = "-0.1"
 [boundary.contact]
 kind = "contact"
 [boundary.dirichlet]
 kind = "dirichlet"
-value = "(x^2 + y^2)^0.75 * cos(1.5*atan2(y, x))"
-[input.load]
-of = "source"
-field = "f"
-pattern = "1"
-default = -0.1
+value = "0"
+[input.rise]
+of = "dirichlet"
+field = "value"
+pattern = "(x^2 + y^2)^0.75 * cos(1.5*atan2(y, x))"
+default = 1.0
 "#;
 
-/// The scene with a load that is `factor` times its default.
+/// The scene with u_D that is `factor` times its default.
 pub fn scene(factor: f64) -> Scene {
     let mut scene = Scene::parse(SCENE, Path::new("strip.toml")).expect("the scene is well-formed");
     scene.inputs[0].default *= factor;
@@ -49,11 +51,11 @@ impl Strip {
     }
 
     pub fn problem(&self) -> &Problem {
-        self.problem.get_or_init(|| self.loaded(1.0))
+        self.problem.get_or_init(|| self.raised(1.0))
     }
 
-    /// The problem with another load.
-    pub fn loaded(&self, factor: f64) -> Problem {
+    /// The problem with u_D times `factor`.
+    pub fn raised(&self, factor: f64) -> Problem {
         let mesh = grid(self.n, self.cells);
         Problem::new(&scene(factor), mesh).expect("the scene fits the mesh")
     }

@@ -63,7 +63,8 @@ const AS_GOOD: f64 = 1.1;
 /// The point for a wish: the cheapest that is accurate enough, the most accurate that is cheap enough. Without a wish
 /// the cheapest that is as accurate as the scene's own mesh, solved in full, and says so, where any has a bound.
 pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
-    let certified = *wish == Wish::default() && trade.points.iter().any(|point| point.bound.is_some());
+    let certified =
+        *wish == Wish::default() && trade.points.iter().any(|point| point.bound.is_some());
     let points = || {
         let bakeable = trade.points.iter().filter(|point| point.scalar != "f32+f64");
         bakeable.filter(move |point| !certified || point.bound.is_some())

@@ -175,7 +175,7 @@ fn scalar_name(setting: &Setting) -> &'static str {
     }
 }
 
-/// All that tells it from the other points of its study.
+/// All that tells it from the other points of its study; numbers are unknowns, n those of a condensed model.
 fn name(point: &Point, contact: usize) -> String {
     let Point { model, cells, unknowns, scalar, stop, start, .. } = point;
     let mut words = vec![match model.as_str() {

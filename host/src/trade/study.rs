@@ -131,7 +131,14 @@ impl Study {
         let trade = self.together(plan.skipped, facts, cases, baselines, functions, wish);
         super::files::write(&self.folder, &self.scene, &trade)?;
         journal.close()?;
+        // The fragments that boards were measured with; on the host there are none.
+        let _ = std::fs::remove_dir_all(self.points());
         Ok(Progress::Whole(Box::new(trade)))
+    }
+
+    /// Where the fragments go that boards are measured with.
+    fn points(&self) -> PathBuf {
+        self.folder.join("points")
     }
 
     /// A scene with a setting of its own is measured in that alone.
@@ -217,7 +224,7 @@ impl Study {
         let mut point =
             measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
         if let Some(board) = self.target.board() {
-            let folder = self.folder.join("points");
+            let folder = self.points();
             let file = folder.join(format!("{:016x}.toml", digest(&point.name)));
             fragment::write(&file, &scene, setting, &point.name)?;
             match board::measure(&file, board, &folder)? {
