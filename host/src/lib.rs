@@ -27,5 +27,6 @@ pub mod search;
 pub mod setting;
 pub mod solve;
 pub mod study;
+pub(crate) mod threads;
 pub mod tick;
 pub mod trade;

@@ -3,15 +3,19 @@
 //! A lower rule comes out up to 0.5 % too small where the exact gradient has a kink.
 
 use serde::Serialize;
+use signorini_kernel::Tensor;
 
-use crate::certify::exact::{Distance, distance};
+use crate::certify::cell::{Cell, Jet};
+use crate::certify::conductivity::{Conductivity, apply, dot, product};
+use crate::certify::exact::{Distance, distance, minus};
+use crate::certify::sampled::{Sampled, Solution};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
-use crate::field::CellField;
+use crate::field::{CellField, Sample};
 use crate::problem::Problem;
-use crate::quadrature::{Point, gauss, on_quad, on_triangle};
-use crate::scene::{Exact, Located, Material, Scene};
-use crate::solve::Solution;
+use crate::quadrature::gauss;
+use crate::scene::{Exact, Located, Scene};
+use crate::solve;
 
 /// Points a direction.
 pub(crate) const POINTS: usize = 16;
@@ -43,7 +47,7 @@ pub struct Errors {
 pub fn of_solution(
     scene: &Scene,
     problem: &Problem,
-    solution: &Solution,
+    solution: &solve::Solution,
 ) -> Result<Option<Errors>> {
     let Some(exact) = &scene.exact else { return Ok(None) };
     let errors = errors(scene, exact, problem, &solution.u, &solution.flux)?;
@@ -64,24 +68,25 @@ pub fn errors(
     u: &[f64],
     flux: &[f64],
 ) -> Result<Errors> {
+    of_fields(scene, problem, &Solution { scene, exact, time: problem.time }, u, flux)
+}
+
+/// [`errors`] against the exact solution `known`, which may be evaluated or tabulated.
+pub(crate) fn of_fields(
+    scene: &Scene,
+    problem: &Problem,
+    known: &impl Sampled,
+    u: &[f64],
+    flux: &[f64],
+) -> Result<Errors> {
     let rule = gauss(POINTS);
-    let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
-    let triangles = problem.mesh.triangles.len();
     let mut sums = Errors::default();
-    for cell in 0..triangles + problem.mesh.quads.len() {
-        let field = CellField::new(problem, cell, u, flux);
-        let material = &scene.materials[problem.binding.materials[cell] as usize];
-        let mut add = |point: Point| {
-            let exact = Values::at(scene, exact, material, point.x, problem.time)?;
-            sums.add(&exact, &field, &point);
-            Ok::<(), Error>(())
-        };
-        if cell < triangles {
-            let corners = problem.mesh.triangles[cell].map(corner);
-            on_triangle(corners, &rule).try_for_each(&mut add)?;
-        } else {
-            let corners = problem.mesh.quads[cell - triangles].map(corner);
-            on_quad(corners, &rule).try_for_each(&mut add)?;
+    for at in 0..problem.cells() {
+        let field = CellField::new(problem, at, u, flux);
+        let conductivity = Conductivity::of(scene, problem, at);
+        let points = Cell::of(problem, at).points(&rule);
+        for (point, known) in points.iter().zip(known.on_cell(at, &points)?.iter()) {
+            sums.add(known, &conductivity.at(point.x), &field.sample(point), point.weight);
         }
     }
     let Errors { h1, l2, flux, energy, .. } = sums;
@@ -111,27 +116,6 @@ pub(crate) fn exact_at(
     Ok((value(&exact.u)?, [value(along_x)?, value(along_y)?]))
 }
 
-/// The exact solution and A at one point.
-struct Values {
-    u: f64,
-    gradient: [f64; 2],
-    tensor: [f64; 3],
-}
-
-impl Values {
-    fn at(
-        scene: &Scene,
-        exact: &Exact,
-        material: &Material,
-        [x, y]: [f64; 2],
-        time: f64,
-    ) -> Result<Self> {
-        let (u, gradient) = exact_at(scene, exact, [x, y], time)?;
-        let tensor = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
-        Ok(Self { u, gradient, tensor })
-    }
-}
-
 impl Errors {
     /// With the distance of S and τ.
     #[must_use]
@@ -139,16 +123,13 @@ impl Errors {
         Self { combined: Some(combined), identity: Some(identity), ..self }
     }
 
-    /// Adds one point's squares.
-    fn add(&mut self, exact: &Values, field: &CellField, point: &Point) {
-        let ([ux, uy], [xx, xy, yy]) = (exact.gradient, exact.tensor);
-        let sample = field.sample(point);
-        let (ex, ey) = (ux - sample.gradient[0], uy - sample.gradient[1]);
-        let (sx, sy) = (xx * ux + xy * uy, xy * ux + yy * uy);
-        let weight = point.weight;
-        self.h1 += weight * (ex * ex + ey * ey);
-        self.l2 += weight * (exact.u - sample.u).powi(2);
-        self.flux += weight * ((sx - sample.flux[0]).powi(2) + (sy - sample.flux[1]).powi(2));
-        self.energy += weight * (xx * ex * ex + 2.0 * xy * ex * ey + yy * ey * ey);
+    /// Adds the squares of one point, an element of area `weight`.
+    fn add(&mut self, known: &Jet, a: &Tensor<f64>, found: &Sample, weight: f64) {
+        let error = minus(known.gradient, found.gradient);
+        let flux_error = minus(apply(a, known.gradient), found.flux);
+        self.h1 += weight * dot(error, error);
+        self.l2 += weight * (known.value - found.u).powi(2);
+        self.flux += weight * dot(flux_error, flux_error);
+        self.energy += weight * product(a, error, error);
     }
 }

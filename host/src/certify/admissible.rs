@@ -1,7 +1,7 @@
 //! The functions whose distance to the solution the bound bounds: S in H¹ and τ in H(div).
 
 use super::cell::{Jet, Local};
-use super::deviation::{Deviation, Deviations};
+use super::deviation::{Deviation, Deviations, Lift};
 use crate::error::Result;
 use crate::problem::Problem;
 
@@ -20,10 +20,16 @@ pub struct Admissible<'a> {
     pub tau: &'a [f64],
 }
 
+/// S on one cell, without what ψ and u_D add to it.
+pub(crate) struct Chordal {
+    vertices: Vec<f64>,
+    bubbles: Vec<f64>,
+}
+
 /// S on one cell.
 pub(crate) struct OnCell<'d, 's> {
-    vertices: Vec<f64>,
-    sides: Vec<(f64, Option<&'d Deviation<'s>>)>,
+    chordal: Chordal,
+    lift: Lift<'d, 's>,
 }
 
 impl Admissible<'_> {
@@ -34,20 +40,21 @@ impl Admissible<'_> {
         at: usize,
         deviations: &'d Deviations<'s>,
     ) -> OnCell<'d, 's> {
+        let lift = Lift::on_cell(problem, at, deviations);
+        OnCell { chordal: self.chordal(problem, at), lift }
+    }
+
+    /// S − L on cell `at`, triangles first: its part that the numbers give.
+    pub(crate) fn chordal(&self, problem: &Problem, at: usize) -> Chordal {
         let (mesh, topology) = (&problem.mesh, &problem.topology);
         let quad = at.checked_sub(mesh.triangles.len());
         let (vertices, edges): (&[u32], &[u32]) = match quad {
-            None => (&mesh.triangles[at], &topology.of_triangles[at]),
+            None => (&mesh.triangles[at], &[]),
             Some(quad) => (&mesh.quads[quad], &topology.of_quads[quad]),
         };
-        let side = |&edge: &u32| {
-            let edge = edge as usize;
-            let bubble = if quad.is_some() { self.bubbles[edge] } else { 0.0 };
-            (bubble, deviations.on(edge))
-        };
-        OnCell {
+        Chordal {
             vertices: vertices.iter().map(|&vertex| self.vertices[vertex as usize]).collect(),
-            sides: edges.iter().map(side).collect(),
+            bubbles: edges.iter().map(|&edge| self.bubbles[edge as usize]).collect(),
         }
     }
 
@@ -65,20 +72,25 @@ impl Admissible<'_> {
     }
 }
 
-impl OnCell<'_, '_> {
-    /// S and ∇S at a point of the cell.
-    pub(crate) fn at(&self, local: &Local) -> Result<Jet> {
+impl Chordal {
+    /// S − L and its gradient at a point of the cell.
+    pub(crate) fn at(&self, local: &Local) -> Jet {
         let mut sum = Jet::default();
         for (&value, &function) in self.vertices.iter().zip(&local.vertices) {
             sum.add(value, function);
         }
-        for ((bubble, deviation), side) in self.sides.iter().zip(&local.sides) {
-            sum.add(*bubble, side.bubble());
-            if let Some(deviation) = deviation {
-                let [w, slope] = deviation.at(side.t)?;
-                sum.add(1.0, side.extension(w, slope));
-            }
+        for (&bubble, side) in self.bubbles.iter().zip(&local.sides) {
+            sum.add(bubble, side.bubble());
         }
+        sum
+    }
+}
+
+impl OnCell<'_, '_> {
+    /// S and ∇S at a point of the cell.
+    pub(crate) fn at(&self, local: &Local) -> Result<Jet> {
+        let mut sum = self.chordal.at(local);
+        sum.add(1.0, self.lift.at(local)?);
         Ok(sum)
     }
 }

@@ -2,6 +2,7 @@
 
 use signorini_kernel::Real;
 
+use super::cell::{Jet, Local};
 use super::ends::Ends;
 use crate::error::Result;
 use crate::problem::{Problem, Sum};
@@ -76,5 +77,40 @@ impl Deviation<'_> {
             }
         }
         Ok(false)
+    }
+}
+
+/// L = Σ v_E on one cell, v_E = (1 − η) w(t) for its sides E.
+pub(crate) struct Lift<'d, 's>(Vec<Option<&'d Deviation<'s>>>);
+
+impl<'d, 's> Lift<'d, 's> {
+    /// That of cell `at`, triangles first.
+    pub(crate) fn on_cell(problem: &Problem, at: usize, deviations: &'d Deviations<'s>) -> Self {
+        let topology = &problem.topology;
+        let edges: &[u32] = match topology.of_triangles.get(at) {
+            Some(edges) => edges,
+            None => &topology.of_quads[at - topology.of_triangles.len()],
+        };
+        Self(edges.iter().map(|&edge| deviations.on(edge as usize)).collect())
+    }
+
+    /// Whether no side's data leave their chord.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.0.iter().all(Option::is_none)
+    }
+
+    /// L and ∇L at a point of the cell.
+    ///
+    /// # Errors
+    /// Data that are not finite or not differentiable there.
+    pub(crate) fn at(&self, local: &Local) -> Result<Jet> {
+        let mut sum = Jet::default();
+        for (deviation, side) in self.0.iter().zip(&local.sides) {
+            if let Some(deviation) = deviation {
+                let [w, slope] = deviation.at(side.t)?;
+                sum.add(1.0, side.extension(w, slope));
+            }
+        }
+        Ok(sum)
     }
 }

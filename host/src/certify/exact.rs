@@ -9,13 +9,16 @@
 //! bound² = identity², whatever S and τ are, is a test of the bound from both sides. Nothing is
 //! clipped: where S or τ are not admissible, single terms are negative.
 
+use std::iter::repeat;
+
 use signorini_kernel::Tensor;
 use signorini_kernel::geometry::scaled_normal;
 
 use super::admissible::Admissible;
-use super::cell::Cell;
+use super::cell::{Cell, Jet};
 use super::conductivity::{Conductivity, apply, dot, inverse, product};
 use super::deviation::Deviations;
+use super::sampled::{Lifted, Sampled, Solution};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::norms::{POINTS, exact_at};
@@ -35,14 +38,6 @@ pub struct Distance {
     pub identity: f64,
 }
 
-/// Squares of both while they add up.
-#[derive(Default)]
-struct Squares {
-    combined: f64,
-    /// identity² − combined²
-    rest: f64,
-}
-
 /// Integrates the distances at the time of the problem, with 16×16 points a cell and 64 an edge; the means are those of
 /// `problem.loads`.
 ///
@@ -55,29 +50,37 @@ pub fn distance(
     admissible: &Admissible,
 ) -> Result<Distance> {
     let deviations = Deviations::at_time(scene, problem, problem.time)?;
-    let study = Study { scene, exact, problem, admissible, deviations: &deviations };
-    let mut squares = Squares::default();
-    for at in 0..problem.mesh.triangles.len() + problem.mesh.quads.len() {
-        study.add_cell(&mut squares, at)?;
-    }
-    for (edge, kind) in problem.kinds.iter().enumerate() {
-        match kind {
-            EdgeKind::Contact => study.add_contact(&mut squares, edge)?,
-            EdgeKind::Neumann => study.add_neumann(&mut squares, edge)?,
-            EdgeKind::Robin => study.add_robin(&mut squares, edge)?,
-            EdgeKind::Interior | EdgeKind::Dirichlet => {}
-        }
-    }
-    let Squares { combined, rest } = squares;
-    Ok(Distance { combined: combined.sqrt(), identity: (combined + rest).max(0.0).sqrt() })
+    let u = Solution { scene, exact, time: problem.time };
+    let lift = Lifted { problem, deviations: &deviations };
+    let deviations = &deviations;
+    Study { scene, exact, problem, admissible, deviations, u: &u, lift: &lift }.distance()
 }
 
-struct Study<'a> {
-    scene: &'a Scene,
-    exact: &'a Exact,
-    problem: &'a Problem,
-    admissible: &'a Admissible<'a>,
-    deviations: &'a Deviations<'a>,
+/// What a distance is integrated from.
+pub(crate) struct Study<'a, U, L> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) exact: &'a Exact,
+    pub(crate) problem: &'a Problem,
+    pub(crate) admissible: &'a Admissible<'a>,
+    /// At the time of the problem.
+    pub(crate) deviations: &'a Deviations<'a>,
+    /// `exact` inside the cells.
+    pub(crate) u: &'a U,
+    /// What `deviations` add to S there.
+    pub(crate) lift: &'a L,
+}
+
+/// What is known at a point of a cell.
+struct CellPoint {
+    x: [f64; 2],
+    /// An element of area.
+    weight: f64,
+    /// The area element of the reference coordinates.
+    determinant: f64,
+    u: f64,
+    s: f64,
+    /// |A^½(∇u − ∇S)|² + |A^{−½}(σ − τ)|²
+    square: f64,
 }
 
 /// What is known at a point of a boundary edge.
@@ -93,67 +96,116 @@ struct EdgePoint {
     tau: f64,
 }
 
-impl Study<'_> {
-    fn add_cell(&self, squares: &mut Squares, at: usize) -> Result<()> {
-        let (scene, problem) = (self.scene, self.problem);
-        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
-        let s = self.admissible.on_cell(problem, at, self.deviations);
+impl<U: Sampled, L: Sampled> Study<'_, U, L> {
+    /// Both distances.
+    pub(crate) fn distance(&self) -> Result<Distance> {
+        let problem = self.problem;
+        let (mut combined, mut rest) = (0.0, 0.0);
+        let f = Sum::source(self.scene, problem.time);
+        let rule = gauss(POINTS);
+        for at in 0..problem.cells() {
+            let (cell, load) = (Cell::of(problem, at), problem.loads.of_cell(at));
+            self.visit(at, &rule, |point| {
+                combined += point.weight * point.square;
+                let missing = f.at(point.x[0], point.x[1]) - cell.spread(load, point.determinant);
+                rest += 2.0 * point.weight * (point.s - point.u) * missing;
+            })?;
+        }
+        for (edge, kind) in problem.kinds.iter().enumerate() {
+            match kind {
+                EdgeKind::Contact => rest += self.contact(edge)?,
+                EdgeKind::Neumann => rest += self.neumann(edge)?,
+                EdgeKind::Robin => combined += self.robin(edge)?,
+                EdgeKind::Interior | EdgeKind::Dirichlet => {}
+            }
+        }
+        Ok(Distance { combined: combined.sqrt(), identity: (combined + rest).max(0.0).sqrt() })
+    }
+
+    /// [`Distance::combined`] alone.
+    pub(crate) fn combined(&self) -> Result<f64> {
+        let (mut square, rule) = (0.0, gauss(POINTS));
+        for at in 0..self.problem.cells() {
+            self.visit(at, &rule, |point| square += point.weight * point.square)?;
+        }
+        for (edge, kind) in self.problem.kinds.iter().enumerate() {
+            if *kind == EdgeKind::Robin {
+                square += self.robin(edge)?;
+            }
+        }
+        Ok(square.sqrt())
+    }
+
+    /// Calls `add` with the points of `rule` on a cell.
+    fn visit(&self, at: usize, rule: &[[f64; 2]], mut add: impl FnMut(CellPoint)) -> Result<()> {
+        let (problem, tau) = (self.problem, self.admissible.tau);
+        let (cell, conductivity) =
+            (Cell::of(problem, at), Conductivity::of(self.scene, problem, at));
+        let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
-        let tau = CellField::new(problem, at, self.admissible.tau, self.admissible.tau);
-        let (f, load) = (Sum::source(scene, self.problem.time), problem.loads.of_cell(at));
-        for point in cell.points(&gauss(POINTS)) {
+        let tau = CellField::new(problem, at, tau, tau);
+        let points = cell.points(rule);
+        let (u, lift) = (self.u.on_cell(at, &points)?, self.lift.on_cell(at, &points)?);
+        let lift = lift.iter().copied().chain(repeat(Jet::default()));
+        for ((point, u), lift) in points.iter().zip(u.iter()).zip(lift) {
             let local = cell.local(point.reference);
-            let (u, gradient) = exact_at(scene, self.exact, point.x, self.problem.time)?;
-            let (a, s) = (conductivity.at(point.x), s.at(&local)?);
-            let tau = tau.sample(&point).flux;
-            squares.combined += point.weight * in_cell(&a, gradient, s.gradient, tau);
-            let missing = f.at(point.x[0], point.x[1]) - cell.spread(load, local.determinant);
-            squares.rest += 2.0 * point.weight * (s.value - u) * missing;
+            let mut s = chordal.at(&local);
+            s.add(1.0, lift);
+            let (a, tau) = (conductivity.at(point.x), tau.sample(point).flux);
+            add(CellPoint {
+                x: point.x,
+                weight: point.weight,
+                determinant: local.determinant,
+                u: u.value,
+                s: s.value,
+                square: in_cell(&a, u.gradient, s.gradient, tau),
+            });
         }
         Ok(())
     }
 
-    fn add_contact(&self, squares: &mut Squares, edge: usize) -> Result<()> {
+    /// 2∫[(σ·n − q)(S − ψ) + (τ·n − q̄)(u − ψ) + (S − u)(q − q̄)] over an edge of C.
+    fn contact(&self, edge: usize) -> Result<f64> {
         let (Some(q), Some(gap)) = (self.data(edge, Field::Flux), self.data(edge, Field::Gap))
         else {
-            return Ok(());
+            return Ok(0.0);
         };
         let mean = q.mean(self.problem.segment(edge))?;
-        for point in self.edge_points(edge)? {
+        let term = |point: EdgePoint| {
             let [x, y] = point.x;
             let (q, psi) = (q.finite(q.at(x, y), point.x)?, gap.finite(gap.at(x, y), point.x)?);
             let contact =
                 (point.sigma - q) * (point.s - psi) + (point.tau - mean) * (point.u - psi);
-            let oscillation = (point.s - point.u) * (q - mean);
-            squares.rest += 2.0 * point.weight * (contact + oscillation);
-        }
-        Ok(())
+            Ok(2.0 * point.weight * (contact + (point.s - point.u) * (q - mean)))
+        };
+        self.edge_points(edge)?.into_iter().map(term).sum()
     }
 
-    fn add_neumann(&self, squares: &mut Squares, edge: usize) -> Result<()> {
+    /// 2∫(S − u)(g − ḡ) over an edge of N.
+    fn neumann(&self, edge: usize) -> Result<f64> {
         let Some(g) = self.data(edge, Field::Flux).filter(|g| g.constant().is_none()) else {
-            return Ok(());
+            return Ok(0.0);
         };
         let mean = g.mean(self.problem.segment(edge))?;
-        for point in self.edge_points(edge)? {
+        let term = |point: EdgePoint| {
             let missing = g.finite(g.at(point.x[0], point.x[1]), point.x)? - mean;
-            squares.rest += 2.0 * point.weight * (point.s - point.u) * missing;
-        }
-        Ok(())
+            Ok(2.0 * point.weight * (point.s - point.u) * missing)
+        };
+        self.edge_points(edge)?.into_iter().map(term).sum()
     }
 
-    fn add_robin(&self, squares: &mut Squares, edge: usize) -> Result<()> {
+    /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R.
+    fn robin(&self, edge: usize) -> Result<f64> {
         let problem = self.problem;
         let boundary = problem.binding.boundary(problem.ends[edge]);
         let boundary = boundary.map(|boundary| &self.scene.boundaries[boundary].condition);
-        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(()) };
-        let coefficient = Sum::alone(self.scene, coefficient, self.problem.time);
-        for point in self.edge_points(edge)? {
+        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
+        let coefficient = Sum::alone(self.scene, coefficient, problem.time);
+        let term = |point: EdgePoint| {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
-            let square = on_robin(h, point.u - point.s, point.sigma - point.tau);
-            squares.combined += point.weight * square;
-        }
-        Ok(())
+            Ok(point.weight * on_robin(h, point.u - point.s, point.sigma - point.tau))
+        };
+        self.edge_points(edge)?.into_iter().map(term).sum()
     }
 
     fn data(&self, edge: usize, field: Field) -> Option<Sum<'_>> {

@@ -30,6 +30,7 @@ pub mod oscillation;
 pub mod robin;
 #[cfg(test)]
 mod rounding;
+pub(crate) mod sampled;
 mod ways;
 
 pub use bound::{Certified, ErrorBound};

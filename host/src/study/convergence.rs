@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::checks::Check;
-use super::threads::on_two_threads;
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
 use crate::norms::{Errors, of_solution};
@@ -13,6 +12,7 @@ use crate::problem::Problem;
 use crate::report::{ConvergencePlot, ConvergenceSeries, measured_rate};
 use crate::scene::Scene;
 use crate::solve::{Options, SolverKind, solve};
+use crate::threads::on_two_threads;
 
 /// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
 const SCENES: [&str; 4] = ["a", "b", "h", "hg"];

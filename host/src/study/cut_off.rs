@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::bound::Certified;
 use super::checks::Check;
-use super::threads::on_two_threads;
 use crate::error::Result;
 use crate::mesh::adapted;
 use crate::problem::Problem;
 use crate::report::{self, SweepPlot, TableRow};
 use crate::scene::Scene;
 use crate::solve::{Options, solve};
+use crate::threads::on_two_threads;
 
 /// Sweeps from a cold start.
 const STOPS: [u32; 5] = [1, 5, 20, 80, 320];

@@ -9,7 +9,6 @@ mod cost;
 mod cut_off;
 mod panel;
 mod table;
-mod threads;
 
 use std::path::{Path, PathBuf};
 

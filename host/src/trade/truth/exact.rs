@@ -4,6 +4,7 @@ use signorini_kernel::geometry::scaled_normal;
 
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{Conductivity, apply, dot, product};
+use crate::certify::sampled::Sampled;
 use crate::error::Result;
 use crate::norms::{POINTS, exact_at};
 use crate::problem::{Problem, Sum};
@@ -28,14 +29,15 @@ pub(super) struct Contact {
 }
 
 /// ‖A^½∇u‖
-pub(super) fn energy(scene: &Scene, exact: &Exact, problem: &Problem) -> Result<f64> {
+pub(super) fn energy(scene: &Scene, u: &impl Sampled, problem: &Problem) -> Result<f64> {
     let rule = gauss(POINTS);
     let mut square = 0.0;
     for at in 0..problem.cells() {
         let conductivity = Conductivity::of(scene, problem, at);
-        for point in Cell::of(problem, at).points(&rule) {
-            let (_, gradient) = exact_at(scene, exact, point.x, problem.time)?;
-            square += point.weight * product(&conductivity.at(point.x), gradient, gradient);
+        let points = Cell::of(problem, at).points(&rule);
+        for (point, u) in points.iter().zip(u.on_cell(at, &points)?.iter()) {
+            let a = conductivity.at(point.x);
+            square += point.weight * product(&a, u.gradient, u.gradient);
         }
     }
     Ok(square.sqrt())

@@ -1,7 +1,7 @@
 //! What the errors of a trade study are measured against.
 //!
 //! ```text
-//!   [exact] ──────────────────────────► exact ─────┐
+//!   [exact] ─────────────────► exact ─► tables ────┐
 //!   scene on a finer mesh ─► reference ─► points ──┴─► ‖·‖ of the difference ─► PointError
 //!                 cells of an answer ─► places ─┘
 //! ```
@@ -12,14 +12,17 @@ mod exact;
 mod places;
 mod recovery;
 mod reference;
+mod tables;
 #[cfg(test)]
 mod tests;
 
 use self::exact::Contact;
 use self::reference::Reference;
+use self::tables::Recent;
 use super::record::PointError;
 use crate::certify::admissible::Admissible;
-use crate::certify::exact::distance;
+use crate::certify::deviation::Deviations;
+use crate::certify::exact::Study;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::norms;
@@ -40,7 +43,7 @@ pub struct Truth {
 
 #[derive(Debug)]
 enum Source {
-    Exact(Box<Exact>),
+    Exact(Box<Exact>, Recent),
     Reference(Reference),
 }
 
@@ -87,9 +90,12 @@ impl Truth {
             return Self::by_reference(scene, refined(mesh, finest + FINER)?);
         };
         let problem = Problem::new(scene, mesh.clone())?;
+        let recent = Recent::default();
+        let deviations = Deviations::at_time(scene, &problem, problem.time)?;
+        let tables = recent.of(scene, exact, &problem, &deviations)?;
         Ok(Self {
-            source: Source::Exact(Box::new(exact.clone())),
-            energy: exact::energy(scene, exact, &problem)?,
+            source: Source::Exact(Box::new(exact.clone()), recent),
+            energy: exact::energy(scene, &tables.u, &problem)?,
             contact: exact::contact(scene, exact, &problem)?,
         })
     }
@@ -107,7 +113,7 @@ impl Truth {
     /// What it is, in words.
     pub fn words(&self) -> String {
         match &self.source {
-            Source::Exact(_) => "the exact solution".to_owned(),
+            Source::Exact(..) => "the exact solution".to_owned(),
             Source::Reference(reference) => reference.words(),
         }
     }
@@ -127,14 +133,14 @@ impl Truth {
         self.contact.length
     }
 
-    /// How far `answer`, found for `problem`, is from it. `problem` belongs to the same domain, with
-    /// the loads of t = 0.
+    /// How far `answer`, found for `problem`, is from it. `scene` is what it was made for, in any
+    /// setting; `problem` belongs to the same domain, with the loads of t = 0.
     ///
     /// # Errors
     /// Data that are not finite at a quadrature point.
     pub fn errors(&self, scene: &Scene, problem: &Problem, answer: &Answer) -> Result<PointError> {
         let inside = match &self.source {
-            Source::Exact(exact) => exactly(scene, exact, problem, answer)?,
+            Source::Exact(exact, recent) => exactly(scene, exact, recent, problem, answer)?,
             Source::Reference(reference) => reference.errors(scene, problem, answer)?,
         };
         Ok(PointError {
@@ -146,13 +152,22 @@ impl Truth {
 }
 
 /// The norms over the domain, against an exact solution.
-fn exactly(scene: &Scene, exact: &Exact, problem: &Problem, answer: &Answer) -> Result<PointError> {
-    let errors = norms::errors(scene, exact, problem, answer.u, answer.flux)?;
-    let certified = answer.certified.as_ref();
-    let distance = certified.map(|of| distance(scene, exact, problem, of)).transpose()?;
+fn exactly(
+    scene: &Scene,
+    exact: &Exact,
+    recent: &Recent,
+    problem: &Problem,
+    answer: &Answer,
+) -> Result<PointError> {
+    let deviations = &Deviations::at_time(scene, problem, problem.time)?;
+    let tables = recent.of(scene, exact, problem, deviations)?;
+    let (u, lift) = (&tables.u, &tables.lift);
+    let errors = norms::of_fields(scene, problem, u, answer.u, answer.flux)?;
+    let combined =
+        |admissible| Study { scene, exact, problem, admissible, deviations, u, lift }.combined();
     Ok(PointError {
         energy: errors.energy,
-        combined: distance.map(|distance| distance.combined),
+        combined: answer.certified.as_ref().map(combined).transpose()?,
         l2: errors.l2,
         flux: errors.flux,
         ..PointError::default()

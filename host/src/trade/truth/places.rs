@@ -92,7 +92,7 @@ fn elsewhere() -> InputError {
 }
 
 /// A number that two meshes hardly share.
-fn fingerprint(mesh: &Mesh) -> u64 {
+pub(super) fn fingerprint(mesh: &Mesh) -> u64 {
     let mut hasher = DefaultHasher::new();
     for x in mesh.vertices.as_flattened() {
         x.to_bits().hash(&mut hasher);

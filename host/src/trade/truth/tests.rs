@@ -88,6 +88,23 @@ fn the_exact_solution_gives_the_norms_of_the_catalogue() {
     assert_close(truth.energy(), energy, 1e-3, "energy of the solution");
 }
 
+#[test]
+fn answers_on_other_meshes_in_between_change_nothing() {
+    let scene = read("catalogue/ag-mixed.toml");
+    let meshes = [grid(16, Cells::Triangles), grid(9, Cells::Quads), grid(7, Cells::Mixed)];
+    let truth = exact(&scene, &meshes[0]);
+    let solved = meshes.map(|mesh| solved(&scene, mesh));
+    for at in [0, 1, 2, 2, 0, 1] {
+        let (problem, solution) = &solved[at];
+        let found = truth.errors(&scene, problem, &Answer::from(solution)).unwrap();
+        let expected = of_solution(&scene, problem, solution).unwrap().unwrap();
+        assert_close(found.energy, expected.energy, 1e-12, "energy");
+        assert_close(found.l2, expected.l2, 1e-12, "L2");
+        assert_close(found.flux, expected.flux, 1e-12, "flux");
+        assert_close(found.combined.unwrap(), expected.combined.unwrap(), 1e-12, "combined");
+    }
+}
+
 /// Errors of the answer on `coarse` by the exact solution and by the reference on `fine`; `in_l2` is how
 /// far apart they may be in L2.
 fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: f64) {

@@ -1,4 +1,4 @@
-//! Independent studies on two threads.
+//! Independent work on two threads.
 
 use std::sync::Mutex;
 

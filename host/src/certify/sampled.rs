@@ -1,0 +1,88 @@
+//! Functions of the scene at the quadrature points of cells: what no answer on the mesh changes.
+//!
+//! The exact solution u, and L = Σ_E v_E, what ψ and u_D have above their chords and S takes inside
+//! (see [`super::cell`]). Evaluated when asked for, or kept in a [`Table`] for many answers on one mesh.
+
+use std::borrow::Cow;
+
+use super::cell::{Cell, Jet};
+use super::deviation::{Deviations, Lift};
+use crate::error::Result;
+use crate::norms::{POINTS, exact_at};
+use crate::problem::Problem;
+use crate::quadrature::{Point, gauss};
+use crate::scene::{Exact, Scene};
+use crate::threads::on_two_threads;
+
+/// Cells that a thread takes at a time.
+const PORTION: usize = 64;
+
+/// A function at the points of [`POINTS`]×[`POINTS`] Gauss points a cell.
+pub(crate) trait Sampled {
+    /// At `points`, all those of cell `at` (triangles first). Empty: 0 all over the cell.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    fn on_cell(&self, at: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>>;
+}
+
+/// u of `[exact]`.
+pub(crate) struct Solution<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) exact: &'a Exact,
+    pub(crate) time: f64,
+}
+
+impl Sampled for Solution<'_> {
+    fn on_cell(&self, _: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
+        let jet = |point: &Point| {
+            let (value, gradient) = exact_at(self.scene, self.exact, point.x, self.time)?;
+            Ok(Jet { value, gradient })
+        };
+        points.iter().map(jet).collect()
+    }
+}
+
+/// L of the boundary data.
+pub(crate) struct Lifted<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) deviations: &'a Deviations<'a>,
+}
+
+impl Sampled for Lifted<'_> {
+    fn on_cell(&self, at: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
+        let lift = Lift::on_cell(self.problem, at, self.deviations);
+        if lift.is_zero() {
+            return Ok(Cow::Borrowed(&[]));
+        }
+        let cell = Cell::of(self.problem, at);
+        points.iter().map(|point| lift.at(&cell.local(point.reference))).collect()
+    }
+}
+
+/// The values of such a function, cell by cell: 24 bytes a point.
+#[derive(Debug)]
+pub(crate) struct Table(Vec<Vec<Jet>>);
+
+impl Table {
+    /// Those of `function` on the mesh of `problem`.
+    pub(crate) fn of(function: &(impl Sampled + Sync), problem: &Problem) -> Result<Self> {
+        let (rule, cells) = (gauss(POINTS), problem.cells());
+        let starts: Vec<usize> = (0..cells).step_by(PORTION).collect();
+        let portion = |&start: &usize| {
+            let values = |at| {
+                let values = function.on_cell(at, &Cell::of(problem, at).points(&rule))?;
+                Ok(values.into_owned())
+            };
+            (start..cells.min(start + PORTION)).map(values).collect::<Result<Vec<_>>>()
+        };
+        let portions = on_two_threads(&starts, portion, || {})?;
+        Ok(Self(portions.into_iter().flatten().collect()))
+    }
+}
+
+impl Sampled for Table {
+    fn on_cell(&self, at: usize, _: &[Point]) -> Result<Cow<'_, [Jet]>> {
+        Ok(Cow::Borrowed(&self.0[at]))
+    }
+}
