@@ -179,10 +179,8 @@ fn scalar_name(setting: &Setting) -> &'static str {
 fn name(point: &Point, contact: usize) -> String {
     let Point { model, cells, unknowns, scalar, stop, start, .. } = point;
     let mut words = vec![match model.as_str() {
-        "condensed" => {
-            format!("condensed, {contact} contact edges of {unknowns} unknowns on {cells}")
-        }
-        _ => format!("{cells}, {unknowns} unknowns"),
+        "condensed" => format!("condensed n = {contact} ({cells} {unknowns})"),
+        _ => format!("{cells} {unknowns}"),
     }];
     words.push(scalar.clone());
     match (model.as_str(), stop.as_str()) {
