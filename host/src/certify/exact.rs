@@ -49,11 +49,10 @@ pub fn distance(
     problem: &Problem,
     admissible: &Admissible,
 ) -> Result<Distance> {
-    let deviations = Deviations::at_time(scene, problem, problem.time)?;
-    let u = Solution { scene, exact, time: problem.time };
-    let lift = Lifted { problem, deviations: &deviations };
-    let deviations = &deviations;
-    Study { scene, exact, problem, admissible, deviations, u: &u, lift: &lift }.distance()
+    let deviations = &Deviations::at_time(scene, problem, problem.time)?;
+    let (u, lift) =
+        (&Solution { scene, exact, time: problem.time }, &Lifted { problem, deviations });
+    Study { scene, exact, problem, admissible, deviations, u, lift }.distance()
 }
 
 /// What a distance is integrated from.
@@ -139,8 +138,8 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     /// Calls `add` with the points of `rule` on a cell.
     fn visit(&self, at: usize, rule: &[[f64; 2]], mut add: impl FnMut(CellPoint)) -> Result<()> {
         let (problem, tau) = (self.problem, self.admissible.tau);
-        let (cell, conductivity) =
-            (Cell::of(problem, at), Conductivity::of(self.scene, problem, at));
+        let cell = Cell::of(problem, at);
+        let conductivity = Conductivity::of(self.scene, problem, at);
         let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, tau, tau);
