@@ -122,30 +122,36 @@ fn a_rank_that_panics_hangs_none() {
 }
 
 /// The points of a study, without what a measurement of time leaves in them.
-fn points(folder: &Path, scene: &str) -> Vec<(String, String, String)> {
-    let path = folder.join(scene).join("trade.json");
+fn points(folder: &Path) -> Vec<(String, String, String)> {
+    let path = folder.join("trade.json");
     let text = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let trade: Trade = serde_json::from_slice(&text).unwrap();
     let points = trade.points.into_iter();
     points.map(|p| (p.name, format!("{:?}", p.setting), format!("{:?}", p.error))).collect()
 }
 
+/// One scene is shared by its settings, two are shared as wholes.
 #[test]
-#[ignore = "`signorini trade` does not exist yet"]
 fn a_trade_study_on_two_ranks_is_that_of_one_process() {
-    let scenes = ["levee", "strip"];
     let signorini = Path::new(env!("CARGO_BIN_EXE_signorini"));
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
-    let files = scenes.map(|scene| meshes.join(scene).with_extension("toml"));
-    let [alone, shared] = [tempdir().unwrap(), tempdir().unwrap()];
-    for (mut command, out) in [(Command::new(signorini), &alone), (two_ranks(signorini), &shared)] {
-        let output =
-            command.arg("trade").args(&files).arg("--out").arg(out.path()).output().unwrap();
-        assert!(output.status.success(), "{}", shown(&output));
-    }
-    for scene in scenes {
-        let [alone, shared] = [&alone, &shared].map(|folder| points(folder.path(), scene));
-        assert!(!alone.is_empty());
-        assert_eq!(alone, shared, "{scene}");
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/catalogue");
+    for scenes in [&["b-quad"][..], &["b-quad", "patch-mixed"]] {
+        let files: Vec<_> =
+            scenes.iter().map(|name| meshes.join(name).with_extension("toml")).collect();
+        let [alone, shared] = [tempdir().unwrap(), tempdir().unwrap()];
+        for (mut command, out) in
+            [(Command::new(signorini), &alone), (two_ranks(signorini), &shared)]
+        {
+            command.args(["trade", "--no-peers"]).args(&files).arg("--out").arg(out.path());
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{}", shown(&output));
+        }
+        for scene in scenes {
+            let folder =
+                |root: &Path| if scenes.len() > 1 { root.join(scene) } else { root.to_owned() };
+            let [alone, shared] = [&alone, &shared].map(|root| points(&folder(root.path())));
+            assert!(!alone.is_empty());
+            assert_eq!(alone, shared, "{scene}");
+        }
     }
 }

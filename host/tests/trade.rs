@@ -95,7 +95,8 @@ impl Bench {
     /// `signorini trade` on the scene, into `out`.
     fn trade(&self, out: &str, more: &[&str]) -> (i32, String, String) {
         let (scene, out) = (self.path("strip.toml"), self.path(out));
-        let mut arguments = vec!["trade", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
+        let (scene, out) = (scene.to_str().unwrap(), out.to_str().unwrap());
+        let mut arguments = vec!["trade", scene, "--no-peers", "--out", out];
         arguments.extend(more);
         signorini(&arguments)
     }

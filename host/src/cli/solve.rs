@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 
 use super::place::Place;
+use crate::engine;
 use crate::error::{Error, Result};
 use crate::field::CellField;
 use crate::mesh::adapted;
@@ -17,6 +18,7 @@ use crate::outputs::outputs;
 use crate::problem::Problem;
 use crate::progress::{say, waiting};
 use crate::scene::Scene;
+use crate::setting::{Precision, Setting};
 use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
 
 const EXAMPLES: &str = "\
@@ -31,18 +33,18 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     place: Place,
-    /// Scalar type of the kernel
-    #[arg(long, value_enum, default_value = "f64")]
-    scalar: ScalarKind,
-    /// The kernel's projected SOR, or the host's active set on a sparse factorisation
-    #[arg(long, value_enum, default_value = "kernel")]
-    solver: SolverKind,
+    /// Scalar type of the kernel [default: that of the scene's setting, else f64]
+    #[arg(long, value_enum)]
+    scalar: Option<ScalarKind>,
+    /// The kernel's projected SOR, or the host's active set on a sparse factorisation [default: kernel]
+    #[arg(long, value_enum)]
+    solver: Option<SolverKind>,
     /// Bound on the scaled complementarity residual [default: 1e-13 in f64, the rounding limit in f32]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// Most sweeps allowed
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
-    max_sweeps: u32,
+    /// Most sweeps allowed [default: 1 000 000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    max_sweeps: Option<u32>,
 }
 
 pub(super) fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -57,19 +59,12 @@ impl Arguments {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
-        let options = Options {
-            scalar: self.scalar,
-            solver: self.solver,
-            tolerance: self.tolerance,
-            to_the_floor: false,
-            max_sweeps: self.max_sweeps,
-        };
         let unknowns = problem.topology.counts.unknowns();
         let solution =
-            waiting(&format!("solving {unknowns} unknowns"), || solve(&scene, &problem, &options))?;
+            waiting(&format!("solving {unknowns} unknowns"), || self.solved(&scene, &problem))?;
         let errors = of_solution(&scene, &problem, &solution)?;
         let declared = outputs(&scene, &problem, &solution)?;
-        let summary = Summary::new(&scene, &problem, self.solver, &solution, errors, declared);
+        let summary = Summary::new(&scene, &problem, self.solver(), &solution, errors, declared);
         let files = [
             (
                 "edges.csv",
@@ -82,7 +77,41 @@ impl Arguments {
             write_atomically(&out.join(name), &bytes)?;
         }
         report(&scene, &problem, &solution, errors, &out);
-        Ok(if solution.converged() { 0 } else { 3 })
+        // Sweeps that a setting asks for are what was to be done.
+        let asked = self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
+        Ok(if solution.converged() || asked { 0 } else { 3 })
+    }
+
+    fn solver(&self) -> SolverKind {
+        self.solver.unwrap_or(SolverKind::Kernel)
+    }
+
+    /// Whether the command line leaves how to solve to the scene.
+    fn follows_setting(&self) -> bool {
+        self.solver.is_none() && self.tolerance.is_none() && self.max_sweeps.is_none()
+    }
+
+    /// As the scene's setting says, where it has one and nothing else was asked for.
+    fn solved(&self, scene: &Scene, problem: &Problem) -> Result<Solution> {
+        let own = scene.setting.and_then(|setting| setting.scalar);
+        if let (Some(setting), true) = (scene.setting, self.follows_setting()) {
+            let scalar = self.scalar.map(|scalar| match scalar {
+                ScalarKind::F32 => Precision::F32,
+                ScalarKind::F64 => Precision::F64,
+            });
+            let setting = Setting { scalar: scalar.or(own), ..setting };
+            return engine::solve(&Scene { setting: Some(setting), ..scene.clone() }, problem);
+        }
+        let single = own == Some(Precision::F32) && self.solver() == SolverKind::Kernel;
+        let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
+        let options = Options {
+            scalar,
+            solver: self.solver(),
+            tolerance: self.tolerance,
+            to_the_floor: false,
+            max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
+        };
+        solve(scene, problem, &options)
     }
 }
 
