@@ -34,10 +34,10 @@ pub struct Arguments {
     /// Scene files (TOML) [default: every standard scene]
     scenes: Vec<PathBuf>,
     /// The most that a tick may cost: cycles on the host, instructions on m4f and m7
-    #[arg(long, value_name = "N", value_parser = budget)]
+    #[arg(long, value_name = "N", value_parser = budget, allow_negative_numbers = true)]
     budget_cycles: Option<f64>,
     /// The largest energy error, absolute or (with %) as a part of the solution's energy norm
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
     max_error: Option<Tolerance>,
     /// Whose cost decides: this machine's, or that of an emulated Cortex-M4F or M7 [default: host]
     #[arg(long, value_enum)]
