@@ -250,8 +250,9 @@ impl Combination {
             && self.certificate
             && matches!(self.stop, Stop::Sweeps(5 | 20 | 80));
         let double = plain && usual && base && self.scalar == Precision::F64;
+        let cold = self.start == Start::Cold;
         let mixed =
-            plain && usual && self.scalar == Precision::Mixed && self.stop == Stop::Share(0.01);
+            plain && cold && self.scalar == Precision::Mixed && self.stop == Stop::Share(0.01);
         let fast = self.math == MathKind::Micromath && usual && base;
         let host = ground.target == Target::Host;
         other_start
