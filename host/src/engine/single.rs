@@ -9,7 +9,7 @@ use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
 use super::{Answer, Engine, completed};
-use crate::certify::{self, Certifier, Data, ErrorBound};
+use crate::certify::{Certifier, Data, ErrorBound};
 use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
@@ -214,7 +214,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
             force,
             active: (0..counts.contact).map(touching).collect(),
             bound: self.certificate.as_ref().map(ErrorBound::new),
-            certified: certified.unwrap_or_else(certify::Answer::default),
+            certified: certified.unwrap_or_default(),
         };
         if self.parts.counts.floating > 0 {
             centre_floating(problem, &self.parts, &mut answer.u, &mut answer.certified.vertices);

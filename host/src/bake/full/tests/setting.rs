@@ -24,8 +24,11 @@ pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<(Scene
     Ok((scene, problem))
 }
 
-/// u, τ and report of ticks with these lifts of the gap.
-fn ticks<R: Scalar>(setting: Setting, lifts: &[f64]) -> Result<Vec<(Vec<R>, Vec<R>, Report<R>)>> {
+/// u, τ and report.
+type Told<R> = (Vec<R>, Vec<R>, Report<R>);
+
+/// Those of ticks with these lifts of the gap.
+fn ticks<R: Scalar>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
     let (scene, problem) = scene(unbounded(), Cells::Quads, setting)?;
     let baked = Baked::<R>::new(&scene, &problem)?;
     let mut controller = Controller::<R, QUADS>::new(&baked);
