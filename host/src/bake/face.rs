@@ -221,5 +221,13 @@ fn hash(scene: &Scene, problem: &Problem) -> u64 {
     mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
     let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());
     corners.for_each(|vertex| take(&vertex.to_le_bytes()));
+    for surface in &mesh.surfaces {
+        take(surface.name.as_bytes());
+        surface.cells.iter().for_each(|cell| take(&cell.to_le_bytes()));
+    }
+    for curve in &mesh.curves {
+        take(curve.name.as_bytes());
+        curve.edges.as_flattened().iter().for_each(|vertex| take(&vertex.to_le_bytes()));
+    }
     hash
 }

@@ -86,7 +86,7 @@ impl Arguments {
         }
         if left > 0 {
             say(format_args!(
-                "{left} scenes wait for other processes: the same command without --shard puts the parts together"
+                "{left} of the scenes wait for other processes: the same command without --shard puts the parts together"
             ));
         }
         refused(&trades, &wish).map(|refused| refused.max(status))

@@ -3,22 +3,36 @@
 use std::time::Instant;
 
 use super::{Answer, completed, with};
+use crate::bake::trial;
 use crate::error::Result;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
-use crate::setting::Precision;
+use crate::setting::{Precision, Start};
 use crate::solve::{ScalarKind, Seconds, Solution};
 
-/// Solves `scene` cold, for its default inputs.
+/// Ticks before the one that is asked for: a fixed number of warm sweeps is one of a controller that has run for a
+/// while, with inputs around the defaults as a trade study draws them.
+fn earlier(scene: &Scene, inputs: &[f64]) -> Vec<Vec<f64>> {
+    const TICKS: usize = 100;
+    let setting = completed(scene);
+    let runs = setting.start == Start::Warm && setting.sweeps.is_some() && !inputs.is_empty();
+    if runs { trial::inputs::<f64>(inputs, TICKS).collect() } else { Vec::new() }
+}
+
+/// Solves `scene` for its default inputs and at t = 0, as its setting says.
 ///
 /// # Errors
 /// As for [`with`].
 pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
+    let scene = &scene.clone().at_rest();
     let parts = Parts::examine(scene, problem)?.counts;
     let start = Instant::now();
     let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
     let (prepared, swept, answer) = with(scene, problem, |engine| {
         let prepared = start.elapsed().as_secs_f64();
+        for earlier in earlier(scene, &inputs) {
+            engine.tick(&earlier)?;
+        }
         engine.tick(&inputs)?;
         Ok((prepared, start.elapsed().as_secs_f64(), engine.answer(problem)?))
     })?;

@@ -97,6 +97,9 @@ fn impossible(status: Option<i32>, said: &str) -> Option<String> {
         let (_, short) = line.split_once("will not fit in region").unwrap_or_default();
         return Some(format!("no room in{short}"));
     }
+    if said.contains("beyond-the-counter") {
+        return Some("a tick takes longer than the board's counter can count".to_owned());
+    }
     if status != Some(2) {
         return None;
     }

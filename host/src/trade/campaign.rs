@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::files::json;
+use super::files::{FRAGMENT, json};
 use super::front::Wish;
 use super::mpi;
 use super::record::Trade;
@@ -18,6 +18,7 @@ use super::target::Target;
 use crate::baseline;
 use crate::error::{InputError, Result};
 use crate::output::atomic::write_atomically;
+use crate::scene::Scene;
 use crate::study::{root, scenes};
 
 /// Studies, and whether the study of sizes goes with them.
@@ -81,6 +82,7 @@ impl Campaign {
                 let hint = "name a directory, or one that does not exist yet";
                 return Err(InputError::new(message).hint(hint).into());
             }
+            refuse_own(path, &folder)?;
             studies.push(Study::open(path, target, folder, with_peers)?);
         }
         Ok(Self { studies, sizes: None })
@@ -153,6 +155,9 @@ impl Campaign {
             }
             before += of;
         }
+        if ended.left == 0 {
+            self.studies.iter().try_for_each(Study::close)?;
+        }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
             let done = std::cell::RefCell::new(done);
             let tell = |name: &str| {
@@ -163,4 +168,17 @@ impl Campaign {
         }
         Ok(ended)
     }
+}
+
+/// Refuses a folder in which the results would replace the scene itself.
+fn refuse_own(scene: &Path, folder: &Path) -> Result<()> {
+    let own = [Some(scene.to_owned()), Scene::read(scene).ok().map(|scene| scene.path)];
+    let own: Vec<_> =
+        own.into_iter().flatten().filter_map(|path| path.canonicalize().ok()).collect();
+    let written = folder.join(FRAGMENT);
+    if !written.canonicalize().is_ok_and(|written| own.contains(&written)) {
+        return Ok(());
+    }
+    let message = format!("--out {}: the scene is {FRAGMENT} there", folder.display());
+    Err(InputError::new(message).hint("name another folder: this file would be replaced").into())
 }

@@ -13,6 +13,9 @@ use crate::output::atomic::write_atomically;
 use crate::report::pareto_file;
 use crate::scene::Scene;
 
+/// The setting to take, as a fragment of the scene.
+pub const FRAGMENT: &str = "recommended.toml";
+
 /// Writes `trade.json`, `trade.csv`, `trade.svg` and, where there is a recommendation, `recommended.toml`.
 ///
 /// # Errors
@@ -22,7 +25,7 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<()> {
     write_atomically(&folder.join("trade.json"), json(trade).as_bytes())?;
     write_atomically(&folder.join("trade.csv"), &csv)?;
     write_atomically(&folder.join("trade.svg"), pareto_file(&picture(trade)).as_bytes())?;
-    let file = folder.join("recommended.toml");
+    let file = folder.join(FRAGMENT);
     match &trade.recommendation.point {
         Some(point) => fragment::write(&file, scene, &point.setting, &trade.recommendation.text),
         None => match std::fs::remove_file(&file) {

@@ -65,14 +65,11 @@ const AS_GOOD: f64 = 1.1;
 pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
     let certified =
         *wish == Wish::default() && trade.points.iter().any(|point| point.bound.is_some());
-    let points = || {
-        let bakeable = trade.points.iter().filter(|point| point.scalar != "f32+f64");
-        bakeable.filter(move |point| !certified || point.bound.is_some())
-    };
+    let points = || eligible(trade).filter(move |point| !certified || point.bound.is_some());
     let cheap = |point: &&Point| wish.budget.is_none_or(|budget| point.cost() <= budget);
     let most = match wish.error {
         Some(Tolerance::Absolute(error)) => Some(error),
-        Some(Tolerance::Relative(part)) => Some(part * trade.energy),
+        Some(Tolerance::Relative(share)) => Some(share * trade.energy),
         None if wish.budget.is_some() => None,
         None => {
             let own = points().filter(|point| point.level == 0 && point.setting.cells.is_none());
@@ -88,6 +85,13 @@ pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
             points().filter(cheap).min_by(|a, b| by_error(a, b).then(a.cost().total_cmp(&b.cost())))
         }
     }
+}
+
+/// Points whose setting firmware can have too; where there is no other, all.
+fn eligible(trade: &Trade) -> impl Iterator<Item = &Point> {
+    let bakeable = |point: &Point| point.scalar != "f32+f64";
+    let any = trade.points.iter().any(bakeable);
+    trade.points.iter().filter(move |point| !any || bakeable(point))
 }
 
 fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
@@ -106,28 +110,35 @@ pub fn recommend(trade: &Trade, wish: &Wish, target: Target) -> Recommendation {
 
 fn sentence(trade: &Trade, point: &Point, target: Target) -> String {
     let Point { name, error, bound, .. } = point;
-    let percent = |part: f64, whole: f64| {
-        format!("{:.2} %", 100.0 * part / whole.abs().max(f64::MIN_POSITIVE))
-    };
-    let certified = match bound {
-        Some(bound) => format!("certified {}", percent(*bound, trade.energy)),
-        None => "not certified".to_owned(),
+    let certified = match (bound, error.combined) {
+        (Some(bound), Some(combined)) => format!(
+            "; its certified pair s, τ is off by {}, at most {} guaranteed",
+            part(combined, trade.energy),
+            part(*bound, trade.energy)
+        ),
+        _ => "; not certified".to_owned(),
     };
     let force = match trade.force {
         0.0 => String::new(),
-        force => format!("; contact force within {}", percent(error.force, force)),
+        force => format!("; contact force within {}", part(error.force, force)),
     };
     format!(
-        "For {} {} a tick take {name}: energy error {} ({certified}){force}.",
+        "For {} {} a tick take {name}: energy error {}{certified}{force}.",
         thousands(point.cost()),
         target.unit(),
-        percent(error.energy, trade.energy)
+        part(error.energy, trade.energy)
     )
 }
 
+/// In percent of the whole; where that is no measure, as it is.
+fn part(part: f64, whole: f64) -> String {
+    let percent = 100.0 * part / whole.abs();
+    if percent < 1000.0 { format!("{percent:.2} %") } else { format!("{part:.3e}") }
+}
+
 fn nothing(trade: &Trade, wish: &Wish, target: Target) -> String {
-    let cheapest = trade.points.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
-    let best = trade.points.iter().min_by(|a, b| by_error(a, b));
+    let cheapest = eligible(trade).min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let best = eligible(trade).min_by(|a, b| by_error(a, b));
     let (Some(cheapest), Some(best)) = (cheapest, best) else {
         return "No setting could be measured.".to_owned();
     };

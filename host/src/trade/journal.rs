@@ -145,6 +145,14 @@ fn lock(file: &File, path: &Path) -> Result<()> {
 fn tidy(file: &mut File, fingerprint: &str) -> io::Result<()> {
     let mut text = Vec::new();
     file.read_to_end(&mut text)?;
+    let foreign = text
+        .split(|&byte| byte == b'\n')
+        .next()
+        .is_some_and(|first| !first.is_empty() && text.contains(&b'\n') && parse(first).is_none());
+    if foreign {
+        let message = "no journal of a trade study: name another folder, or remove it";
+        return Err(io::Error::other(message));
+    }
     if lines(&text, fingerprint).next().is_none() {
         return file.set_len(0);
     }

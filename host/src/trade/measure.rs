@@ -2,6 +2,8 @@
 
 use super::record::{Point, PointError};
 use super::truth::{Answer as Measured, Truth};
+use signorini_kernel::solver::Status;
+
 use crate::bake::trial::inputs;
 use crate::cycles;
 use crate::engine::{self, Answer, Engine};
@@ -32,7 +34,11 @@ struct Timing {
 /// # Errors
 /// A setting that the scene does not allow for.
 pub fn measure(scene: &Scene, problem: &Problem, truth: &Truth) -> Result<Point> {
-    let setting = engine::completed(scene);
+    let mut setting = engine::completed(scene);
+    // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
+    if scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
+        setting.start = Start::Cold;
+    }
     let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
     let (timing, answer) = engine::with(scene, problem, |engine| {
         let timing = match setting.start {
@@ -134,6 +140,9 @@ fn point(
     };
     let stop = match (setting.model, setting.sweeps, setting.share) {
         (_, Some(sweeps), _) => format!("{sweeps} sweeps"),
+        (Some(ModelKind::Condensed), None, _) if answer.status != Status::Converged => {
+            "out of exchanges".to_owned()
+        }
         (Some(ModelKind::Condensed), None, _) => "exact".to_owned(),
         (_, None, share) => format!("share {}", share.unwrap_or(crate::bake::full::SHARE)),
     };
@@ -184,7 +193,7 @@ fn name(point: &Point, contact: usize) -> String {
     }];
     words.push(scalar.clone());
     match (model.as_str(), stop.as_str()) {
-        ("condensed", "exact") => words.push("exact".to_owned()),
+        ("condensed", "exact" | "out of exchanges") => words.push(stop.clone()),
         _ => words.push(format!("{start}, {stop}")),
     }
     if point.omega != "auto" && model != "condensed" {

@@ -17,7 +17,7 @@ use super::truth::Truth;
 use super::{fragment, math, measure};
 use crate::bake::face::Face;
 use crate::baseline;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::mesh::{Mesh, adapted::adapted, gmsh};
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
@@ -120,6 +120,9 @@ impl Study {
             functions = once(&mut journal, "math", mine(all - 1), of_math)?;
             done(all, "micromath");
         }
+        if cases.is_empty() && plan.settings.is_empty() && shard.is_whole() {
+            self.known_truth(&meshes, &mut truth, &mut journal)?;
+        }
         let facts = journal.known::<Facts>("truth");
         let whole = (cases.len() == plan.settings.len(), facts, baselines, functions);
         let (true, Some(facts), Some(baselines), Some(functions)) = whole else {
@@ -130,15 +133,25 @@ impl Study {
         }
         let trade = self.together(plan.skipped, facts, cases, baselines, functions, wish);
         super::files::write(&self.folder, &self.scene, &trade)?;
-        journal.close()?;
-        // The fragments that boards were measured with; on the host there are none.
-        let _ = std::fs::remove_dir_all(self.points());
         Ok(Progress::Whole(Box::new(trade)))
+    }
+
+    /// Deletes what only an interrupted study needs: the journals, and the fragments that boards were measured with.
+    ///
+    /// # Errors
+    /// A file that cannot be deleted.
+    pub fn close(&self) -> Result<()> {
+        let mut meshes = Meshes::new(&self.scene)?;
+        Journal::open(&self.folder, Shard::WHOLE, &self.fingerprint(&mut meshes)?)?.close()?;
+        if self.target != Target::Host {
+            let _ = std::fs::remove_dir_all(self.points());
+        }
+        Ok(())
     }
 
     /// Where the fragments go that boards are measured with.
     fn points(&self) -> PathBuf {
-        self.folder.join("points")
+        self.folder.join("fragments-on-boards")
     }
 
     /// A scene with a setting of its own is measured in that alone.
@@ -148,7 +161,7 @@ impl Study {
 
     fn fingerprint(&self, meshes: &mut Meshes) -> Result<String> {
         let hash = Face::new(&self.scene, meshes.problem(None, 0)?).hash();
-        Ok(format!("{hash:016x} {} {}", self.target, env!("CARGO_PKG_VERSION")))
+        Ok(format!("{hash:016x} {} {}", self.target, program()))
     }
 
     fn plan(&self, meshes: &mut Meshes, journal: &mut Journal) -> Result<Plan> {
@@ -191,6 +204,29 @@ impl Study {
         if !mine {
             return Ok(None);
         }
+        self.known_truth(meshes, truth, journal)?;
+        let Some(truth) = truth else { return Ok(None) };
+        let case = match self.measured(setting, meshes, truth) {
+            Ok(case) => case,
+            // What one setting does not allow for is no reason to leave the others.
+            Err(Error::Input(error)) if !self.is_alone() => Case::Left(error.message().to_owned()),
+            Err(error) => return Err(error),
+        };
+        if journal.add(&key, &case).is_ok() {
+            return Ok(Some(case));
+        }
+        let case = Case::Left("the numbers found overflow".to_owned());
+        journal.add(&key, &case)?;
+        Ok(Some(case))
+    }
+
+    /// Works out the truth, where that is not yet done, and keeps what the record says of it.
+    fn known_truth(
+        &self,
+        meshes: &Meshes,
+        truth: &mut Option<Truth>,
+        journal: &mut Journal,
+    ) -> Result<()> {
         if truth.is_none() {
             let found = self.truth(meshes)?;
             let facts = Facts {
@@ -199,18 +235,11 @@ impl Study {
                 force: found.force(),
                 length: found.length(),
             };
-            journal.add("truth", &facts)?;
+            let kept = journal.add("truth", &facts);
+            kept.map_err(|_| overflow(&self.scene))?;
             *truth = Some(found);
         }
-        let Some(truth) = truth else { return Ok(None) };
-        let case = match self.measured(setting, meshes, truth) {
-            Ok(case) => case,
-            // What one setting does not allow for is no reason to leave the others.
-            Err(Error::Input(error)) if !self.is_alone() => Case::Left(error.message().to_owned()),
-            Err(error) => return Err(error),
-        };
-        journal.add(&key, &case)?;
-        Ok(Some(case))
+        Ok(())
     }
 
     fn truth(&self, meshes: &Meshes) -> Result<Truth> {
@@ -225,7 +254,7 @@ impl Study {
             measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
         if let Some(board) = self.target.board() {
             let folder = self.points();
-            let file = folder.join(format!("{:016x}.toml", digest(&point.name)));
+            let file = folder.join(format!("{:016x}.toml", digest(point.name.as_str())));
             fragment::write(&file, &scene, setting, &point.name)?;
             match board::measure(&file, board, &folder)? {
                 Measured::Runs(footprint) => {
@@ -308,16 +337,30 @@ fn once<T: Serialize + DeserializeOwned + PartialEq>(
     Ok(Some(found))
 }
 
+fn overflow(scene: &Scene) -> Error {
+    InputError::new("the energy or the contact force of the solution overflows")
+        .file(&scene.path)
+        .hint("scale the data so that they are neither tiny nor huge")
+        .into()
+}
+
 /// How often the scene's mesh is refined at most.
 fn finest(problem: &Problem) -> u32 {
     let unknowns = problem.topology.counts.unknowns();
     (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
 }
 
-fn digest(text: &str) -> u64 {
-    use std::hash::{DefaultHasher, Hash, Hasher};
+/// This very program: another build measures anew.
+fn program() -> String {
+    let bytes = std::env::current_exe().and_then(std::fs::read);
+    let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));
+    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
+}
+
+fn digest<T: std::hash::Hash + ?Sized>(of: &T) -> u64 {
+    use std::hash::{DefaultHasher, Hasher};
     let mut hasher = DefaultHasher::new();
-    text.hash(&mut hasher);
+    of.hash(&mut hasher);
     hasher.finish()
 }
 
