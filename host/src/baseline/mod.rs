@@ -6,7 +6,7 @@
 //!                                 conforming P1 ► PSOR on vertices ─────────────────────────┘
 //! ```
 //! What is counted and when errors count as equal stands in `contest`. Condensing happens once a scene and
-//! is outside of every count; the notes say how long it takes. Two products: [`of_scene`] and [`sizes`].
+//! is outside of every count; the notes say how long it takes. Two products: [`of_scene`] and [`sizes()`].
 
 mod active_set;
 mod cascade;

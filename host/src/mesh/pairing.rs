@@ -2,8 +2,8 @@
 //!
 //! The fewer triangles stay alone the better, but a quad far from a rectangle is worse than two
 //! triangles. Its skew is the largest |cos θ| of its four angles θ, 0 in a rectangle; pairs are
-//! taken in the order of their skew, up to [`MOST_SKEW`], and what then stands alone is paired by
-//! exchange ([`super::matching`]).
+//! taken in the order of their skew, up to `MOST_SKEW`, and what then stands alone is paired by
+//! exchange (`matching`).
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
