@@ -25,7 +25,10 @@ const EXAMPLES: &str = "\
 Examples:
   signorini solve meshes/scenes/levee.toml
   signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
-  signorini solve levee.toml --scalar f32 --input rain=2e-8";
+  signorini solve levee.toml --scalar f32 --input rain=2e-8
+
+The [setting] of a scene is followed unless --solver, --tolerance or --max-sweeps is given; of it cells, refine and
+scalar hold in any case. A fixed number of warm sweeps is solved as the tick of a controller that has run.";
 
 /// Arguments of `solve`.
 #[derive(Debug, Args)]

@@ -8,6 +8,7 @@
 
 pub mod board;
 pub mod campaign;
+mod case;
 pub mod csv;
 mod digits;
 pub mod files;
@@ -19,6 +20,7 @@ pub mod journal;
 mod listings;
 pub mod math;
 pub mod measure;
+mod meshes;
 pub mod mpi;
 pub mod picture;
 pub mod plan;

@@ -1,27 +1,26 @@
 //! The study of one scene: plan, truth, points, other solvers; interrupted, it goes on where it was.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-
 use super::board::{self, Measured};
+use super::case::{Case, Facts, digest, once, overflow, program};
 use super::front::{Wish, mark, recommend};
 use super::journal::Journal;
+use super::meshes::{Meshes, finest};
 use super::plan::{Ground, Plan};
-use super::record::{Baseline, FunctionCost, Point, Recommendation, Skipped, Trade};
+use super::record::{Baseline, FunctionCost, Recommendation, Skipped, Trade};
 use super::shard::Shard;
 use super::target::Target;
 use super::truth::Truth;
 use super::{fragment, math, measure};
 use crate::bake::face::Face;
 use crate::baseline;
-use crate::error::{Error, InputError, Result};
-use crate::mesh::{Mesh, adapted::adapted, gmsh};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::mesh::adapted::adapted;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
-use crate::setting::{CellKind, Precision, Setting};
+use crate::setting::{Precision, Setting};
 use crate::solve::tuned_omega;
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
@@ -48,26 +47,6 @@ pub enum Progress {
     Part,
 }
 
-/// A setting measured, or why it could not be.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-enum Case {
-    Point(Box<Point>),
-    Left(String),
-}
-
-/// What is known of the truth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Facts {
-    words: String,
-    energy: f64,
-    force: f64,
-    length: f64,
-}
-
-/// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
-const FINEST: usize = 16_000;
-/// Refinements at most.
-const LEVELS: u32 = 2;
 /// What a tuned ω brings the algebraic error down to, from a cold start.
 const GOAL: f64 = 1e-3;
 
@@ -245,7 +224,7 @@ impl Study {
     fn truth(&self, meshes: &Meshes) -> Result<Truth> {
         let level = finest(&Problem::new(&self.scene, meshes.own.clone())?);
         let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
-        Truth::new(&self.scene, meshes.own(), level, refined)
+        Truth::new(&self.scene, &meshes.own, level, refined)
     }
 
     fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
@@ -307,94 +286,5 @@ impl Study {
         };
         trade.recommendation = recommend(&trade, wish, self.target);
         trade
-    }
-}
-
-impl Case {
-    fn name(&self) -> &str {
-        match self {
-            Self::Point(point) => &point.name,
-            Self::Left(reason) => reason,
-        }
-    }
-}
-
-/// What the journal knows under `key`, or what `work` finds, where it is this process's to find.
-fn once<T: Serialize + DeserializeOwned + PartialEq>(
-    journal: &mut Journal,
-    key: &str,
-    mine: bool,
-    work: impl FnOnce() -> Result<T>,
-) -> Result<Option<T>> {
-    if let Some(known) = journal.known(key) {
-        return Ok(Some(known));
-    }
-    if !mine {
-        return Ok(None);
-    }
-    let found = work()?;
-    journal.add(key, &found)?;
-    Ok(Some(found))
-}
-
-fn overflow(scene: &Scene) -> Error {
-    InputError::new("the energy or the contact force of the solution overflows")
-        .file(&scene.path)
-        .hint("scale the data so that they are neither tiny nor huge")
-        .into()
-}
-
-/// How often the scene's mesh is refined at most.
-fn finest(problem: &Problem) -> u32 {
-    let unknowns = problem.topology.counts.unknowns();
-    (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
-}
-
-/// This very program: another build measures anew.
-fn program() -> String {
-    let bytes = std::env::current_exe().and_then(std::fs::read);
-    let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));
-    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
-}
-
-fn digest<T: std::hash::Hash + ?Sized>(of: &T) -> u64 {
-    use std::hash::{DefaultHasher, Hasher};
-    let mut hasher = DefaultHasher::new();
-    of.hash(&mut hasher);
-    hasher.finish()
-}
-
-/// The meshes of a study, each made once.
-struct Meshes {
-    scene: Scene,
-    own: Mesh,
-    made: HashMap<(Option<CellKind>, u32), Problem>,
-}
-
-impl Meshes {
-    fn new(scene: &Scene) -> Result<Self> {
-        let own = gmsh::read(&scene.mesh.value)?;
-        let scene = Scene { setting: None, ..scene.clone() };
-        Ok(Self { scene, own, made: HashMap::new() })
-    }
-
-    fn own(&self) -> &Mesh {
-        &self.own
-    }
-
-    /// The kind of cells that the mesh is not yet made of, where it can be brought to them.
-    fn other_cells(&self) -> Result<Option<CellKind>> {
-        let kind =
-            if self.own.triangles.is_empty() { CellKind::Triangles } else { CellKind::Quads };
-        let other = adapted(self.own.clone(), Some(kind), 0)?;
-        Ok((other.triangles.len() != self.own.triangles.len()).then_some(kind))
-    }
-
-    fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {
-        if !self.made.contains_key(&(cells, level)) {
-            let mesh = adapted(self.own.clone(), cells, level)?;
-            self.made.insert((cells, level), Problem::new(&self.scene, mesh)?);
-        }
-        Ok(&self.made[&(cells, level)])
     }
 }
