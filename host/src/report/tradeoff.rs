@@ -72,8 +72,8 @@ pub fn tradeoff(found: &Tradeoff) -> String {
     if !found.sizes.is_empty() {
         let _ = write!(
             html,
-            "<h3>From small problems to large ones</h3>\n<pre>{}</pre>\n",
-            escape(&found.sizes)
+            "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n",
+            lines(&found.sizes)
         );
     }
     html.extend(found.scenes.iter().map(panel));
@@ -118,4 +118,9 @@ fn study(study: &TradeStudy) -> String {
         let _ = write!(html, "<h4>{}</h4>\n{}", escape(heading), listing(table));
     }
     html
+}
+
+/// The text as HTML, line by line.
+fn lines(text: &str) -> String {
+    text.lines().map(|line| escape(line) + "\n").collect()
 }
