@@ -143,7 +143,7 @@ fn a_study_says_what_it_measured() {
     assert_eq!(lines.lines().count(), all.len() + 1);
     let left: Vec<_> = std::fs::read_dir(bench.path("out")).unwrap().flatten().collect();
     assert!(
-        !left.iter().any(|entry| entry.file_name().to_string_lossy().contains("jsonl")),
+        !left.iter().any(|entry| entry.file_name().to_string_lossy().starts_with("unfinished")),
         "{left:?}"
     );
 }
@@ -221,7 +221,7 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
     }
     assert!(!bench.path("out/trade.json").exists());
     // An interruption in the middle of a line.
-    let journal = bench.path("out/points-2-of-2.jsonl");
+    let journal = bench.path("out/unfinished-host/points-2-of-2.jsonl");
     let text = std::fs::read(&journal).unwrap();
     std::fs::write(&journal, &text[..text.len() - 7]).unwrap();
     let (status, _, stderr) = bench.trade("out", &["--max-error", "30%"]);
@@ -259,4 +259,136 @@ fn wrong_words_are_named() {
     let (status, _, stderr) = signorini(&["trade", scene, scene]);
     assert_eq!(status, 2);
     assert!(stderr.contains("two scenes of one name"), "{stderr}");
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The studies of one target in the committed record, by their folders.
+fn recorded(target: &str) -> Vec<(PathBuf, Value)> {
+    let folders =
+        std::fs::read_dir(root().join("host/benches/trade").join(target)).expect("a record");
+    let mut all: Vec<_> = folders
+        .map(|entry| entry.expect("a folder").path())
+        .map(|folder| (folder.clone(), read(&folder.join("trade.json"))))
+        .collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    all
+}
+
+/// `solve` on each committed recommendation, where the exact solution tells.
+#[test]
+fn committed_recommendations_keep_their_promise() {
+    let out = tempfile::tempdir().expect("a folder");
+    let mut kept = 0;
+    for (folder, record) in recorded("host").into_iter().chain(recorded("m4f")) {
+        let fragment = folder.join("recommended.toml");
+        if record["truth"] != "the exact solution" || !fragment.exists() {
+            continue;
+        }
+        let place = out.path().join(kept.to_string());
+        let (fragment, place) = (fragment.to_str().unwrap(), place.to_str().unwrap());
+        let (status, _, stderr) = signorini(&["solve", fragment, "--out", place]);
+        assert_eq!(status, 0, "{fragment}: {stderr}");
+        let found = number(&read(&Path::new(place).join("summary.json")), "errors.energy");
+        let promised = number(&record["recommendation"]["point"], "error.energy");
+        // A patch is exact to rounding, and rounding is no promise.
+        let rounding = 1e-6 * number(&record, "energy");
+        assert!(
+            (found - promised).abs() <= 0.05 * promised + rounding,
+            "{fragment}: {found} {promised}"
+        );
+        kept += 1;
+    }
+    assert!(kept >= 30, "{kept}");
+}
+
+#[test]
+fn every_standard_scene_is_in_the_record() {
+    let mut scenes = Vec::new();
+    for folder in ["catalogue", "scenes"] {
+        for entry in std::fs::read_dir(root().join("meshes").join(folder)).expect("scenes") {
+            let path = entry.expect("a file").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                scenes.push(path.file_stem().unwrap().to_string_lossy().into_owned());
+            }
+        }
+    }
+    scenes.sort();
+    for target in ["host", "m4f"] {
+        let record = recorded(target);
+        let names: Vec<_> =
+            record.iter().map(|(_, record)| record["scene"].as_str().unwrap()).collect();
+        assert_eq!(names, scenes, "{target}: run `signorini trade`");
+        let text = format!("{record:?}");
+        assert!(!text.contains(".toml:") && !text.contains("NaN"), "{target}");
+    }
+}
+
+/// Cycles of a solver on a problem, where it took part.
+fn cycles(baselines: &Value, solver: &str, problem: &str, start: &str) -> Option<f64> {
+    let all = baselines.as_array().expect("baselines");
+    let same = |b: &&Value| b["solver"] == solver && b["problem"] == problem && b["start"] == start;
+    all.iter().find(same).map(|b| number(b, "cycles"))
+}
+
+/// Three digits, as the README has them.
+fn short(cycles: Option<f64>) -> String {
+    let Some(mega) = cycles.map(|cycles| 1e-6 * cycles) else { return "–".to_owned() };
+    let digits = 2 - mega.log10().floor() as i32;
+    format!("{mega:.*}", digits.max(0) as usize)
+}
+
+/// The README's tables of sizes are those of the record.
+#[test]
+fn the_readme_quotes_the_record() {
+    const SOLVERS: [&str; 6] = [
+        "kernel PSOR f64",
+        "kernel PSOR f64, tuned ω",
+        "kernel PSOR f64, coarse to fine",
+        "faer active set",
+        "Clarabel",
+        "OSQP",
+    ];
+    let sizes = read(&root().join("host/benches/trade/sizes.json"));
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    let lines: Vec<Vec<&str>> =
+        readme.lines().map(|line| line.split_whitespace().collect()).collect();
+    let mut missing = Vec::new();
+    for start in ["cold", "warm"] {
+        for size in sizes["rows"].as_array().expect("rows") {
+            let full = |solver: &&str| short(cycles(&size["baselines"], solver, "full", start));
+            let mut line = vec![size["unknowns"].to_string()];
+            line.extend(SOLVERS.iter().map(full));
+            line.push(short(cycles(&size["baselines"], "kernel pivoting f64", "condensed", start)));
+            if !lines.iter().any(|found| *found == line) {
+                missing.push(format!("{start}: {}", line.join("  ")));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
+}
+
+/// What the README says of condensed warm ticks: the least of each ratio over the standard scenes.
+#[test]
+fn the_readme_says_how_far_condensed_ticks_are_ahead() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    let record = recorded("host");
+    let ratios = |solver: &str, problem: &str| -> Vec<f64> {
+        let ratio = |(_, record): &(PathBuf, Value)| {
+            let own = cycles(&record["baselines"], "kernel pivoting f64", "condensed", "warm")?;
+            Some(cycles(&record["baselines"], solver, problem, "warm")? / own)
+        };
+        record.iter().filter_map(ratio).collect()
+    };
+    for solver in ["Clarabel", "OSQP as it comes", "OSQP, polished", "OSQP"] {
+        let found = ratios(solver, "condensed");
+        assert_eq!(found.len(), record.len(), "{solver}");
+        let [least, most] = [f64::INFINITY, 0.0].map(|start: f64| {
+            found.iter().fold(start, |a, &b| if start > 0.0 { a.min(b) } else { a.max(b) })
+        });
+        let row = format!("{solver:<18}{least:>6.0}{most:>8.0}");
+        assert!(readme.contains(&row), "README.md lacks `{row}`");
+    }
 }

@@ -4,7 +4,8 @@
 //! * Warm: tick after tick with new loads and bounds; what the tick before left may be used, and memory,
 //!   patterns and factors stand. The median over the ticks is what counts.
 //! * Equal error: the loosest tolerance among 0.1, 0.01, … whose answers all lie within `target` of the
-//!   discrete solution. It is found before anything is timed.
+//!   discrete solution. It is found before anything is timed. Exact methods and solvers left as they come have one
+//!   answer; `algebraic_error` tells how near it is.
 
 use std::time::Instant;
 

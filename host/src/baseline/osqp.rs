@@ -5,7 +5,7 @@
 //! one answers:
 //! ```text
 //!   → {"starts", "rows", "values", "contact", "ticks": [{"load", "lower"}, …]}
-//!   → {"tick", "cold", "tolerance", "polish"}
+//!   → {"tick", "cold", "tolerance", "manner"}
 //!   ← {"cycles", "iterations", "u"}
 //! ```
 
@@ -66,7 +66,19 @@ struct Question {
     tick: usize,
     cold: bool,
     tolerance: f64,
-    polish: bool,
+    manner: Manner,
+}
+
+/// How OSQP is set; see the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Manner {
+    /// As it comes.
+    Defaults,
+    /// With the loosest tolerance that will do, looked at every 5 iterations.
+    Watched,
+    /// The same, and the answer solved again on the bounds found active.
+    Polished,
 }
 
 #[derive(Deserialize)]
@@ -78,15 +90,14 @@ struct Answer {
 
 /// The solver on its problem, until it is dropped.
 pub(super) struct Osqp {
-    /// Whether an answer is polished by a solve on the constraints found active.
-    polish: bool,
+    manner: Manner,
     child: Child,
     questions: BufWriter<ChildStdin>,
     answers: BufReader<ChildStdout>,
 }
 
 impl Osqp {
-    pub fn new(program: &Path, quadratic: &Quadratic, polish: bool) -> Result<Self> {
+    pub fn new(program: &Path, quadratic: &Quadratic, manner: Manner) -> Result<Self> {
         let mut command = Command::new(program);
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
@@ -94,7 +105,7 @@ impl Osqp {
             return Err(failed("OSQP's process has no pipes"));
         };
         let (questions, answers) = (BufWriter::new(questions), BufReader::new(answers));
-        let mut osqp = Self { polish, child, questions, answers };
+        let mut osqp = Self { manner, child, questions, answers };
         let (starts, rows, values) = quadratic.matrix.upper();
         let ticks = quadratic.ticks.iter();
         let ticks = ticks.map(|tick| Data { load: &tick.load, lower: &tick.lower }).collect();
@@ -110,8 +121,8 @@ impl Osqp {
 
 impl Contestant for Osqp {
     fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
-        let (cold, polish) = (start == Start::Cold, self.polish);
-        self.say(&Question { tick, cold, tolerance, polish })?;
+        let (cold, manner) = (start == Start::Cold, self.manner);
+        self.say(&Question { tick, cold, tolerance, manner })?;
         let mut line = String::new();
         self.answers.read_line(&mut line).map_err(failed)?;
         let Answer { cycles, iterations, u } =
@@ -120,7 +131,7 @@ impl Contestant for Osqp {
     }
 
     fn finest(&self) -> i32 {
-        -10
+        if self.manner == Manner::Defaults { -1 } else { -10 }
     }
 }
 

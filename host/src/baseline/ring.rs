@@ -13,7 +13,7 @@ use super::conforming::Conforming;
 use super::contest::Contest;
 use super::full::{Full, quadratic};
 use super::moment::Moment;
-use super::osqp::Osqp;
+use super::osqp::{Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
 use crate::error::Result;
@@ -89,8 +89,12 @@ impl Ring<'_> {
     fn general(&self, contest: &Contest, take: &mut impl FnMut(&str, Result<Vec<Baseline>>)) {
         take("Clarabel", contest.hold("Clarabel", &mut Clarabel::new(contest.quadratic)));
         let Some(program) = self.osqp else { return };
-        for (name, polish) in [("OSQP", false), ("OSQP, polished", true)] {
-            let osqp = Osqp::new(program, contest.quadratic, polish);
+        for (name, manner) in [
+            ("OSQP", Manner::Watched),
+            ("OSQP, polished", Manner::Polished),
+            ("OSQP as it comes", Manner::Defaults),
+        ] {
+            let osqp = Osqp::new(program, contest.quadratic, manner);
             take(name, osqp.and_then(|mut osqp| contest.hold(name, &mut osqp)));
         }
     }

@@ -6,7 +6,7 @@ use super::condensed::condensed;
 use super::full::quadratic;
 use super::moment::Moment;
 use super::sizes::{Sizes, size};
-use super::{of_scene, table};
+use super::table;
 use crate::condense::condense;
 use crate::mesh::gmsh;
 use crate::problem::{Parts, Problem};
@@ -101,33 +101,4 @@ fn a_scene_with_every_solver_but_osqp() {
     .hold(&mut Vec::new())
     .unwrap();
     assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{found:?}");
-}
-
-/// The tables of both products, with OSQP where it can be built: a release build tells the truth.
-#[test]
-#[ignore = "minutes; run with --release --nocapture"]
-fn tables() {
-    println!("{}", table(&super::sizes(|step| eprintln!("{step}")).unwrap()));
-    for name in ["benbelgacem", "levee", "membrane", "pit", "slab", "strip"] {
-        let scene = read(&format!("scenes/{name}.toml"));
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
-        let begin = std::time::Instant::now();
-        let (baselines, notes) = of_scene(&scene, &problem).unwrap();
-        println!("{name} {:.1} s {notes:#?}", begin.elapsed().as_secs_f64());
-        for b in &baselines {
-            println!(
-                "{:14} {:32} {} {:6} {:>10.1} kcyc ±{:3.0} % ratio {:8.2} to condensed {:8.1} error/target {:.0e} it {}",
-                b.problem,
-                b.solver,
-                b.start,
-                b.unknowns,
-                1e-3 * b.cycles,
-                100.0 * b.cycles_spread,
-                b.ratio,
-                b.to_condensed.unwrap_or(0.0),
-                b.algebraic_error / b.target,
-                b.iterations
-            );
-        }
-    }
 }

@@ -105,7 +105,13 @@ fn impossible(status: Option<i32>, said: &str) -> Option<String> {
     }
     // The message of `bake` begins with a cross; without one it is the command's own.
     let message = lines().find_map(|line| line.strip_prefix("× ")).or_else(|| lines().next());
-    Some(message.unwrap_or("refused").to_owned())
+    Some(without_place(message.unwrap_or("refused")).to_owned())
+}
+
+/// `FILE.toml:LINE: KEY: …` from its key on: where a file lies is no reason.
+fn without_place(message: &str) -> &str {
+    let place = message.find(".toml:").and_then(|at| message[at + 6..].split_once(": "));
+    place.map_or(message, |(_, rest)| rest)
 }
 
 fn failed(of: &Path, said: &str) -> Error {

@@ -95,7 +95,8 @@ impl Journal {
         Ok(())
     }
 
-    /// Deletes the journals of all shards: the outputs of the study, written before, replace them.
+    /// Deletes the journals of all shards that nobody is writing: the outputs of the study, written before,
+    /// replace them.
     ///
     /// # Errors
     /// A file that cannot be deleted.
@@ -103,6 +104,7 @@ impl Journal {
         drop(self.file);
         journals(&self.folder)?
             .iter()
+            .filter(|path| File::open(path).is_ok_and(|file| lock(&file, path).is_ok()))
             .try_for_each(|path| fs::remove_file(path).map_err(Error::io(path)))
     }
 

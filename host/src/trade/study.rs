@@ -20,6 +20,7 @@ use crate::mesh::Mesh;
 use crate::mesh::adapted::adapted;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
+use crate::scene::term::refuse_time;
 use crate::setting::{Precision, Setting};
 use crate::solve::tuned_omega;
 
@@ -36,6 +37,7 @@ pub struct Study {
     pub folder: PathBuf,
     /// Whether other solvers and micromath are studied too.
     pub with_peers: bool,
+    uses_time: bool,
 }
 
 /// What of a study is known.
@@ -56,11 +58,13 @@ impl Study {
     /// # Errors
     /// A scene that cannot be read.
     pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
-        let mut scene = Scene::read(path)?.at_rest();
+        let read = Scene::read(path)?;
+        let uses_time = refuse_time(&read).is_err();
+        let mut scene = read.at_rest();
         // What a scene declares of its device is no limit here.
         scene.target = scene.target.filter(|_| target != Target::Host);
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { scene, name, target, folder, with_peers })
+        Ok(Self { scene, name, target, folder, with_peers, uses_time })
     }
 
     /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
@@ -77,7 +81,7 @@ impl Study {
     ) -> Result<Progress> {
         let mut meshes = Meshes::new(&self.scene)?;
         let fingerprint = self.fingerprint(&mut meshes)?;
-        let mut journal = Journal::open(&self.folder, shard, &fingerprint)?;
+        let mut journal = Journal::open(&self.unfinished(), shard, &fingerprint)?;
         let plan = self.plan(&mut meshes, &mut journal)?;
         let mine = |case: usize| by_scene || shard.takes(case);
         let extras = if self.is_alone() || !self.with_peers { 0 } else { 2 };
@@ -115,22 +119,28 @@ impl Study {
         Ok(Progress::Whole(Box::new(trade)))
     }
 
-    /// Deletes what only an interrupted study needs: the journals, and the fragments that boards were measured with.
+    /// Deletes what only an interrupted study needs.
     ///
     /// # Errors
-    /// A file that cannot be deleted.
+    /// A journal that cannot be deleted.
     pub fn close(&self) -> Result<()> {
         let mut meshes = Meshes::new(&self.scene)?;
-        Journal::open(&self.folder, Shard::WHOLE, &self.fingerprint(&mut meshes)?)?.close()?;
-        if self.target != Target::Host {
-            let _ = std::fs::remove_dir_all(self.points());
-        }
+        let fingerprint = self.fingerprint(&mut meshes)?;
+        Journal::open(&self.unfinished(), Shard::WHOLE, &fingerprint)?.close()?;
+        let _ = std::fs::remove_dir_all(self.fragments());
+        // It stays where somebody else keeps something in it, such as a shard that still runs.
+        let _ = std::fs::remove_dir(self.unfinished());
         Ok(())
     }
 
+    /// The folder of the journals: each target has its own.
+    fn unfinished(&self) -> PathBuf {
+        self.folder.join(format!("unfinished-{}", self.target))
+    }
+
     /// Where the fragments go that boards are measured with.
-    fn points(&self) -> PathBuf {
-        self.folder.join("fragments-on-boards")
+    fn fragments(&self) -> PathBuf {
+        self.unfinished().join("fragments")
     }
 
     /// A scene with a setting of its own is measured in that alone.
@@ -161,6 +171,7 @@ impl Study {
             other_cells,
             finest: finest(problem),
             has_inputs: !self.scene.inputs.is_empty(),
+            uses_time: self.uses_time,
             is_loose,
             unknowns: problem.topology.counts.unknowns(),
             tuned,
@@ -232,7 +243,7 @@ impl Study {
         let mut point =
             measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
         if let Some(board) = self.target.board() {
-            let folder = self.points();
+            let folder = self.fragments();
             let file = folder.join(format!("{:016x}.toml", digest(point.name.as_str())));
             fragment::write(&file, &scene, setting, &point.name)?;
             match board::measure(&file, board, &folder)? {

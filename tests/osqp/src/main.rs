@@ -40,7 +40,20 @@ struct Question {
     tick: usize,
     cold: bool,
     tolerance: f64,
-    polish: bool,
+    manner: Manner,
+}
+
+/// How OSQP is set.
+#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum Manner {
+    /// As it comes; the tolerance has no say.
+    Defaults,
+    /// It looks every 5 iterations, not 25, whether the tolerance is met, and adapts its step by iterations,
+    /// not by the clock: the same every time.
+    Watched,
+    /// The same, and the answer solved again on the bounds found active.
+    Polished,
 }
 
 #[derive(Serialize)]
@@ -108,13 +121,17 @@ fn run(problem: &mut Problem, start: u64) -> (u64, u32, Option<Vec<f64>>) {
 }
 
 fn settings(question: &Question) -> Settings {
-    Settings::default()
-        .verbose(false)
+    let settings = Settings::default().verbose(false);
+    if question.manner == Manner::Defaults {
+        return settings;
+    }
+    settings
         .eps_abs(question.tolerance)
         .eps_rel(question.tolerance)
         .max_iter(MOST)
         .check_termination(Some(5))
-        .polish(question.polish)
+        .adaptive_rho_interval(Some(25))
+        .polish(question.manner == Manner::Polished)
 }
 
 fn matrix(given: &Given) -> CscMatrix<'_> {

@@ -48,6 +48,9 @@ impl Combination {
         /// Unknowns of the largest mesh that is put on a microcontroller for a study.
         const LARGEST: usize = 4500;
         let condensed = self.model == ModelKind::Condensed;
+        if ground.uses_time && ground.target != Target::Host {
+            return Some("the data change with t, which firmware does not know");
+        }
         if condensed && !ground.has_inputs {
             return Some("no inputs: a condensed answer is a constant");
         }

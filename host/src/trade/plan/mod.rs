@@ -60,6 +60,8 @@ pub struct Ground {
     pub finest: u32,
     /// Whether inputs change from tick to tick.
     pub has_inputs: bool,
+    /// Whether the data change with t.
+    pub uses_time: bool,
     /// Whether contact alone or nothing holds a part.
     pub is_loose: bool,
     /// Unknowns of the scene's mesh.
@@ -141,6 +143,7 @@ mod tests {
         other_cells: Some(CellKind::Quads),
         finest: 2,
         has_inputs: true,
+        uses_time: false,
         is_loose: false,
         unknowns: 900,
         tuned: Some(1.9),
