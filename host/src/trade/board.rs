@@ -108,10 +108,10 @@ fn impossible(status: Option<i32>, said: &str) -> Option<String> {
     Some(without_place(message.unwrap_or("refused")).to_owned())
 }
 
-/// `FILE.toml:LINE: KEY: …` from its key on: where a file lies is no reason.
+/// `FILE.toml:LINE: KEY: …` or `FILE.toml: KEY: …` from its key on: where a file lies is no reason.
 fn without_place(message: &str) -> &str {
-    let place = message.find(".toml:").and_then(|at| message[at + 6..].split_once(": "));
-    place.map_or(message, |(_, rest)| rest)
+    let Some((_, rest)) = message.split_once(".toml:") else { return message };
+    rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == ':').trim_start()
 }
 
 fn failed(of: &Path, said: &str) -> Error {
@@ -155,7 +155,9 @@ mod tests {
         assert_eq!(why, "no room in 'RAM': overflowed by 77 bytes");
         let refused = "\n  × a.toml: setting.omega: 3 is not inside (0, 2)\n  help: 1.9\n";
         let why = impossible(Some(2), refused).unwrap_or_default();
-        assert_eq!(why, "a.toml: setting.omega: 3 is not inside (0, 2)");
+        assert_eq!(why, "setting.omega: 3 is not inside (0, 2)");
+        let refused = "  × some/where/a.toml:12: input.load: not on this board\n";
+        assert_eq!(impossible(Some(2), refused).as_deref(), Some("input.load: not on this board"));
         assert_eq!(impossible(Some(1), "error: QEMU: status 3\n"), None);
         assert_eq!(impossible(None, ""), None);
     }
