@@ -74,6 +74,18 @@ impl<'a, R: Real, I: Index> Csr<'a, R, I> {
         self.values
     }
 
+    /// Row `at`, or an empty one where there are fewer.
+    pub fn row(&self, at: usize) -> Row<'a, R, I> {
+        let range = match (self.row_ptr.get(at), self.row_ptr.get(at + 1)) {
+            (Some(&start), Some(&end)) => start as usize..end as usize,
+            _ => 0..0,
+        };
+        Row {
+            columns: self.col_idx.get(range.clone()).unwrap_or(&[]),
+            values: self.values.get(range).unwrap_or(&[]),
+        }
+    }
+
     /// The rows in order.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = Row<'a, R, I>> + Clone + use<'a, R, I> {

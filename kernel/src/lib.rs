@@ -97,6 +97,7 @@ pub mod rows;
 pub mod shift;
 pub mod signorini;
 pub mod solver;
+pub mod sparse;
 pub mod stiffness;
 mod tensor;
 pub mod tick;

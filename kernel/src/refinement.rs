@@ -39,7 +39,7 @@ pub struct RefinementBuffers<'a, R, I, const WIDTH: usize> {
 
 /// Sweeps after which a solve that has not ended gets help: more than any well-shaped mesh of 10⁵
 /// edges needs.
-const PLAIN: u32 = 10_000;
+pub const PLAIN: u32 = 10_000;
 
 /// Rounds of help at most; after each, sweeps judge the iterate.
 const HELP: u32 = 8;
@@ -150,12 +150,7 @@ fn measure_defect<R: Real, I: Index>(
     u: &[R],
     defect: &mut [R],
 ) {
-    let rows = system.matrix().iter().zip(system.load());
-    for (i, ((row, &load), defect)) in rows.zip(defect.iter_mut()).enumerate() {
-        let own = read(u, i);
-        let others = row.entries().skip(1);
-        *defect = others.fold(load, |sum, (j, value)| sum - value * (read(u, j) - own));
-    }
+    defect.iter_mut().zip(defects(system, u)).for_each(|(entry, defect)| *entry = defect);
     boundary.add_to_diagonal(|edge, coefficient| {
         if let Some(defect) = defect.get_mut(edge) {
             *defect -= coefficient * read(u, edge);
@@ -163,8 +158,21 @@ fn measure_defect<R: Real, I: Index>(
     });
 }
 
+/// b_i − Σ_{j≠i} K_ij (u_j − u_i) for every unknown; what Robin edges add is left to the caller.
+pub(crate) fn defects<R: Real, I: Index>(
+    system: &System<R, I>,
+    u: &[R],
+) -> impl Iterator<Item = R> {
+    let rows = system.matrix().iter().zip(system.load()).enumerate();
+    rows.map(|(i, (row, &load))| {
+        let own = read(u, i);
+        let others = row.entries().skip(1);
+        others.fold(load, |sum, (j, value)| sum - value * (read(u, j) - own))
+    })
+}
+
 /// u + low as the nearest number and the exact rest.
-fn renormalise<R: Real>(u: &mut [R], low: &mut [R]) {
+pub(crate) fn renormalise<R: Real>(u: &mut [R], low: &mut [R]) {
     for (u, low) in u.iter_mut().zip(low) {
         let sum = *u + *low;
         *low += *u - sum;

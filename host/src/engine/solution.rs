@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::{Answer, completed, with};
+use crate::scene::units::Units;
 use crate::bake::trial;
 use crate::error::Result;
 use crate::problem::{Parts, Problem};
@@ -45,6 +46,8 @@ pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
         status,
         sweeps,
         conjugate: 0,
+        factored: None,
+        units: Units::default(),
         algebraic_residual: residual,
         omega,
         mismatch: 0.0,

@@ -126,6 +126,12 @@ impl Expression {
         Self { program: self.program.at_time(t), ..self.clone() }
     }
 
+    /// This times `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        Self { program: self.program.times(factor), ..self.clone() }
+    }
+
     /// How often a device calls `function` to evaluate this once.
     pub fn calls(&self, function: Elementary) -> usize {
         self.program.calls(function)

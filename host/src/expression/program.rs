@@ -80,6 +80,18 @@ impl Program {
         builder.finish()
     }
 
+    /// The same times a number: the stack has room, since one value is all that is left on it.
+    pub fn times(&self, factor: f64) -> Self {
+        match self.value() {
+            Some(value) => Self::constant(value * factor),
+            None => {
+                let mut steps = self.steps.clone();
+                steps.extend([Step::Constant(factor), Step::Binary(Binary::Multiply)]);
+                Self { steps }
+            }
+        }
+    }
+
     /// How often a device calls `function` to run this.
     pub fn calls(&self, function: Elementary) -> usize {
         let calls = |step: &&Step| match step {

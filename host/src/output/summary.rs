@@ -8,7 +8,8 @@ use crate::certify::ErrorBound;
 use crate::norms::Errors;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::solve::{ScalarKind, Seconds, Solution, SolverKind, status_name};
+use crate::scene::units::Units;
+use crate::solve::{Factored, ScalarKind, Seconds, Solution, SolverKind, status_name};
 
 /// The object, keys in the order of the file.
 #[derive(Debug, Clone, Serialize)]
@@ -24,6 +25,10 @@ pub struct Summary {
     sweeps: u32,
     /// Of these, iterations of conjugate gradients: projected SOR alone would not have ended.
     conjugate_iterations: u32,
+    /// The kernel's exact solver, which took over where projected SOR would not have ended; else null.
+    factor: Option<Factored>,
+    /// What 1 stood for in the solve: powers of two, 1 and 1 unless numbers were far from that.
+    scales: Units,
     relaxation: f64,
     converged: bool,
     algebraic_residual: f64,
@@ -69,6 +74,8 @@ impl Summary {
             contact_active: solution.contact_active,
             sweeps: solution.sweeps,
             conjugate_iterations: solution.conjugate,
+            factor: solution.factored,
+            scales: solution.units,
             relaxation: solution.omega,
             converged: solution.converged(),
             algebraic_residual: solution.algebraic_residual,

@@ -32,6 +32,7 @@ use faer::sparse::FaerError;
 use thiserror::Error;
 
 pub use linear::Linear;
+pub(crate) use ordering::minimum_degree;
 pub use problem::Problem;
 pub use refinement::Solution;
 

@@ -14,21 +14,24 @@ use super::problem::Matrix;
 pub(super) fn contact_last(matrix: &Matrix) -> Result<Perm<u32>, FaerError> {
     let (n, free) = (matrix.unknowns(), matrix.free);
     let (col_ptr, row_idx) = free_block(matrix);
-    let pattern =
-        SymbolicSparseColMatRef::new_unsorted_checked(free, free, &col_ptr, None, &row_idx);
-
     let mut order: Box<[u32]> = (0..n as u32).collect();
     let mut position = order.clone();
-    let scratch = amd::order_maybe_unsorted_scratch::<u32>(free, row_idx.len());
-    let mut memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
-    amd::order_maybe_unsorted(
-        &mut order[..free],
-        &mut position[..free],
-        pattern,
-        amd::Control::default(),
-        MemStack::new(&mut memory),
-    )?;
+    minimum_degree(&col_ptr, &row_idx, [&mut order[..free], &mut position[..free]])?;
     Ok(Perm::new_checked(order, position, n))
+}
+
+/// Approximate minimum degree on a symmetric pattern: `order` (position → unknown) and its inverse.
+pub(crate) fn minimum_degree(
+    col_ptr: &[u32],
+    row_idx: &[u32],
+    [order, position]: [&mut [u32]; 2],
+) -> Result<(), FaerError> {
+    let n = order.len();
+    let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, col_ptr, None, row_idx);
+    let scratch = amd::order_maybe_unsorted_scratch::<u32>(n, row_idx.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
+    let (control, stack) = (amd::Control::default(), MemStack::new(&mut memory));
+    amd::order_maybe_unsorted(order, position, pattern, control, stack).map(|_| ())
 }
 
 /// The pattern of K_FF: column starts and row indices.

@@ -22,6 +22,7 @@ mod read;
 mod setting;
 mod table;
 pub mod term;
+pub mod units;
 #[cfg(test)]
 mod tests;
 

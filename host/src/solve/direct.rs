@@ -31,7 +31,8 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
     let sweeps = found.steps as u32;
     let outcome = Outcome { status: Status::Converged, sweeps, conjugate: 0, residual, omega: 0.0 };
     let scalar = ScalarKind::F64;
-    let solved = Solved { outcome, u, low: Vec::new(), scalar, assembly, clock };
+    let factored = None;
+    let solved = Solved { outcome, factored, u, low: Vec::new(), scalar, assembly, clock };
     conclude(scene, problem, parts, &assembled, solved)
 }
 

@@ -1,13 +1,16 @@
 //! One contact problem solved: by the kernel in either scalar, or by the faer reference.
 
 mod direct;
+mod factored;
 mod mixed;
 mod options;
 mod solution;
 #[cfg(test)]
 mod tests;
 mod tuned;
+mod units;
 
+pub use factored::Factored;
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution, status_name};
@@ -21,7 +24,7 @@ use signorini_kernel::edges::Edges;
 use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::signorini::System;
-use signorini_kernel::solver::{Outcome, Status};
+use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
 
 use crate::certify::{Certified, Data};
@@ -29,14 +32,27 @@ use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::scene::units::Units;
 pub(crate) use direct::Reduced;
 pub(crate) use solution::centre_floating;
 
-/// Solves `problem`.
+/// Solves `problem`, which `scene` states on a mesh; where its numbers are far from 1, in units in which
+/// they are not ([`Solution::units`]).
 ///
 /// # Errors
 /// No solution, numbers that the scalar type cannot hold, a singular matrix.
 pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
+    let units = units::choose(scene, problem)?;
+    if units == Units::default() {
+        return solve_in_its_units(scene, problem, options);
+    }
+    let scaled_scene = units.scene(scene);
+    let mut scaled = Problem::new(&scaled_scene, problem.mesh.clone())?;
+    scaled.set_time(&scaled_scene, problem.time)?;
+    Ok(units::back(&units, solve_in_its_units(&scaled_scene, &scaled, options)?))
+}
+
+fn solve_in_its_units(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
     let parts = Parts::examine(scene, problem)?;
     match (options.solver, options.scalar) {
         (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
@@ -88,15 +104,16 @@ fn by_kernel<R: Scalar>(
     } else {
         iterate::<R, { rows::QUADS }>
     };
-    let outcome = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
-    let (outcome, scalar) = (outcome.map_err(&unfit)?, options.scalar);
-    let solved = Solved { outcome, u, low, scalar, assembly, clock };
+    let found = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
+    let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
+    let solved = Solved { outcome, factored, u, low, scalar, assembly, clock };
     conclude(scene, problem, parts, &assembled, solved)
 }
 
 /// An iterate, and the time up to its assembly.
 struct Solved<R> {
     outcome: Outcome<R>,
+    factored: Option<Factored>,
     u: Vec<R>,
     /// The low part of u, or nothing.
     low: Vec<R>,
@@ -115,7 +132,7 @@ fn conclude<R: Scalar>(
     solved: Solved<R>,
 ) -> Result<Solution> {
     let unfit = unfit::<R>(scene);
-    let Solved { outcome, u, low, scalar, assembly, mut clock } = solved;
+    let Solved { outcome, factored, u, low, scalar, assembly, mut clock } = solved;
     if outcome.status == Status::NotFinite {
         return Err(overflow::<R>(scene));
     }
@@ -125,16 +142,45 @@ fn conclude<R: Scalar>(
     let data = Data::new(scene, problem)?;
     let certified = Certified::new(scene, problem, parts, assembled, &data, &u).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
-    let found = Found { outcome, u, fluxes, certified, seconds };
+    let found = Found { outcome, factored, u, fluxes, certified, seconds };
     Ok(finish(problem, parts, assembled, found, scalar))
 }
 
-/// Sweeps with rows of `WIDTH` entries and refines; `low` becomes the low part of `u`.
+/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor; `low`
+/// becomes the low part of `u`.
 fn iterate<R: Scalar, const WIDTH: usize>(
     system: &System<R, u32>,
     boundary: &Boundary<R, u32>,
     edges: &Edges<u32>,
     options: &Options,
+    u: &mut [R],
+    low: &mut [R],
+) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
+    let settings = options.settings::<R>();
+    let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
+    let sweep = |settings, u: &mut [R], low: &mut [R]| {
+        sweep::<R, WIDTH>(system, boundary, edges, settings, options.rounds(), u, low)
+    };
+    let swept = sweep(patience, u, low)?;
+    let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
+    if ended || swept.sweeps >= options.max_sweeps {
+        return Ok((swept, None));
+    }
+    if let Some((found, factored)) = factored::solve(system, boundary, &settings, u, low)? {
+        return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
+    }
+    let left = options.max_sweeps - swept.sweeps;
+    let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
+    found.sweeps = found.sweeps.saturating_add(swept.sweeps);
+    Ok((found, None))
+}
+
+fn sweep<R: Scalar, const WIDTH: usize>(
+    system: &System<R, u32>,
+    boundary: &Boundary<R, u32>,
+    edges: &Edges<u32>,
+    settings: Settings<R>,
+    rounds: u32,
     u: &mut [R],
     low: &mut [R],
 ) -> std::result::Result<Outcome<R>, KernelError> {
@@ -150,8 +196,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
             residual: &mut vec![R::ZERO; counts.unknowns()],
         },
     };
-    let settings = options.settings::<R>();
-    refinement::run::<R, u32, Libm, WIDTH>(system, boundary, settings, options.rounds(), u, buffers)
+    refinement::run::<R, u32, Libm, WIDTH>(system, boundary, settings, rounds, u, buffers)
 }
 
 struct Clock(Instant);
@@ -192,6 +237,7 @@ impl<R: Scalar> Fluxes<R> {
 
 struct Found<R> {
     outcome: Outcome<R>,
+    factored: Option<Factored>,
     u: Vec<R>,
     fluxes: Fluxes<R>,
     certified: Certified,
@@ -205,7 +251,7 @@ fn finish<R: Scalar>(
     found: Found<R>,
     scalar: ScalarKind,
 ) -> Solution {
-    let Found { outcome, u, fluxes, certified, seconds } = found;
+    let Found { outcome, factored, u, fluxes, certified, seconds } = found;
     let counts = problem.topology.counts;
     let lower = assembled.lower();
     let active = (0..counts.contact).filter(|&at| contact::is_active(counts, lower, &u, at));
@@ -215,6 +261,8 @@ fn finish<R: Scalar>(
         status: outcome.status,
         sweeps: outcome.sweeps,
         conjugate: outcome.conjugate,
+        factored,
+        units: Units::default(),
         algebraic_residual: outcome.residual.scaled().wide(),
         omega: outcome.omega.wide(),
         u: u.iter().map(|x| x.wide()).collect(),

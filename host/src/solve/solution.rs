@@ -8,10 +8,11 @@ use signorini_kernel::components::{PartCounts, Support};
 use signorini_kernel::geometry::{quad_area, triangle_area};
 use signorini_kernel::solver::Status;
 
-use super::ScalarKind;
+use super::{Factored, ScalarKind};
 use crate::certify::{Answer, ErrorBound};
 use crate::field::CellField;
 use crate::problem::{Parts, Problem};
+use crate::scene::units::Units;
 
 /// A solved problem; numbers of an f32 solve are held exactly in f64.
 #[derive(Debug, Clone)]
@@ -24,6 +25,10 @@ pub struct Solution {
     pub sweeps: u32,
     /// Iterations of conjugate gradients among them.
     pub conjugate: u32,
+    /// The exact solver that followed where sweeps did not get there.
+    pub factored: Option<Factored>,
+    /// The units in which it was solved; all numbers here are in the scene's.
+    pub units: Units,
     /// The scaled complementarity residual.
     pub algebraic_residual: f64,
     /// The last relaxation factor; 0 for the direct solver.
@@ -113,7 +118,7 @@ impl Solution {
 
     /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
-        self.scalar.round(problem.loads.gap[at])
+        self.scalar.round(problem.loads.gap[at] / self.units.u) * self.units.u
     }
 
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).

@@ -125,7 +125,7 @@ fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Optio
 }
 
 /// Σ x_i²
-pub(super) fn square<R: Real>(x: &[R]) -> R {
+pub(crate) fn square<R: Real>(x: &[R]) -> R {
     x.iter().fold(R::ZERO, |sum, &x| sum + x * x)
 }
 

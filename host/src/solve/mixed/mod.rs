@@ -117,6 +117,7 @@ pub fn mixed(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
     let mut u = mixed.wide.start();
     let Corrected { outcome, .. } = mixed.run(options.settings(), &mut u).map_err(&unfit)?;
     let (low, scalar) = (Vec::new(), options.scalar);
-    let solved = Solved { outcome, u, low, scalar, assembly, clock };
+    let factored = None;
+    let solved = Solved { outcome, factored, u, low, scalar, assembly, clock };
     conclude(scene, problem, &parts, &mixed.wide, solved)
 }

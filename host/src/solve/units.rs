@@ -1,0 +1,87 @@
+//! The units in which a problem is solved: those in which its numbers are near 1.
+
+use crate::certify::ErrorBound;
+use crate::error::{InputError, Result};
+use crate::problem::{Assembled, Problem};
+use crate::scene::Scene;
+use crate::scene::units::Units;
+
+use super::Solution;
+
+/// Numbers between 2^−20 and 2^20 are near enough: their squares and sums stay far from the limits of f32.
+const NEAR: i32 = 20;
+
+/// The units of `problem`; 1 and 1 where its numbers are near 1 anyhow.
+///
+/// # Errors
+/// Numbers whose energy f64 cannot hold.
+pub(super) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
+    let [u, conductivity] = sizes(problem).map(power);
+    let units = Units { u: exp2(u), conductivity: exp2(conductivity) };
+    // Energies go with U²α, sums of them with the number of cells.
+    if 2 * u + conductivity > 960 || u + conductivity > 960 {
+        let message = format!(
+            "u of about 1e{:.0} with a conductivity of about 1e{:.0} has an energy that f64 cannot hold",
+            units.u.log10(),
+            units.conductivity.log10()
+        );
+        return Err(InputError::new(message).file(scene.file()).hint("choose other units").into());
+    }
+    let is_near = |exponent: i32| exponent.abs() <= NEAR;
+    let all = [u, conductivity, u + conductivity].into_iter().all(is_near);
+    Ok(if all { Units::default() } else { units })
+}
+
+/// The size of u, and that of A: the geometric mean of its extremes.
+fn sizes(problem: &Problem) -> [f64; 2] {
+    let loads = &problem.loads;
+    let ambient = loads.robin.iter().filter(|robin| robin.coefficient > 0.0);
+    let ambient = ambient.map(|robin| robin.ambient / robin.coefficient);
+    let given = loads.dirichlet.iter().chain(&loads.gap).copied().chain(ambient);
+    let most = |numbers: &mut dyn Iterator<Item = f64>| {
+        numbers.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    let given = most(&mut given.into_iter());
+    let Ok(assembled) = Assembled::<f64>::new(problem) else { return [given, 1.0] };
+    let Ok(system) = assembled.system() else { return [given, 1.0] };
+    let diagonals: Vec<f64> = system.matrix().iter().map(|row| row.diagonal()).collect();
+    let stiffest = most(&mut diagonals.iter().copied());
+    let softest = diagonals.iter().copied().fold(stiffest, f64::min);
+    let loads = system.load().iter().zip(&diagonals);
+    let driven = most(&mut loads.map(|(load, diagonal)| load / diagonal));
+    [given.max(driven), stiffest.sqrt() * softest.sqrt()]
+}
+
+/// The exponent of the power of two next to x.
+fn power(x: f64) -> i32 {
+    if x > 0.0 && x.is_finite() { x.log2().round() as i32 } else { 0 }
+}
+
+/// 2ⁿ, and the largest or smallest normal one beyond.
+fn exp2(n: i32) -> f64 {
+    f64::from(n.clamp(-1000, 1000)).exp2()
+}
+
+/// A solution in `units` becomes one in the scene's.
+pub(super) fn back(units: &Units, solution: Solution) -> Solution {
+    let times = |numbers: &mut [f64], unit: f64| numbers.iter_mut().for_each(|x| *x *= unit);
+    let mut solution = solution;
+    times(&mut solution.u, units.u);
+    times(&mut solution.flux, units.flux());
+    solution.contact_force *= units.flux();
+    solution.bound = solution.bound.map(|bound| scaled(&bound, units.energy()));
+    let certified = &mut solution.certified;
+    times(&mut certified.vertices, units.u);
+    times(&mut certified.bubbles, units.u);
+    times(&mut certified.tau, units.flux());
+    times(&mut certified.indicators, units.energy() * units.energy());
+    solution.units = *units;
+    solution
+}
+
+fn scaled(bound: &ErrorBound, unit: f64) -> ErrorBound {
+    let ErrorBound { total, gap, algebraic, oscillation, rounding } = *bound;
+    let [total, gap, algebraic, oscillation, rounding] =
+        [total, gap, algebraic, oscillation, rounding].map(|x| x * unit);
+    ErrorBound { total, gap, algebraic, oscillation, rounding }
+}
