@@ -14,6 +14,7 @@ use crate::expression::Expression;
 use crate::field::{CellField, Sample};
 use crate::problem::Problem;
 use crate::quadrature::gauss;
+use crate::scene::units::Units;
 use crate::scene::{Exact, Located, Scene};
 use crate::solve;
 
@@ -49,6 +50,15 @@ pub fn of_solution(
     problem: &Problem,
     solution: &solve::Solution,
 ) -> Result<Option<Errors>> {
+    let units = solution.units;
+    if units != Units::default() {
+        // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
+        let (scene, problem) = solve::in_units(scene, problem, &units)?;
+        let solution = solve::times(&units.inverse(), solution.clone());
+        let solution = solve::Solution { units: Units::default(), ..solution };
+        let errors = of_solution(&scene, &problem, &solution)?;
+        return Ok(errors.map(|errors| errors.times(&units)));
+    }
     let Some(exact) = &scene.exact else { return Ok(None) };
     let errors = errors(scene, exact, problem, &solution.u, &solution.flux)?;
     if solution.bound.is_none() {
@@ -117,6 +127,19 @@ pub(crate) fn exact_at(
 }
 
 impl Errors {
+    /// In the scene's units, from those of the solve.
+    fn times(self, units: &Units) -> Self {
+        let energy = |error: f64| error * units.energy();
+        Self {
+            h1: self.h1 * units.u,
+            l2: self.l2 * units.u,
+            flux: self.flux * units.flux(),
+            energy: energy(self.energy),
+            combined: self.combined.map(energy),
+            identity: self.identity.map(energy),
+        }
+    }
+
     /// With the distance of S and τ.
     #[must_use]
     pub fn with(self, Distance { combined, identity }: Distance) -> Self {

@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use super::{Answer, completed, with};
-use crate::scene::units::Units;
 use crate::bake::trial;
 use crate::error::Result;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
+use crate::scene::units::Units;
 use crate::setting::{Precision, Start};
 use crate::solve::{ScalarKind, Seconds, Solution};
 

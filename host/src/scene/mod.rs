@@ -22,9 +22,9 @@ mod read;
 mod setting;
 mod table;
 pub mod term;
-pub mod units;
 #[cfg(test)]
 mod tests;
+pub mod units;
 
 use std::fmt::Display;
 use std::ops::Range;

@@ -36,7 +36,12 @@ impl Units {
         self.u * self.conductivity.sqrt()
     }
 
-    /// `scene` with its data in these units; the exact solution, if it has one, is left as it is.
+    /// The other way round.
+    pub fn inverse(&self) -> Self {
+        Self { u: 1.0 / self.u, conductivity: 1.0 / self.conductivity }
+    }
+
+    /// `scene` with its data, and its exact solution if it has one, in these units.
     pub fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let times = |data: &mut Located<Expression>, unit: f64| {
@@ -59,6 +64,10 @@ impl Units {
                     times(flux, self.flux());
                 }
             }
+        }
+        if let Some(exact) = &mut scene.exact {
+            times(&mut exact.u, self.u);
+            exact.gradient.iter_mut().for_each(|entry| times(entry, self.u));
         }
         for input in &mut scene.inputs {
             times(&mut input.pattern, self.of(input.field.value));

@@ -15,6 +15,7 @@ pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution, status_name};
 pub use tuned::{Trials, tuned_omega};
+pub(crate) use units::{in_units, times};
 
 use std::time::Instant;
 
@@ -46,10 +47,9 @@ pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
     if units == Units::default() {
         return solve_in_its_units(scene, problem, options);
     }
-    let scaled_scene = units.scene(scene);
-    let mut scaled = Problem::new(&scaled_scene, problem.mesh.clone())?;
-    scaled.set_time(&scaled_scene, problem.time)?;
-    Ok(units::back(&units, solve_in_its_units(&scaled_scene, &scaled, options)?))
+    let (scene, problem) = in_units(scene, problem, &units)?;
+    let solution = solve_in_its_units(&scene, &problem, options)?;
+    Ok(Solution { units, ..times(&units, solution) })
 }
 
 fn solve_in_its_units(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {

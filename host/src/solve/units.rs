@@ -17,6 +17,8 @@ const NEAR: i32 = 20;
 /// Numbers whose energy f64 cannot hold.
 pub(super) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
     let [u, conductivity] = sizes(problem).map(power);
+    // An even power, whose root is a power of two as well.
+    let conductivity = conductivity & !1;
     let units = Units { u: exp2(u), conductivity: exp2(conductivity) };
     // Energies go with U²α, sums of them with the number of cells.
     if 2 * u + conductivity > 960 || u + conductivity > 960 {
@@ -62,10 +64,24 @@ fn exp2(n: i32) -> f64 {
     f64::from(n.clamp(-1000, 1000)).exp2()
 }
 
-/// A solution in `units` becomes one in the scene's.
-pub(super) fn back(units: &Units, solution: Solution) -> Solution {
+/// A problem in `units`, with the scene that states it.
+///
+/// # Errors
+/// Data that are not finite in these units.
+pub(crate) fn in_units(
+    scene: &Scene,
+    problem: &Problem,
+    units: &Units,
+) -> Result<(Scene, Problem)> {
+    let scene = units.scene(scene);
+    let mut scaled = Problem::new(&scene, problem.mesh.clone())?;
+    scaled.set_time(&scene, problem.time)?;
+    Ok((scene, scaled))
+}
+
+/// A solution in `units` becomes one in the scene's; with their inverse, the other way round.
+pub(crate) fn times(units: &Units, mut solution: Solution) -> Solution {
     let times = |numbers: &mut [f64], unit: f64| numbers.iter_mut().for_each(|x| *x *= unit);
-    let mut solution = solution;
     times(&mut solution.u, units.u);
     times(&mut solution.flux, units.flux());
     solution.contact_force *= units.flux();
@@ -75,7 +91,6 @@ pub(super) fn back(units: &Units, solution: Solution) -> Solution {
     times(&mut certified.bubbles, units.u);
     times(&mut certified.tau, units.flux());
     times(&mut certified.indicators, units.energy() * units.energy());
-    solution.units = *units;
     solution
 }
 

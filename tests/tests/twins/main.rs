@@ -1,5 +1,7 @@
 //! The kernel against the naive twin on random scenes: every kind of cell, tensor and condition.
 
+mod factored;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -57,8 +59,16 @@ impl Narrow for f32 {
     }
 }
 
+/// Who solves.
+#[derive(Clone, Copy)]
+enum Method {
+    Sweeps,
+    /// With the free unknowns eliminated in an order of this seed.
+    Factor(u64),
+}
+
 /// Solves `problem` with the kernel, in the scalar R, numbered by I.
-fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
+fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     let grid = &problem.grid;
     let index = |vertex: u32| I::new(vertex as usize).expect("a small grid");
     let vertices: Vec<_> = grid.vertices.iter().map(|v| v.map(R::narrow)).collect();
@@ -133,10 +143,20 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem) -> Answer {
         if R::EPSILON.wide() < 1e-10 { (1e-13, 1e-10) } else { (0.0, 1e-7) };
     let [tolerance, accuracy] = [tolerance, accuracy].map(R::narrow);
     let settings = Settings { tolerance, accuracy, ..Settings::default() };
-    let outcome =
-        refinement::run::<R, I, Libm, QUADS>(&system, &boundary, settings, 6, &mut u, buffers)
-            .expect("valid settings");
-    let converged = matches!(outcome.status, Status::Converged | Status::RoundingLimit);
+    let converged = match method {
+        Method::Sweeps => {
+            let swept = refinement::run::<R, I, Libm, QUADS>(
+                &system, &boundary, settings, 6, &mut u, buffers,
+            );
+            let status = swept.expect("valid settings").status;
+            matches!(status, Status::Converged | Status::RoundingLimit)
+        }
+        Method::Factor(seed) => {
+            let order = factored::order::<I>(&mut Random::new(seed), counts.free);
+            let found = factored::solve(&system, &boundary, &settings, &order, &mut u, &mut low);
+            factored::ended_well(&found.expect("lengths"))
+        }
+    };
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(&edges, k, loads, &u, &low, &mut fluxes).expect("lengths");
     let force = contact::force(counts, &boundary, &fluxes).wide();
@@ -283,9 +303,9 @@ const SEEDS: u64 = 150;
 
 #[test]
 fn random_scenes_in_f64() {
-    for seed in 0..SEEDS {
+    for (seed, method) in (0..SEEDS).flat_map(|s| [(s, Method::Sweeps), (s, Method::Factor(s))]) {
         let problem = random::problem(&mut Random::new(seed), 5);
-        let (kernel, twin) = (by_kernel::<f64, u16>(&problem), by_twin(&problem));
+        let (kernel, twin) = (by_kernel::<f64, u16>(&problem, method), by_twin(&problem));
         assert!(kernel.converged, "seed {seed}");
         let what = format!("seed {seed}");
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
@@ -298,9 +318,10 @@ fn random_scenes_in_f64() {
 
 #[test]
 fn random_scenes_in_f32_and_with_wide_indices() {
-    for seed in 0..SEEDS / 2 {
+    let methods = |seed| [(seed, Method::Sweeps), (seed, Method::Factor(seed))];
+    for (seed, method) in (0..SEEDS / 2).flat_map(methods) {
         let problem = random::problem(&mut Random::new(seed), 5);
-        let (kernel, twin) = (by_kernel::<f32, u32>(&problem), by_twin(&problem));
+        let (kernel, twin) = (by_kernel::<f32, u32>(&problem, method), by_twin(&problem));
         assert!(kernel.converged, "seed {seed}");
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
         NARROW_AGREEMENT.check(&format!("seed {seed}"), u);
