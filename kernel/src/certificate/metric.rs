@@ -8,6 +8,8 @@
 //! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
 //! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
 
+#[cfg(doc)]
+use crate::element::nonparametric::Axes;
 use crate::element::rannacher_turek::Place;
 use crate::features;
 use crate::geometry::doubled_area;
@@ -17,7 +19,7 @@ use crate::tensor::Tensor;
 /// Gauss points a direction where B varies.
 pub const POINTS: usize = 8;
 
-/// B where it varies (borrowed).
+/// B where it varies, and what tells u_h at the vertices (borrowed).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Metric<'a, R> {
     /// B at the 64 points of every cell where it varies, one such cell after the other.
@@ -25,6 +27,9 @@ pub struct Metric<'a, R> {
     /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],
+    /// The bend of every quad ([`Axes::bend`]), where u_h is nonparametric on them; empty where it is
+    /// parametric, or where no quad is bent: then they say the same at vertices.
+    pub bends: &'a [[R; 2]],
 }
 
 impl<'a, R: Real> Metric<'a, R> {
