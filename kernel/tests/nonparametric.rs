@@ -1,8 +1,10 @@
 //! The nonparametric quad against what defines it, and against the parametric one on parallelograms.
 #![allow(clippy::indexing_slicing)]
 
-use signorini_kernel::element::{QuadElement, nonparametric, rannacher_turek};
-use signorini_kernel::{Real, Tensor};
+use signorini_kernel::element::{QuadElement, crouzeix_raviart, nonparametric, rannacher_turek};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::{Coefficient, fill_with};
+use signorini_kernel::{Error, Real, Tensor};
 
 type Quad = [[f64; 2]; 4];
 
@@ -138,6 +140,23 @@ fn both_elements_are_the_same_on_parallelograms() {
         let same = rannacher_turek::at_vertices(&means);
         assert!(values.iter().zip(same).all(|(x, y)| (x - y).abs() < 1e-13), "{quad:?}");
     }
+}
+
+/// The pass over a mesh gives each quad its matrix, and triangles theirs.
+#[test]
+fn a_mesh_is_filled_with_the_element_asked_for() -> Result<(), Error> {
+    let vertices = [[0.0, -0.25], [1.0, 0.25], [1.0, 0.75], [0.0, 1.25], [2.0, 0.5]];
+    let (triangles, quads) = ([[1_u16, 4, 2]], [[0_u16, 1, 2, 3]]);
+    let mesh = Mesh::new(&vertices, &triangles, &quads)?;
+    for element in [QuadElement::Parametric, QuadElement::Nonparametric] {
+        let (mut of_triangles, mut of_quads) = ([[0.0; 3]], [[0.0; 6]]);
+        let a = Coefficient::Uniform(A);
+        fill_with(element, &mesh, a, 2, &mut of_triangles, &mut of_quads)?;
+        assert_eq!(of_quads[0], element.stiffness(QUADS[1], f64::GAUSS[1], |_, _| A));
+        let corners = [vertices[1], vertices[4], vertices[2]];
+        assert_eq!(of_triangles[0], crouzeix_raviart::stiffness(corners, A));
+    }
+    Ok(())
 }
 
 /// Σφ = 1, so that what flows out of a cell adds up to nothing for any u.

@@ -8,8 +8,6 @@
 //! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
 //! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
 
-#[cfg(doc)]
-use crate::element::nonparametric::Axes;
 use crate::element::rannacher_turek::Place;
 use crate::features;
 use crate::geometry::doubled_area;
@@ -27,7 +25,7 @@ pub struct Metric<'a, R> {
     /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],
-    /// The bend of every quad ([`Axes::bend`]), where u_h is nonparametric on them; empty where it is
+    /// The bend of every quad ([`crate::element::nonparametric::Axes::bend`]), where u_h is nonparametric on them; empty where it is
     /// parametric, or where no quad is bent: then they say the same at vertices.
     pub bends: &'a [[R; 2]],
 }

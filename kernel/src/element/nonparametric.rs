@@ -18,6 +18,10 @@
 //! Elsewhere it holds all linear functions, which the parametric one does not: on quads that keep their
 //! shape under refinement u_h converges with its full rate.
 //!
+//! Σφ = 1, and the load of a cell goes to its sides in quarters here too, so that formula (15) and the
+//! balance of each cell stay as they are. The means of the φ over the cell are quarters up to w/12: a
+//! quarter stands for f gathered at p instead of the centroid, which is of the order of its oscillation.
+//!
 //! With C the cofactor matrix of (e₁ e₂) and ∇ the derivatives by X and Y
 //! ```text
 //!   K_ij = ∫ (C∇φ_i)·A(C∇φ_j) (1 + w₁Ŷ + w₂X̂) / det(e₁, e₂)  dx̂ dŷ:
