@@ -1,6 +1,6 @@
 //! u_h and σ_h inside the cells, from edge means and edge fluxes.
 
-use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::element::{QuadElement, crouzeix_raviart, rannacher_turek};
 use signorini_kernel::geometry::doubled_area;
 
 use crate::problem::Problem;
@@ -10,8 +10,8 @@ use crate::problem::Problem;
 pub enum CellField {
     /// Corners, means of u_h over the sides, outward fluxes through the sides.
     Triangle([[f64; 2]; 3], [f64; 3], [f64; 3]),
-    /// The same for a quad.
-    Quad([[f64; 2]; 4], [f64; 4], [f64; 4]),
+    /// The same for a quad, and what u_h is made of there.
+    Quad([[f64; 2]; 4], [f64; 4], [f64; 4], QuadElement),
 }
 
 /// u_h, its gradient and σ_h at one point.
@@ -45,7 +45,7 @@ impl CellField {
             let edges = problem.topology.of_quads[at];
             let fluxes = std::array::from_fn(|k| outward(edges[k], 3 * triangles + 4 * at + k));
             let means = edges.map(|edge| u[edge as usize]);
-            Self::Quad(problem.mesh.quads[at].map(corner), means, fluxes)
+            Self::Quad(problem.mesh.quads[at].map(corner), means, fluxes, problem.element)
         }
     }
 
@@ -58,13 +58,12 @@ impl CellField {
                 let flux = crouzeix_raviart::raviart_thomas(corners, fluxes, point.x);
                 Sample { u: dot(basis, means), gradient: gradient.into(), flux: flux.into() }
             }
-            Self::Quad(corners, means, fluxes) => {
+            Self::Quad(corners, means, fluxes, element) => {
                 let [x, y, _] = point.reference;
-                let place = rannacher_turek::place(corners, [x, y]);
                 Sample {
-                    u: dot(place.basis(), means),
-                    gradient: place.gradient(means).into(),
-                    flux: place.raviart_thomas(fluxes).into(),
+                    u: dot(element.basis(corners, [x, y]), means),
+                    gradient: element.gradient(corners, [x, y], means).into(),
+                    flux: rannacher_turek::place(corners, [x, y]).raviart_thomas(fluxes).into(),
                 }
             }
         }
@@ -80,7 +79,7 @@ impl CellField {
                 let lambda = parts.map(|part| part / whole);
                 lambda.iter().all(|&part| part >= -SLACK).then_some(lambda)
             }
-            Self::Quad(corners, _, _) => {
+            Self::Quad(corners, ..) => {
                 let reference = inverse_bilinear(corners, x);
                 let inside = |t: f64| (-SLACK..=1.0 + SLACK).contains(&t);
                 let [s, t] = reference;
@@ -95,7 +94,7 @@ impl CellField {
             Self::Triangle([a, b, c], _, fluxes) => {
                 crouzeix_raviart::raviart_thomas([a, b, c], fluxes, self.middle()).into()
             }
-            Self::Quad(corners, _, fluxes) => {
+            Self::Quad(corners, _, fluxes, _) => {
                 rannacher_turek::place(corners, [0.5; 2]).raviart_thomas(fluxes).into()
             }
         }
@@ -113,7 +112,7 @@ impl CellField {
     pub fn mean(&self) -> f64 {
         match self {
             Self::Triangle(_, means, _) => means.iter().sum::<f64>() / 3.0,
-            Self::Quad(_, means, _) => means.iter().sum::<f64>() / 4.0,
+            Self::Quad(_, means, ..) => means.iter().sum::<f64>() / 4.0,
         }
     }
 }

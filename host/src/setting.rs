@@ -4,6 +4,7 @@
 //! [setting]
 //! refine = 1            # uniform refinements of the scene's mesh                    [0]
 //! cells = "quads"       # triangles: quads are cut; quads: triangles are paired      [as in the mesh]
+//! element = "parametric" # or nonparametric: full rates of u_h on quads of any shape  [parametric]
 //! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
 //! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
 //! model = "full"        # full or condensed                                          [bake: the smaller]
@@ -16,6 +17,7 @@
 //! `sweeps` and `share` exclude each other. The file reads them in [`crate::scene`].
 
 use serde::{Deserialize, Serialize};
+use signorini_kernel::element::QuadElement;
 
 /// How a scene is discretised, solved and certified.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,6 +28,9 @@ pub struct Setting {
     /// The cells that the mesh is brought to before it is refined; `None` leaves them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<CellKind>,
+    /// What u_h is made of on quads.
+    #[serde(with = "Element", skip_serializing_if = "is_usual")]
+    pub element: QuadElement,
     /// Number format; `None` leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scalar: Option<Precision>,
@@ -53,6 +58,7 @@ impl Default for Setting {
         Self {
             refine: 0,
             cells: None,
+            element: QuadElement::Parametric,
             scalar: None,
             math: MathKind::Libm,
             model: None,
@@ -73,6 +79,19 @@ pub enum CellKind {
     Triangles,
     /// Triangles are paired into convex quads; those that find no partner stay.
     Quads,
+}
+
+/// [`QuadElement`] as text.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "QuadElement", rename_all = "lowercase")]
+enum Element {
+    Parametric,
+    Nonparametric,
+}
+
+/// Settings that were recorded before there was a choice do not change.
+fn is_usual(element: &QuadElement) -> bool {
+    *element == QuadElement::default()
 }
 
 /// The number format of a solve.
@@ -156,6 +175,7 @@ mod tests {
         let setting = Setting {
             refine: 2,
             cells: Some(CellKind::Quads),
+            element: QuadElement::Nonparametric,
             scalar: Some(Precision::Mixed),
             omega: Omega::Fixed(1.93),
             sweeps: Some(12),

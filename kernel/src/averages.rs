@@ -8,7 +8,7 @@
 
 use crate::assembly::CellLoads;
 use crate::cells::{Cells, pick};
-use crate::element::{crouzeix_raviart, rannacher_turek};
+use crate::element::{crouzeix_raviart, nonparametric, rannacher_turek};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::features;
 use crate::flux::{on_quad, on_triangle};
@@ -16,13 +16,14 @@ use crate::index::{Index, read};
 use crate::real::Real;
 
 /// Fills `vertices` with s and `tau` with one value an edge, along its direction, from the means `u` over
-/// the edges.
+/// the edges. `bends` is that of [`crate::certificate::Metric`].
 ///
 /// # Errors
 /// Arrays of the wrong length.
 pub fn fill<R: Real, I: Index>(
     cells: &Cells<R, I>,
     loads: CellLoads<R>,
+    bends: &[[R; 2]],
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
@@ -32,13 +33,14 @@ pub fn fill<R: Real, I: Index>(
     same_length(Array::Unknowns, u.len(), tau.len())?;
     same_length_or_empty(Array::CellLoads, loads.triangles.len(), cells.triangles.len())?;
     same_length_or_empty(Array::CellLoads, loads.quads.len(), cells.quads.len())?;
+    same_length_or_empty(Array::Coefficients, bends.len(), cells.quads.len())?;
     vertices.fill(R::ZERO);
     tau.fill(R::ZERO);
     if features::TRIANGLES {
         of_triangles(cells, loads.triangles, u, vertices, tau);
     }
     if features::QUADS {
-        of_quads(cells, loads.quads, u, vertices, tau);
+        of_quads(cells, loads.quads, bends, u, vertices, tau);
     }
     let scaled = vertices.iter_mut().zip(cells.of_vertices);
     scaled.for_each(|(sum, &weight)| *sum *= weight);
@@ -68,6 +70,7 @@ fn of_triangles<R: Real, I: Index>(
 fn of_quads<R: Real, I: Index>(
     cells: &Cells<R, I>,
     loads: &[R],
+    bends: &[[R; 2]],
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
@@ -75,11 +78,18 @@ fn of_quads<R: Real, I: Index>(
     let triangles = cells.triangles.len();
     for cell in cells.quads {
         let Some(means) = pick(&cell.edges, u) else { break };
-        let load = read(loads, cell.number.at().wrapping_sub(triangles));
+        let quad = cell.number.at().wrapping_sub(triangles);
+        let load = read(loads, quad);
         let out = on_quad(&cell.k, &means, load);
         let flux = cell.turned(out.map(|flux| flux * cell.softness));
         add(&cell.edges, flux, tau);
-        let at_vertices = rannacher_turek::at_vertices(&means);
+        let at_vertices = match bends.get(quad) {
+            Some(&bend) if features::VARYING => {
+                let means = cell.sides_in_mesh(means);
+                cell.packed(nonparametric::at_vertices(bend, &means))
+            }
+            _ => rannacher_turek::at_vertices(&means),
+        };
         add(&cell.vertices, at_vertices.map(|value| value * cell.alpha), vertices);
     }
 }

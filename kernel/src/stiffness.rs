@@ -1,6 +1,6 @@
 //! The element matrices of all cells, stored once: assembly, flux and certificate read them.
 
-use crate::element::{crouzeix_raviart, rannacher_turek};
+use crate::element::{QuadElement, crouzeix_raviart};
 use crate::error::{Array, CellId, Error, same_length};
 use crate::index::{Index, read};
 use crate::mesh::Mesh;
@@ -52,12 +52,29 @@ pub struct Stiffness<'a, R> {
     pub quads: &'a [[R; 6]],
 }
 
-/// Fills the element matrices of `mesh`; quads are integrated with `points`² Gauss points, 1 to 8
-/// in each direction (2 are exact on parallelograms with constant A).
+/// Fills the element matrices of `mesh`; quads are parametric and integrated with `points`² Gauss
+/// points, 1 to 8 in each direction (2 are exact on parallelograms with constant A).
 ///
 /// # Errors
 /// Arrays of the wrong length, a tensor that is not positive definite, an entry that overflows.
 pub fn fill<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    coefficient: Coefficient<R>,
+    points: usize,
+    triangles: &mut [[R; 3]],
+    quads: &mut [[R; 6]],
+) -> Result<(), Error> {
+    fill_with(QuadElement::Parametric, mesh, coefficient, points, triangles, quads)
+}
+
+/// The same with a choice of the element on quads. With the nonparametric one 2 points a direction are
+/// exact on every quad with constant A.
+///
+/// # Errors
+/// As for [`fill`].
+#[inline(always)]
+pub fn fill_with<R: Real, I: Index>(
+    element: QuadElement,
     mesh: &Mesh<R, I>,
     coefficient: Coefficient<R>,
     points: usize,
@@ -75,7 +92,7 @@ pub fn fill<R: Real, I: Index>(
         same_length(Array::Coefficients, coefficient.len(), expected)?;
     }
     fill_triangles(mesh, coefficient, triangles)?;
-    fill_quads(mesh, coefficient, rule, quads)
+    fill_quads(element, mesh, coefficient, rule, quads)
 }
 
 /// Element matrices of triangles: one tensor for all of them is checked once.
@@ -115,6 +132,7 @@ fn fill_triangles<R: Real, I: Index>(
 /// Element matrices of quads. Not inlined, so that symbols tell whether it is there.
 #[inline(never)]
 fn fill_quads<R: Real, I: Index>(
+    element: QuadElement,
     mesh: &Mesh<R, I>,
     coefficient: Coefficient<R>,
     rule: &[[R; 2]],
@@ -125,7 +143,7 @@ fn fill_quads<R: Real, I: Index>(
         let cell = mesh.triangles().len() + at;
         let first_point = mesh.triangles().len() + at * points * points;
         let mut definite = true;
-        *k = rannacher_turek::stiffness(mesh.quad(vertices), rule, |point, _| {
+        *k = element.stiffness(mesh.quad(vertices), rule, |point, _| {
             let tensor = coefficient.at(cell, first_point + point);
             definite &= tensor.is_positive_definite();
             tensor

@@ -61,7 +61,7 @@ fn averages(plate: &Plate, alpha: &[f64], means: &[f64]) -> Result<Vec<f64>, Err
     };
     let cells = pack(&mesh, &edges, stiffness, alpha, &vec![1.0; t], &forest, buffers)?;
     let loads = CellLoads { triangles: &[], quads: &[] };
-    averages::fill(&cells, loads, means, &mut values, &mut tau)?;
+    averages::fill(&cells, loads, &[], means, &mut values, &mut tau)?;
     Ok(values)
 }
 

@@ -80,8 +80,8 @@ impl Grid {
     }
 
     /// The same mesh (n squares over the height 1) with the inner vertices of every other column
-    /// of vertices moved up by h/4 and those of the columns between down by h/4: the quads stay
-    /// trapezoids however fine the mesh.
+    /// of vertices moved up by h/4 and those of the columns between down by h/4: the quads along the
+    /// bottom and the top stay trapezoids however fine the mesh; those between are parallelograms.
     pub fn moved_to_trapezoids(mut self, n: u32) -> Self {
         let h = 1.0 / f64::from(n);
         for (k, v) in self.vertices.iter_mut().enumerate().filter(|(_, v)| is_inside(**v)) {

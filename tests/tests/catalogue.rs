@@ -199,7 +199,8 @@ fn moved_grids() {
     }
 }
 
-/// On quads that stay trapezoids u loses its rate and the flux does not: shown, not hidden.
+/// Where quads along the boundary stay trapezoids, u loses its rate and the flux does not: shown, not
+/// hidden. What becomes of it where all of them do, and what helps, is in `bound/nonparametric.rs`.
 #[test]
 fn trapezoids_keep_the_rate_of_the_flux_only() {
     let [coarse, fine] = [16, 32].map(|n| {

@@ -160,7 +160,8 @@ impl<R: Scalar> Certifier<R> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let ground = self.ways.ground(assembled, &self.metric)?;
         let (s, lower, given) = (&mut self.vertices, assembled.lower(), data.given(assembled)?);
-        averages::fill(&ground.cells, assembled.cells(), u, s, &mut self.tau)?;
+        let bends = ground.metric.bends;
+        averages::fill(&ground.cells, assembled.cells(), bends, u, s, &mut self.tau)?;
         conforming::impose(&ground.mesh, &ground.edges, u, lower, given.ends, s).map(|_| ())
     }
 }

@@ -1,6 +1,8 @@
 //! A in reference coordinates, as the kernel's certificate takes it ([`signorini_kernel::certificate`]).
 
 use signorini_kernel::certificate::{POINTS, of_quad, of_triangle};
+use signorini_kernel::element::QuadElement;
+use signorini_kernel::element::nonparametric::axes;
 use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::{Real, Tensor};
 
@@ -19,6 +21,7 @@ pub struct Metric<R: Scalar> {
     compliance: Vec<R>,
     at_points: Vec<Points<R>>,
     place: Vec<u32>,
+    bends: Vec<[R; 2]>,
     alpha: Vec<R>,
 }
 
@@ -35,6 +38,7 @@ impl<R: Scalar> Metric<R> {
             compliance: compliance.collect(),
             at_points: Vec::new(),
             place: Vec::new(),
+            bends: bends(problem),
             alpha: Vec::new(),
         };
         for cell in 0..problem.cells() {
@@ -48,7 +52,11 @@ impl<R: Scalar> Metric<R> {
 
     /// The kernel's view of it.
     pub fn view(&self) -> signorini_kernel::certificate::Metric<'_, R> {
-        signorini_kernel::certificate::Metric { at_points: &self.at_points, place: &self.place }
+        signorini_kernel::certificate::Metric {
+            at_points: &self.at_points,
+            place: &self.place,
+            bends: &self.bends,
+        }
     }
 
     /// 1/(4 det A) of every triangle, A its mean.
@@ -94,6 +102,17 @@ impl<R: Scalar> Metric<R> {
         };
         Some(std::array::from_fn(|point| narrow(&tensors[point])))
     }
+}
+
+/// The bend of every quad, where u_h is nonparametric and there is a quad on which that matters.
+fn bends<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
+    let mesh = &problem.mesh;
+    let corners = |quad: &[u32; 4]| quad.map(|vertex| mesh.vertices[vertex as usize]);
+    let straight = mesh.quads.iter().all(|quad| is_parallelogram(corners(quad)));
+    if straight || problem.element == QuadElement::Parametric {
+        return Vec::new();
+    }
+    mesh.quads.iter().map(|quad| axes(corners(quad)).bend().map(R::narrow)).collect()
 }
 
 /// The diagonals halve each other, up to rounding of the coordinates.

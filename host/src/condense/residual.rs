@@ -123,7 +123,8 @@ fn unit_fluxes(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
             CellField::Triangle(corners, [0.0; 3], std::array::from_fn(|k| only(side, k)))
         }
         Cell::Quad(corners) => {
-            CellField::Quad(corners, [0.0; 4], std::array::from_fn(|k| only(side, k)))
+            let out = std::array::from_fn(|k| only(side, k));
+            CellField::Quad(corners, [0.0; 4], out, problem.element)
         }
     };
     (0..edges.len()).map(unit).collect()

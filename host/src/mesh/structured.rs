@@ -1,6 +1,7 @@
 //! The catalogue's grid: 2n × n squares on (−1, 1) × (0, 1), for convergence studies.
 //!
-//! Squares stay quads, or are cut from the lower left to the upper right corner, or both in turn.
+//! Squares stay quads, or are cut from the lower left to the upper right corner, or both in turn, or they
+//! become trapezoids that keep their shape however fine the grid is.
 //! Physical curves: `contact` (y = 0) and `dirichlet` (the rest); surfaces: `left` (x < 0), `right`.
 
 use super::{Curve, Mesh, Surface};
@@ -14,6 +15,15 @@ pub enum Cells {
     Quads,
     /// Triangles and quads like the fields of a chessboard.
     Mixed,
+}
+
+/// Where quads become trapezoids that keep their shape however fine the grid is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trapezoids {
+    /// In two rows, along the bottom and the top; parallelograms between.
+    InTwoRows,
+    /// Everywhere.
+    Everywhere,
 }
 
 /// The grid with 2n × n squares.
@@ -64,6 +74,23 @@ pub fn grid(n: u32, cells: Cells) -> Mesh {
     mesh
 }
 
+/// The grid of quads with vertices moved up and down in turn by h/4: in every other row (n even), which
+/// makes vertical sides of 5/4 h and 3/4 h, or all those inside.
+pub fn trapezoids(n: u32, place: Trapezoids) -> Mesh {
+    let mut mesh = grid(n, Cells::Quads);
+    let (columns, quarter) = (2 * n as usize + 1, 0.25 / f64::from(n));
+    for (at, [x, y]) in mesh.vertices.iter_mut().enumerate() {
+        let moves = match place {
+            Trapezoids::InTwoRows => x.abs() < 1.0 && *y > 0.0 && *y < 1.0,
+            Trapezoids::Everywhere => !(at / columns).is_multiple_of(2),
+        };
+        if moves {
+            *y += if (at % columns).is_multiple_of(2) { quarter } else { -quarter };
+        }
+    }
+    mesh
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +105,29 @@ mod tests {
         let mixed = grid(4, Cells::Mixed);
         assert_eq!((mixed.triangles.len(), mixed.quads.len()), (32, 16));
         assert_eq!(mixed.surfaces[0].cells.len(), mixed.surfaces[1].cells.len());
+    }
+
+    /// Of how many quads the vertical sides differ, and by how much in the unit h.
+    fn uneven(n: u32, place: Trapezoids) -> (usize, f64) {
+        let mesh = trapezoids(n, place);
+        let difference = |quad: &[u32; 4]| {
+            let [a, b, c, d] = quad.map(|at| mesh.vertices[at as usize]);
+            assert_eq!((a[0], b[0]), (d[0], c[0]));
+            ((d[1] - a[1]) - (c[1] - b[1])).abs() * f64::from(n)
+        };
+        let all: Vec<_> = mesh.quads.iter().map(difference).filter(|of| *of > 1e-9).collect();
+        (all.len(), all.iter().fold(0.0, |most, of| of.max(most)))
+    }
+
+    #[test]
+    fn trapezoids_keep_their_shape() {
+        for n in [4, 16] {
+            let (count, difference) = uneven(n, Trapezoids::Everywhere);
+            assert_eq!(count, 2 * (n * n) as usize);
+            assert!((difference - 0.5).abs() < 1e-12, "{difference}");
+            let (count, difference) = uneven(n, Trapezoids::InTwoRows);
+            assert_eq!(count, 4 * n as usize);
+            assert!((difference - 0.5).abs() < 1e-12, "{difference}");
+        }
     }
 }

@@ -6,7 +6,7 @@ use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
-use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
@@ -288,9 +288,9 @@ fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, 
     let quads = quads.map(|(cell, coefficient)| {
         let corners = in_box.quad(cell);
         let matrix = match coefficient {
-            QuadCoefficient::Constant(a) => rannacher_turek::stiffness(corners, rule, |_, _| *a),
+            QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
             QuadCoefficient::AtPoints(tensors) => {
-                rannacher_turek::stiffness(corners, rule, |point, _| tensors[point])
+                problem.element.stiffness(corners, rule, |point, _| tensors[point])
             }
         };
         matrix.map(R::narrow)

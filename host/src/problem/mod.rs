@@ -20,6 +20,7 @@ pub use solvability::Parts;
 pub(crate) use sum::Sum;
 
 use signorini_kernel::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error as KernelError, Tensor, error::CellId};
@@ -117,6 +118,8 @@ pub struct Problem {
     pub lengths: Vec<f64>,
     /// What lies on each edge.
     pub kinds: Vec<EdgeKind>,
+    /// What u_h is made of on quads.
+    pub element: QuadElement,
     /// Which names mean which cells and edges.
     pub binding: Binding,
     /// A.
@@ -157,6 +160,7 @@ impl Problem {
             ends,
             lengths,
             kinds,
+            element: scene.setting.unwrap_or_default().element,
             binding,
             coefficients,
             loads: Loads::default(),

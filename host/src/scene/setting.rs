@@ -1,5 +1,6 @@
 //! `[setting]`: how to solve the scene, with what excludes what.
 
+use signorini_kernel::element::QuadElement;
 use toml::de::DeValue;
 
 use super::entry::Entry;
@@ -7,9 +8,10 @@ use super::table::Table;
 use crate::error::{InputError, Result};
 use crate::setting::{CellKind, MathKind, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "refine",
     "cells",
+    "element",
     "scalar",
     "math",
     "model",
@@ -22,6 +24,8 @@ const KEYS: [&str; 10] = [
 
 const CELLS: [(&str, CellKind); 2] =
     [("triangles", CellKind::Triangles), ("quads", CellKind::Quads)];
+const ELEMENTS: [(&str, QuadElement); 2] =
+    [("parametric", QuadElement::Parametric), ("nonparametric", QuadElement::Nonparametric)];
 const SCALARS: [(&str, Precision); 3] =
     [("f32", Precision::F32), ("f64", Precision::F64), ("f32+f64", Precision::Mixed)];
 const MATHS: [(&str, MathKind); 2] = [("libm", MathKind::Libm), ("micromath", MathKind::Micromath)];
@@ -39,6 +43,7 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     let setting = Setting {
         refine: read(table, "refine", |entry| entry.whole(0..=FINEST))?.unwrap_or(default.refine),
         cells: choice(table, "cells", &CELLS)?,
+        element: choice(table, "element", &ELEMENTS)?.unwrap_or(default.element),
         scalar: choice(table, "scalar", &SCALARS)?,
         math: choice(table, "math", &MATHS)?.unwrap_or(default.math),
         model: choice(table, "model", &MODELS)?,

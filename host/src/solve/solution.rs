@@ -90,7 +90,7 @@ impl Solution {
             };
             let out: f64 = match CellField::new(problem, cell, &self.u, &self.flux) {
                 CellField::Triangle(_, _, flux) => flux.iter().sum(),
-                CellField::Quad(_, _, flux) => flux.iter().sum(),
+                CellField::Quad(_, _, flux, _) => flux.iter().sum(),
             };
             (out + load.unwrap_or(&0.0)).abs()
         });
@@ -110,7 +110,7 @@ impl Solution {
             };
             match &field {
                 CellField::Triangle(_, means, fluxes) => sum(means, fluxes),
-                CellField::Quad(_, means, fluxes) => sum(means, fluxes),
+                CellField::Quad(_, means, fluxes, _) => sum(means, fluxes),
             }
         });
         squares.sum::<f64>().max(0.0).sqrt()

@@ -125,7 +125,8 @@ pub fn convergence(studies: &[Study]) -> String {
     }
     align(&mut table);
     format!(
-        "Convergence on grids of 2n × n squares: errors at the largest n, rates over all\n{table}"
+        "Convergence on grids of 2n × n squares, or trapezoids in their place: errors at the largest n, rates \
+         over all\n{table}"
     )
 }
 

@@ -1,6 +1,6 @@
 //! A start from a coarser mesh: solved there first, and brought to the fine one.
 
-use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::prolongation::Origin;
 
 use crate::error::{InputError, Result};
@@ -46,6 +46,6 @@ fn origin<R: Scalar>(coarse: &Problem, search: &Search, point: [f64; 2]) -> Resu
     };
     let corners = coarse.mesh.quads[quad].map(|vertex| coarse.mesh.vertices[vertex as usize]);
     let [x, y, _] = reference;
-    let weights = rannacher_turek::place(corners, [x, y]).basis().map(R::narrow);
+    let weights = coarse.element.basis(corners, [x, y]).map(R::narrow);
     Ok(Origin { edges: topology.of_quads[quad], weights })
 }

@@ -7,7 +7,7 @@ use crate::mesh::adapted::adapted;
 use crate::mesh::{Mesh, gmsh};
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::setting::CellKind;
+use crate::setting::{CellKind, Setting};
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
 const FINEST: usize = 16_000;
@@ -30,7 +30,8 @@ pub(super) struct Meshes {
 impl Meshes {
     pub fn new(scene: &Scene) -> Result<Self> {
         let own = gmsh::read(&scene.mesh.value)?;
-        let scene = Scene { setting: None, ..scene.clone() };
+        let of = |own: Setting| Setting { element: own.element, ..Setting::default() };
+        let scene = Scene { setting: scene.setting.map(of), ..scene.clone() };
         Ok(Self { scene, own, made: HashMap::new() })
     }
 

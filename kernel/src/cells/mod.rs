@@ -136,6 +136,14 @@ impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SID
     }
 }
 
+impl<R: Real, I: Index> Quad<R, I> {
+    /// What belongs to the vertices, as [`pack`] turned them: quads are not mirrored.
+    pub(crate) fn packed(&self, mut in_mesh: [R; 4]) -> [R; 4] {
+        in_mesh.rotate_left((usize::from(self.parent) + 1) % 4);
+        in_mesh
+    }
+}
+
 impl<R: Real, I: Index> Triangle<R, I> {
     /// K in the order of the mesh.
     pub(crate) fn stiffness_in_mesh(&self) -> [R; 3] {

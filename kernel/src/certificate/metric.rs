@@ -17,7 +17,7 @@ use crate::tensor::Tensor;
 /// Gauss points a direction where B varies.
 pub const POINTS: usize = 8;
 
-/// B where it varies (borrowed).
+/// B where it varies, and what tells u_h at the vertices (borrowed).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Metric<'a, R> {
     /// B at the 64 points of every cell where it varies, one such cell after the other.
@@ -25,6 +25,9 @@ pub struct Metric<'a, R> {
     /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],
+    /// The bend of every quad ([`crate::element::nonparametric::Axes::bend`]), where u_h is nonparametric on them; empty where it is
+    /// parametric, or where no quad is bent: then they say the same at vertices.
+    pub bends: &'a [[R; 2]],
 }
 
 impl<'a, R: Real> Metric<'a, R> {

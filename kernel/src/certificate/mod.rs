@@ -64,7 +64,7 @@ pub struct Ground<'a, R, I> {
     pub stiffness: Stiffness<'a, R>,
     /// Cells with their element matrices, from leaves to roots.
     pub cells: Cells<'a, R, I>,
-    /// A in reference coordinates where it varies inside a cell.
+    /// A in reference coordinates where it varies inside a cell, and the bends of quads.
     pub metric: Metric<'a, R>,
     /// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell to its root: [`reach`].
     pub reach: R,
@@ -160,7 +160,7 @@ pub fn certify<R: Real, I: Index>(
     same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
-    averages::fill(cells, given.loads, u, vertices, tau)?;
+    averages::fill(cells, given.loads, ground.metric.bends, u, vertices, tau)?;
     conforming::impose(mesh, edges, u, lower, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);

@@ -10,10 +10,12 @@
 //! ```text
 //!   K_ij = ∫ (C∇̂φ_i)·A(C∇̂φ_j) / det DF  dx̂ dŷ.
 //! ```
-//! On a parallelogram with constant A a 2×2 Gauss rule is exact; elsewhere the integrand is rational.
+//! On a parallelogram with constant A a 2×2 Gauss rule is exact; elsewhere the integrand is rational,
+//! and linear functions are not in the span: [`super::nonparametric`] has them.
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::above_diagonal;
 use crate::geometry::scaled_normal;
 use crate::real::Real;
 use crate::tensor::Tensor;
@@ -100,22 +102,10 @@ pub fn stiffness<R: Real>(
     rule: &[[R; 2]],
     mut tensor: impl FnMut(usize, &Place<R>) -> Tensor<R>,
 ) -> [R; 6] {
-    let mut k = [R::ZERO; 6];
-    for (row, &[y, weight_y]) in rule.iter().enumerate() {
-        for (column, &[x, weight_x]) in rule.iter().enumerate() {
-            let place = place(quad, [x, y]);
-            let a = tensor(row * rule.len() + column, &place);
-            let weight = weight_x * weight_y / place.determinant;
-            let [g0, g1, g2, g3] = place.scaled_gradients();
-            let (a0, a1, a2) = (a.apply(g0) * weight, a.apply(g1) * weight, a.apply(g2) * weight);
-            let point =
-                [a0.dot(&g1), a0.dot(&g2), a0.dot(&g3), a1.dot(&g2), a1.dot(&g3), a2.dot(&g3)];
-            for (entry, addend) in k.iter_mut().zip(point) {
-                *entry += addend;
-            }
-        }
-    }
-    k
+    above_diagonal(rule, |point, reference, weight| {
+        let place = place(quad, reference);
+        (tensor(point, &place), weight / place.determinant, place.scaled_gradients())
+    })
 }
 
 /// u_h at vertices 0 to 3 from its means over the sides: at a corner, a basis function is ¾ where its

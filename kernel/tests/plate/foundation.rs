@@ -91,7 +91,7 @@ impl Foundation {
         let (triangles, quads) = (&mut self.triangles, &mut self.quads);
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place };
+        let metric = Metric { at_points: points, place, bends: &[] };
         let mut way = vec![0.0; edges.cells()];
         self.reach = certificate::reach(&edges, &cells, metric, &forest, &mut way)?;
         Ok(())
@@ -106,7 +106,7 @@ impl Foundation {
     }
 
     fn metric(&self) -> Metric<'_, f64> {
-        Metric { at_points: &self.points, place: &self.place }
+        Metric { at_points: &self.points, place: &self.place, bends: &[] }
     }
 
     pub fn ground(&self) -> Result<Ground<'_, f64, u16>, Error> {

@@ -6,6 +6,7 @@
 mod catalogue;
 mod invariance;
 mod mesh;
+mod nonparametric;
 mod property;
 mod run;
 mod supports;

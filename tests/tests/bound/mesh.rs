@@ -11,7 +11,11 @@ const MOVE: f64 = 0.2;
 
 /// 2n × n squares; curves `contact`, `left`, `right`, `top`.
 pub fn regular(n: u32, cells: Cells) -> Mesh {
-    let mut mesh = grid(n, cells);
+    four_sides(grid(n, cells))
+}
+
+/// A mesh of the rectangle whose curve `dirichlet` becomes `left`, `right`, `top`.
+pub fn four_sides(mut mesh: Mesh) -> Mesh {
     let contact = mesh.curves.remove(0);
     let rest = mesh.curves.remove(0).edges;
     let on = |edge: &[u32; 2], k: usize, value: f64| {

@@ -78,14 +78,15 @@ fn sides(random: &mut Random) -> [Side; 3] {
 const SEEDS: u64 = 100;
 
 /// A scene on its mesh, and how it is solved.
-struct Trial {
+pub struct Trial {
     what: String,
     smooth: bool,
     run: Run,
 }
 
-/// Half of the scenes that are not waited for are stopped within 18 sweeps.
-fn trial(seed: u64) -> Trial {
+/// Half of the scenes that are not waited for are stopped within 18 sweeps. `also` may add to the text of
+/// the scene.
+pub fn trial(seed: u64, also: impl Fn(String) -> String) -> Trial {
     let random = &mut Random::new(seed);
     let Draw { name, written, smooth } = draw(random);
     let (n, cells) = (3 + random.below(4), KINDS[random.below(3) as usize]);
@@ -93,27 +94,30 @@ fn trial(seed: u64) -> Trial {
     let mesh = if moved { scattered(random, n, cells) } else { regular(n, cells) };
     let scalar = if random.below(3) == 0 { ScalarKind::F32 } else { ScalarKind::F64 };
     let sweeps = Some(power(random, 0.0, 2.5) as u32).filter(|_| random.below(3) > 0);
-    let run = run(&written.scene(sides(random), Units::ONE), mesh, &options(scalar, sweeps));
+    let text = also(written.scene(sides(random), Units::ONE));
+    let run = run(&text, mesh, &options(scalar, sweeps));
     let what = format!("seed {seed}: {name} on {cells:?}, {n}, {scalar:?}, {sweeps:?} sweeps");
     Trial { what, smooth, run }
 }
 
+/// The guarantee and the identity.
+pub fn check(Trial { what, smooth, run }: &Trial) {
+    let Some(found) = run.certified() else { panic!("{what}: no bound") };
+    let Certified { bound, combined, identity, .. } = found;
+    let (guarantee, same) =
+        if *smooth { (GUARANTEE_SMOOTH, IDENTITY_SMOOTH) } else { (GUARANTEE, IDENTITY) };
+    guarantee.check(what, (1.0 - bound.total / combined).max(0.0));
+    same.check_relative(what, bound.gap, identity);
+    let rounding = match run.solution.scalar {
+        ScalarKind::F64 => BOUND_ROUNDING,
+        ScalarKind::F32 => BOUND_ROUNDING_NARROW,
+    };
+    rounding.check(what, bound.rounding / bound.total);
+    let both = (bound.gap.powi(2) + bound.oscillation.powi(2)).sqrt();
+    assert!(bound.total >= bound.oscillation + both, "{what}: {bound:?}");
+}
+
 #[test]
 fn the_bound_holds_and_is_what_the_identity_says() {
-    for seed in 0..SEEDS {
-        let Trial { what, smooth, run } = trial(seed);
-        let Some(found) = run.certified() else { panic!("{what}: no bound") };
-        let Certified { bound, combined, identity, .. } = found;
-        let (guarantee, same) =
-            if smooth { (GUARANTEE_SMOOTH, IDENTITY_SMOOTH) } else { (GUARANTEE, IDENTITY) };
-        guarantee.check(&what, (1.0 - bound.total / combined).max(0.0));
-        same.check_relative(&what, bound.gap, identity);
-        let rounding = match run.solution.scalar {
-            ScalarKind::F64 => BOUND_ROUNDING,
-            ScalarKind::F32 => BOUND_ROUNDING_NARROW,
-        };
-        rounding.check(&what, bound.rounding / bound.total);
-        let both = (bound.gap.powi(2) + bound.oscillation.powi(2)).sqrt();
-        assert!(bound.total >= bound.oscillation + both, "{what}: {bound:?}");
-    }
+    (0..SEEDS).for_each(|seed| check(&trial(seed, |text| text)));
 }

@@ -52,8 +52,13 @@ impl Run {
 
     /// ‖A^½∇_h(u − u_h)‖ alone, in half of the time.
     pub fn energy(&self) -> f64 {
+        self.errors().energy
+    }
+
+    /// The errors of u_h and σ_h.
+    pub fn errors(&self) -> Errors {
         let Self { scene, problem, solution } = self;
         let exact = scene.exact.as_ref().expect("an exact solution");
-        errors(scene, exact, problem, &solution.u, &solution.flux).expect("finite").energy
+        errors(scene, exact, problem, &solution.u, &solution.flux).expect("finite")
     }
 }

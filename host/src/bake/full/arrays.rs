@@ -46,6 +46,7 @@ pub struct Baked<R: Scalar> {
     pub(super) order: Vec<u32>,
     pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
     pub(super) metric_place: Vec<u32>,
+    pub(super) bends: Vec<[R; 2]>,
     pub(super) reach: R,
     pub(super) data: Data<R>,
     pub(super) outputs: Vec<Output<R>>,
@@ -162,6 +163,7 @@ impl<R: Scalar> Baked<R> {
             order: if needs_order { cells.order().to_vec() } else { Vec::new() },
             metric: metric.at_points.to_vec(),
             metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
+            bends: metric.bends.to_vec(),
             reach: *reach,
             data,
             outputs: Vec::new(),
@@ -184,6 +186,7 @@ impl<R: Scalar> Baked<R> {
             order: Vec::new(),
             metric: Vec::new(),
             metric_place: Vec::new(),
+            bends: Vec::new(),
             corners: Vec::new(),
             data: self.data.without_bound(),
             ..self
@@ -207,7 +210,11 @@ impl<R: Scalar> Baked<R> {
                 &self.edge_weights,
                 &self.order,
             ),
-            metric: Metric { at_points: &self.metric, place: &self.metric_place },
+            metric: Metric {
+                at_points: &self.metric,
+                place: &self.metric_place,
+                bends: &self.bends,
+            },
             reach: self.reach,
         }
     }

@@ -105,6 +105,7 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.put::<I>("ORDER", "The cells from roots to leaves of the forest.", "Index", &baked.order);
     list.put::<[Tensor<R>; POINTS * POINTS]>("METRIC", "A in reference coordinates at 64 points of the cells in which it varies.", "[Tensor<Scalar>; 64]", &baked.metric);
     list.put::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC`; beyond its end where A is constant.", "u32", &baked.metric_place);
+    list.put::<[R; 2]>("QUAD_BENDS", "By how much each quad is no parallelogram.", "[Scalar; 2]", &baked.bends);
     list.put::<R>("SOURCE_OF_TRIANGLES", "∫f of each triangle.", "Scalar", &data.triangles);
     list.put::<R>("SOURCE_OF_QUADS", "∫f of each quad.", "Scalar", &data.quads);
     list.put::<Neumann<R, I>>("NEUMANN", "∫g of the edges with a given flux.", "Neumann<Scalar, Index>", &data.neumann);

@@ -88,7 +88,7 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
             edges: Edges::baked({}, {}, {}, {counts:?}),
             stiffness: Stiffness {{ triangles: {}, quads: {} }},
             cells: Cells::baked({}, {}, {}, {}, {}),
-            metric: Metric {{ at_points: {}, place: {} }},
+            metric: Metric {{ at_points: {}, place: {}, bends: {} }},
             reach: {:?},
         }},
         base: Base {{
@@ -127,6 +127,7 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         at("ORDER"),
         at("METRIC"),
         at("METRIC_PLACE"),
+        at("QUAD_BENDS"),
         baked.reach,
         at("SOURCE_OF_TRIANGLES"),
         at("SOURCE_OF_QUADS"),

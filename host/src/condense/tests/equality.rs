@@ -60,6 +60,13 @@ fn inputs_of_all_fields_on_all_cells() -> Result<()> {
 }
 
 #[test]
+fn nonparametric_quads() -> Result<()> {
+    let text = format!("{ALL}\n[setting]\nelement = \"nonparametric\"\n");
+    let (scene, problem) = on_grid(&text, distorted(grid(4, Cells::Quads)))?;
+    compare(&scene, &problem, 0.3, 4).map(|_| ())
+}
+
+#[test]
 fn a_varying_tensor_and_a_jump() -> Result<()> {
     let varying = ALL.replace(
         "[material.default]\nconductivity = [\"2\", \"0.5\", \"1\"]",

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use signorini_kernel::element::QuadElement;
+
 use super::{LEVEE, SMALL, hint, parse};
 use crate::scene::Scene;
 use crate::setting::{CellKind, MathKind, ModelKind, Omega, Precision, Setting, Start};
@@ -19,11 +21,12 @@ fn setting(lines: &str) -> Option<Setting> {
 fn every_key_is_read_and_what_is_left_out_is_the_default() {
     assert_eq!(super::scene(SMALL).setting, None);
     assert_eq!(setting(""), Some(Setting::default()));
-    let all = "refine = 0x2\ncells = 'quads'\nscalar = 'f32'\nmath = 'micromath'\nmodel = 'full'\n\
+    let all = "refine = 0x2\ncells = 'quads'\nelement = 'nonparametric'\nscalar = 'f32'\nmath = 'micromath'\nmodel = 'full'\n\
         start = 'cold'\nomega = 1.5\nshare = 0.25\ncertificate = true";
     let expected = Setting {
         refine: 2,
         cells: Some(CellKind::Quads),
+        element: QuadElement::Nonparametric,
         scalar: Some(Precision::F32),
         math: MathKind::Micromath,
         model: Some(ModelKind::Full),
@@ -47,6 +50,7 @@ fn what_is_written_is_read_again() {
         condensed,
         Setting { sweeps: Some(12), certificate: false, ..condensed },
         Setting { scalar: Some(Precision::Mixed), share: Some(0.1), ..Setting::default() },
+        Setting { element: QuadElement::Nonparametric, ..Setting::default() },
         Setting { refine: 6, cells: Some(CellKind::Triangles), ..Setting::default() },
         Setting { omega: Omega::Fixed(1.93), start: Start::Cold, ..Setting::default() },
     ] {
@@ -66,6 +70,10 @@ const WRONG: &[(&str, &str)] = &[
     ),
     ("cells = 'hexagons'", "6: setting.cells: `hexagons` is not one of: triangles, quads"),
     ("cells = 4", "6: setting.cells: expected a text, found the number 4"),
+    (
+        "element = 'conforming'",
+        "6: setting.element: `conforming` is not one of: parametric, nonparametric",
+    ),
     ("scalar = 'f16'", "6: setting.scalar: `f16` is not one of: f32, f64, f32+f64"),
     ("math = 'std'", "6: setting.math: `std` is not one of: libm, micromath"),
     ("model = 'half'", "6: setting.model: `half` is not one of: full, condensed"),

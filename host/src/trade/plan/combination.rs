@@ -169,6 +169,7 @@ impl Combination {
             sweeps,
             share,
             certificate: self.certificate,
+            ..Setting::default()
         }
     }
 }

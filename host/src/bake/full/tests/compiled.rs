@@ -57,6 +57,14 @@ fn both_kinds_of_cells_in_f64() -> Result<()> {
 }
 
 #[test]
+fn nonparametric_quads_in_f32() -> Result<()> {
+    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
+    let mesh = fixtures::distorted(grid(3, Cells::Quads));
+    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+    same_bits_of::<f32, { rows::QUADS }>(&scene, &problem, |x| x.to_bits().into())
+}
+
+#[test]
 fn with_a_setting() -> Result<()> {
     let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
     let (of_fast, problem) = scene(BENT, Cells::Mixed, fast)?;

@@ -152,6 +152,20 @@ fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
     Ok(())
 }
 
+/// K and the values at vertices are the element's: both come from the host's arrays.
+#[test]
+fn nonparametric_quads() -> Result<()> {
+    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
+    let mesh = fixtures::distorted(grid(5, Cells::Quads));
+    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+    let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
+    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    let baked = Baked::<f64>::new(&scene, &problem)?;
+    assert_eq!(baked.bends.len(), problem.mesh.quads.len());
+    assert!(source(&baked).contains("bends: &QUAD_BENDS"));
+    Ok(())
+}
+
 #[test]
 fn standard_scenes_in_both_scalars() -> Result<()> {
     let (scene, problem) = standard("strip.toml")?;
