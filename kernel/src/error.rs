@@ -47,9 +47,9 @@ pub enum Error {
     NotConvex(CellId),
     /// The coefficient tensor of a cell is not symmetric positive definite.
     NotPositiveDefinite(CellId),
-    /// Shape and coefficient tensor of this triangle together are so oblique that its element matrix, rounded to
+    /// Shape and coefficient tensor of this cell together are so oblique that its element matrix, rounded to
     /// the scalar, cannot be told from a singular one.
-    Oblique(usize),
+    Oblique(CellId),
     /// Three cells share the edge between these vertices.
     SharedByThree([u32; 2]),
     /// Two cells lie on the same side of the edge between these vertices: they overlap.
@@ -141,10 +141,9 @@ impl fmt::Display for Error {
             Self::NotPositiveDefinite(cell) => {
                 write!(f, "the coefficient tensor of {cell} is not positive definite")
             }
-            Self::Oblique(at) => write!(
-                f,
-                "shape and coefficient tensor of triangle {at} are too oblique for this scalar"
-            ),
+            Self::Oblique(cell) => {
+                write!(f, "shape and coefficient tensor of {cell} are too oblique for this scalar")
+            }
             Self::SharedByThree([a, b]) => write!(f, "edge {a}-{b} is shared by three cells"),
             Self::Overlap([a, b]) => write!(f, "two cells lie on the same side of edge {a}-{b}"),
             Self::NoCondition([a, b]) => write!(f, "boundary edge {a}-{b} has no condition"),

@@ -7,6 +7,7 @@ use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
 use signorini_kernel::element::crouzeix_raviart;
+use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
@@ -263,14 +264,30 @@ fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
     triangles.chain(quads).map(|a| a.map(narrow)).collect()
 }
 
-/// Whether the scalar can tell the element matrix of a triangle from that of a singular A.
-///
-/// With the negative entries a, b, c it has 4 det A = ab + bc + ca, and each entry is rounded: of a
-/// determinant that cancels down to some ε of its terms nothing is left.
-fn told_apart<R: Scalar>(matrix: [f64; 3]) -> bool {
-    let [a, b, c] = matrix;
+/// Whether the scalar can tell a cell's A from a singular one. Seen from the cell's own axes p and q, entries
+/// are rounded, and of a determinant that cancels down to some ε of its terms nothing is left.
+fn told_apart<R: Scalar>(determinant: f64, terms: f64) -> bool {
+    determinant > 32.0 * R::EPSILON.wide() * terms
+}
+
+/// 4 det A = ab + bc + ca of a triangle's element matrix, with the negative entries a, b, c, and the size of the terms.
+fn of_triangle([a, b, c]: [f64; 3]) -> (f64, f64) {
     let [ab, bc, ca] = [a * b, b * c, c * a];
-    ab + bc + ca > 32.0 * R::EPSILON.wide() * (ab.abs() + bc.abs() + ca.abs())
+    (ab + bc + ca, ab.abs() + bc.abs() + ca.abs())
+}
+
+/// det G and G_pp G_qq for A in the coordinates of a quad whose opposite sides' midpoints p and q join.
+fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> (f64, f64) {
+    let p: [f64; 2] = std::array::from_fn(|i| b[i] + c[i] - a[i] - d[i]);
+    let q: [f64; 2] = std::array::from_fn(|i| c[i] + d[i] - a[i] - b[i]);
+    let Tensor { xx, xy, yy } = tensor;
+    // The normals of p and q take A into G, up to the square of the area.
+    let [m, n] = [[q[1], -q[0]], [-p[1], p[0]]];
+    let product = |v: [f64; 2], w: [f64; 2]| {
+        xx * v[0] * w[0] + xy * (v[0] * w[1] + v[1] * w[0]) + yy * v[1] * w[1]
+    };
+    let area = p[0] * q[1] - p[1] * q[0];
+    ((xx * yy - xy * xy) * area * area, product(m, m) * product(n, n))
 }
 
 fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
@@ -280,20 +297,27 @@ fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, 
     let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
     let triangles = triangles.enumerate().map(|(at, (cell, a))| {
         let matrix = crouzeix_raviart::stiffness(in_box.triangle(cell), *a);
-        told_apart::<R>(matrix).then_some(matrix.map(R::narrow)).ok_or(Error::Oblique(at))
+        let (determinant, terms) = of_triangle(matrix);
+        let oblique = Error::Oblique(CellId::Triangle(at));
+        told_apart::<R>(determinant, terms).then_some(matrix.map(R::narrow)).ok_or(oblique)
     });
     let triangles = triangles.collect::<Result<_, _>>()?;
     let rule = f64::GAUSS[DATA_POINTS - 1];
     let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
-    let quads = quads.map(|(cell, coefficient)| {
+    let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
         let corners = in_box.quad(cell);
+        let tensor = problem.mean_conductivity(mesh.triangles.len() + at);
+        let (determinant, terms) = of_quad(corners, tensor);
+        if !told_apart::<R>(determinant, terms) {
+            return Err(Error::Oblique(CellId::Quad(at)));
+        }
         let matrix = match coefficient {
             QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
             QuadCoefficient::AtPoints(tensors) => {
                 problem.element.stiffness(corners, rule, |point, _| tensors[point])
             }
         };
-        matrix.map(R::narrow)
+        Ok(matrix.map(R::narrow))
     });
-    Ok((triangles, quads.collect()))
+    Ok((triangles, quads.collect::<Result<_, _>>()?))
 }
