@@ -126,11 +126,14 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         self.restart(system, u);
         low.fill(R::ZERO);
         let (mut pivots, mut rounds, mut last) = (0, 0, None);
+        // Where exchanges find nothing to exchange, what looks wrong is rounding.
+        let mut settled = false;
         while rounds < ROUNDS {
             rounds += 1;
             self.reduce(system, boundary, u);
-            if last.is_none() || self.is_wrong() {
+            if last.is_none() || !settled && self.is_wrong() {
                 let Some(exchanges) = self.exchange(system.lower(), u)? else { return Ok(None) };
+                settled = exchanges == 0 && last.is_some();
                 pivots += exchanges;
                 self.substitute(low);
                 // The openings are in u already.
@@ -156,8 +159,8 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         if !(residual.largest.finite() && residual.range.finite()) {
             return Ok(None);
         }
-        // The last correction that was made, relative to u, tells how many digits are right.
-        let digits = last.is_some_and(|last| last * last <= R::EPSILON);
+        // The last correction that was made, relative to u, tells how many digits rounding leaves: three at least.
+        let digits = last.is_some_and(|last| R::from_count(1024) * last <= R::ONE);
         let status = match settings.is_met(&residual, R::ONE) {
             true => Status::Converged,
             false if digits => Status::RoundingLimit,

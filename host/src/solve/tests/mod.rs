@@ -1,4 +1,6 @@
-//! Mixed precision and tuned relaxation on the standard scenes.
+//! Mixed precision and tuned relaxation on the standard scenes; hard problems.
+
+mod hard;
 
 use std::path::{Path, PathBuf};
 
