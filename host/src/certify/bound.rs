@@ -25,6 +25,17 @@ pub struct ErrorBound {
 }
 
 impl ErrorBound {
+    /// Wider by what rounding of very oblique element matrices can hide, `share` of it; less than a thousandth is
+    /// far below what is counted as rounding anyhow.
+    #[must_use]
+    pub fn widened(self, share: f64) -> Self {
+        if share < 1e-3 {
+            return self;
+        }
+        let more = share * self.total;
+        Self { total: self.total + more, rounding: self.rounding + more, ..self }
+    }
+
     /// Widens the kernel's numbers.
     pub fn new<R: Scalar>(certificate: &Certificate<R>) -> Self {
         Self {

@@ -58,10 +58,13 @@ fn of_source(scene: &Scene, problem: &Problem, at: usize, f: &Sum) -> Result<f64
         Cell::Triangle(corners) => f.over_triangle(corners)?,
         Cell::Quad(corners) => f.over_quad(corners)?,
     };
+    // Squares of f may vanish or overflow where lengths are huge or tiny; those of f times a length do not.
+    let unit = cell.diameter().log2().round().exp2();
     let mut square = 0.0;
     for point in cell.points(&gauss(POINTS)) {
         let mean = cell.spread(load, cell.local(point.reference).determinant);
-        square += point.weight * (f.at(point.x[0], point.x[1]) - mean).powi(2);
+        let difference = unit * (f.at(point.x[0], point.x[1]) - mean);
+        square += point.weight / unit / unit * difference.powi(2);
     }
     let square = f.finite(square, cell.corners()[0])?;
     Ok(cell.diameter() / PI * (square / alpha(scene, problem, at)).sqrt())

@@ -1,5 +1,6 @@
 //! A problem in the kernel's hands: narrowed to one scalar and assembled.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use signorini_kernel::assembly::{self, CellLoads};
@@ -31,6 +32,7 @@ pub struct Assembled<'p, R: Scalar> {
     edges: Edges<'p, u32>,
     triangles: Vec<[R; 3]>,
     quads: Vec<[R; 6]>,
+    obliqueness: f64,
     row_ptr: Vec<u32>,
     col_idx: Vec<u32>,
     values: Vec<R>,
@@ -83,7 +85,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn new(problem: &'p Problem) -> Result<Self, Error> {
         let edges = problem.topology.edges()?;
         let vertices = UnitBox::of(&problem.mesh.vertices).narrowed(&problem.mesh.vertices);
-        let (triangles, quads) = element_matrices(problem)?;
+        let ElementMatrices { triangles, quads, obliqueness } = element_matrices(problem)?;
         let loads = Narrowed::new(&problem.loads);
         let unknowns = edges.counts().unknowns();
         let mut assembled = Self {
@@ -93,6 +95,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
             edges,
             triangles,
             quads,
+            obliqueness,
             row_ptr: vec![0; unknowns + 1],
             col_idx: vec![0; edges.nonzeros()],
             values: vec![R::ZERO; edges.nonzeros()],
@@ -194,6 +197,12 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         &self.edges
     }
 
+    /// How much of a cell's energy rounding of its element matrix may be, in ε: the terms of the determinant
+    /// over what they cancel to, the most of any cell.
+    pub fn obliqueness(&self) -> f64 {
+        self.obliqueness
+    }
+
     /// Element matrices.
     pub fn stiffness(&self) -> Stiffness<'_, R> {
         Stiffness { triangles: &self.triangles, quads: &self.quads }
@@ -248,7 +257,15 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     }
 }
 
-type ElementMatrices<R> = (Vec<[R; 3]>, Vec<[R; 6]>);
+struct ElementMatrices<R> {
+    triangles: Vec<[R; 3]>,
+    quads: Vec<[R; 6]>,
+    /// The most of any cell.
+    obliqueness: f64,
+}
+
+/// Of a determinant that cancels down to this many ε of its terms nothing is left.
+const TOLD_APART: f64 = 32.0;
 
 fn narrow<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
     Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }
@@ -264,20 +281,16 @@ fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
     triangles.chain(quads).map(|a| a.map(narrow)).collect()
 }
 
-/// Whether the scalar can tell a cell's A from a singular one. Seen from the cell's own axes p and q, entries
-/// are rounded, and of a determinant that cancels down to some ε of its terms nothing is left.
-fn told_apart<R: Scalar>(determinant: f64, terms: f64) -> bool {
-    determinant > 32.0 * R::EPSILON.wide() * terms
-}
-
-/// 4 det A = ab + bc + ca of a triangle's element matrix, with the negative entries a, b, c, and the size of the terms.
-fn of_triangle([a, b, c]: [f64; 3]) -> (f64, f64) {
+/// How oblique A is in a triangle: the terms of 4 det A = ab + bc + ca, with the negative entries a, b, c of the
+/// element matrix, over what they cancel to. Rounded entries carry ε times as much of their energy.
+fn of_triangle([a, b, c]: [f64; 3]) -> f64 {
     let [ab, bc, ca] = [a * b, b * c, c * a];
-    (ab + bc + ca, ab.abs() + bc.abs() + ca.abs())
+    (ab.abs() + bc.abs() + ca.abs()) / (ab + bc + ca).max(0.0)
 }
 
-/// det G and G_pp G_qq for A in the coordinates of a quad whose opposite sides' midpoints p and q join.
-fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> (f64, f64) {
+/// The same in a quad whose opposite sides' midpoints p and q join: G_pp G_qq over det G, G being A in their
+/// coordinates.
+fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> f64 {
     let p: [f64; 2] = std::array::from_fn(|i| b[i] + c[i] - a[i] - d[i]);
     let q: [f64; 2] = std::array::from_fn(|i| c[i] + d[i] - a[i] - b[i]);
     let Tensor { xx, xy, yy } = tensor;
@@ -287,30 +300,31 @@ fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> (f64, f64) {
         xx * v[0] * w[0] + xy * (v[0] * w[1] + v[1] * w[0]) + yy * v[1] * w[1]
     };
     let area = p[0] * q[1] - p[1] * q[0];
-    ((xx * yy - xy * xy) * area * area, product(m, m) * product(n, n))
+    product(m, m) * product(n, n) / ((xx * yy - xy * xy).max(0.0) * area * area)
 }
 
 fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
+    let most = Cell::new(1.0_f64);
+    let bear = |obliqueness: f64, cell| {
+        most.set(most.get().max(obliqueness));
+        let told_apart = obliqueness * TOLD_APART * R::EPSILON.wide() < 1.0;
+        told_apart.then_some(()).ok_or(Error::Oblique(cell))
+    };
     let mesh = &problem.mesh;
     let vertices = UnitBox::of(&mesh.vertices).narrowed(&mesh.vertices);
     let in_box = Mesh::<f64, u32>::new(&vertices, &mesh.triangles, &mesh.quads)?;
     let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
     let triangles = triangles.enumerate().map(|(at, (cell, a))| {
         let matrix = crouzeix_raviart::stiffness(in_box.triangle(cell), *a);
-        let (determinant, terms) = of_triangle(matrix);
-        let oblique = Error::Oblique(CellId::Triangle(at));
-        told_apart::<R>(determinant, terms).then_some(matrix.map(R::narrow)).ok_or(oblique)
+        bear(of_triangle(matrix), CellId::Triangle(at)).map(|()| matrix.map(R::narrow))
     });
-    let triangles = triangles.collect::<Result<_, _>>()?;
+    let triangles = triangles.collect::<Result<Vec<_>, _>>()?;
     let rule = f64::GAUSS[DATA_POINTS - 1];
     let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
     let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
         let corners = in_box.quad(cell);
         let tensor = problem.mean_conductivity(mesh.triangles.len() + at);
-        let (determinant, terms) = of_quad(corners, tensor);
-        if !told_apart::<R>(determinant, terms) {
-            return Err(Error::Oblique(CellId::Quad(at)));
-        }
+        bear(of_quad(corners, tensor), CellId::Quad(at))?;
         let matrix = match coefficient {
             QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
             QuadCoefficient::AtPoints(tensors) => {
@@ -319,5 +333,6 @@ fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, 
         };
         Ok(matrix.map(R::narrow))
     });
-    Ok((triangles, quads.collect::<Result<_, _>>()?))
+    let quads = quads.collect::<Result<_, _>>()?;
+    Ok(ElementMatrices { triangles, quads, obliqueness: most.get() })
 }
