@@ -21,6 +21,7 @@ pub mod exact;
 pub mod field;
 pub mod flux;
 pub mod grid;
+pub mod hostile;
 pub mod norms;
 pub mod polynomial;
 pub mod problem;

@@ -55,7 +55,10 @@ fn load(path: &Path) -> Parsed<Vec<u8>> {
 }
 
 /// The mesh in the bytes of a file.
-fn parse(bytes: &[u8]) -> Parsed<Mesh> {
+///
+/// # Errors
+/// As for [`read`], without the name of a file.
+pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
     let mut cursor = Cursor::new(bytes);
     let mut raw = Raw::default();
     let mut format = None;
