@@ -150,7 +150,7 @@ pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
                 assert!(values.iter().all(|value| value.finite()), "{}", said());
                 assert!(*bound >= R::ZERO, "{}", said());
                 assert!(controller.x().iter().all(|x| *x >= R::ZERO), "{}", said());
-                report.certificate.iter().for_each(|found| is_bound(found, true));
+                report.certificate.iter().for_each(|found| is_bound(found));
             }
             Err(_) if inputs.iter().any(|input| !input.finite()) => {
                 assert_eq!(controller.x(), before, "a refused tick has moved x");

@@ -64,10 +64,11 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     for _ in 0..1 + bytes.below(4) {
         let conditions = renewed(bytes, &first);
         let loads = Loads::new(bytes, &edges, conditions);
-        let before = tick.u().to_vec();
+        let bits = |u: &[R]| u.iter().map(|u| u.wide().to_bits()).collect::<Vec<_>>();
+        let before = bits(tick.u());
         let Ok(data) = loads.data(&edges) else { continue };
         let Ok(mut running) = tick.begin(data) else {
-            assert_eq!(tick.u(), before, "refused data have changed u");
+            assert_eq!(bits(tick.u()), before, "refused data have changed u");
             continue;
         };
         for _ in 0..1 + bytes.below(2) {
@@ -113,12 +114,11 @@ fn answered<R: Bits>(report: &Report<R>) {
         return;
     }
     assert!(report.residual.finite() && report.residual >= R::ZERO, "{report:?}");
+    assert!(report.force.finite(), "{report:?}");
     assert!(report.omega > R::ZERO && report.omega < R::TWO, "{report:?}");
     if let Some(found) = report.verdict.certificate() {
-        is_bound(found, true);
-        assert!(report.force.finite(), "{report:?}");
+        is_bound(found);
     }
-    assert!(!report.force.wide().is_nan(), "{report:?}");
 }
 
 /// A scene's full model, tick after tick, with inputs and limits of any bits.

@@ -104,7 +104,8 @@ fn mesh_format(cursor: &mut Cursor) -> Parsed<Format> {
         b"2.2" => Format::V22,
         b"4.1" => Format::V41,
         other => {
-            let message = format!("format {} is not read", other.escape_ascii());
+            let start = &other[..other.len().min(16)];
+            let message = format!("format {} is not read", start.escape_ascii());
             let hint = "save as MSH 4.1 or 2.2 (`Mesh.MshFileVersion = 4.1`)";
             return Err(cursor.error(at, message).hint(hint).into());
         }
