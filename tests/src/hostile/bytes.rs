@@ -11,6 +11,11 @@ pub struct Bytes<'a> {
     rest: &'a [u8],
 }
 
+/// A choice that belongs to the bytes as a whole.
+pub fn sum(data: &[u8]) -> u8 {
+    data.iter().fold(0, |sum, &byte| sum.wrapping_add(byte))
+}
+
 /// A scalar that any bits are.
 pub trait Bits: Scalar {
     /// The scalar with these bits, the low ones where it has fewer.

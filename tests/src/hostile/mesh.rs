@@ -6,7 +6,7 @@ use signorini_host::mesh::shape::{self, Orientation};
 use signorini_host::mesh::{Mesh, check, cut, gmsh, pairing, refine};
 use signorini_host::scene::Scene;
 
-use super::solved;
+use super::{bytes, solved};
 
 /// The bytes of a Gmsh file.
 pub fn mesh(data: &[u8]) {
@@ -20,7 +20,7 @@ pub fn mesh(data: &[u8]) {
             oriented(&mesh);
             changed(&mesh);
             if mesh.cells() <= MOST_SOLVED {
-                answered(mesh);
+                answered(mesh, bytes::sum(data));
             }
         }
     }
@@ -73,7 +73,7 @@ fn changed(mesh: &Mesh) {
 }
 
 /// Held by the whole boundary, or with contact all along its first curve.
-fn answered(mesh: Mesh) {
+fn answered(mesh: Mesh, way: u8) {
     let contact = match mesh.curves.first() {
         Some(curve) => format!("[boundary.{:?}]\nkind = \"contact\"\n", curve.name),
         None => String::new(),
@@ -84,5 +84,5 @@ fn answered(mesh: Mesh) {
     );
     // Not every name that a mesh may have is a string of Rust and of TOML alike.
     let Ok(scene) = Scene::parse(&text, Path::new("hostile.toml")) else { return };
-    solved::answer(&scene, mesh, false);
+    solved::answer(&scene, mesh, way);
 }
