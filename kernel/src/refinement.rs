@@ -122,6 +122,7 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         }
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
+        lift(system, u, low);
         if change <= R::EPSILON * size.range {
             break;
         }
@@ -161,6 +162,16 @@ fn measure_defect<R: Real, I: Index>(
             *defect -= coefficient * read(u, edge);
         }
     });
+}
+
+/// u + (ψ − u) may round to less than ψ.
+fn lift<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], low: &mut [R]) {
+    let on_contact = u.iter_mut().zip(low).skip(system.counts().free);
+    for ((u, low), &psi) in on_contact.zip(system.lower()) {
+        if !(*u >= psi) {
+            (*u, *low) = (psi, R::ZERO);
+        }
+    }
 }
 
 /// u + low as the nearest number and the exact rest.
