@@ -123,6 +123,10 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
         lift(system, u, low);
+        if u.iter().any(|u| !u.finite()) {
+            outcome.status = Status::NotFinite;
+            break;
+        }
         if change <= R::EPSILON * size.range {
             break;
         }
