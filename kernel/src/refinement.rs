@@ -122,6 +122,11 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         }
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
+        lift(system, u, low);
+        if u.iter().any(|u| !u.finite()) {
+            outcome.status = Status::NotFinite;
+            break;
+        }
         if change <= R::EPSILON * size.range {
             break;
         }
@@ -169,6 +174,16 @@ pub(crate) fn defects<R: Real, I: Index>(
         let others = row.entries().skip(1);
         others.fold(load, |sum, (j, value)| sum - value * (read(u, j) - own))
     })
+}
+
+/// u + (ψ − u) may round to less than ψ.
+fn lift<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], low: &mut [R]) {
+    let on_contact = u.iter_mut().zip(low).skip(system.counts().free);
+    for ((u, low), &psi) in on_contact.zip(system.lower()) {
+        if !(*u >= psi) {
+            (*u, *low) = (psi, R::ZERO);
+        }
+    }
 }
 
 /// u + low as the nearest number and the exact rest.

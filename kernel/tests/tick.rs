@@ -227,6 +227,48 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
 }
 
 #[test]
+fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
+    const UNKNOWNS: usize = 55;
+    let foundation = Foundation::new(SIDES, false)?;
+    let counts = foundation.plate.edges()?.counts();
+    let contact = counts.free..counts.unknowns();
+    let mut store = Store::new(&foundation)?;
+    store.numbers[4][..counts.unknowns()].fill(f64::INFINITY);
+    store.active.fill(false);
+    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let progress = Progress::new(Relaxation::Adaptive(1.0))?;
+    let mut tick = store.resumed(&foundation, &mut rows, progress)?;
+    // A gap above 0, where everything else starts.
+    let (gap, lower) = (vec![[2.0; 2]; counts.contact], vec![2.0; counts.contact]);
+    let good = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..good.given.ends };
+    let raised = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    tick.begin(raised)?.advance(none, &mut Deadline::never())?;
+    assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
+    Ok(())
+}
+
+/// u is finite, but what flows through an edge is not.
+#[test]
+fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let counts = foundation.plate.edges()?.counts();
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let high = f64::MAX / 4.0;
+    let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
+    let good = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..good.given.ends };
+    let data = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    let report = tick.begin(data)?.advance(none, &mut Deadline::never())?;
+    assert!(tick.u().iter().all(|u| u.is_finite()) && report.residual.is_finite(), "{report:?}");
+    assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
+    Ok(())
+}
+
+#[test]
 fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;

@@ -1,11 +1,13 @@
 //! What the tests of the workspace are judged by, written from the paper's formulas and from
-//! nothing else: no line here uses the kernel or the host, so agreement means something.
+//! nothing else: no line here uses the kernel or the host, so agreement means something. Only `hostile`
+//! calls both: it compares with nothing, and asks whether arbitrary bytes can break them.
 //!
 //! ```text
 //! quadrature ─┬─► cell ─► element ─┬─► problem ─► contact ─► flux ─► norms
 //! elimination ┘   grid ─► exact ───┘              cholesky
 //! random: scenes to compare on     targets, tolerances: numbers to meet, and how closely
 //! polynomial ─► written: scene files with an exact solution, for whoever reads such files
+//! hostile: arbitrary bytes into readers, constructors and control loops
 //! ```
 //!
 //! Speed and memory are no concern: matrices are maps from pairs of edges, basis functions come
@@ -21,6 +23,7 @@ pub mod exact;
 pub mod field;
 pub mod flux;
 pub mod grid;
+pub mod hostile;
 pub mod norms;
 pub mod polynomial;
 pub mod problem;

@@ -11,6 +11,7 @@ mod cost;
 mod cross;
 mod export;
 mod firmware;
+mod fuzz;
 mod json;
 mod no_std;
 mod osqp;
@@ -45,7 +46,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 11] = [
+const VERBS: [Verb; 12] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -92,6 +93,11 @@ const VERBS: [Verb; 11] = [
         work: Work::Command(firmware::run),
     },
     Verb {
+        name: "fuzz",
+        about: "arbitrary bytes into readers, constructors and ticks; a record of how many",
+        work: Work::Command(fuzz::run),
+    },
+    Verb {
         name: "peers",
         about: "other solvers on the same board and problems; not part of `test`",
         work: Work::Steps(peers::run),
@@ -109,8 +115,9 @@ Examples:
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, cost, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
+  cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 
-Each verb but `firmware` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+Each verb but `firmware`, `fuzz` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {

@@ -2,7 +2,7 @@
 
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
-use crate::{audit, boards, cost, cross, firmware, no_std, ranks, size};
+use crate::{audit, boards, cost, cross, firmware, fuzz, no_std, ranks, size};
 
 /// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
@@ -27,6 +27,10 @@ pub fn run(steps: &mut Steps) {
         run_cargo(doc)
     });
     no_std::run(steps);
+    steps.check("formatting, tests/fuzz", || {
+        run_cargo(cargo(&["fmt", "--manifest-path", fuzz::MANIFEST, "--check"]))
+    });
+    fuzz::check(steps);
     steps.check("formatting, tests/firmware", || {
         run_cargo(cargo(&[
             "fmt",

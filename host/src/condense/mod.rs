@@ -136,17 +136,41 @@ pub struct Corner {
     pub excess: Vec<f64>,
 }
 
+/// Numbers that the fields behind a condensed model may hold together: 1.6 GB.
+const MOST_NUMBERS: usize = 200_000_000;
+
+/// Whether the fields of all contact edges and inputs fit into memory.
+///
+/// # Errors
+/// More than 1.6 GB.
+pub fn check_size(scene: &Scene, problem: &Problem) -> Result<()> {
+    let counts = problem.topology.counts;
+    let (contact, edges) = (counts.contact, counts.edges());
+    let fields = contact + scene.inputs.len() + 2;
+    // u and σ·n of every field, and Ŝ.
+    if fields.saturating_mul(2 * edges + contact) <= MOST_NUMBERS {
+        return Ok(());
+    }
+    let message = format!(
+        "boundary: {contact} contact edges on a mesh of {edges} edges are too many to condense, expected at \
+         most {MOST_NUMBERS} numbers in their fields"
+    );
+    let hint = "refine less, or take the full model (--full, model = \"full\")";
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
 /// Condenses `scene` on the mesh of `problem`, whose own loads only decide whether there is a solution.
 ///
 /// # Errors
 /// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,
-/// a probe outside the mesh.
+/// a probe outside the mesh, more contact edges than memory holds fields of.
 pub fn condense(scene: &Scene, problem: &Problem) -> Result<Condensate> {
     Ok(build(scene, problem)?.0)
 }
 
 /// The condensate, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
 fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
+    check_size(scene, problem)?;
     let parts = examined(scene, problem)?;
     let patterns = patterns(scene, problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);

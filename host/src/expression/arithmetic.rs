@@ -107,7 +107,7 @@ impl Unary {
             Self::Sin => a.sin(),
             Self::Cos => a.cos(),
             Self::Tan => a.tan(),
-            Self::Asin => a.asin(),
+            Self::Asin => asin(a),
             Self::Acos => F32(F32Ext::acos(a.0)),
             Self::Atan => a.atan(),
             Self::Sinh => (exp(a) - exp(-a)) / F32(2.0),
@@ -150,6 +150,10 @@ const RANGE: f32 = 87.0;
 
 fn exp(a: F32) -> F32 {
     if a.0.abs() < RANGE { a.exp() } else { F32(a.0.exp()) }
+}
+
+fn asin(a: F32) -> F32 {
+    if a.0.abs() <= 1.0 { a.asin() } else { F32(a.0.asin()) }
 }
 
 fn ln(a: F32) -> F32 {

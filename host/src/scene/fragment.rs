@@ -29,7 +29,13 @@ pub(super) fn read_fragment(root: &Table, extends: &Entry) -> Result<Scene> {
         return Err(extends.expected("the path of a scene file").into());
     }
     let folder = root.document.path.parent().unwrap_or(Path::new(""));
-    let document = load(&folder.join(name))?;
+    let path = folder.join(name);
+    // Reading a pipe would wait for whoever writes to it.
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        let error = extends.error(format_args!("{} is no file", path.display()));
+        return Err(error.hint("extend the scene that stands on its own").into());
+    }
+    let document = load(&path)?;
     let entries = document.parse()?;
     let extended = Table::root(&document, &entries);
     if extended.get("extends").is_some() {

@@ -16,6 +16,9 @@ use crate::expression::{Expression, Variables};
 
 const LARGEST_FILE: usize = 1 << 20;
 
+/// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
+const MOST_TABLES: usize = 256;
+
 const SECTIONS: [&str; 12] = [
     "title", "mesh", "material", "source", "boundary", "input", "output", "target", "time",
     "exact", "setting", "extends",
@@ -92,7 +95,13 @@ fn unreadable(path: &Path, message: String) -> InputError {
 
 /// The tables `[key.NAME]`, each read.
 fn each<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {
-    root.tables(key)?.iter().map(read).collect()
+    let tables = root.tables(key)?;
+    if let Some(table) = tables.get(MOST_TABLES) {
+        let message = format!("{} tables [{key}.…], expected at most {MOST_TABLES}", tables.len());
+        let error = root.document.error(&table.name, message);
+        return Err(error.hint("join groups of the mesh that have the same data").into());
+    }
+    tables.iter().map(read).collect()
 }
 
 fn at_least_one<T>(root: &Table, key: &str, read: impl Fn(&Table) -> Result<T>) -> Result<Vec<T>> {

@@ -27,7 +27,7 @@ use crate::index::{Index, read};
 use crate::math::{Libm, Math};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
-use crate::tick::{self, Deadline, Limits, Progress, Report, Running, Tick};
+use crate::tick::{self, Deadline, Ended, Limits, Progress, Report, Running, Tick};
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -146,10 +146,12 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         *progress = tick.progress();
         let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
         let answer = functional::Answer { tick: &tick, data: &data, report: &report };
+        let mut known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
+            known &= output.magnitude() >= R::ZERO;
         }
-        Ok(report)
+        Ok(if known { report } else { Report { ended: Ended::NotFinite, ..report } })
     }
 
     /// The verdict that the data allow for.

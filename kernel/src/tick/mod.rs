@@ -141,15 +141,15 @@ impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
     fn carry_over(&mut self, counts: EdgeCounts, data: &Data<R, I>) {
         let given = self.u.iter_mut().skip(counts.unknowns());
         given.zip(data.dirichlet).for_each(|(u, &value)| *u = value);
+        // An overflow of the last tick: start anew.
+        let unknowns = self.u.iter_mut().take(counts.unknowns());
+        unknowns.filter(|u| !u.finite()).for_each(|u| *u = R::ZERO);
         let on_contact = self.u.iter_mut().skip(counts.free);
         for ((u, &lower), &active) in on_contact.zip(data.lower).zip(self.active.iter()) {
             if active || !(*u >= lower) {
                 *u = lower;
             }
         }
-        // An overflow of the last tick: start anew.
-        let free = self.u.iter_mut().take(counts.unknowns());
-        free.filter(|u| !u.finite()).for_each(|u| *u = R::ZERO);
     }
 }
 

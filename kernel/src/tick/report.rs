@@ -83,7 +83,7 @@ pub enum Ended {
     OutOfSweeps,
     /// The time is used up.
     OutOfTime,
-    /// The iterate overflows: the data were too large for the scalar type.
+    /// The iterate, its fluxes or an output overflow: the data were too large for the scalar type.
     NotFinite,
 }
 

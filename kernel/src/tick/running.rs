@@ -215,13 +215,16 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         for (at, was) in memory.active.iter_mut().enumerate() {
             *was = contact::is_active(counts, lower, memory.u, at);
         }
+        let force = contact::force(counts, &self.data.given.boundary, memory.tau);
+        // u may be finite where its fluxes are not.
+        let known = residual.finite() && force.finite();
         let found = Report {
-            ended: if residual.finite() { ended } else { Ended::NotFinite },
+            ended: if known { ended } else { Ended::NotFinite },
             sweeps: self.sweeps,
             residual,
             active,
             changes,
-            force: contact::force(counts, &self.data.given.boundary, memory.tau),
+            force,
             verdict,
             omega: search.omega,
         };

@@ -15,7 +15,7 @@ mod work;
 use super::budget::{Budget, Needs, Shortfall};
 use super::trial::Trial;
 use super::{condensed, full};
-use crate::condense::condense;
+use crate::condense::{check_size, condense};
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
@@ -102,7 +102,7 @@ impl<R: Scalar> Choice<R> {
         let forced = forced.or(scene.setting.and_then(|setting| setting.model));
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
-        let few = contact <= MOST_CONTACTS;
+        let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
         if forced == Some(ModelKind::Condensed) || (forced.is_none() && few) {
             match of_condensed(scene, &condense(scene, problem)?, &budget) {
                 Ok(found) => candidates = found,
@@ -110,7 +110,9 @@ impl<R: Scalar> Choice<R> {
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
         } else if forced.is_none() {
-            excluded.push(format!("condensed: {contact} contact edges, at most {MOST_CONTACTS}"));
+            let edges = problem.topology.counts.edges();
+            let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");
+            excluded.push(format!("condensed: {contact} contact edges among {edges}, {most}"));
         }
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);

@@ -1,7 +1,7 @@
 //! What cannot be condensed is named; what allows for no bound is told.
 
 use super::*;
-use crate::condense::condense;
+use crate::condense::{check_size, condense};
 use crate::mesh::structured::{Cells, grid};
 
 fn refusal(text: &str) -> Result<String> {
@@ -32,6 +32,17 @@ fn a_load_that_changes_with_time() -> Result<()> {
 fn a_part_that_nothing_holds() -> Result<()> {
     let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.default]\nkind = \"neumann\"\nflux = \"0\"\n";
     assert!(refusal(text)?.contains("boundary"));
+    Ok(())
+}
+
+#[test]
+fn more_fields_than_memory_holds() -> Result<()> {
+    let (scene, problem) = on_grid(ALL, grid(2, Cells::Triangles))?;
+    check_size(&scene, &problem)?;
+    let (scene, problem) = on_grid(ALL, grid(240, Cells::Quads))?;
+    let message =
+        check_size(&scene, &problem).expect_err("480 fields of 231 000 edges").to_string();
+    assert!(message.contains("480 contact edges on a mesh of 231120 edges"), "{message}");
     Ok(())
 }
 

@@ -51,6 +51,19 @@ fn the_square_root_of_two_is_off_by_percents() {
 }
 
 #[test]
+fn outside_its_domain_a_fast_function_is_no_number() {
+    for (function, text) in [
+        (Elementary::Asin, "asin(x)"),
+        (Elementary::Acos, "acos(x)"),
+        (Elementary::Sqrt, "sqrt(-1 - x)"),
+        (Elementary::Ln, "ln(-x)"),
+    ] {
+        let fast = expression(text).with_arithmetic(Arithmetic::Fast(function));
+        assert!(fast.eval(1.5, 0.0, 0.0).is_nan(), "{text}");
+    }
+}
+
+#[test]
 fn single_precision_errs_by_rounding_alone() {
     for (_, text, _) in FUNCTIONS {
         let error = relative_error(text, Arithmetic::Single);

@@ -28,6 +28,7 @@ pub(super) fn build(cursor: &Cursor, raw: &Raw) -> Parsed<Mesh> {
         let error = InputError::new("the mesh has no triangle and no quad");
         return Err(error.hint("mesh in two dimensions; put the surfaces in a group").into());
     }
+    groups::check_room(cursor, raw, lines.iter().chain(&cells).map(|line| line.element))?;
     // As the mesh numbers them: triangles before quads, each kind in the order of the file.
     cells.sort_by_key(|cell| cell.element.kind == Kind::Quad);
 

@@ -35,6 +35,11 @@ impl<'a> Cursor<'a> {
         self.at as u32
     }
 
+    /// Bytes of the whole file.
+    pub(super) fn length(&self) -> usize {
+        self.bytes.len()
+    }
+
     fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }

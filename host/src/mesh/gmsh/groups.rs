@@ -26,6 +26,28 @@ pub(super) fn tags<'a>(cursor: &Cursor, raw: &'a Raw, element: &'a Element) -> P
     }
 }
 
+/// Refuses elements that are in more groups together than the file has bytes: a few lines may put many elements
+/// into many groups, and memory shall stay bounded by the file.
+pub(super) fn check_room<'a>(
+    cursor: &Cursor,
+    raw: &'a Raw,
+    elements: impl Iterator<Item = &'a Element>,
+) -> Parsed<()> {
+    let (mut total, room) = (0, cursor.length());
+    for element in elements {
+        total += tags(cursor, raw, element)?.len();
+        if total > room {
+            let message = format!(
+                "up to {} the elements are listed in more than {room} physical groups together",
+                element.title()
+            );
+            let hint = "give an entity one physical group, or a few";
+            return Err(cursor.error(element.at, message).hint(hint).into());
+        }
+    }
+    Ok(())
+}
+
 /// The items of each group under its name, by ascending physical tag; items ascend and come once.
 pub(super) fn collect<T: Ord + Copy>(
     raw: &Raw,

@@ -55,7 +55,10 @@ fn load(path: &Path) -> Parsed<Vec<u8>> {
 }
 
 /// The mesh in the bytes of a file.
-fn parse(bytes: &[u8]) -> Parsed<Mesh> {
+///
+/// # Errors
+/// As for [`read`], without the name of a file.
+pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
     let mut cursor = Cursor::new(bytes);
     let mut raw = Raw::default();
     let mut format = None;
@@ -101,7 +104,8 @@ fn mesh_format(cursor: &mut Cursor) -> Parsed<Format> {
         b"2.2" => Format::V22,
         b"4.1" => Format::V41,
         other => {
-            let message = format!("format {} is not read", other.escape_ascii());
+            let start = &other[..other.len().min(16)];
+            let message = format!("format {} is not read", start.escape_ascii());
             let hint = "save as MSH 4.1 or 2.2 (`Mesh.MshFileVersion = 4.1`)";
             return Err(cursor.error(at, message).hint(hint).into());
         }

@@ -182,6 +182,19 @@ fn deep_nesting_is_refused_before_the_stack_ends() {
 }
 
 #[test]
+fn more_tables_than_anyone_writes_by_hand_are_refused() {
+    let with = |count: usize| {
+        let input = |at| format!("[input.p{at}]\nof = 'source'\nfield = 'f'\npattern = 1\n");
+        let inputs: String = (0..count).map(input).collect();
+        parse(&format!("{}{inputs}", super::SMALL))
+    };
+    assert_eq!(with(256).expect("a scene").inputs.len(), 256);
+    let error = with(257).expect_err("too many").to_string();
+    let expected = "scenes/levee.toml:1029: input.p256: 257 tables [input.…], expected at most 256";
+    assert_eq!(error, expected);
+}
+
+#[test]
 fn empty_sections_are_refused() {
     let start = "mesh = 'm'\n";
     for (text, message) in [

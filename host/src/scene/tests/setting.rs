@@ -197,6 +197,7 @@ fn a_wrong_fragment_is_named() {
             "fragment.toml:3: setting.sweeps: expected a whole number from 1 to 4294967295, found the number 0",
         ),
         ("title = 'x'\n[setting]", "fragment.toml:1: boundary: missing"),
+        ("extends = 'base'", "fragment.toml:1: extends: base is no file"),
     ] {
         assert_eq!(message(folder(text).path()), expected);
     }

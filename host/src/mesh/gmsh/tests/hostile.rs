@@ -82,6 +82,27 @@ fn binary_counts_beyond_the_file() {
 }
 
 #[test]
+fn many_elements_in_many_groups_are_refused() {
+    // A strip of triangles in one entity of format 4.1.
+    let strip = |cells: usize, groups: usize| {
+        let tags: String = (1..=groups).map(|tag| format!("{tag} ")).collect();
+        let mut text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n".to_owned();
+        let nodes = cells + 2;
+        text +=
+            &format!("7 0 0 0 1 1 1 {groups} {tags}0\n$EndEntities\n$Nodes\n1 {nodes} 1 {nodes}\n");
+        text += &format!("2 7 0 {nodes}\n");
+        (1..=nodes).for_each(|tag| text += &format!("{tag}\n"));
+        (0..nodes).for_each(|at| text += &format!("{at} {} 0\n", at % 2));
+        text += &format!("$EndNodes\n$Elements\n1 {cells} 1 {cells}\n2 7 2 {cells}\n");
+        (1..=cells).for_each(|at| text += &format!("{at} {at} {} {}\n", at + 1, at + 2));
+        text + "$EndElements\n"
+    };
+    assert_eq!(super::mesh(strip(300, 5).as_bytes()).surfaces.len(), 5);
+    let message = error(strip(300, 300).as_bytes());
+    assert!(message.contains("physical groups together"), "{message}");
+}
+
+#[test]
 fn what_is_no_mesh() {
     assert_eq!(error(b""), "expected a Gmsh mesh, found no `$MeshFormat`");
     assert_eq!(error(b" \n\n"), "expected a Gmsh mesh, found no `$MeshFormat`");

@@ -1,0 +1,4 @@
+//! Expressions: read, evaluated, differentiated.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| signorini_tests::hostile::expression(data));

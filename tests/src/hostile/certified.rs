@@ -1,0 +1,219 @@
+//! What a certificate stands on, for any sound numbering: owned arrays, filled from bytes.
+
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::certificate::{
+    self, Buffers, Certificate, Curved, Given, Ground, Metric, Verdict, certify,
+};
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::edges::{Block, Edges};
+use signorini_kernel::equilibrium::{Iterate, is_root};
+use signorini_kernel::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::tick::Data;
+use signorini_kernel::{Error, Tensor};
+
+use super::bytes::{Bits, Bytes};
+use super::plate::NONE;
+
+/// Conditions on the boundary.
+pub struct Conditions<R> {
+    pub neumann: Vec<Neumann<R, u16>>,
+    pub robin: Vec<Robin<R, u16>>,
+    pub flux: Vec<R>,
+}
+
+impl<R: Bits> Conditions<R> {
+    /// Each free boundary edge has a given flux, a transfer law, or neither. `wild`: any numbers.
+    pub fn new(bytes: &mut Bytes, edges: &Edges<u16>, wild: bool) -> Self {
+        let counts = edges.counts();
+        let (mut neumann, mut robin) = (Vec::new(), Vec::new());
+        for (edge, pair) in (0..).zip(edges.half_edges()).take(counts.free.min(255)) {
+            match if pair[1] == NONE { bytes.below(3) } else { 0 } {
+                0 => {}
+                1 => neumann.push(Neumann { edge, flux: bytes.given(1, wild)[0] }),
+                _ => {
+                    let [h, ambient] = [(); 2].map(|()| bytes.given::<R>(1, wild)[0]);
+                    let coefficient = if wild { h } else { h.magnitude() };
+                    robin.push(Robin { edge, coefficient, ambient });
+                }
+            }
+        }
+        let flux = if bytes.flag() { bytes.given(counts.contact, wild) } else { Vec::new() };
+        Self { neumann, robin, flux }
+    }
+
+    pub fn boundary(&self, edges: &Edges<u16>) -> Result<Boundary<'_, R, u16>, Error> {
+        Boundary::new(edges, &self.neumann, &self.robin, &self.flux)
+    }
+}
+
+/// Ways out and packed cells.
+pub struct Foundation<R> {
+    pub stiffness: (Vec<[R; 3]>, Vec<[R; 6]>),
+    points: Vec<[Tensor<R>; 64]>,
+    place: Vec<u32>,
+    ways: [Vec<u16>; 3],
+    triangles: Vec<Triangle<R, u16>>,
+    quads: Vec<Quad<R, u16>>,
+    weights: [Vec<R>; 2],
+    reach: R,
+}
+
+impl<R: Bits> Foundation<R> {
+    /// For these element matrices; costs, α and compliances are `wild` or all 1.
+    pub fn new(
+        bytes: &mut Bytes,
+        mesh: &Mesh<R, u16>,
+        edges: &Edges<u16>,
+        boundary: &Boundary<R, u16>,
+        stiffness: (Vec<[R; 3]>, Vec<[R; 6]>),
+        wild: bool,
+    ) -> Result<Self, Error> {
+        let (t, q) = (stiffness.0.len(), stiffness.1.len());
+        let cells = edges.cells();
+        let mut some = |count| if wild { bytes.reals(count) } else { vec![R::ONE; count] };
+        let (cost, alpha, compliance) = (some(cells), some(t + q), some(t));
+        let mut foundation = Self {
+            points: Vec::new(),
+            place: Vec::new(),
+            ways: [(); 3].map(|()| vec![NONE; cells]),
+            triangles: vec![Triangle::EMPTY; t],
+            quads: vec![Quad::EMPTY; q],
+            weights: [vec![R::ZERO; mesh.vertices().len()], vec![R::ZERO; edges.counts().edges()]],
+            reach: R::ZERO,
+            stiffness,
+        };
+        if wild && bytes.flag() {
+            let point = |bytes: &mut Bytes| {
+                let [xx, xy, yy] = [(); 3].map(|()| bytes.real());
+                [Tensor { xx, xy, yy }; 64]
+            };
+            foundation.points = (0..cells).map(|_| point(bytes)).collect();
+            foundation.place = (0..cells).map(|_| u32::from(bytes.byte()) % 9).collect();
+        }
+        let root = |edge| is_root(edges, boundary, edge);
+        let Self { stiffness, points, place: at, ways, triangles, quads, weights, reach } =
+            &mut foundation;
+        let [order, parent, place] = ways;
+        let mut distance = vec![R::ZERO; cells];
+        let buffers = ForestBuffers { order, parent, place, distance: &mut distance };
+        let forest = grow(edges, |cell| cost[cell], root, buffers)?;
+        let stiffness = Stiffness { triangles: &stiffness.0, quads: &stiffness.1 };
+        let [of_vertices, of_edges] = weights;
+        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
+        let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
+        let metric = Metric { at_points: points, place: at };
+        *reach = certificate::reach(edges, &packed, metric, &forest, &mut vec![R::ZERO; cells])?;
+        Ok(foundation)
+    }
+
+    /// As the kernel takes it.
+    pub fn ground<'a>(
+        &'a self,
+        mesh: Mesh<'a, R, u16>,
+        edges: Edges<'a, u16>,
+    ) -> Result<Ground<'a, R, u16>, Error> {
+        let [order, parent, place] = &self.ways;
+        let forest = Forest::new(&edges, order, parent, place)?;
+        let [of_vertices, of_edges] = &self.weights;
+        Ok(Ground {
+            mesh,
+            edges,
+            stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
+            cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
+            metric: Metric { at_points: &self.points, place: &self.place },
+            reach: self.reach,
+        })
+    }
+}
+
+/// Loads and boundary values of any bits.
+pub struct Loads<R> {
+    pub conditions: Conditions<R>,
+    cells: (Vec<R>, Vec<R>),
+    ends: [Vec<[R; 2]>; 2],
+    curved: Vec<Curved<R, u16>>,
+    transfer: Vec<[[R; 2]; 8]>,
+    oscillation: R,
+    pub lower: Vec<R>,
+    pub dirichlet: Vec<R>,
+}
+
+impl<R: Bits> Loads<R> {
+    pub fn new(bytes: &mut Bytes, edges: &Edges<u16>, conditions: Conditions<R>) -> Self {
+        let counts = edges.counts();
+        let laws = if bytes.flag() { conditions.robin.len() } else { 0 };
+        let curved = |bytes: &mut Bytes| Curved {
+            edge: bytes.byte().into(),
+            mean: bytes.real(),
+            energy: bytes.real(),
+            coupling: [(); 8].map(|()| bytes.real()),
+        };
+        let (lower, dirichlet) = (bytes.reals(counts.contact), bytes.reals(counts.dirichlet));
+        Self {
+            cells: (bytes.reals(edges.of_triangles().len()), bytes.reals(edges.of_quads().len())),
+            ends: [bytes.groups(counts.contact), bytes.groups(counts.dirichlet)],
+            curved: (0..bytes.below(4)).map(|_| curved(bytes)).collect(),
+            transfer: (0..laws).map(|_| [(); 8].map(|()| [bytes.real(), bytes.real()])).collect(),
+            oscillation: bytes.real::<R>().magnitude(),
+            conditions,
+            lower,
+            dirichlet,
+        }
+    }
+
+    /// As a certificate takes them.
+    pub fn given(&self, edges: &Edges<u16>) -> Result<Given<'_, R, u16>, Error> {
+        let [gap, given] = &self.ends;
+        Ok(Given {
+            loads: CellLoads { triangles: &self.cells.0, quads: &self.cells.1 },
+            boundary: self.conditions.boundary(edges)?,
+            ends: VertexData { gap, given },
+            curved: &self.curved,
+            transfer: &self.transfer,
+            oscillation: self.oscillation,
+        })
+    }
+
+    /// As a tick takes them.
+    pub fn data(&self, edges: &Edges<u16>) -> Result<Data<'_, R, u16>, Error> {
+        let (lower, dirichlet) = (&self.lower, &self.dirichlet);
+        Ok(Data { given: self.given(edges)?, lower, dirichlet })
+    }
+}
+
+/// Certifies any iterate.
+pub fn judged<R: Bits>(
+    bytes: &mut Bytes,
+    ground: &Ground<R, u16>,
+    loads: &Loads<R>,
+) -> Result<(), Error> {
+    let edges = ground.edges.counts().edges();
+    let (u, cells) = (bytes.reals(edges), ground.edges.cells());
+    let buffers = Buffers {
+        vertices: &mut vec![R::ZERO; ground.mesh.vertices().len()],
+        bubbles: &mut vec![R::ZERO; edges],
+        tau: &mut vec![R::ZERO; edges],
+        indicators: &mut vec![R::ZERO; if bytes.flag() { cells } else { 0 }],
+    };
+    let iterate = Iterate { u: &u, lower: &loads.lower };
+    match certify(ground, &loads.given(&ground.edges)?, iterate, buffers)? {
+        Verdict::Certified(found) => is_bound(&found),
+        Verdict::Pulled { edge } => {
+            assert_eq!(ground.edges.counts().block(edge), Block::Contact);
+        }
+        Verdict::NotFinite | Verdict::NotAsked => {}
+    }
+    Ok(())
+}
+
+/// All finite, and none negative.
+pub fn is_bound<R: Bits>(found: &Certificate<R>) {
+    let Certificate { gap, algebraic, oscillation, rounding, total } = *found;
+    let parts = [gap, algebraic, oscillation, rounding, total];
+    assert!(parts.iter().all(|part| part.finite()), "{found:?}");
+    assert!(parts.iter().all(|part| *part >= R::ZERO) && total >= gap, "{found:?}");
+}

@@ -1,0 +1,201 @@
+//! Condensed models: of any arrays, and of sound scenes with any inputs.
+
+use std::sync::OnceLock;
+
+use signorini_host::bake::condensed::{Baked, Controller, Work};
+use signorini_host::condense::{Condensate, condense};
+use signorini_host::problem::Problem;
+use signorini_kernel::Error;
+use signorini_kernel::condensed::blocks::{Block, Blocks, SIDE, count, padded};
+use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::condensed::factor::Factor;
+use signorini_kernel::condensed::method::{Linear, Pivots, Sweeps};
+use signorini_kernel::condensed::outputs::Measure;
+use signorini_kernel::condensed::tableau::{Start, Tableau};
+use signorini_kernel::condensed::{Condensed, Iterate, Memory};
+
+use super::bytes::{Bits, Bytes};
+use super::certified::is_bound;
+use super::scenes;
+
+/// Contact edges, at most.
+const MOST: usize = 18;
+
+/// S: any numbers, or a unit diagonal and little beside it.
+fn matrix<R: Bits>(bytes: &mut Bytes, order: usize) -> Vec<Block<R>> {
+    let blocks = if bytes.below(16) == 0 { bytes.below(8) } else { count(order) };
+    if bytes.flag() {
+        return (0..blocks)
+            .map(|_| [(); SIDE].map(|()| [(); SIDE].map(|()| bytes.real())))
+            .collect();
+    }
+    let diagonal = |at: usize| (0..SIDE).any(|row| row * (row + 3) / 2 == at);
+    let small = bytes.reals::<R>(8).into_iter().map(|x| if x.finite() { x } else { R::ZERO });
+    let small: Vec<R> =
+        small.map(|x| x.or_smaller(R::TWO).or_larger(-R::TWO) * R::narrow(0.01)).collect();
+    let entry = |block: usize, r: usize, c: usize| match diagonal(block) && r == c {
+        true => R::ONE,
+        false if diagonal(block) => small[(r * c) % 8],
+        false => small[(block + r + 3 * c) % 8],
+    };
+    (0..blocks)
+        .map(|block| std::array::from_fn(|r| std::array::from_fn(|c| entry(block, r, c))))
+        .collect()
+}
+
+/// A model of any arrays, some of them of the wrong length, ticked by each method.
+pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
+    let (n, m) = (bytes.below(MOST), 1 + bytes.below(3));
+    let matrix = matrix::<R>(bytes, n);
+    Blocks::new(&matrix, n)?;
+    let corner_excess = bytes.reals(m);
+    let index = |bytes: &mut Bytes| u16::from(bytes.byte()) % (n as u16 + 1);
+    let vertex = |bytes: &mut Bytes| Vertex {
+        edges: [(); 2].map(|()| index(bytes)),
+        weights: [(); 2].map(|()| bytes.real()),
+        beside: [(); 2].map(|()| index(bytes)),
+    };
+    let vertices: Vec<_> = (0..bytes.below(4)).map(|_| vertex(bytes)).collect();
+    let corners = [Corner { edge: index(bytes), excess: &corner_excess }];
+    let columns = m + n + vertices.len();
+    let (entries, norms) = (bytes.reals::<R>(columns * (columns + 1) / 2), bytes.reals(columns));
+    let (floating, oscillation) = (bytes.reals(n), bytes.reals(m));
+    let largest_load = bytes.reals(m);
+    let form = Form {
+        factor: Factor { columns: &entries, norms: &norms },
+        vertices: &vertices,
+        corners: &corners[..bytes.below(2)],
+        reach: bytes.real(),
+        floating: if bytes.flag() { &floating } else { &[] },
+        oscillation: &oscillation,
+        row_sum: bytes.real(),
+        largest_load: &largest_load,
+        unit: bytes.real(),
+    };
+    let (of_inputs, of_contact) = (bytes.reals(m), bytes.given(n, false));
+    let outputs = [
+        Measure::Linear { of_inputs: &of_inputs, of_contact: &of_contact },
+        Measure::Length { of_contact: &of_contact },
+        Measure::Bound,
+    ];
+    let exchanged: Vec<_> = (0..padded(n)).map(|_| bytes.flag()).collect();
+    let load = bytes.reals(padded(n) * m);
+    let start = Start { blocks: &matrix, exchanged: &exchanged };
+    let certificate = bytes.flag().then_some(form);
+    let x = bytes.reals(padded(n));
+    let model = Condensed {
+        contact: n,
+        matrix: &matrix,
+        x: &x,
+        start,
+        load: &load,
+        outputs: &outputs,
+        certificate,
+    };
+    ticked(bytes, &model, columns, m)
+}
+
+fn ticked<R: Bits>(
+    bytes: &mut Bytes,
+    model: &Condensed<R>,
+    columns: usize,
+    inputs: usize,
+) -> Result<(), Error> {
+    let zeros = |length: usize| vec![R::ZERO; length];
+    let n = padded(model.contact);
+    let columns = if model.certificate.is_some() { columns } else { 0 };
+    let (mut x, mut residual, mut scratch, mut load) =
+        (model.x.to_vec(), zeros(n), zeros(n), zeros(n));
+    let (mut combination, mut sum, mut open) = (zeros(columns), zeros(columns), vec![false; n]);
+    let mut blocks = model.matrix.to_vec();
+    let (mut exchanged, mut column, mut next) = (vec![false; n], zeros(n), zeros(n));
+    let mut tableau = Tableau::new(&mut blocks, &mut exchanged, [&mut column, &mut next])?;
+    tableau.reset(&model.start)?;
+    let most = bytes.below(40) as u32;
+    let sweeps = Sweeps { omega: bytes.real(), tolerance: bytes.real(), most };
+    let mut pivots = Pivots { tableau, start: model.start, most, sweeps };
+    for _ in 0..1 + bytes.below(4) {
+        let p = bytes.reals::<R>(inputs);
+        let iterate =
+            Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut open };
+        let mut memory =
+            Memory { iterate, load: &mut load, combination: &mut combination, sum: &mut sum };
+        let report = match bytes.below(3) {
+            0 => model.tick(&p, &mut Linear, &mut memory),
+            1 => model.tick(&p, &mut { sweeps }, &mut memory),
+            _ => model.tick(&p, &mut pivots, &mut memory),
+        };
+        let Ok(report) = report else { continue };
+        for number in 0..4 {
+            if let Ok(value) = model.output(number, &p, &x, &report) {
+                assert!(!value.wide().is_nan(), "output {number}: {value:?} {report:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A scene's controller, tick after tick, with inputs of any bits.
+pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
+    let all = R::baked();
+    let baked = &all[bytes.below(all.len())];
+    let mut controller = Controller::new(baked);
+    for _ in 0..1 + bytes.below(6) {
+        let before = controller.x().to_vec();
+        let inputs = bytes.reals::<R>(scenes::INPUTS);
+        match controller.tick(&inputs) {
+            Ok((values, report)) => {
+                let [values @ .., bound] = &values[..] else { continue };
+                let said = || format!("{inputs:?} {values:?} {bound:?} {report:?}");
+                assert!(values.iter().all(|value| value.finite()), "{}", said());
+                assert!(*bound >= R::ZERO, "{}", said());
+                assert!(controller.x().iter().all(|x| *x >= R::ZERO), "{}", said());
+                report.certificate.iter().for_each(|found| is_bound(found));
+            }
+            Err(_) if inputs.iter().any(|input| !input.finite()) => {
+                assert_eq!(controller.x(), before, "a refused tick has moved x");
+            }
+            Err(_) => {}
+        }
+    }
+}
+
+/// Scalars with models that are baked once.
+pub trait Kept: Sized + 'static {
+    /// The models of all scenes, with every method.
+    fn baked() -> &'static [Baked<Self>]
+    where
+        Self: signorini_host::scalar::Scalar;
+}
+
+const WORKS: [Work; 3] = [
+    Work { pivots: Some(100), sweeps: 20 },
+    Work { pivots: Some(2), sweeps: 3 },
+    Work { pivots: None, sweeps: 6 },
+];
+
+fn bake<R: Bits>() -> Vec<Baked<R>> {
+    let condensed = |text: &str| -> Option<Condensate> {
+        let (scene, mesh) = scenes::of(text)?;
+        condense(&scene, &Problem::new(&scene, mesh).ok()?).ok()
+    };
+    let condensates = scenes::TEXTS.iter().map(|text| condensed(text).expect("a sound scene"));
+    let baked = |condensate: &Condensate| {
+        WORKS.map(|work| Baked::new(condensate, work, true).expect("numbers of ordinary size"))
+    };
+    condensates.flat_map(|condensate| baked(&condensate)).collect()
+}
+
+impl Kept for f64 {
+    fn baked() -> &'static [Baked<Self>] {
+        static BAKED: OnceLock<Vec<Baked<f64>>> = OnceLock::new();
+        BAKED.get_or_init(bake)
+    }
+}
+
+impl Kept for f32 {
+    fn baked() -> &'static [Baked<Self>] {
+        static BAKED: OnceLock<Vec<Baked<f32>>> = OnceLock::new();
+        BAKED.get_or_init(bake)
+    }
+}

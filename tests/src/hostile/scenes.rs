@@ -1,0 +1,88 @@
+//! Sound scenes whose inputs act on every kind of load, for controllers that take inputs of any bits.
+
+use std::path::Path;
+
+use signorini_host::mesh::Mesh;
+use signorini_host::mesh::structured::{Cells, grid};
+use signorini_host::scene::Scene;
+
+/// Inputs of each scene.
+pub const INPUTS: usize = 5;
+
+const INPUTS_AND_OUTPUTS: &str = r#"
+[input.lift]
+of = "source"
+field = "f"
+pattern = "1 + x*y"
+[input.gap]
+of = "contact"
+field = "gap"
+pattern = "x"
+[input.flux]
+of = "contact"
+field = "flux"
+pattern = "1"
+[input.bent]
+of = "contact"
+field = "gap"
+pattern = "0.1*cos(3*x)"
+[output.force]
+kind = "force"
+[output.through]
+kind = "flux"
+of = "contact"
+[output.length]
+kind = "length"
+[output.probe]
+kind = "probe"
+at = [0.3, 0.4]
+[output.bound]
+kind = "bound"
+"#;
+
+/// Held by Dirichlet values, by a transfer law; with A that varies.
+pub const TEXTS: [&str; 2] = [
+    r#"
+mesh = "none.msh"
+[material.left]
+conductivity = ["2", "0.5", "1"]
+[material.right]
+conductivity = "3 + x"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "1 + 0.1*x"
+[boundary.contact]
+kind = "contact"
+[input.value]
+of = "dirichlet"
+field = "value"
+pattern = "1"
+"#,
+    r#"
+mesh = "none.msh"
+[material.default]
+conductivity = "0.5"
+[source]
+f = "-1"
+[boundary.dirichlet]
+kind = "robin"
+coefficient = "2"
+ambient = "x"
+[boundary.contact]
+kind = "contact"
+gap = "-0.2*x^2"
+flux = "-0.1"
+[input.ambient]
+of = "dirichlet"
+field = "ambient"
+pattern = "y"
+"#,
+];
+
+/// A scene of [`TEXTS`] on its mesh.
+pub fn of(text: &str) -> Option<(Scene, Mesh)> {
+    let scene =
+        Scene::parse(&format!("{text}{INPUTS_AND_OUTPUTS}"), Path::new("sound.toml")).ok()?;
+    let cells = if text.contains("robin") { Cells::Mixed } else { Cells::Triangles };
+    Some((scene, grid(2, cells)))
+}

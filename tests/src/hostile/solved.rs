@@ -1,0 +1,111 @@
+//! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
+
+use signorini_host::bake::{condensed, full};
+use signorini_host::condense::condense;
+use signorini_host::error::Result;
+use signorini_host::mesh::Mesh;
+use signorini_host::outputs::outputs;
+use signorini_host::problem::Problem;
+use signorini_host::scalar::Scalar;
+use signorini_host::scene::Scene;
+use signorini_host::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_host::tick::{Budget, Tick, play, schedule};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+
+use super::scene::refused;
+
+/// Sweeps of a solve: enough for some looks at the residual.
+const SWEEPS: u32 = 40;
+
+/// Solves, plays or bakes the scene, as `way` says; every error is one of input.
+pub(super) fn answer(scene: &Scene, mesh: Mesh, way: u8) {
+    let problem = match Problem::new(scene, mesh) {
+        Ok(problem) => problem,
+        Err(error) => return refused(&error),
+    };
+    let kernel = Options { max_sweeps: SWEEPS, ..Options::default() };
+    let solved = |options| {
+        judge(solve(scene, &problem, &options), |solution| judged(scene, &problem, &solution));
+    };
+    match way % 6 {
+        0 => solved(kernel),
+        1 => solved(Options { scalar: ScalarKind::F32, ..kernel }),
+        2 => solved(Options { solver: SolverKind::Direct, ..kernel }),
+        3 => judge(played(scene, &problem), |ticks| ticks.iter().for_each(sane)),
+        4 => judge(baked_full::<f32>(scene, &problem), |()| {}),
+        _ => judge(baked_condensed::<f32>(scene, &problem), |()| {}),
+    }
+}
+
+fn judge<T>(found: Result<T>, accepted: impl FnOnce(T)) {
+    match found {
+        Ok(found) => accepted(found),
+        Err(error) => refused(&error),
+    }
+}
+
+/// All that is written of a solution.
+fn judged(scene: &Scene, problem: &Problem, solution: &Solution) {
+    let numbers = solution.u.iter().chain(&solution.flux).chain(&solution.certified.vertices);
+    let single = [solution.contact_force, solution.contact_length, solution.algebraic_residual];
+    let said = || format!("{:?} {single:?} {:?}", solution.status, solution.bound);
+    assert!(numbers.chain(&single).all(|x| x.is_finite()), "{}", said());
+    let free = problem.topology.counts.free;
+    for at in 0..problem.topology.counts.contact {
+        assert!(solution.u[free + at] >= solution.gap(problem, at), "below the gap: {}", said());
+    }
+    if let Some(bound) = solution.bound {
+        let parts = [bound.total, bound.gap, bound.algebraic, bound.oscillation];
+        assert!(parts.iter().all(|&part| part.is_finite() && part >= 0.0), "{}", said());
+    }
+    judge(outputs(scene, problem, solution), |values| {
+        assert!(values.values().flatten().all(|value| value.is_finite()));
+    });
+}
+
+/// The first ticks of its schedule.
+fn played(scene: &Scene, problem: &Problem) -> Result<Vec<Tick>> {
+    let moments = schedule::moments(scene, scene.time.is_none().then_some(2))?;
+    let budget = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, error: 0.0 };
+    play(scene, problem, None, &moments[..moments.len().min(3)], &budget, |_| {})
+}
+
+fn sane(tick: &Tick) {
+    let numbers = [tick.contact_force, tick.contact_length, tick.combined].into_iter();
+    let numbers = numbers.chain(tick.outputs.iter().copied());
+    assert!(numbers.flatten().all(|x| x.is_finite()), "{tick:?}");
+    assert!(tick.bound.is_none_or(|bound| bound.total >= 0.0), "{tick:?}");
+}
+
+fn baked_full<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
+    let baked = full::Baked::<R>::new(scene, problem)?;
+    let inputs: Vec<_> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+    let limits = signorini_kernel::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
+    let found = if baked.has_quads() {
+        full::Controller::<R, QUADS>::new(&baked).tick_within(&inputs, limits)
+    } else {
+        full::Controller::<R, TRIANGLES>::new(&baked).tick_within(&inputs, limits)
+    };
+    if let Ok((values, report)) = found {
+        let finite = report.ended != signorini_kernel::tick::Ended::NotFinite;
+        assert!(!finite || values.iter().all(no_nan), "{values:?} {report:?}");
+    }
+    Ok(())
+}
+
+fn baked_condensed<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
+    let condensate = condense(scene, problem)?;
+    let work = condensed::Work { pivots: Some(40), sweeps: 10 };
+    let baked = condensed::Baked::<R>::new(&condensate, work, true);
+    let Ok(baked) = baked else { return Ok(()) };
+    let inputs: Vec<_> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+    if let Ok((values, report)) = condensed::Controller::new(&baked).tick(&inputs) {
+        assert!(values.iter().all(no_nan), "{values:?} {report:?}");
+    }
+    Ok(())
+}
+
+/// A bound may be infinite.
+fn no_nan<R: Scalar>(x: &R) -> bool {
+    !x.wide().is_nan()
+}

@@ -1,0 +1,179 @@
+//! A control loop: sound meshes and models, with data, inputs, limits and deadlines of any bits.
+
+use std::cell::Cell;
+use std::sync::OnceLock;
+
+use signorini_host::bake::full::{Baked, Controller};
+use signorini_host::problem::Problem;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::stiffness::{self, Coefficient};
+use signorini_kernel::tick::{Deadline, Ended, Limits, Memory, Report, Tick};
+use signorini_kernel::{Error, Libm, Relaxation, Tensor};
+
+use super::bytes::{Bits, Bytes};
+use super::certified::{Conditions, Foundation, Loads, is_bound};
+use super::condensed::{self, Kept};
+use super::plate::Plate;
+use super::scenes;
+
+/// The first byte chooses the loop and the scalar; the rest is what it is told.
+pub fn tick(data: &[u8]) {
+    let mut bytes = Bytes::new(data);
+    let which = bytes.byte();
+    if which & 0x80 == 0 { run::<f32>(which, &mut bytes) } else { run::<f64>(which, &mut bytes) }
+}
+
+fn run<R: Bits + Kept + Driven>(which: u8, bytes: &mut Bytes) {
+    match which % 4 {
+        0 => condensed::controlled::<R>(bytes),
+        1 => driven::<R>(bytes),
+        // A refusal is as good as an answer.
+        _ => drop(held::<R>(bytes)),
+    }
+}
+
+/// Tensors of ordinary size.
+const TENSORS: [[f64; 3]; 3] = [[1.0, 0.0, 1.0], [3.0, -1.2, 1.5], [100.0, 0.0, 0.01]];
+
+/// The kernel's tick on a grid.
+fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
+    let plate = Plate::<R>::grid(bytes, false)?;
+    let (mesh, edges) = (plate.mesh()?, plate.edges()?);
+    let counts = edges.counts();
+    let mut k = (vec![[R::ZERO; 3]; plate.triangles.len()], vec![[R::ZERO; 6]; plate.quads.len()]);
+    let [xx, xy, yy] = TENSORS[bytes.below(3)].map(R::narrow);
+    stiffness::fill(&mesh, Coefficient::Uniform(Tensor { xx, xy, yy }), 2, &mut k.0, &mut k.1)?;
+    let first = Conditions::<R>::new(bytes, &edges, false);
+    let foundation = Foundation::new(bytes, &mesh, &edges, &first.boundary(&edges)?, k, false)?;
+    let ground = foundation.ground(mesh, edges)?;
+    let zeros = |length| vec![R::ZERO; length];
+    let mut rows = vec![Row::<R, u16, QUADS>::EMPTY; counts.unknowns()];
+    let memory = Memory {
+        rows: Rows::new(&edges, &mut rows)?,
+        load: &mut zeros(counts.unknowns()),
+        active: &mut vec![false; counts.contact],
+        vertices: &mut zeros(plate.vertices.len()),
+        bubbles: &mut zeros(counts.edges()),
+        tau: &mut zeros(counts.edges()),
+        u: &mut bytes.reals(counts.edges()),
+    };
+    let omega = bytes.real();
+    let relaxation =
+        if bytes.flag() { Relaxation::Adaptive(R::ONE) } else { Relaxation::Fixed(omega) };
+    let mut tick = Tick::new(ground, memory, relaxation)?;
+    for _ in 0..1 + bytes.below(4) {
+        let conditions = renewed(bytes, &first);
+        let loads = Loads::new(bytes, &edges, conditions);
+        let bits = |u: &[R]| u.iter().map(|u| u.wide().to_bits()).collect::<Vec<_>>();
+        let before = bits(tick.u());
+        let Ok(data) = loads.data(&edges) else { continue };
+        let Ok(mut running) = tick.begin(data) else {
+            assert_eq!(bits(tick.u()), before, "refused data have changed u");
+            continue;
+        };
+        for _ in 0..1 + bytes.below(2) {
+            let limits = limits(bytes);
+            let left = Cell::new(bytes.bits() as u32);
+            let step = u32::from(bytes.byte());
+            let remaining = || left.replace(left.get().saturating_sub(step));
+            let [sweep, certificate] = [(); 2].map(|()| u32::from(bytes.byte()) << bytes.below(25));
+            let mut deadline = Deadline { remaining, sweep, certificate };
+            let report = match bytes.below(4) {
+                0 => running.advance_uncertified::<Libm, _>(limits, &mut deadline),
+                _ => running.advance(limits, &mut deadline),
+            };
+            answered(&report.expect("a tick that has begun"));
+        }
+        let ended = tick.report().map(|report| report.ended);
+        if ended != Some(Ended::NotFinite) {
+            let on_contact = tick.u().iter().skip(counts.free).zip(&loads.lower);
+            assert!(on_contact.into_iter().all(|(u, lower)| u >= lower), "{:?}", tick.report());
+            assert!(tick.u().iter().all(|u| u.finite()), "{:?}", tick.report());
+        }
+    }
+    Ok(())
+}
+
+/// Conditions on the same edges, with fluxes and surroundings of any bits.
+fn renewed<R: Bits>(bytes: &mut Bytes, first: &Conditions<R>) -> Conditions<R> {
+    let mut neumann = first.neumann.clone();
+    neumann.iter_mut().for_each(|record| record.flux = bytes.real());
+    let mut robin = first.robin.clone();
+    robin.iter_mut().for_each(|law| law.ambient = bytes.real());
+    let flux = bytes.reals(first.flux.len());
+    Conditions { neumann, robin, flux }
+}
+
+fn limits<R: Bits>(bytes: &mut Bytes) -> Limits<R> {
+    Limits { error: bytes.real(), share: bytes.real(), sweeps: bytes.below(100) as u32 }
+}
+
+/// What is said of an answer that is no overflow.
+fn answered<R: Bits>(report: &Report<R>) {
+    if report.ended == Ended::NotFinite {
+        return;
+    }
+    assert!(report.residual.finite() && report.residual >= R::ZERO, "{report:?}");
+    assert!(report.force.finite(), "{report:?}");
+    assert!(report.omega > R::ZERO && report.omega < R::TWO, "{report:?}");
+    if let Some(found) = report.verdict.certificate() {
+        is_bound(found);
+    }
+}
+
+/// A scene's full model, tick after tick, with inputs and limits of any bits.
+fn driven<R: Bits + Driven>(bytes: &mut Bytes) {
+    let all = R::baked();
+    let baked = &all[bytes.below(all.len())];
+    if baked.has_quads() { on::<R, QUADS>(bytes, baked) } else { on::<R, TRIANGLES>(bytes, baked) }
+}
+
+fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
+    let mut controller = Controller::<R, WIDTH>::new(baked);
+    for _ in 0..1 + bytes.below(4) {
+        let inputs = bytes.reals::<R>(scenes::INPUTS);
+        let limits = limits(bytes);
+        let Ok((values, report)) = controller.tick_within(&inputs, limits) else { continue };
+        answered(&report);
+        if report.ended == Ended::NotFinite {
+            continue;
+        }
+        let said = || format!("{inputs:?} {values:?} {report:?}");
+        assert!(values.iter().all(|value| !value.wide().is_nan()), "{}", said());
+        let (u, lower) = (controller.u(), controller.lower());
+        assert!(u.iter().all(|u| u.finite()), "{}", said());
+        let free = baked.unknowns() - lower.len();
+        let on_contact = u.iter().skip(free).zip(lower);
+        assert!(on_contact.into_iter().all(|(u, lower)| u >= lower), "{}", said());
+    }
+}
+
+/// Scalars with full models that are baked once.
+pub trait Driven: Sized + 'static {
+    /// The models of all scenes.
+    fn baked() -> &'static [Baked<Self>]
+    where
+        Self: signorini_host::scalar::Scalar;
+}
+
+fn bake<R: Bits>() -> Vec<Baked<R>> {
+    let baked = |text: &str| {
+        let (scene, mesh) = scenes::of(text)?;
+        Baked::new(&scene, &Problem::new(&scene, mesh).ok()?).ok()
+    };
+    scenes::TEXTS.iter().map(|text| baked(text).expect("a sound scene")).collect()
+}
+
+impl Driven for f64 {
+    fn baked() -> &'static [Baked<Self>] {
+        static BAKED: OnceLock<Vec<Baked<f64>>> = OnceLock::new();
+        BAKED.get_or_init(bake)
+    }
+}
+
+impl Driven for f32 {
+    fn baked() -> &'static [Baked<Self>] {
+        static BAKED: OnceLock<Vec<Baked<f32>>> = OnceLock::new();
+        BAKED.get_or_init(bake)
+    }
+}
