@@ -29,6 +29,8 @@ pub enum Axis {
     Shift,
     /// Factor of u and all loads.
     Load,
+    /// The same, with subnormal numbers flushed to zero.
+    FlushedLoad,
     /// Factor of A and all loads.
     Stiffness,
     /// Length of the part of C with neither force nor gap.
@@ -89,6 +91,7 @@ impl Axis {
             Self::Length => "unit of length",
             Self::Shift => "shift in diameters",
             Self::Load => "load",
+            Self::FlushedLoad => "load, flush-to-zero",
             Self::Stiffness => "stiffness",
             Self::Grazing => "grazing length",
             Self::Contact => "length of C",
@@ -119,6 +122,9 @@ impl Axis {
                 1e-320, 1e-310, 1e-300, 1e-150, 1e-44, 1e-40, 1e-30, 1e-15, 1.0, 1e15, 1e30, 1e37,
                 1e150, 1e300,
             ],
+            Self::FlushedLoad => {
+                &[1e-320, 1e-308, 1e-300, 1e-150, 1e-44, 1e-40, 1e-37, 1e-30, 1e-15, 1.0]
+            }
             Self::Stiffness => {
                 &[1e-310, 1e-300, 1e-150, 1e-44, 1e-30, 1e-15, 1.0, 1e15, 1e30, 1e37, 1e150, 1e300]
             }
@@ -165,7 +171,7 @@ impl Axis {
             Self::Aspect => &[1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6],
             Self::Length => &[1e-15, 1e-10, 1e-5, 1.0, 1e5, 1e10, 1e15],
             Self::Load => &[1e-310, 1e-150, 1e-40, 1e-20, 1.0, 1e15, 1e30],
-            Self::Cells => &[4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0, 16_384.0],
+            Self::Cells => &[4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0],
             Self::Omega => &[1e-3, 0.1, 1.0, 1.9, 1.99, 1.9999, 1.999_999],
             other => other.values(),
         }
@@ -187,6 +193,7 @@ impl Axis {
             Self::Length => posed.scales.length = value,
             Self::Shift => posed.scales.shift = value * DIAMETER,
             Self::Load => posed.scales.load = value,
+            Self::FlushedLoad => (posed.scales.load, effort.flush) = (value, true),
             Self::Stiffness => posed.scales.stiffness = value,
             Self::Grazing => posed.solution = Solution::Smooth { grazing: value },
             Self::Contact => set_contact(value, case),

@@ -27,6 +27,8 @@ pub struct Effort {
     pub omega: Option<f64>,
     /// Most sweeps; `None`: as many as [`Case::most_sweeps`] leaves.
     pub sweeps: Option<u32>,
+    /// Subnormal numbers are flushed to zero while the scene is read and solved.
+    pub flush: bool,
     /// Ticks instead of one solve; 0: one solve.
     pub ticks: u32,
 }

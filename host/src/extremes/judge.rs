@@ -165,7 +165,7 @@ mod tests {
     /// Energy 1; the exact discrete solution has a bound of 0.1.
     fn measured(bound: Option<f64>, error: f64) -> Measured {
         let reference = Reference { bound: Some(0.1), error: 0.08, energy: 1.0 };
-        Measured { bound, error, reference: Some(reference), finite: true }
+        Measured { bound, error, reference: Some(reference), finite: true, ..Measured::default() }
     }
 
     fn outcome(ended: Ended) -> Outcome {

@@ -12,8 +12,10 @@
 mod attempt;
 mod axis;
 mod case;
+mod flush;
 mod grid;
 pub mod judge;
+mod large;
 mod measure;
 mod plan;
 mod posed;
@@ -27,6 +29,7 @@ use std::time::{Duration, Instant};
 
 use attempt::{Attempt, attempt};
 use case::Case;
+use flush::flushed;
 use judge::{Ended, judge};
 use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions};
@@ -88,7 +91,10 @@ fn row(case: &Case) -> Result<Row> {
     let (place, own) = (folder.path().to_owned(), case.clone());
     let left = watched(LIMIT, move || -> Left {
         let start = Instant::now();
-        let found = attempt(&own, &place);
+        let found = match own.effort.flush {
+            true => flushed(|| attempt(&own, &place)),
+            false => attempt(&own, &place),
+        };
         let seconds = start.elapsed().as_secs_f64();
         (found.and_then(|found| measured(&own, found)), seconds)
     });
@@ -132,6 +138,7 @@ fn described(case: &Case, answer: Option<&(Attempt, Measured)>) -> Row {
     let bound = measured.and_then(|measured| measured.bound).and_then(finite);
     let error = measured.map(|measured| measured.error).and_then(finite);
     let reference = measured.and_then(|measured| measured.reference);
+    let of_fields = measured.and_then(|measured| measured.of_fields);
     let ratio = |error: f64, bound: f64| if error == 0.0 { 0.0 } else { error / bound };
     Row {
         axis: case.axis.clone(),
@@ -151,6 +158,8 @@ fn described(case: &Case, answer: Option<&(Attempt, Measured)>) -> Row {
         bound,
         reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),
         energy: reference.map(|reference| reference.energy).and_then(finite),
+        error_u: of_fields.map(|[u, _]| u).and_then(finite),
+        error_flux: of_fields.map(|[_, flux]| flux).and_then(finite),
         seconds: 0.0,
         note: String::new(),
     }

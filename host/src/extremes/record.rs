@@ -61,6 +61,10 @@ pub struct Row {
     pub reference_bound: Option<f64>,
     /// ‖A^½∇_h u_h‖ of the exact discrete solution, at scale 1.
     pub energy: Option<f64>,
+    /// |u − u_h|₁ on trapezoids.
+    pub error_u: Option<f64>,
+    /// ‖σ − σ_h‖ on trapezoids.
+    pub error_flux: Option<f64>,
     /// Wall-clock seconds of the attempt alone, files included.
     pub seconds: f64,
     /// Why it is not correct.
@@ -174,6 +178,8 @@ pub(super) fn fixture() -> Record {
             bound: solved.then_some(0.2),
             reference_bound: solved.then_some(0.2),
             energy: solved.then_some(1.0),
+            error_u: None,
+            error_flux: None,
             seconds: 0.25,
             note: if at % 4 == 0 { String::new() } else { format!("note {at} & <more>") },
         }

@@ -33,7 +33,22 @@ fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {
             .map(|scalar| (scalar.to_owned(), map(axis, across, scalar, cases)))
             .into(),
     };
-    ExtremesStudy { heading, remark: remark(axis, across).to_owned(), maps }
+    let rates = rates(cases).map_or(String::new(), |rates| format!("; {rates}"));
+    ExtremesStudy { heading, remark: remark(axis, across).to_owned() + &rates, maps }
+}
+
+/// By which powers of the width the errors of u and σ fall between the two finest grids, in f64.
+fn rates(cases: &[&Row]) -> Option<String> {
+    let of = |case: &Row| Some((case.value, case.error_u?, case.error_flux?));
+    let double = cases.iter().filter(|case| case.scalar == "f64");
+    let all: Vec<_> = double.filter_map(|case| of(case)).collect();
+    let [.., coarse, fine] = all[..] else { return None };
+    let rate =
+        |coarse_error: f64, error: f64| (coarse_error / error).ln() / (fine.0 / coarse.0).ln();
+    let (of_u, of_flux) = (rate(coarse.1, fine.1), rate(coarse.2, fine.2));
+    Some(format!(
+        "the error of ∇u falls with rate {of_u:.2}, that of the flux with rate {of_flux:.2}"
+    ))
 }
 
 /// What the picture cannot say.
@@ -212,6 +227,22 @@ mod tests {
         assert_eq!(found.reasons.rows.len(), 14);
         assert!(
             found.reasons.rows[0][1] == "wrong" && found.reasons.rows[13][1] == "certified-poor"
+        );
+    }
+
+    #[test]
+    fn rates_of_trapezoids_are_told() {
+        let mut record = fixture();
+        record.cases.truncate(2);
+        for (at, case) in record.cases.iter_mut().enumerate() {
+            let width = 0.5_f64.powi(at as i32);
+            (case.value, case.error_u, case.error_flux) =
+                (8.0 / width, Some(width.sqrt()), Some(3.0 * width));
+        }
+        let remark = section(&record).studies[0].remark.clone();
+        assert!(
+            remark.ends_with("∇u falls with rate 0.50, that of the flux with rate 1.00"),
+            "{remark}"
         );
     }
 
