@@ -39,9 +39,9 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// The solver claims to have found the solution.
+    /// The solver claims to have found the solution; of a tick, that more sweeps would not lower its bound much.
     pub fn claims_success(&self) -> bool {
-        matches!(self.status, "converged" | "rounding-limit")
+        matches!(self.status, "converged" | "rounding-limit" | "accurate" | "settled")
     }
 }
 

@@ -96,7 +96,7 @@ fn strip(axis: &str, cases: &[&Row]) -> OutcomeMap {
     };
     OutcomeMap {
         label: format!("outcomes over {axis}"),
-        across: axis.to_owned(),
+        across: axis.split(':').next().unwrap_or(axis).to_owned(),
         columns: columns.iter().map(|&value| tick(value)).collect(),
         up: String::new(),
         rows: rows.map(str::to_owned).to_vec(),

@@ -45,7 +45,8 @@ const TOP: f64 = 20.0;
 pub fn outcome_map(map: &OutcomeMap) -> String {
     let labels = map.rows.iter().map(|row| width(row, LETTERS)).fold(0.0, f64::max);
     let (left, rows) = (labels + 14.0, map.rows.len() as f64);
-    let bottom = TOP + rows * HEIGHT;
+    let top = if map.up.is_empty() { GAP } else { TOP };
+    let bottom = top + rows * HEIGHT;
     let total = left + map.columns.len() as f64 * WIDTH;
     let wide = total.max(left + width(&map.across, LETTERS));
     let mut svg = Svg::new(wide + 8.0, bottom + 42.0, &map.label);
