@@ -89,7 +89,7 @@ impl Grid {
         let (n, columns) = (f64::from(self.n), 2 * self.n as usize);
         let is_inside = i > 0 && i < columns && j > 0 && j < self.n as usize;
         match self.shape {
-            Shape::Slivers { .. } if is_inside && j % 2 == 0 => [x + 0.5 / n, y],
+            Shape::Slivers { .. } if is_inside && j.is_multiple_of(2) => [x + 0.5 / n, y],
             Shape::Collapsed { left } if is_inside && i % 2 == 1 => [x + (1.0 - left) / n, y],
             Shape::Trapezoids if is_inside && i % 2 == 1 => [x, y - 0.25 / n],
             _ => [x, y],

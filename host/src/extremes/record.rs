@@ -181,7 +181,7 @@ pub(super) fn fixture() -> Record {
             error_u: None,
             error_flux: None,
             seconds: 0.25,
-            note: if at % 4 == 0 { String::new() } else { format!("note {at} & <more>") },
+            note: if at.is_multiple_of(4) { String::new() } else { format!("note {at} & <more>") },
         }
     };
     let mut cases = Vec::new();

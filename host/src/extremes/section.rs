@@ -159,10 +159,11 @@ fn abridged(count: u32) -> String {
 
 /// A place on an axis, as short as it can be told.
 fn tick(value: f64) -> String {
-    if value.is_subnormal() {
-        return format!("{value:e}");
-    }
-    let text = plain(value);
+    // Too small for `plain`, whose powers of ten are normal numbers; those on the axes are powers of ten.
+    let text = match value.is_subnormal() {
+        true => plain(10_f64.powf(value.log10().round() + 300.0)).replace("10⁻", "10⁻³"),
+        false => plain(value),
+    };
     let (digits, power) = text.split_once('·').map_or((&*text, None), |(d, p)| (d, Some(p)));
     let digits = match digits.contains('.') {
         true => digits.trim_end_matches('0').trim_end_matches('.'),
@@ -205,9 +206,9 @@ mod tests {
     #[test]
     fn ticks_are_short() {
         let texts =
-            [1e-12, 1e12, 1.0, 0.25, 1e-3, 2048.0, 1_048_576.0, -0.1, 0.0, 1e-310].map(tick);
+            [1e-12, 1e12, 1.0, 0.25, 1e-3, 2048.0, 1_048_576.0, -0.1, 0.0, 1e-320].map(tick);
         let expected =
-            ["10⁻¹²", "10¹²", "1", "0.25", "0.001", "2048", "1.05·10⁶", "−0.1", "0", "1e-310"];
+            ["10⁻¹²", "10¹²", "1", "0.25", "0.001", "2048", "1.05·10⁶", "−0.1", "0", "10⁻³²⁰"];
         assert_eq!(texts, expected);
         assert_eq!(
             [0, 999, 1234, 45_678, 1_000_000].map(abridged),
