@@ -34,7 +34,7 @@ pub struct Effort {
 }
 
 /// Updates of unknowns that a solve may take, and that one on more than [`LARGE`] cells may take.
-const UPDATES: [f64; 2] = [3e9, 6e8];
+const UPDATES: [f64; 2] = [3e9, 3e8];
 const LARGE: u32 = 100_000;
 
 impl Case {

@@ -80,7 +80,7 @@ fn remark(axis: &str, across: Option<&str>) -> &'static str {
             "ticks: every contact edge opens or closes from each to the next"
         }
         ("fixed relaxation", _) => "an ω from the scene's setting",
-        ("cells", None) => "beyond 10⁵ cells a solve is cut off after 6·10⁸ updates of unknowns",
+        ("cells", None) => "beyond 10⁵ cells a solve is cut off after 3·10⁸ updates of unknowns",
         _ => "",
     }
 }
@@ -159,10 +159,13 @@ fn abridged(count: u32) -> String {
 
 /// A place on an axis, as short as it can be told.
 fn tick(value: f64) -> String {
+    if (1.995..2.0).contains(&value) {
+        return format!("2−{}", tick(2.0 - value));
+    }
     // Too small for `plain`, whose powers of ten are normal numbers; those on the axes are powers of ten.
     let text = match value.is_subnormal() {
         true => plain(10_f64.powf(value.log10().round() + 300.0)).replace("10⁻", "10⁻³"),
-        false => plain(value),
+        false => plain(two_digits(value)),
     };
     let (digits, power) = text.split_once('·').map_or((&*text, None), |(d, p)| (d, Some(p)));
     let digits = match digits.contains('.') {
@@ -174,6 +177,12 @@ fn tick(value: f64) -> String {
         (digits, Some(power)) => format!("{digits}·{power}"),
         (digits, None) => digits.to_owned(),
     }
+}
+
+/// Far from 1 two digits do.
+fn two_digits(value: f64) -> f64 {
+    let is_near = (1e-3..1e5).contains(&value.abs());
+    if is_near { value } else { format!("{value:.1e}").parse().unwrap_or(value) }
 }
 
 fn reasons(record: &Record) -> Listing {
@@ -206,9 +215,10 @@ mod tests {
     #[test]
     fn ticks_are_short() {
         let texts =
-            [1e-12, 1e12, 1.0, 0.25, 1e-3, 2048.0, 1_048_576.0, -0.1, 0.0, 1e-320].map(tick);
+            [1e-12, 1e12, 1.0, 0.25, 1e-3, 2048.0, 1_048_576.0, -0.1, 0.0, 1e-320, 1.999_999]
+                .map(tick);
         let expected =
-            ["10⁻¹²", "10¹²", "1", "0.25", "0.001", "2048", "1.05·10⁶", "−0.1", "0", "10⁻³²⁰"];
+            ["10⁻¹²", "10¹²", "1", "0.25", "0.001", "2048", "10⁶", "−0.1", "0", "10⁻³²⁰", "2−10⁻⁶"];
         assert_eq!(texts, expected);
         assert_eq!(
             [0, 999, 1234, 45_678, 1_000_000].map(abridged),
