@@ -10,6 +10,7 @@ pub mod engine;
 pub mod error;
 pub mod export;
 pub mod expression;
+pub mod extremes;
 pub mod field;
 pub mod functional;
 pub mod mesh;

@@ -3,6 +3,7 @@
 mod bake;
 mod condense;
 mod export;
+mod extremes;
 mod place;
 mod solve;
 mod tick;
@@ -20,6 +21,7 @@ Examples:
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
   signorini bake my.toml -o my.rs --explain         the scene as the firmware it needs, and why
   signorini trade my.toml --max-error 1%            what speed costs in accuracy, and the setting to take
+  signorini extremes                                contrast, anisotropy, scales, shapes: what holds how far
   signorini export my.toml -o my.rs --scalar f32    the scene as data for the kernel's stages
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
@@ -46,6 +48,8 @@ enum Command {
     Bake(bake::Arguments),
     /// Measure speed against accuracy: many settings of a scene, and the one to take
     Trade(trade::Arguments),
+    /// Push every scale until something gives: a map of what is correct, poor or refused
+    Extremes(extremes::Arguments),
     /// Write the dense contact problem of a scene as a C header, for other solvers
     Condense(condense::Arguments),
     /// Write a scene as static data of a Rust program for a microcontroller
@@ -63,6 +67,7 @@ impl Cli {
             Some(Command::Tick(arguments)) => arguments.run(),
             Some(Command::Bake(arguments)) => arguments.run(),
             Some(Command::Trade(arguments)) => arguments.run(),
+            Some(Command::Extremes(arguments)) => arguments.run(),
             Some(Command::Condense(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
             None => crate::study::run(),

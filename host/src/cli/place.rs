@@ -40,11 +40,20 @@ impl Place {
     pub fn out(&self) -> Result<PathBuf> {
         let default = || Path::new("out").join(self.scene.file_stem().unwrap_or_default());
         let out = self.out.clone().unwrap_or_else(default);
-        if out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
-            let message = format!("--out {}: is a file, expected a directory", out.display());
-            let hint = "name a directory, or one that does not exist yet";
-            return Err(InputError::new(message).hint(hint).into());
-        }
+        writable(&out)?;
         Ok(out)
     }
+}
+
+/// Refuses a folder for files that is a file, or would lie in one.
+///
+/// # Errors
+/// Such a place.
+pub(super) fn writable(out: &Path) -> Result<()> {
+    if out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
+        let message = format!("--out {}: is a file, expected a directory", out.display());
+        let hint = "name a directory, or one that does not exist yet";
+        return Err(InputError::new(message).hint(hint).into());
+    }
+    Ok(())
 }

@@ -7,7 +7,8 @@
 //!                        │          └─► bound    how wrong it can be, and why, in words
 //!                        ├─► convergence  error over mesh width                             ─┬─► loglog
 //!                        ├─► sweeps       error bound over sweeps                           ─┘
-//!                        └─► tradeoff     settings: what they cost, how wrong they are ─► pareto
+//!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
+//!                        └─► extremes     numbers pushed until something gives ─► outcome_map
 //! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
 //! ```
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
@@ -19,12 +20,14 @@ mod bound;
 mod colormap;
 mod contact;
 mod convergence;
+mod extremes;
 mod field;
 mod history;
 mod isobands;
 mod lettering;
 mod loglog;
 mod mosaic;
+mod outcome_map;
 mod outline;
 mod page;
 mod panel;
@@ -42,7 +45,9 @@ mod tradeoff;
 mod view;
 
 pub use convergence::measured_rate;
+pub use extremes::{Extremes, ExtremesStudy, extremes_page};
 pub use history::history;
+pub use outcome_map::{OutcomeMap, Square};
 pub use page::html;
 pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
 pub use scale::plain;
@@ -69,6 +74,8 @@ pub struct Report {
     pub sweeps: Vec<SweepPlot>,
     /// What settings cost and how wrong they are.
     pub tradeoff: Option<Tradeoff>,
+    /// What became of scenes whose numbers were pushed.
+    pub extremes: Option<Extremes>,
     /// The solutions, a panel each.
     pub scenes: Vec<ScenePanel>,
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::convergence::{convergence, measured_rate, rate_label};
+use super::extremes::extremes;
 use super::loglog::legend_marker;
 use super::panel::panel;
 use super::svg::escape;
@@ -15,12 +16,7 @@ pub(super) const STYLE: &str = include_str!("style.css");
 
 /// The whole page as one file, complete in itself.
 pub fn html(report: &Report) -> String {
-    let title = escape(&report.title);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
-    );
+    let mut page = String::new();
     header(&mut page, report);
     page.push_str("<main>\n");
     if !report.table.rows.is_empty() {
@@ -37,13 +33,26 @@ pub fn html(report: &Report) -> String {
     if let Some(found) = &report.tradeoff {
         section(&mut page, "Speed for accuracy", &tradeoff(found));
     }
+    if let Some(found) = &report.extremes {
+        section(&mut page, "Extremes", &extremes(found));
+    }
     if !report.scenes.is_empty() {
         let panels: String = report.scenes.iter().enumerate().map(panel).collect();
         section(&mut page, "Solutions", &format!("<div class=\"panels\">\n{panels}</div>\n"));
     }
     let made_by = escape(&report.generated_by);
-    let _ = write!(page, "</main>\n<footer>{made_by}</footer>\n</body>\n</html>\n");
-    page
+    let _ = write!(page, "</main>\n<footer>{made_by}</footer>\n");
+    frame(&report.title, &page)
+}
+
+/// The page around its body.
+pub(super) fn frame(title: &str, body: &str) -> String {
+    let title = escape(title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
+    )
 }
 
 fn section(page: &mut String, heading: &str, body: &str) {

@@ -108,6 +108,7 @@ fn full(panel: ScenePanel) -> Report {
             curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
         }],
         tradeoff: Some(tradeoff()),
+        extremes: Some(Extremes::default()),
         scenes: vec![panel],
     }
 }

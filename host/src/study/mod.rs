@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::error::{Error, InputError, Result};
+use crate::extremes::record as extremes;
+use crate::extremes::section::section as extremes_section;
 use crate::output::atomic::write_atomically;
 use crate::progress::{say, steps};
 use crate::report::{Report, html};
@@ -46,6 +48,7 @@ pub fn run() -> Result<u8> {
     let root = root();
     let scenes = scenes(&root.join("meshes"))?;
     let trades = records::read(&root.join(RECORD))?;
+    let pushed = extremes::Record::read(&root.join(extremes::RECORD))?.unwrap_or_default();
     let studies = convergence::planned(root)?;
     let stopped = cut_off::planned(&scenes)?;
     let bar = steps(scenes.len() + studies.len() + stopped.len());
@@ -93,6 +96,7 @@ pub fn run() -> Result<u8> {
         cut_off: cut_off::table(&stopped),
         sweeps: cut_off::plots(&stopped),
         tradeoff: Some(section(&trades)),
+        extremes: Some(extremes_section(&pushed)),
         scenes: panels,
     };
     write_atomically(&folder.join("results.json"), json.as_bytes())?;

@@ -1,0 +1,47 @@
+//! Work that may panic or never end, without taking the caller with it.
+
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+/// What became of work without a result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lost {
+    /// It panicked.
+    Panicked,
+    /// It did not end in time; its thread is left to itself.
+    TimedOut,
+}
+
+/// Runs `work` on a thread of its own, for at most `limit`.
+///
+/// # Errors
+/// A panic, or no result in time.
+pub fn watched<T: Send + 'static>(
+    limit: Duration,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Lost> {
+    let (sender, receiver) = sync_channel(1);
+    std::thread::spawn(move || {
+        // A caller that waits no longer takes no result.
+        let _ = sender.send(work());
+    });
+    receiver.recv_timeout(limit).map_err(|error| match error {
+        RecvTimeoutError::Timeout => Lost::TimedOut,
+        RecvTimeoutError::Disconnected => Lost::Panicked,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_panics_and_hangs() {
+        let long = Duration::from_secs(600);
+        assert_eq!(watched(long, || 7), Ok(7));
+        assert_eq!(watched(long, || -> u32 { panic!("asked for by a test") }), Err(Lost::Panicked));
+        let (_keep, never) = sync_channel::<u32>(1);
+        let hang = move || never.recv().unwrap_or(0);
+        assert_eq!(watched(Duration::from_millis(20), hang), Err(Lost::TimedOut));
+    }
+}

@@ -1,0 +1,90 @@
+//! Extremes: a map a study, and why whatever is not correct is not.
+
+use std::fmt::Write;
+
+use super::Listing;
+use super::outcome_map::{OutcomeMap, key, outcome_map};
+use super::page::frame;
+use super::svg::escape;
+use super::table::listing;
+
+/// What became of scenes whose numbers were pushed.
+#[derive(Debug, Clone, Default)]
+pub struct Extremes {
+    /// How many cases, how they ended.
+    pub summary: String,
+    /// The outcomes with what they mean, the best first.
+    pub legend: Vec<(String, String)>,
+    /// The studies.
+    pub studies: Vec<ExtremesStudy>,
+    /// The cases that are not correct, with the reason.
+    pub reasons: Listing,
+}
+
+/// One axis, or one pair.
+#[derive(Debug, Clone, Default)]
+pub struct ExtremesStudy {
+    /// What was pushed.
+    pub heading: String,
+    /// What to know about it; may be empty.
+    pub remark: String,
+    /// Its maps, each with a heading that may be empty.
+    pub maps: Vec<(String, OutcomeMap)>,
+}
+
+/// The body of the section.
+pub fn extremes(found: &Extremes) -> String {
+    if found.studies.is_empty() {
+        return "<p class=\"lead\">No committed record of extremes: run <code>signorini extremes</code></p>\n"
+            .to_owned();
+    }
+    let mut html = format!("<p class=\"lead\">{LEAD} {}</p>\n", escape(&found.summary));
+    html += "<ul class=\"card series outcomes\">\n";
+    for (outcome, means) in &found.legend {
+        let (key, outcome, means) = (key(outcome), escape(outcome), escape(means));
+        let _ = writeln!(html, "<li>{key}<span><b>{outcome}</b>: {means}</span></li>");
+    }
+    html += "</ul>\n<div class=\"studies\">\n";
+    html.extend(found.studies.iter().map(study));
+    let reasons = listing(&found.reasons);
+    let count = found.reasons.rows.len();
+    let _ = write!(
+        html,
+        "</div>\n<details class=\"card\">\n<summary>Why not correct<small>{count} cases</small></summary>\n\
+         {reasons}</details>\n"
+    );
+    html
+}
+
+const LEAD: &str = "Scenes with exact solutions, whose numbers are pushed until something gives. A square is a \
+                    case, with the sweeps that it took; pointed at, it says more. Errors are integrated at \
+                    scale 1, where no number overflows, and compared with what a direct solver in f64 reaches \
+                    on the same grid.";
+
+fn study(study: &ExtremesStudy) -> String {
+    let mut html = format!("<div class=\"card\">\n<h3>{}</h3>\n", escape(&study.heading));
+    if !study.remark.is_empty() {
+        let _ = writeln!(html, "<p class=\"caption\">{}</p>", escape(&study.remark));
+    }
+    html += "<div class=\"maps\">\n";
+    for (heading, map) in &study.maps {
+        let heading = if heading.is_empty() {
+            String::new()
+        } else {
+            format!("<h4>{}</h4>\n", escape(heading))
+        };
+        let _ = write!(html, "<figure>\n{heading}{}</figure>\n", outcome_map(map));
+    }
+    html + "</div>\n</div>\n"
+}
+
+/// A page of its own.
+pub fn extremes_page(found: &Extremes, made_by: &str) -> String {
+    let body = format!(
+        "<header>\n<h1>Signorini: extremes</h1>\n</header>\n<main>\n<section>\n{}</section>\n</main>\n\
+         <footer>{}</footer>\n",
+        extremes(found),
+        escape(made_by)
+    );
+    frame("Signorini: extremes", &body)
+}
