@@ -115,17 +115,18 @@ fn punch(x: &str, y: &str) -> Texts {
 /// (1 ± sign x)/2 choose between the halves. On the left the angle is taken from the negative x axis,
 /// so that u and λ keep all digits where they are small.
 fn jump(x: &str, y: &str, k: f64) -> Texts {
-    let alpha = 2.0 - 2.0 / std::f64::consts::PI * k.sqrt().atan();
-    // α − 1 = (2/π) arctan 1/√k, without the cancellation.
+    // β = α − 1 = (2/π) arctan 1/√k, without the cancellation. cos αθ = cos θ cos βθ − sin θ sin βθ, with
+    // cos θ = x/r: where both halves meet, at x = 0, cos αθ alone would be off by ε, which a contrast of
+    // 10¹⁰ turns into a u_D with a jump that is felt.
     let less = 2.0 / std::f64::consts::PI * (1.0 / k.sqrt()).atan();
     let (alpha, less, scale) =
-        (format!("{alpha:e}"), format!("{less:e}"), format!("{:e}", 1.0 / k.sqrt()));
+        (format!("{:e}", 1.0 + less), format!("{less:e}"), format!("{:e}", 1.0 / k.sqrt()));
     let r = format!("sqrt({x}^2 + {y}^2)");
     let (theta, mirrored) = (format!("atan2({y},{x})"), format!("atan2({y},-{x})"));
     let (right, left) = (format!("(0.5 + 0.5*sign({x}))"), format!("(0.5 - 0.5*sign({x}))"));
-    let u = format!(
-        "{r}^{alpha}*({right}*cos({alpha}*{theta}) - {left}*{scale}*sin({alpha}*{mirrored}))"
-    );
+    let on_right = format!("({x}*cos({less}*{theta}) - {y}*sin({less}*{theta}))");
+    let on_left = format!("({y}*cos({less}*{mirrored}) - {x}*sin({less}*{mirrored}))");
+    let u = format!("{r}^{less}*({right}*{on_right} - {left}*{scale}*{on_left})");
     let slope = format!("{alpha}*{r}^{less}");
     let along_x =
         format!("{slope}*({right}*cos({less}*{theta}) + {left}*{scale}*sin({less}*{mirrored}))");
