@@ -29,21 +29,26 @@ pub(super) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
         );
         return Err(InputError::new(message).file(scene.file()).hint("choose other units").into());
     }
+    // Normal numbers begin at 2^−1022, and fluxes are smaller than u.
+    if u < -960 {
+        let message =
+            format!("u of about 1e{:.0} is too small for f64 to hold its digits", units.u.log10());
+        return Err(InputError::new(message).file(scene.file()).hint("choose other units").into());
+    }
     let is_near = |exponent: i32| exponent.abs() <= NEAR;
     let all = [u, conductivity, u + conductivity].into_iter().all(is_near);
     Ok(if all { Units::default() } else { units })
 }
 
-/// The size of u, and that of A: the geometric mean of its extremes.
+/// The size of u, and that of A: the geometric mean of its extremes. What is given outside of transfer edges
+/// counts by what it does, as a load: behind a weak one it may be huge.
 fn sizes(problem: &Problem) -> [f64; 2] {
     let loads = &problem.loads;
-    let ambient = loads.robin.iter().filter(|robin| robin.coefficient > 0.0);
-    let ambient = ambient.map(|robin| robin.ambient / robin.coefficient);
-    let given = loads.dirichlet.iter().chain(&loads.gap).copied().chain(ambient);
+    let given = loads.dirichlet.iter().chain(&loads.gap).copied();
     let most = |numbers: &mut dyn Iterator<Item = f64>| {
         numbers.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
-    let given = most(&mut given.into_iter());
+    let given = most(&mut { given });
     let Ok(assembled) = Assembled::<f64>::new(problem) else { return [given, 1.0] };
     let Ok(system) = assembled.system() else { return [given, 1.0] };
     let diagonals: Vec<f64> = system.matrix().iter().map(|row| row.diagonal()).collect();
