@@ -203,3 +203,39 @@ fn higher<R: Real, M: Math<R>>(omega: R, factor: R) -> Option<R> {
     let least = R::QUARTER * R::QUARTER * (R::TWO - omega);
     if best > omega + least { Some(best) } else { None }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Libm;
+
+    #[test]
+    fn young_s_relation_tells_the_best_omega() {
+        // ω = 1 shows R = μ²: √(1 − ¾) = ½ and ω = 2 / 1½.
+        assert_eq!(higher::<f64, Libm>(1.0, 0.75), Some(4.0 / 3.0));
+        // Faster than any ω below the best one can be, though the relation would ask for more.
+        assert_eq!(higher::<f64, Libm>(1.5, 0.27), None);
+        for omega in [1.0, 1.25, 1.5, 1.875] {
+            for ulps in 0..64 {
+                let factor = 1.0 - f64::from(ulps) * 0.5 * f64::EPSILON;
+                let asked = higher::<f64, Libm>(omega, factor);
+                assert!(asked.is_none_or(|asked| asked < 2.0), "{omega}, {factor}: {asked:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn omega_moves_64_times_at_most() {
+        let mut search = Search::<f64>::checked(Relaxation::Adaptive(1.0)).unwrap_or(Search::NONE);
+        let (mut size, mut moves, mut state) = (1.0, 0, 1_u32);
+        for _ in 0..100_000 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            size *= f64::from(state >> 8) / f64::from(1 << 24);
+            size = if size < 1e-200 { 1.0 } else { size };
+            let before = search.omega;
+            search.look::<Libm>(size, 0, search.block());
+            moves += u32::from(search.omega != before);
+        }
+        assert!(search.is_over() && (32..=MOVES).contains(&moves), "{moves} moves");
+    }
+}

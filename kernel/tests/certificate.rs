@@ -170,3 +170,20 @@ fn overflow_is_no_bound() {
     let found = run(SIDES, false, &[curved; 4]).expect("valid");
     assert_eq!(found.verdict, Verdict::NotFinite);
 }
+
+#[test]
+fn indicators_are_one_a_cell_or_none() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (ground, given) = (foundation.ground()?, foundation.given()?);
+    let counts = ground.edges.counts();
+    let u = iterate(counts.edges(), counts.free);
+    for (indicators, fits) in [(0, true), (ground.edges.cells(), true), (1, false)] {
+        let (mut s, mut tau) = (vec![0.0; foundation.plate.vertices.len()], u.clone());
+        let (vertices, bubbles) = (&mut s[..], &mut vec![0.0; u.len()][..]);
+        let indicators = &mut vec![0.0; indicators][..];
+        let buffers = Buffers { vertices, bubbles, tau: &mut tau, indicators };
+        let iterate = Iterate { u: &u, lower: &foundation.lower };
+        assert_eq!(certify(&ground, &given, iterate, buffers).is_ok(), fits);
+    }
+    Ok(())
+}

@@ -5,8 +5,9 @@ mod strip;
 
 use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE, padded};
 use signorini_kernel::condensed::method::{Ended, Method, Pivots, Sweeps};
+use signorini_kernel::condensed::storage::{Storage, TableauStorage};
 use signorini_kernel::condensed::tableau::{Start, Tableau};
-use signorini_kernel::condensed::{Iterate, sor};
+use signorini_kernel::condensed::{Condensed, Iterate, sor};
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
 
@@ -106,6 +107,20 @@ fn sweeps_come_to_the_same() -> Result<(), Error> {
         for (a, b) in x.iter().zip(&work.x) {
             assert!((a - b).abs() < 1e-12 * (1.0 + b), "{a} {b}");
         }
+    }
+    Ok(())
+}
+
+#[test]
+fn sweeps_need_an_omega_between_0_and_2() -> Result<(), Error> {
+    let strip = Strip::<f64>::new(4);
+    let [mut x, mut residual, mut scratch] = [[0.0; 8]; 3];
+    for (omega, fits) in [(0.0, false), (2.0, false), (-1.0, false), (2.5, false), (1.0, true)] {
+        let (x, residual, scratch) = (&mut x[..], &mut residual[..], &mut scratch[..]);
+        let iterate = Iterate { x, residual, scratch, open: &mut [false; 8] };
+        let mut sweeps = Sweeps { omega, tolerance: 0.0, most: 1 };
+        let solved = sweeps.solve(&strip.matrix()?, &[0.0; 8], iterate);
+        assert_eq!(solved.is_ok(), fits, "{omega}");
     }
     Ok(())
 }
@@ -228,5 +243,40 @@ fn wrong_lengths_are_refused() -> Result<(), Error> {
     let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
     assert!(Tableau::new(&mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).is_err());
     assert!(Tableau::new(&mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err());
+    Ok(())
+}
+
+#[test]
+fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
+    const PADDED: usize = 8;
+    let strip = Strip::<f64>::new(5);
+    let given = [0.25; PADDED];
+    let nothing = [false; PADDED];
+    let model = Condensed {
+        contact: strip.order,
+        matrix: strip.blocks(),
+        x: &given,
+        start: Start { blocks: strip.blocks(), exchanged: &nothing },
+        load: &[],
+        outputs: &[],
+        certificate: None,
+    };
+    let mut storage = Storage::<f64, PADDED, 0>::new();
+    assert_eq!(storage.memory(&model).iterate.x, given);
+    storage.memory(&model).iterate.x.fill(0.5);
+    assert_eq!(storage.memory(&model).iterate.x, [0.5; PADDED]);
+
+    let mut tableau = TableauStorage::<f64, PADDED, 1>::new();
+    let load = strip.load(0.3, &mut Random::new(1));
+    let mut pivots = Vec::new();
+    for _ in 0..2 {
+        let lent = storage.memory(&model);
+        let sweeps = Sweeps { omega: 1.0, tolerance: 0.0, most: 0 };
+        let mut method = tableau.method(&model, 100, sweeps)?;
+        let progress = method.solve(&strip.matrix()?, &load, lent.iterate)?;
+        assert_eq!(progress.ended, Ended::Exact);
+        pivots.push(progress.pivots);
+    }
+    assert!(pivots[0] > 0 && pivots[1] == 0, "{pivots:?}: the tableau stays where it was");
     Ok(())
 }

@@ -87,6 +87,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
         of_edges: &mut vec![0.0; tau.len()],
     };
     let cells = pack(&mesh, &edges, stiffness, &alphas, &compliance, &forest, buffers)?;
+    assert!(!cells.is_empty());
     averages::fill(&cells, loads, &[], &u, &mut s, &mut tau)?;
     impose(&edges, &boundary, Iterate { u: &u, lower: &gap }, &mut tau);
     walk(&cells, loads, &mut tau);

@@ -116,6 +116,20 @@ fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(
 }
 
 #[test]
+fn memory_of_another_size_is_refused() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    for array in [0, 1, 3, 4] {
+        let mut store = Store::new(&foundation)?;
+        store.numbers[array].pop();
+        assert!(store.tick(&foundation).is_err(), "array {array}");
+    }
+    let mut store = Store::new(&foundation)?;
+    store.active.pop();
+    assert!(store.tick(&foundation).is_err());
+    Ok(())
+}
+
+#[test]
 fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;

@@ -13,6 +13,7 @@ mod export;
 mod firmware;
 mod fuzz;
 mod json;
+mod mutants;
 mod no_std;
 mod osqp;
 mod peers;
@@ -46,7 +47,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 12] = [
+const VERBS: [Verb; 13] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -107,6 +108,11 @@ const VERBS: [Verb; 12] = [
         about: "builds OSQP for the trade study; the last line is the program's path",
         work: Work::Command(osqp::command),
     },
+    Verb {
+        name: "mutants",
+        about: "does a test fail for every single change of the kernel? (minutes)",
+        work: Work::Command(mutants::command),
+    },
 ];
 
 const EXAMPLES: &str = "\
@@ -117,7 +123,7 @@ Examples:
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
   cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 
-Each verb but `firmware`, `fuzz` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+Each verb but `firmware`, `fuzz`, `mutants` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {

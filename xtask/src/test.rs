@@ -2,7 +2,7 @@
 
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
-use crate::{audit, boards, cost, cross, firmware, fuzz, no_std, ranks, size};
+use crate::{audit, boards, cost, cross, firmware, fuzz, mutants, no_std, ranks, size};
 
 /// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
@@ -20,6 +20,7 @@ pub fn run(steps: &mut Steps) {
         run_cargo(cargo(&what))
     });
     steps.step("tests", || counted(&["test", "--workspace", "--locked", "--no-fail-fast"]));
+    mutants::verify(steps);
     ranks::run(steps);
     steps.check("documentation", || {
         let mut doc = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);

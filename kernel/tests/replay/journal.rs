@@ -1,0 +1,67 @@
+//! What a stage computed, in lines: short things in full, arrays as a digest of their digits.
+//!
+//! Rust prints the shortest digits that give a float back, so equal text is equal bits.
+
+use std::fmt::{Debug, Write as _};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub struct Journal {
+    path: PathBuf,
+    text: String,
+    recorded: String,
+}
+
+impl Journal {
+    /// Empty, beside the record of that name.
+    pub fn beside(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/replay/expected");
+        let path = folder.join(name).with_extension("txt");
+        let recorded = fs::read_to_string(&path).unwrap_or_default();
+        Self { path, text: String::new(), recorded }
+    }
+
+    pub fn title(&mut self, scene: &str, scalar: &str) {
+        writeln!(self.text, "# {scene}, {scalar}").unwrap();
+    }
+
+    pub fn line(&mut self, name: &str, value: impl Debug) {
+        writeln!(self.text, "{name} {value:?}").unwrap();
+    }
+
+    /// FNV-1a over the digits.
+    pub fn digest(&mut self, name: &str, value: impl Debug) {
+        let hash = format!("{value:?}").bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        writeln!(self.text, "{name} {hash:016x}").unwrap();
+    }
+
+    /// Compares what there is with the record.
+    pub fn compare(&self) {
+        if std::env::var_os("BLESS").is_some() {
+            return;
+        }
+        let mut title = "";
+        for (line, expected) in self.text.lines().zip(self.recorded.lines()) {
+            if line.starts_with('#') {
+                title = line;
+            }
+            assert_eq!(line, expected, "{title}");
+        }
+        assert!(self.text.lines().count() <= self.recorded.lines().count(), "longer than recorded");
+    }
+
+    /// Compares the end, too; or writes the record, where that is asked for.
+    pub fn finish(&self) {
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&self.path, &self.text).expect("a file that can be written");
+            return;
+        }
+        assert_eq!(
+            self.text.lines().count(),
+            self.recorded.lines().count(),
+            "the record is longer"
+        );
+    }
+}

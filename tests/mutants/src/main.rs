@@ -1,0 +1,88 @@
+//! Judges mutants of the kernel by its tests. `cargo xtask mutants` calls it and keeps the record.
+//!
+//! cargo-mutants lists the mutants; here all of them are compiled at once, each behind a switch that the
+//! environment turns on, and a mutant costs no more than the tests that come past it: milliseconds where
+//! a build for each would take seconds.
+//!
+//! ```text
+//!   signorini-mutants LIST ROOT WORK FILE…
+//!   caught  kernel/src/psor.rs  93  36  38  replace >= with < in defect  random_scenes_in_f64
+//! ```
+
+mod edits;
+mod error;
+mod judge;
+mod mutant;
+mod suite;
+mod switch;
+mod tree;
+mod viable;
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use error::{Result, failed};
+use judge::{Judge, Outcome};
+use mutant::{Mutant, Span};
+use tree::Tree;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [list, root, work, files @ ..] = &arguments[..] else {
+        return Err(failed("usage: signorini-mutants LIST ROOT WORK FILE..."));
+    };
+    let (work, workers) = (Path::new(work), std::thread::available_parallelism()?.get());
+    let mutants = Mutant::list(&fs::read_to_string(list)?)?;
+    let tree = Tree::new(Path::new(root), work)?;
+    let target = work.join("build");
+    let start = Instant::now();
+    let known = viable::make_viable(&tree, &mutants, &work.join("checks"))?;
+    eprintln!(
+        "{:.0?}: {} of {} mutants compile",
+        start.elapsed(),
+        mutants.len() - known.unviable.len(),
+        mutants.len()
+    );
+    let tests = suite::suite(&tree.built, &target, workers)?;
+    eprintln!("{:.0?}: {} tests reach mutants", start.elapsed(), tests.len());
+    let judge = Judge::new(&tests);
+    for file in files {
+        let of_file: Vec<_> = mutants.iter().filter(|mutant| mutant.file == *file).collect();
+        let has_switch = |mutant: &&Mutant| known.is_open(mutant.id);
+        let switched: Vec<_> = of_file.iter().copied().filter(has_switch).collect();
+        let mut judged = judge.all(&switched, workers)?.into_iter();
+        for mutant in of_file {
+            let (outcome, by) = if has_switch(&mutant) {
+                judged.next().unwrap_or((Outcome::Missed, String::new()))
+            } else if known.unviable.contains(&mutant.id) {
+                (Outcome::Unviable, String::new())
+            } else {
+                (Outcome::Unswitched, String::new())
+            };
+            tell(mutant, outcome, &by);
+        }
+        eprintln!("{:.0?}: {file}", start.elapsed());
+    }
+    Ok(())
+}
+
+fn tell(mutant: &Mutant, outcome: Outcome, by: &str) {
+    let Span { start, end } = mutant.span;
+    let what = mutant.name.splitn(4, ':').nth(3).unwrap_or_default();
+    let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
+    let to = if end.line == start.line { end.column } else { 0 };
+    let (outcome, file) = (outcome.word(), &mutant.file);
+    println!("{outcome}\t{file}\t{}\t{}\t{to}\t{what}\t{by}", start.line, start.column);
+}

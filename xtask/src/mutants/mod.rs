@@ -1,0 +1,214 @@
+//! `cargo xtask mutants`: do the tests notice when the kernel is wrong?
+//!
+//! cargo-mutants lists the mutants, single changes of the kernel; `tests/mutants` compiles all of them at once and
+//! judges each by the tests that come past it. What is found of a file is kept in git until the file changes.
+
+mod record;
+mod survivors;
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+use crate::cargo::{cargo, root, run, run_with_lines, target_dir};
+use crate::steps::Steps;
+use crate::test::counted;
+use crate::toolchain::output;
+use record::{Record, Row, content, sources};
+use survivors::{Key, Survivors};
+
+const HELP: &str = "\
+Usage: cargo xtask mutants [--force] [FILE...]
+
+Mutates files of kernel/src that have changed since tests/mutants/record.txt, with --force all, or those that are
+named, and judges each mutant by the tests of the kernel. Mutants that live are listed in
+tests/mutants/survivors.txt, where a person writes a reason beside each.
+
+Exit status: 0 where 95 % are killed and each survivor has its reason; 1 otherwise; 2 for wrong words.
+";
+
+/// The program that judges.
+const MANIFEST: &str = "tests/mutants/Cargo.toml";
+/// Percent of the mutants that compile.
+const KILLED: usize = 95;
+
+/// The verb.
+pub fn command(words: &[&str]) -> ExitCode {
+    if words.iter().any(|word| ["--help", "-h"].contains(word)) {
+        print!("{HELP}");
+        return ExitCode::SUCCESS;
+    }
+    let (flags, named): (Vec<_>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
+    let wrong = flags.iter().find(|flag| **flag != "--force").copied().or_else(|| {
+        let is_source =
+            |word: &&str| word.starts_with("kernel/src/") && root().join(word).is_file();
+        named.iter().find(|word| !is_source(word)).copied()
+    });
+    if let Some(wrong) = wrong {
+        eprintln!("error: `{wrong}` is no file of kernel/src\n\n{HELP}");
+        return ExitCode::from(2);
+    }
+    match judge(&named, !flags.is_empty()).and_then(|()| check()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("error: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The steps of `cargo xtask test`: no mutant runs, the record and the list must agree.
+pub fn verify(steps: &mut Steps) {
+    steps.check("mutants as recorded", check);
+    steps.check("formatting, tests/mutants", || {
+        run(cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
+    });
+    steps.step("switches of mutants", || {
+        let target = target_dir("mutants").join("judge").display().to_string();
+        counted(&["test", "--locked", "--manifest-path", MANIFEST, "--target-dir", &target])
+    });
+}
+
+/// `Ok` where every file has been judged, enough mutants are killed and the rest has reasons.
+fn check() -> Result<(), String> {
+    let (record, survivors) = (Record::read()?, Survivors::read()?);
+    let mut wrong = Vec::new();
+    for file in sources()? {
+        let Some(row) = record.0.get(&file) else {
+            wrong.push(format!("{file} has not been judged"));
+            continue;
+        };
+        if row.content != content(&file)? {
+            println!("{file} has changed since its mutants were judged");
+        }
+        let listed = survivors.of(&file);
+        if listed != row.missed {
+            wrong.push(format!("{file}: {} missed, {listed} are listed", row.missed));
+        }
+    }
+    let unread = survivors.0.iter().filter(|(_, entry)| entry.reason.is_empty());
+    let unread = unread.map(|(_, entry)| entry.count).sum::<usize>();
+    if unread > 0 {
+        wrong.push(format!("{unread} mutants live without a reason"));
+    }
+    let (killed, viable) = record.killed();
+    println!("{killed} of {viable} mutants are killed");
+    if 100 * killed < KILLED * viable || viable == 0 {
+        wrong.push(format!("{KILLED} % are asked for"));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.join("; ") + "; run `cargo xtask mutants`") }
+}
+
+fn judge(named: &[&str], force: bool) -> Result<(), String> {
+    let (mut record, mut survivors) = (Record::read()?, Survivors::read()?);
+    let files = sources()?;
+    for gone in record.0.keys().filter(|file| !files.contains(file)) {
+        survivors.replace(gone, &[]);
+    }
+    record.0.retain(|file, _| files.contains(file));
+    let mut stale = Vec::new();
+    for file in files {
+        let same =
+            record.0.get(&file).is_some_and(|row| Ok(&row.content) == content(&file).as_ref());
+        if named.contains(&file.as_str()) || (named.is_empty() && (force || !same)) {
+            stale.push(file);
+        }
+    }
+    if stale.is_empty() {
+        println!("no file has changed since its mutants were judged");
+        return Ok(());
+    }
+    let found = run_all(&stale)?;
+    for file in stale {
+        let of_file: Vec<_> = found.iter().filter(|found| found.key.file == file).collect();
+        let with = |outcome: &str| of_file.iter().filter(|found| found.outcome == outcome).count();
+        let (caught, timeout, unviable) = (with("caught"), with("timeout"), with("unviable"));
+        let missed: Vec<Key> =
+            of_file.iter().filter(|found| found.lives()).map(|found| found.key.clone()).collect();
+        survivors.replace(&file, &missed);
+        let (content, missed) = (content(&file)?, missed.len());
+        record.0.insert(file, Row { content, caught, timeout, missed, unviable });
+    }
+    record.write()?;
+    survivors.write()
+}
+
+/// A mutant and what became of it.
+struct Found {
+    outcome: String,
+    key: Key,
+}
+
+fn run_all(files: &[String]) -> Result<Vec<Found>, String> {
+    let work = target_dir("mutants");
+    fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
+    let path = work.join("list.json");
+    list(&path)?;
+    let words = ["run", "--quiet", "--locked", "--manifest-path", MANIFEST];
+    let mut command = cargo(&words);
+    command.arg("--target-dir").arg(work.join("judge")).arg("--");
+    command.arg(path).arg(root()).arg(&work).args(files);
+    let mut found = Vec::new();
+    let mut problem = Ok(());
+    run_with_lines(command, |line| match Found::parse(line) {
+        Ok(one) => found.push(one),
+        Err(why) => problem = Err(why),
+    })?;
+    problem.map(|()| found)
+}
+
+/// Writes all mutants of the kernel, in JSON.
+fn list(path: &Path) -> Result<(), String> {
+    let mut listing = cargo(&["mutants", "--list", "--json", "--package", "signorini-kernel"]);
+    if output(&mut cargo(&["mutants", "--version"])).is_err() {
+        println!("installing cargo-mutants");
+        run(cargo(&["install", "--locked", "cargo-mutants"]))?;
+    }
+    let json = output(&mut listing)?;
+    fs::write(path, json).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+impl Found {
+    /// Whether no test has told it from the kernel: all passed, none comes past it, or it has no switch.
+    fn lives(&self) -> bool {
+        !["caught", "timeout", "unviable"].contains(&self.outcome.as_str())
+    }
+
+    /// From a line of the judge: outcome, file, line, columns, what it does, the test that decided.
+    fn parse(line: &str) -> Result<Self, String> {
+        let words: Vec<&str> = line.split('\t').collect();
+        let [outcome, file, at, from, to, what, _] = words[..] else {
+            return Err(format!("the judge says `{line}`"));
+        };
+        let number =
+            |word: &str| word.parse::<usize>().map_err(|_| format!("the judge says `{line}`"));
+        let text =
+            fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"))?;
+        let line = text.lines().nth(number(at)? - 1).unwrap_or_default();
+        let line = marked(line, number(from)?, number(to)?);
+        let key = Key { file: file.to_owned(), what: what.to_owned(), line };
+        Ok(Self { outcome: outcome.to_owned(), key })
+    }
+}
+
+/// The line with its columns `from..to`, counted from 1, between marks; to its end where `to` is 0.
+fn marked(line: &str, from: usize, to: usize) -> String {
+    let columns: Vec<char> = line.chars().collect();
+    let to = if to == 0 { columns.len() } else { (to - 1).min(columns.len()) };
+    let from = (from - 1).min(to);
+    let part = |range: std::ops::Range<usize>| columns[range].iter().collect::<String>();
+    let text = format!("{}«{}»{}", part(0..from), part(from..to), part(to..columns.len()));
+    text.trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_marked() {
+        assert_eq!(marked("    ψ < b", 7, 8), "ψ «<» b");
+        assert_eq!(marked("  first", 3, 0), "«first»");
+        assert_eq!(marked("", 5, 9), "«»");
+    }
+}
