@@ -105,7 +105,7 @@ fn certified(
     measured: &Measured,
     scalar: ScalarKind,
 ) -> (Outcome, String) {
-    if measured.error > bound * (1.0 + INTEGRATED) {
+    if measured.error - measured.uncertain > bound * (1.0 + INTEGRATED) {
         let ratio = measured.error / bound;
         return (Outcome::Wrong, format!("the true error is {ratio:.3e} of the bound"));
     }

@@ -77,7 +77,8 @@ pub fn definitions() -> Vec<Definition> {
     let far = FAR;
     let words = [
         format!(
-            "success is claimed, the true error is at most the bound (to {INTEGRATED:e}, which quadrature leaves), \
+            "success is claimed, the true error is at most the bound (to {INTEGRATED:e}, and to what \
+             fewer points change in its integral), \
              and the bound is at most {USEFUL} times that of the exact discrete solution (or {double:e} of the \
              energy norm in f64, {single:e} in f32) and no larger than the energy norm itself"
         ),
