@@ -84,7 +84,7 @@ fn of_quads<R: Real, I: Index>(
         let flux = cell.turned(out.map(|flux| flux * cell.softness));
         add(&cell.edges, flux, tau);
         let at_vertices = match bends.get(quad) {
-            Some(&bend) if features::VARYING => {
+            Some(&bend) if features::BENT => {
                 let means = cell.sides_in_mesh(means);
                 cell.packed(nonparametric::at_vertices(bend, &means))
             }

@@ -9,6 +9,8 @@ pub const TRIANGLES: bool = cfg!(feature = "triangles");
 pub const QUADS: bool = cfg!(feature = "quads");
 /// Cells in which A in reference coordinates is not constant.
 pub const VARYING: bool = cfg!(feature = "varying");
+/// Quads of the nonparametric element that are no parallelograms.
+pub const BENT: bool = cfg!(feature = "bent");
 /// Contact edges.
 pub const CONTACT: bool = cfg!(feature = "contact");
 /// Transfer laws.

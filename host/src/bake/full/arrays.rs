@@ -225,6 +225,7 @@ impl<R: Scalar> Baked<R> {
             ("triangles", !self.of_triangles.is_empty()),
             ("quads", !self.of_quads.is_empty()),
             ("varying", !self.metric.is_empty()),
+            ("bent", !self.bends.is_empty()),
             ("contact", self.counts.contact > 0),
             ("robin", !self.data.robin.is_empty()),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
