@@ -105,7 +105,7 @@ impl<R: Bits> Foundation<R> {
         let [of_vertices, of_edges] = weights;
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place: at };
+        let metric = Metric { at_points: points, place: at, bends: &[] };
         *reach = certificate::reach(edges, &packed, metric, &forest, &mut vec![R::ZERO; cells])?;
         Ok(foundation)
     }
@@ -124,7 +124,7 @@ impl<R: Bits> Foundation<R> {
             edges,
             stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
-            metric: Metric { at_points: &self.points, place: &self.place },
+            metric: Metric { at_points: &self.points, place: &self.place, bends: &[] },
             reach: self.reach,
         })
     }
