@@ -11,6 +11,9 @@ mod arrays;
 mod bound;
 #[path = "replay/condensed.rs"]
 mod condensed;
+#[path = "replay/factor.rs"]
+mod factor;
+mod factored;
 #[path = "replay/full.rs"]
 mod full;
 #[path = "replay/journal.rs"]
@@ -66,6 +69,11 @@ fn solves() {
 #[test]
 fn help_where_sweeps_crawl() {
     replay("help", solve::help::<f32>, solve::help::<f64>);
+}
+
+#[test]
+fn exact_solves() {
+    replay("factor", factor::run::<f32>, factor::run::<f64>);
 }
 
 #[test]
