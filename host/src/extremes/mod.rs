@@ -6,8 +6,8 @@
 //!   record ─► section, table
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
-//! options of [`crate::solve`], on a thread of its own that may panic or be left alone after [`LIMIT`]. The
-//! outcomes are defined in [`judge`].
+//! options of [`crate::solve`], on a thread of its own that may panic or be left alone after its limit of time. The
+//! outcomes are defined in [`mod@judge`].
 
 mod attempt;
 mod axis;
