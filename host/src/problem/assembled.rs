@@ -1,23 +1,20 @@
 //! A problem in the kernel's hands: narrowed to one scalar and assembled.
 
-use std::cell::Cell;
 use std::collections::HashMap;
 
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
-use signorini_kernel::element::crouzeix_raviart;
-use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::shift::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Error, Model, Real, Tensor};
+use signorini_kernel::{Error, Model, Tensor};
 
+use super::element_matrices::{ElementMatrices, element_matrices};
 use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
-use crate::quadrature::DATA_POINTS;
 use crate::scalar::Scalar;
 
 /// Element matrices, CSR and loads in the scalar `R`; [`Assembled::system`] is the contact problem.
@@ -257,16 +254,6 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     }
 }
 
-struct ElementMatrices<R> {
-    triangles: Vec<[R; 3]>,
-    quads: Vec<[R; 6]>,
-    /// The most of any cell.
-    obliqueness: f64,
-}
-
-/// Of a determinant that cancels down to this many ε of its terms nothing is left.
-const TOLD_APART: f64 = 32.0;
-
 fn narrow<R: Scalar>(a: &Tensor<f64>) -> Tensor<R> {
     Tensor { xx: R::narrow(a.xx), xy: R::narrow(a.xy), yy: R::narrow(a.yy) }
 }
@@ -279,60 +266,4 @@ fn tensors<R: Scalar>(problem: &Problem) -> Option<Vec<Tensor<R>>> {
         QuadCoefficient::AtPoints(_) => None,
     });
     triangles.chain(quads).map(|a| a.map(narrow)).collect()
-}
-
-/// How oblique A is in a triangle: the terms of 4 det A = ab + bc + ca, with the negative entries a, b, c of the
-/// element matrix, over what they cancel to. Rounded entries carry ε times as much of their energy.
-fn of_triangle([a, b, c]: [f64; 3]) -> f64 {
-    let [ab, bc, ca] = [a * b, b * c, c * a];
-    (ab.abs() + bc.abs() + ca.abs()) / (ab + bc + ca).max(0.0)
-}
-
-/// The same in a quad whose opposite sides' midpoints p and q join: G_pp G_qq over det G, G being A in their
-/// coordinates.
-fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> f64 {
-    let p: [f64; 2] = std::array::from_fn(|i| b[i] + c[i] - a[i] - d[i]);
-    let q: [f64; 2] = std::array::from_fn(|i| c[i] + d[i] - a[i] - b[i]);
-    let Tensor { xx, xy, yy } = tensor;
-    // The normals of p and q take A into G, up to the square of the area.
-    let [m, n] = [[q[1], -q[0]], [-p[1], p[0]]];
-    let product = |v: [f64; 2], w: [f64; 2]| {
-        xx * v[0] * w[0] + xy * (v[0] * w[1] + v[1] * w[0]) + yy * v[1] * w[1]
-    };
-    let area = p[0] * q[1] - p[1] * q[0];
-    product(m, m) * product(n, n) / ((xx * yy - xy * xy).max(0.0) * area * area)
-}
-
-fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
-    let most = Cell::new(1.0_f64);
-    let bear = |obliqueness: f64, cell| {
-        most.set(most.get().max(obliqueness));
-        let told_apart = obliqueness * TOLD_APART * R::EPSILON.wide() < 1.0;
-        told_apart.then_some(()).ok_or(Error::Oblique(cell))
-    };
-    let mesh = &problem.mesh;
-    let vertices = UnitBox::of(&mesh.vertices).narrowed(&mesh.vertices);
-    let in_box = Mesh::<f64, u32>::new(&vertices, &mesh.triangles, &mesh.quads)?;
-    let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
-    let triangles = triangles.enumerate().map(|(at, (cell, a))| {
-        let matrix = crouzeix_raviart::stiffness(in_box.triangle(cell), *a);
-        bear(of_triangle(matrix), CellId::Triangle(at)).map(|()| matrix.map(R::narrow))
-    });
-    let triangles = triangles.collect::<Result<Vec<_>, _>>()?;
-    let rule = f64::GAUSS[DATA_POINTS - 1];
-    let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
-    let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
-        let corners = in_box.quad(cell);
-        let tensor = problem.mean_conductivity(mesh.triangles.len() + at);
-        bear(of_quad(corners, tensor), CellId::Quad(at))?;
-        let matrix = match coefficient {
-            QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
-            QuadCoefficient::AtPoints(tensors) => {
-                problem.element.stiffness(corners, rule, |point, _| tensors[point])
-            }
-        };
-        Ok(matrix.map(R::narrow))
-    });
-    let quads = quads.collect::<Result<_, _>>()?;
-    Ok(ElementMatrices { triangles, quads, obliqueness: most.get() })
 }

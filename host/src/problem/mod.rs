@@ -7,6 +7,7 @@
 mod assembled;
 mod binding;
 mod corners;
+mod element_matrices;
 mod integrals;
 mod loads;
 mod solvability;
