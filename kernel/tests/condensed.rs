@@ -37,13 +37,13 @@ impl<R: Real> Work<R> {
         let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
         let exchanged_at_first = vec![false; n];
         let start = Start { blocks: strip.blocks(), exchanged: &exchanged_at_first };
-        Tableau::new(blocks, exchanged, [column, next])?.reset(&start)?;
+        Tableau::new(strip.order, blocks, exchanged, [column, next])?.reset(&start)?;
         Ok(work)
     }
 
     fn exact(&mut self, strip: &Strip<R>, load: &[R], most: u32) -> Result<(Ended, u32), Error> {
         let Work { x, residual, scratch, open, blocks, exchanged, columns: [column, next] } = self;
-        let tableau = Tableau::new(blocks, exchanged, [column, next])?;
+        let tableau = Tableau::new(strip.order, blocks, exchanged, [column, next])?;
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let nothing = vec![false; padded(strip.order)];
         let start = Start { blocks: strip.blocks(), exchanged: &nothing };
@@ -152,7 +152,7 @@ fn exchanges_undo_each_other() -> Result<(), Error> {
     let (mut work, mut z) = (Work::new(&strip)?, vec![0.0; 16]);
     let before = work.blocks.clone();
     let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
-    let mut tableau = Tableau::new(blocks, exchanged, [column, next])?;
+    let mut tableau = Tableau::new(9, blocks, exchanged, [column, next])?;
     for k in [3, 7, 7, 7, 0, 3, 0, 7, 2, 2, 5] {
         assert!(tableau.exchange(k, &mut z)?);
     }
@@ -234,15 +234,16 @@ fn wrong_lengths_are_refused() -> Result<(), Error> {
     let strip = Strip::<f64>::new(5);
     assert!(Blocks::new(strip.blocks(), 9).is_err());
     let matrix = strip.matrix()?;
-    let blocks = matrix.blocks();
-    assert!(blocks::multiply_add(blocks, &[0.0; 16], &[true; 16], &mut [0.0; 16]).is_err());
-    assert!(blocks::multiply_add(blocks, &[0.0; 8], &[true; 8], &mut [0.0; 5]).is_err());
-    assert!(blocks::multiply_add(blocks, &[0.0; 5], &[true; 8], &mut [0.0; 8]).is_err());
+    assert!(blocks::multiply_add(&matrix, &[0.0; 16], &[true; 16], &mut [0.0; 16]).is_err());
+    assert!(blocks::multiply_add(&matrix, &[0.0; 8], &[true; 8], &mut [0.0; 5]).is_err());
+    assert!(blocks::multiply_add(&matrix, &[0.0; 5], &[true; 8], &mut [0.0; 8]).is_err());
     assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).is_err());
     assert!(sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).is_err());
     let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
-    assert!(Tableau::new(&mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).is_err());
-    assert!(Tableau::new(&mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err());
+    assert!(Tableau::new(5, &mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).is_err());
+    assert!(
+        Tableau::new(5, &mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err()
+    );
     Ok(())
 }
 

@@ -66,7 +66,7 @@ impl<R: Scalar> Pivots<R> {
             let matrix = model.matrix()?;
             let (cycles, progress) = counted(|| {
                 let begin = Begin { blocks: model.matrix, exchanged: &nothing };
-                let mut tableau = Tableau::new(blocks, exchanged, [column, next])?;
+                let mut tableau = Tableau::new(model.contact, blocks, exchanged, [column, next])?;
                 if start == Start::Cold {
                     x.fill(R::ZERO);
                     tableau.reset(&begin)?;

@@ -64,41 +64,44 @@ impl<'a, R: Real> Blocks<'a, R> {
 /// Arrays of the wrong length: all have [`padded`] entries.
 #[inline(never)]
 pub fn multiply_add<R: Real>(
-    blocks: &[Block<R>],
+    matrix: &Blocks<R>,
     x: &[R],
     used: &[bool],
     sum: &mut [R],
 ) -> Result<(), Error> {
-    same_length(Array::Unknowns, x.len(), used.len())?;
-    same_length(Array::Scratch, sum.len(), used.len())?;
-    same_length(Array::MatrixValues, blocks.len(), count(used.len()))?;
+    for length in [x.len(), used.len(), sum.len()] {
+        same_length(Array::Unknowns, length, padded(matrix.order()))?;
+    }
     let (x, used, sums) = (groups(x), groups(used), groups_mut(sum));
-    let mut rest = blocks;
+    let mut rest = matrix.blocks();
     for (row, (own, is_used)) in x.iter().zip(used).enumerate() {
         let Some(Row { left, diagonal, below }) = Row::split(rest, row) else { break };
         let Some((above, [sum, ..])) = sums.split_at_mut_checked(row) else { break };
-        // Copies, which no write to a sum can change, stay in registers.
-        let (own, mut total) = (*own, *sum);
-        let others = left.iter().zip(x).zip(above).zip(used);
-        if *is_used == [false; SIDE] {
-            for (((block, x), _), used) in others {
-                if *used != [false; SIDE] {
-                    add_product(block, x, &mut total);
-                }
-            }
-        } else {
-            for (((block, x), sum), used) in others {
-                if *used != [false; SIDE] {
-                    add_product(block, x, &mut total);
-                }
-                add_transposed(block, &own, sum);
-            }
-            add_product(diagonal, &own, &mut total);
+        let mut room = sum.map(|sum| [sum, R::ZERO]);
+        let pairs = filled(&mut room, row, matrix.order());
+        let is_any = |used: &[bool; SIDE]| *used != [false; SIDE];
+        add_products(left.iter().zip(x).zip(used.iter().map(is_any)), pairs);
+        if is_any(is_used) {
+            add_products([((diagonal, own), true)].into_iter(), pairs);
+            // A copy, which no write to a sum can change, stays in registers.
+            let own = *own;
+            left.iter().zip(above).for_each(|(block, sum)| add_transposed(block, &own, sum));
         }
-        *sum = total;
+        *sum = room.map(|[even, odd]| even + odd);
         rest = below;
     }
     Ok(())
+}
+
+/// What of a group is no padding. Where registers hold one number each it is all of it: eight rows, and the
+/// compiler knows it, stay in registers, which gains more than padding takes. Where they hold several, a number
+/// of rows that it does not know keeps the compiler from taking rows together, and turning their numbers about.
+#[inline(always)]
+pub(super) fn filled<T>(group: &mut [T; SIDE], number: usize, order: usize) -> &mut [T] {
+    if cfg!(target_arch = "arm") {
+        return group;
+    }
+    group.get_mut(..SIDE.min(order.saturating_sub(number * SIDE))).unwrap_or_default()
 }
 
 /// One row of blocks.
@@ -121,12 +124,34 @@ impl<'a, R> Row<'a, R> {
     }
 }
 
-/// `sum` += B x
-#[inline(always)]
-pub(super) fn add_product<R: Real>(block: &Block<R>, x: &[R; SIDE], sum: &mut [R; SIDE]) {
-    for (sum, row) in sum.iter_mut().zip(block) {
-        row.iter().zip(x).for_each(|(&entry, &x)| *sum += entry * x);
+/// `pairs` += Σ B x over the terms in use, a sum of the even columns and one of the odd ones for each row: what a register of two
+/// numbers adds up.
+///
+/// As many rows as `pairs` has: rows of padding cost nothing.
+#[cfg_attr(target_arch = "arm", inline(always))]
+#[cfg_attr(not(target_arch = "arm"), inline(never))]
+pub(super) fn add_products<'a, R: Real>(
+    terms: impl Iterator<Item = ((&'a Block<R>, &'a [R; SIDE]), bool)>,
+    pairs: &mut [[R; 2]],
+) {
+    for ((block, x), is_used) in terms {
+        if !is_used {
+            continue;
+        }
+        // Copies, which no write to a sum can change, stay in registers.
+        let x = *x;
+        for (pair, row) in pairs.iter_mut().zip(block) {
+            *pair = add_in_twos(*pair, row, &x);
+        }
     }
+}
+
+/// A row times x, even and odd columns apart.
+#[inline(always)]
+fn add_in_twos<R: Real>(pair: [R; 2], row: &[R; SIDE], x: &[R; SIDE]) -> [R; 2] {
+    let (row, x) = (row.as_chunks().0, x.as_chunks().0);
+    let terms = row.iter().zip(x);
+    terms.fold(pair, |[even, odd], (&[a, b], &[x, y])| [even + a * x, odd + b * y])
 }
 
 /// `sum` += Bᵀ x

@@ -8,50 +8,48 @@
 //! The exchanged unknown's own entry of its column is handed over as 0; its row and column, which follow
 //! other formulas, are written afterwards by `store`.
 
-use super::blocks::{Block, SIDE};
+use super::blocks::{Block, SIDE, filled};
 use crate::real::Real;
 
-/// T −= c cᵀ · `inverse`
+/// T −= Σ c cᵀ · `inverse` over some columns c, each with its own inverse.
 #[inline(always)]
-pub(super) fn subtract_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], inverse: R) {
+pub(super) fn subtract<R: Real, const N: usize>(
+    blocks: &mut [Block<R>],
+    order: usize,
+    columns: [&[[R; SIDE]]; N],
+    inverses: [R; N],
+) {
     let mut rest = blocks;
-    for (row, own) in column.iter().enumerate() {
+    for row in 0..order.div_ceil(SIDE) {
         let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        let factors = scaled(own, -inverse);
-        for (block, other) in blocks.iter_mut().zip(column) {
-            // A copy, which no write to a block can change, stays in registers.
-            let other = *other;
-            for (row, &factor) in block.iter_mut().zip(&factors) {
-                row.iter_mut().zip(other).for_each(|(entry, other)| *entry += factor * other);
+        let mut factors = [[R::ZERO; N]; SIDE];
+        for (at, (column, inverse)) in columns.iter().zip(inverses).enumerate() {
+            let Some(own) = column.get(row) else { return };
+            for (factors, &entry) in factors.iter_mut().zip(own) {
+                factors.iter_mut().skip(at).take(1).for_each(|factor| *factor = entry * -inverse);
             }
         }
+        add(blocks, columns, filled(&mut factors, row, order));
         rest = more;
     }
 }
 
-/// T −= a aᵀ · `inverses[0]` + b bᵀ · `inverses[1]`
-#[inline(always)]
-pub(super) fn subtract_two<R: Real>(
+/// Adds to each row of a row of blocks the columns, each times a factor of that row.
+#[cfg_attr(target_arch = "arm", inline(always))]
+#[cfg_attr(not(target_arch = "arm"), inline(never))]
+fn add<R: Real, const N: usize>(
     blocks: &mut [Block<R>],
-    a: &[[R; SIDE]],
-    b: &[[R; SIDE]],
-    [of_a, of_b]: [R; 2],
+    columns: [&[[R; SIDE]]; N],
+    factors: &[[R; N]],
 ) {
-    let mut rest = blocks;
-    for (row, (own_a, own_b)) in a.iter().zip(b).enumerate() {
-        let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        let (factors_a, factors_b) = (scaled(own_a, -of_a), scaled(own_b, -of_b));
-        for (block, (other_a, other_b)) in blocks.iter_mut().zip(a.iter().zip(b)) {
-            let (other_a, other_b) = (*other_a, *other_b);
-            let factors = factors_a.iter().zip(&factors_b);
-            for (row, (&factor_a, &factor_b)) in block.iter_mut().zip(factors) {
-                let others = other_a.into_iter().zip(other_b);
-                for (entry, (a, b)) in row.iter_mut().zip(others) {
-                    *entry = *entry + factor_a * a + factor_b * b;
-                }
+    for (place, block) in blocks.iter_mut().enumerate() {
+        // Copies, which no write to a block can change, stay in registers.
+        let groups = columns.map(|column| column.get(place).copied().unwrap_or([R::ZERO; SIDE]));
+        for (row, factors) in block.iter_mut().zip(factors) {
+            for (group, &factor) in groups.iter().zip(factors) {
+                row.iter_mut().zip(group).for_each(|(entry, &of)| *entry += factor * of);
             }
         }
-        rest = more;
     }
 }
 

@@ -13,7 +13,7 @@
 //! tableau that no longer corrects goes back to where it began, and exchanges from there.
 
 use super::Iterate;
-use super::blocks::{Blocks, multiply_add};
+use super::blocks::{Blocks, SIDE, groups, multiply_add};
 use super::tableau::{Start, Tableau};
 use crate::error::Error;
 use crate::real::Real;
@@ -64,12 +64,12 @@ pub fn find<R: Real>(
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
         let limit = R::from_count(32) * R::EPSILON * size;
-        let before = unbalanced(residual, open);
+        let before = unbalanced(residual, x);
         if !(before <= limit) {
             correct(tableau, residual, answer, x)?;
             settle(matrix, load, x, residual, open)?;
             // What is left now may be the floor of this matrix; much more is a tableau gone wrong.
-            let after = unbalanced(residual, open);
+            let after = unbalanced(residual, x);
             if !(after <= R::from_count(WORN) * limit || after <= R::QUARTER * before) {
                 found = Found::Worn;
             }
@@ -113,9 +113,10 @@ fn search<R: Real>(
 fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
     let (mut found, mut most) = (None, noise);
     for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
-        // z = −x within, w elsewhere: both are wrong where their signs say otherwise.
-        if (z > R::ZERO) == within && z.magnitude() > most {
-            (found, most) = (Some(at), z.magnitude());
+        // z = −x within, w elsewhere.
+        let wrong = if within { z } else { -z };
+        if wrong > most {
+            (found, most) = (Some(at), wrong);
             if !by_most {
                 break;
             }
@@ -124,15 +125,30 @@ fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Optio
     found
 }
 
-/// Σ x_i²
+/// Σ x_i², padded
 pub(crate) fn square<R: Real>(x: &[R]) -> R {
-    x.iter().fold(R::ZERO, |sum, &x| sum + x * x)
+    let mut sums = [R::ZERO; SIDE];
+    for group in groups(x) {
+        sums.iter_mut().zip(group).for_each(|(sum, &x)| *sum += x * x);
+    }
+    total(sums)
 }
 
 /// The root of the sum of r_i² over the edges that are open, or should be.
-fn unbalanced<R: Real>(residual: &[R], open: &[bool]) -> R {
-    let wrong = residual.iter().zip(open).filter(|(r, open)| **open || !(**r >= R::ZERO));
-    wrong.fold(R::ZERO, |sum, (&r, _)| sum + r * r).rounded_sqrt()
+fn unbalanced<R: Real>(residual: &[R], x: &[R]) -> R {
+    let mut sums = [R::ZERO; SIDE];
+    for (group, x) in groups(residual).iter().zip(groups(x)) {
+        for ((sum, &r), &x) in sums.iter_mut().zip(group).zip(x) {
+            let wrong = if x > R::ZERO { r } else { r.or_smaller(R::ZERO) };
+            *sum += wrong * wrong;
+        }
+    }
+    total(sums).rounded_sqrt()
+}
+
+/// The sum of eight numbers.
+fn total<R: Real>([a, b, c, d, e, f, g, h]: [R; SIDE]) -> R {
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 /// x of the answer (−x_I, w_A), not below 0.
@@ -154,7 +170,7 @@ pub(super) fn settle<R: Real>(
     for (((residual, open), &load), &x) in residual.iter_mut().zip(&mut *open).zip(load).zip(x) {
         (*residual, *open) = (-load, x > R::ZERO);
     }
-    multiply_add(matrix.blocks(), x, open, residual)
+    multiply_add(matrix, x, open, residual)
 }
 
 /// x_I −= S_II⁻¹ r_I, not below 0.

@@ -7,8 +7,10 @@
 //! other, each change being brought to the rows below it. That is Gauss–Seidel, exactly, in another
 //! order of the sums.
 
-use super::blocks::{Block, Blocks, SIDE, add_product, add_transposed, groups, groups_mut};
-use super::blocks::{Row, padded};
+use core::iter;
+
+use super::blocks::{Block, Blocks, SIDE, add_products, add_transposed, filled};
+use super::blocks::{Row, groups, groups_mut, padded};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
@@ -26,8 +28,12 @@ pub fn sweep<R: Real>(matrix: &Blocks<R>, load: &[R], omega: R, x: &mut [R]) -> 
     for (row, load) in groups(load).iter().enumerate() {
         let Some(Row { left, diagonal, below }) = Row::split(rest, row) else { break };
         let Some((before, [own, after @ ..])) = x.split_at_mut_checked(row) else { break };
-        let mut sums = [R::ZERO; SIDE];
-        left.iter().zip(before).for_each(|(block, x)| add_product(block, x, &mut sums));
+        let mut pairs = [[R::ZERO; 2]; SIDE];
+        add_products(
+            left.iter().zip(&*before).zip(iter::repeat(true)),
+            filled(&mut pairs, row, matrix.order()),
+        );
+        let mut sums = pairs.map(|[even, odd]| even + odd);
         // Column `row` of the rows that follow: each is one block longer than the one before.
         let mut column = below.get(row..).unwrap_or_default();
         for (step, x) in (row + 2..).zip(after) {

@@ -84,7 +84,8 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
         sweeps: Sweeps<R>,
     ) -> Result<Pivots<'a, R>, Error> {
         let [column, next] = &mut self.columns;
-        let mut tableau = Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;
+        let blocks = &mut self.blocks;
+        let mut tableau = Tableau::new(model.contact, blocks, &mut self.exchanged, [column, next])?;
         if !self.is_built {
             tableau.reset(&model.start)?;
             self.is_built = true;

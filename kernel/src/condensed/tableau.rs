@@ -18,14 +18,15 @@
 //! at worst, and rounding errors grow with its inverse. Who exchanges for a long time checks the answer
 //! against S now and then ([`super::pivoting`]).
 
-use super::blocks::{Block, SIDE, count, groups, groups_mut, multiply_add};
-use super::correction::{position, scaled, store, subtract_one, subtract_two};
+use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
+use super::correction::{position, scaled, store, subtract};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
 /// Memory of a tableau (borrowed): all its numbers mean something only together.
 #[derive(Debug)]
 pub struct Tableau<'a, R> {
+    order: usize,
     blocks: &'a mut [Block<R>],
     exchanged: &'a mut [bool],
     /// The column of the correction that waits.
@@ -52,20 +53,22 @@ struct Pivot<R> {
 }
 
 impl<'a, R: Real> Tableau<'a, R> {
-    /// Takes memory that holds a tableau already, or that is about to be [`Tableau::reset`]: T in
+    /// Takes memory that holds a tableau already, or that is about to be [`Tableau::reset`]: T of `order` rows in
     /// [`count`] blocks, which unknowns are exchanged (`padded` entries), and twice as much scratch.
     ///
     /// # Errors
     /// Arrays of the wrong length.
     pub fn new(
+        order: usize,
         blocks: &'a mut [Block<R>],
         exchanged: &'a mut [bool],
         [column, next]: [&'a mut [R]; 2],
     ) -> Result<Self, Error> {
-        same_length(Array::MatrixValues, blocks.len(), count(exchanged.len()))?;
+        same_length(Array::MatrixValues, blocks.len(), count(order))?;
+        same_length(Array::Contact, exchanged.len(), padded(order))?;
         same_length(Array::Scratch, column.len(), exchanged.len())?;
         same_length(Array::Scratch, next.len(), exchanged.len())?;
-        Ok(Self { blocks, exchanged, column, next, waiting: None })
+        Ok(Self { order, blocks, exchanged, column, next, waiting: None })
     }
 
     /// Which unknowns are exchanged; padding never is.
@@ -115,7 +118,7 @@ impl<'a, R: Real> Tableau<'a, R> {
         let masked = self.next.iter_mut().zip(load).zip(self.exchanged.iter());
         masked.for_each(|((b, &load), &exchanged)| *b = if exchanged { load } else { R::ZERO });
         z.fill(R::ZERO);
-        multiply_add(self.blocks, self.next, self.exchanged, z)
+        multiply_add(&Blocks::new(self.blocks, self.order)?, self.next, self.exchanged, z)
     }
 
     /// Exchanges unknown k, one way or the other, and moves the answer `z` along. Returns whether it
@@ -156,7 +159,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     pub(super) fn finish(&mut self) {
         if let Some(Pivot { at, inverse, shrink }) = self.waiting.take() {
             let column = groups(self.column);
-            subtract_one(self.blocks, column, inverse);
+            subtract(self.blocks, self.order, [column], [inverse]);
             store(self.blocks, at, column, inverse, |group, _| scaled(group, shrink));
         }
     }
@@ -192,7 +195,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// Two corrections in one pass: `first` with `column`, `second` with `next`.
     fn correct_twice(&mut self, first: Pivot<R>, second: Pivot<R>) {
         let (column, next) = (groups(self.column), groups(self.next));
-        subtract_two(self.blocks, column, next, [first.inverse, second.inverse]);
+        subtract(self.blocks, self.order, [column, next], [first.inverse, second.inverse]);
         if first.at != second.at {
             // What the first leaves in its own row and column, the second still corrects.
             let own = self.next.get(first.at).copied().unwrap_or_default() * second.inverse;

@@ -100,7 +100,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         }
         none.fill(false);
         iterate.x.fill(R::ZERO);
-        let mut tableau = Tableau::new(tableau, exchanged, columns)?;
+        let mut tableau = Tableau::new(counts.contact, tableau, exchanged, columns)?;
         tableau.reset(&Start { blocks: schur, exchanged: none })?;
         Ok(Some(Self { factor, schur, tableau, none, scale, load, iterate, places }))
     }
@@ -213,7 +213,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
             *open = x > R::ZERO;
         }
         let Iterate { x, residual, scratch, open } = &mut self.iterate;
-        crate::condensed::blocks::multiply_add(matrix.blocks(), x, open, self.load)?;
+        crate::condensed::blocks::multiply_add(&matrix, x, open, self.load)?;
         let cap = (4 * counts.contact + 16) as u32;
         let iterate = Iterate { x, residual, scratch, open };
         let (found, pivots) =

@@ -121,7 +121,7 @@ pub fn run<R: Scalar>(journal: &mut Journal) -> Result<(), Error> {
             let mut columns = [(); 2].map(|()| vec![R::ZERO; padded(order)]);
             for most in [1000, 4] {
                 let [column, next] = &mut columns;
-                let mut tableau = Tableau::new(&mut blocks, &mut exchanged, [column, next])?;
+                let mut tableau = Tableau::new(order, &mut blocks, &mut exchanged, [column, next])?;
                 tableau.reset(&model.start)?;
                 let sweeps = Sweeps { omega: R::of(1.25), tolerance: R::of(1e-3), most: 5 };
                 let mut pivots = Pivots { tableau, start: model.start, most, sweeps };
@@ -160,7 +160,7 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
             .map(|i| R::of(if i < order { pull + 0.5 * draw.signed() } else { 0.0 }))
             .collect();
         let [column, next] = &mut columns;
-        let mut tableau = Tableau::new(&mut blocks, &mut exchanged, [column, next])?;
+        let mut tableau = Tableau::new(order, &mut blocks, &mut exchanged, [column, next])?;
         if at == 0 {
             tableau.reset(&start)?;
         }

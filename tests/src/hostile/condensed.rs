@@ -109,7 +109,8 @@ fn ticked<R: Bits>(
     let (mut combination, mut sum, mut open) = (zeros(columns), zeros(columns), vec![false; n]);
     let mut blocks = model.matrix.to_vec();
     let (mut exchanged, mut column, mut next) = (vec![false; n], zeros(n), zeros(n));
-    let mut tableau = Tableau::new(&mut blocks, &mut exchanged, [&mut column, &mut next])?;
+    let mut tableau =
+        Tableau::new(model.contact, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
     tableau.reset(&model.start)?;
     let most = bytes.below(40) as u32;
     let sweeps = Sweeps { omega: bytes.real(), tolerance: bytes.real(), most };

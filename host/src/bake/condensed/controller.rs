@@ -67,8 +67,12 @@ impl<'b, R: Scalar> Controller<'b, R> {
                 Solver::Sweeps => model.tick(&inputs, &mut { baked.sweeps }, &mut memory)?,
                 Solver::Exchanges(most) => {
                     let [column, next] = &mut self.columns;
-                    let mut tableau =
-                        Tableau::new(&mut self.blocks, &mut self.exchanged, [column, next])?;
+                    let mut tableau = Tableau::new(
+                        model.contact,
+                        &mut self.blocks,
+                        &mut self.exchanged,
+                        [column, next],
+                    )?;
                     if !self.is_built {
                         tableau.reset(&model.start)?;
                         self.is_built = true;

@@ -29,7 +29,7 @@ impl<R: Scalar> Start<R> {
         let mut exchanged = vec![false; padded(n)];
         let [mut column, mut next, mut answer] = [(); 3].map(|()| vec![0.0; padded(n)]);
         let nothing = exchanged.clone();
-        let mut tableau = Tableau::new(&mut blocks, &mut exchanged, [&mut column, &mut next])?;
+        let mut tableau = Tableau::new(n, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
         let given = matrix::<f64>(condensate);
         tableau.reset(&tableau::Start { blocks: &given, exchanged: &nothing })?;
         for open in (0..n).filter(|&edge| x[edge] > 0.0) {

@@ -61,14 +61,14 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
     let open = cut(&mut open, n)?;
     open.iter_mut().zip(&*x).for_each(|(open, x)| *open = *x > R::ZERO);
     meter.count("product, half of x zero", "n²", n * n, || {
-        blocks::multiply_add(matrix.blocks(), black_box(&*x), open, residual)
+        blocks::multiply_add(&matrix, black_box(&*x), open, residual)
     })?;
     let mut room = [[[R::ZERO; SIDE]; SIDE]; BLOCKS];
     let (mut exchanged, mut columns) = ([false; MOST], [[R::ZERO; MOST]; 2]);
     let [column, next] = &mut columns;
     let exchanged = cut(&mut exchanged, n)?;
     let room = cut(&mut room, blocks::count(n))?;
-    let mut tableau = Tableau::new(room, exchanged, [cut(column, n)?, cut(next, n)?])?;
+    let mut tableau = Tableau::new(n, room, exchanged, [cut(column, n)?, cut(next, n)?])?;
     let nothing = [false; MOST];
     let exchanged = nothing.get(..n).unwrap_or_default();
     let start = Start { blocks: matrix.blocks(), exchanged };
