@@ -15,7 +15,7 @@ const NEAR: i32 = 20;
 ///
 /// # Errors
 /// Numbers whose energy f64 cannot hold.
-pub(super) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
+pub(crate) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
     let [u, conductivity] = sizes(problem).map(power);
     // An even power, whose root is a power of two as well.
     let conductivity = conductivity & !1;

@@ -13,6 +13,7 @@ use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
 use super::limits;
+use super::scale::{Scale, refuse_faint};
 use crate::bake::face::Face;
 use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
@@ -22,8 +23,9 @@ use crate::functional::{Functional, Linear, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
+use crate::scene::units::Units;
 use crate::setting::{MathKind, Omega, Setting, Start};
-use crate::solve::unfit;
+use crate::solve::{choose_units, in_units, unfit};
 
 /// A scene as the full model takes it, in the scalar `R`.
 #[derive(Debug, Clone)]
@@ -53,6 +55,8 @@ pub struct Baked<R: Scalar> {
     pub(super) corners: Vec<[u32; 2]>,
     pub(super) start: R,
     pub(super) how: How<R>,
+    /// Where the numbers above are not in the scene's units.
+    pub(super) scale: Option<Scale<R>>,
 }
 
 /// How its ticks are solved.
@@ -103,6 +107,11 @@ impl<R: Scalar> Baked<R> {
         self.data.has_bound
     }
 
+    /// What 1 stands for in [`super::Controller::u`] and the other arrays of a controller.
+    pub fn units(&self) -> Units {
+        self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
+    }
+
     /// The limits of its ticks.
     pub fn limits(&self) -> Limits<R> {
         self.how.limits
@@ -117,8 +126,20 @@ impl<R: Scalar> Baked<R> {
     ///
     /// # Errors
     /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
-    /// scalar type cannot hold.
+    /// scalar type cannot hold, in whatever units.
     pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let face = Face::new(scene, problem);
+        let units = choose_units(scene, problem)?;
+        if units == Units::default() {
+            return Self::in_its_units(scene, problem, face);
+        }
+        let scale = Scale::new(scene, units)?;
+        let (scene, problem) = in_units(scene, problem, &units)?;
+        let baked = Self::in_its_units(&scene, &problem, face)?;
+        Ok(Self { scale: Some(scale), ..baked })
+    }
+
+    fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
         let setting = checked::<R>(scene)?;
         let held = Parts::examine(scene, problem)?;
         refuse_loose(scene, &held)?;
@@ -127,11 +148,11 @@ impl<R: Scalar> Baked<R> {
         assembled.system().map_err(&unfit)?;
         let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
         let ground = certifier.ground(&assembled).map_err(&unfit)?;
-        let face = Face::new(scene, problem);
         let functionals = functionals(scene, problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
         let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
         data.check().map_err(&unfit)?;
+        refuse_faint(scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let how = How::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
@@ -170,6 +191,7 @@ impl<R: Scalar> Baked<R> {
             corners: Vec::new(),
             start: R::ZERO,
             how,
+            scale: None,
         }
     }
 

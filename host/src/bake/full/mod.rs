@@ -18,6 +18,8 @@ mod data;
 mod driver;
 mod items;
 mod listing;
+mod rescaling;
+mod scale;
 mod source;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,132 @@
+//! A module whose numbers are far from 1 works in other units; who calls it keeps the scene's.
+//!
+//! ```text
+//!   input p:       its pattern is in the module's units, p as it is
+//!   limits:        error / (U √α)
+//!   outputs:       u times U, fluxes and forces times U α, bounds times U √α, lengths as they are
+//!   report:        residual times U, force times U α, certificate times U √α
+//! ```
+//! All of it by powers of two, exact but for what leaves the range of the scalar; [`super::rescaling`] writes the same
+//! into the module.
+
+use signorini_kernel::certificate::{Certificate, Verdict};
+use signorini_kernel::tick::{Limits, Report};
+
+use super::arrays::Output;
+use super::data::Data;
+use crate::error::{Error, InputError, Result};
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::scene::units::Units;
+
+/// What is near 1 may be 2^−20 or 2^20: so far from its limits the scalar must hold a unit.
+const NEAR: f64 = 20.0;
+
+/// What 1 stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale<R> {
+    pub units: Units,
+    /// U
+    pub u: R,
+    /// U α
+    pub flux: R,
+    /// U √α
+    pub energy: R,
+}
+
+impl<R: Scalar> Scale<R> {
+    /// That of a scene in `units`.
+    ///
+    /// # Errors
+    /// Answers that the scalar type cannot hold in the scene's own units.
+    pub fn new(scene: &Scene, units: Units) -> Result<Self> {
+        let room = -R::TINY.wide().log2() - NEAR;
+        let is_far = |unit: f64| unit.log2().abs() > room;
+        if is_far(units.u) {
+            let data = "value, gap, ambient, flux and f";
+            return Err(beyond::<R>(scene, "u is", units.u, units.u, data));
+        }
+        for (what, unit) in [("fluxes are", units.flux()), ("energy norms are", units.energy())] {
+            if is_far(unit) {
+                let data = "conductivity, coefficient, flux and f";
+                return Err(beyond::<R>(scene, what, unit, units.conductivity, data));
+            }
+        }
+        let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
+        Ok(Self { units, u, flux, energy })
+    }
+
+    /// `limits`, in the module's units.
+    pub fn limits(&self, limits: Limits<R>) -> Limits<R> {
+        Limits { error: limits.error / self.energy, ..limits }
+    }
+
+    /// Outputs and report in the scene's units.
+    pub fn answer(&self, of: &[Output<R>], outputs: &mut [R], report: Report<R>) -> Report<R> {
+        let report = self.report(report);
+        for (output, of) in outputs.iter_mut().zip(of) {
+            *output = match (self.unit(of), report.verdict.certificate()) {
+                (Some(unit), _) => *output * unit,
+                (None, Some(certificate)) => certificate.total,
+                (None, None) => *output,
+            };
+        }
+        report
+    }
+
+    /// The unit of an output; a bound has that of the certificate.
+    pub fn unit(&self, of: &Output<R>) -> Option<R> {
+        match of {
+            Output::Flux(_) | Output::Force(_) => Some(self.flux),
+            Output::Length(_) => Some(R::ONE),
+            Output::Probe(_) => Some(self.u),
+            Output::Bound => None,
+        }
+    }
+
+    fn report(&self, report: Report<R>) -> Report<R> {
+        let verdict = match report.verdict {
+            Verdict::Certified(of) => Verdict::Certified(Certificate {
+                gap: of.gap * self.energy,
+                algebraic: of.algebraic * self.energy,
+                oscillation: of.oscillation * self.energy,
+                rounding: of.rounding * self.energy,
+                // Next to underflow a product is less than it should be.
+                total: (of.total * self.energy).or_larger(R::TINY),
+            }),
+            other => other,
+        };
+        let (residual, force) = (report.residual * self.u, report.force * self.flux);
+        Report { residual, force, verdict, ..report }
+    }
+}
+
+/// `what` is near `size`, and would be near 1 with `data` divided by `unit`.
+fn beyond<R: Scalar>(scene: &Scene, what: &str, size: f64, unit: f64, data: &str) -> Error {
+    let [size, unit] = [size, unit].map(|unit| unit.log10().round());
+    let message =
+        format!("{what} near 1e{size}, which {} cannot hold with all its digits", R::NAME);
+    let hint =
+        format!("state the scene in other units: {data} divided by 1e{unit}{}", wider::<R>());
+    InputError::new(message).file(&scene.path).hint(hint).into()
+}
+
+fn wider<R: Scalar>() -> &'static str {
+    if size_of::<R>() < size_of::<f64>() { ", or use --scalar f64" } else { "" }
+}
+
+/// A pattern that is nothing but underflow would leave its input without effect.
+pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<()> {
+    for (input, pattern) in scene.inputs.iter().zip(&data.patterns) {
+        let weights = pattern.weights();
+        let most = weights.iter().fold(R::ZERO, |most, weight| most.or_larger(weight.magnitude()));
+        if !weights.is_empty() && most < R::TINY {
+            let message =
+                format!("input.{}.pattern is too small for {}", input.name.value, R::NAME);
+            let hint =
+                format!("multiply it by a power of ten and divide the input by it{}", wider::<R>());
+            return Err(InputError::new(message).file(&scene.path).hint(hint).into());
+        }
+    }
+    Ok(())
+}
