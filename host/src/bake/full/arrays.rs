@@ -12,8 +12,9 @@ use signorini_kernel::tick::Limits;
 use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
+use super::faint::refuse_faint;
 use super::limits;
-use super::scale::{Scale, refuse_faint};
+use super::scale::Scale;
 use crate::bake::face::Face;
 use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
@@ -23,9 +24,8 @@ use crate::functional::{Functional, Linear, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::scene::units::Units;
 use crate::setting::{MathKind, Omega, Setting, Start};
-use crate::solve::{choose_units, in_units, unfit};
+use crate::solve::unfit;
 
 /// A scene as the full model takes it, in the scalar `R`.
 #[derive(Debug, Clone)]
@@ -107,11 +107,6 @@ impl<R: Scalar> Baked<R> {
         self.data.has_bound
     }
 
-    /// What 1 stands for in [`super::Controller::u`] and the other arrays of a controller.
-    pub fn units(&self) -> Units {
-        self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
-    }
-
     /// The limits of its ticks.
     pub fn limits(&self) -> Limits<R> {
         self.how.limits
@@ -122,24 +117,8 @@ impl<R: Scalar> Baked<R> {
         self.how.certified
     }
 
-    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
-    ///
-    /// # Errors
-    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
-    /// scalar type cannot hold, in whatever units.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        let face = Face::new(scene, problem);
-        let units = choose_units(scene, problem)?;
-        if units == Units::default() {
-            return Self::in_its_units(scene, problem, face);
-        }
-        let scale = Scale::new(scene, units)?;
-        let (scene, problem) = in_units(scene, problem, &units)?;
-        let baked = Self::in_its_units(&scene, &problem, face)?;
-        Ok(Self { scale: Some(scale), ..baked })
-    }
-
-    fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
+    /// The same in the units that `scene` is in.
+    pub(super) fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
         let setting = checked::<R>(scene)?;
         let held = Parts::examine(scene, problem)?;
         refuse_loose(scene, &held)?;

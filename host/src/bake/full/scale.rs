@@ -12,15 +12,15 @@
 use signorini_kernel::certificate::{Certificate, Verdict};
 use signorini_kernel::tick::{Limits, Report};
 
-use super::arrays::Output;
-use super::data::Data;
-use crate::error::{Error, InputError, Result};
+use super::arrays::{Baked, Output};
+use crate::bake::face::Face;
+use crate::bake::range::refuse_answers;
+use crate::error::Result;
+use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
-
-/// What is near 1 may be 2^−20 or 2^20: so far from its limits the scalar must hold a unit.
-const NEAR: f64 = 20.0;
+use crate::solve::{choose_units, in_units};
 
 /// What 1 stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,24 +34,37 @@ pub(super) struct Scale<R> {
     pub energy: R,
 }
 
+impl<R: Scalar> Baked<R> {
+    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
+    ///
+    /// # Errors
+    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or
+    /// answers that the scalar type cannot hold.
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let face = Face::new(scene, problem);
+        let units = choose_units(scene, problem)?;
+        if units == Units::default() {
+            return Self::in_its_units(scene, problem, face);
+        }
+        let scale = Scale::new(scene, units)?;
+        let (scene, problem) = in_units(scene, problem, &units)?;
+        let baked = Self::in_its_units(&scene, &problem, face)?;
+        Ok(Self { scale: Some(scale), ..baked })
+    }
+
+    /// What 1 stands for in [`super::Controller::u`] and the other arrays of a controller.
+    pub fn units(&self) -> Units {
+        self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
+    }
+}
+
 impl<R: Scalar> Scale<R> {
     /// That of a scene in `units`.
     ///
     /// # Errors
     /// Answers that the scalar type cannot hold in the scene's own units.
     pub fn new(scene: &Scene, units: Units) -> Result<Self> {
-        let room = -R::TINY.wide().log2() - NEAR;
-        let is_far = |unit: f64| unit.log2().abs() > room;
-        if is_far(units.u) {
-            let data = "value, gap, ambient, flux and f";
-            return Err(beyond::<R>(scene, "u is", units.u, units.u, data));
-        }
-        for (what, unit) in [("fluxes are", units.flux()), ("energy norms are", units.energy())] {
-            if is_far(unit) {
-                let data = "conductivity, coefficient, flux and f";
-                return Err(beyond::<R>(scene, what, unit, units.conductivity, data));
-            }
-        }
+        refuse_answers::<R>(scene, &units)?;
         let [u, flux, energy] = [units.u, units.flux(), units.energy()].map(R::narrow);
         Ok(Self { units, u, flux, energy })
     }
@@ -99,34 +112,4 @@ impl<R: Scalar> Scale<R> {
         let (residual, force) = (report.residual * self.u, report.force * self.flux);
         Report { residual, force, verdict, ..report }
     }
-}
-
-/// `what` is near `size`, and would be near 1 with `data` divided by `unit`.
-fn beyond<R: Scalar>(scene: &Scene, what: &str, size: f64, unit: f64, data: &str) -> Error {
-    let [size, unit] = [size, unit].map(|unit| unit.log10().round());
-    let message =
-        format!("{what} near 1e{size}, which {} cannot hold with all its digits", R::NAME);
-    let hint =
-        format!("state the scene in other units: {data} divided by 1e{unit}{}", wider::<R>());
-    InputError::new(message).file(&scene.path).hint(hint).into()
-}
-
-fn wider<R: Scalar>() -> &'static str {
-    if size_of::<R>() < size_of::<f64>() { ", or use --scalar f64" } else { "" }
-}
-
-/// A pattern that is nothing but underflow would leave its input without effect.
-pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<()> {
-    for (input, pattern) in scene.inputs.iter().zip(&data.patterns) {
-        let weights = pattern.weights();
-        let most = weights.iter().fold(R::ZERO, |most, weight| most.or_larger(weight.magnitude()));
-        if !weights.is_empty() && most < R::TINY {
-            let message =
-                format!("input.{}.pattern is too small for {}", input.name.value, R::NAME);
-            let hint =
-                format!("multiply it by a power of ten and divide the input by it{}", wider::<R>());
-            return Err(InputError::new(message).file(&scene.path).hint(hint).into());
-        }
-    }
-    Ok(())
 }

@@ -38,7 +38,16 @@ fn measure() -> Result<()> {
     for k in [0, -20, -30, -40, -50, -60, -70, -80, -90, -100, 40, 60, 80, 100] {
         let units = powers(0, k);
         match tick::<f32>(units) {
-            Ok(out) => println!("{k} {:?}", [out[0]/units.flux(), out[1]/units.flux(), out[2], out[3]/units.u, out[4]/units.energy()]),
+            Ok(out) => println!(
+                "{k} {:?}",
+                [
+                    out[0] / units.flux(),
+                    out[1] / units.flux(),
+                    out[2],
+                    out[3] / units.u,
+                    out[4] / units.energy()
+                ]
+            ),
             Err(e) => println!("{k} {e}"),
         }
     }
