@@ -1,56 +1,47 @@
-//! What a scalar type cannot hold of a scene, whatever units its data are computed in: answers and inputs, which are
-//! in the scene's own.
+//! What a scalar type cannot hold of a scene, or not compute with.
+//!
+//! With T the smallest normal number and ε the rounding of the scalar, numbers near 2^k are
+//! ```text
+//!   held with all their digits, 2^−20 to 2^20 of them as well,      where |k| ≤ −log₂ T − 20,
+//!   fit for sums of squares, roundings of them as well: ε² 4^k ≥ T, where |k| ≤ (−log₂ T + 2 log₂ ε)/2,
+//! ```
+//! 1e±32 and 1e±12 in f32.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{InputError, Result};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
 
-/// What is near 1 may be 2^−20 or 2^20: so far from its limits the scalar must hold a unit.
+/// What is near 1 may be 2^−20 or 2^20.
 const NEAR: f64 = 20.0;
 
-/// Refuses answers that lose digits or overflow: u, fluxes and energy norms near `units`.
+/// Refuses a scene whose answers a program in `R` could not give in the scene's own units: `units` are near them.
 pub(crate) fn refuse_answers<R: Scalar>(scene: &Scene, units: &Units) -> Result<()> {
-    let energy = ("energy norms are", units.energy());
-    refuse::<R>(scene, units, [energy], NEAR)
+    refuse::<R>(scene, units, "hold", -R::TINY.wide().log2() - NEAR)
 }
 
-/// Refuses as well what makes squares of energies do so, 2^−20 to 2^20 of them: for programs that compute in the scene's
-/// units.
+/// Refuses a scene that a program in `R` could not solve and certify in the scene's own units.
 pub(crate) fn refuse_squares<R: Scalar>(scene: &Scene, units: &Units) -> Result<()> {
-    let square = ("squares of energy norms are", units.energy() * units.energy());
-    refuse::<R>(scene, units, [square], 2.0 * NEAR)
+    let room = R::EPSILON.wide().log2() - 0.5 * R::TINY.wide().log2();
+    refuse::<R>(scene, units, "square", room)
 }
 
-fn refuse<R: Scalar>(
-    scene: &Scene,
-    units: &Units,
-    energy: [(&str, f64); 1],
-    margin: f64,
-) -> Result<()> {
-    let room = -R::TINY.wide().log2() - margin;
-    let is_far = |unit: f64| unit.log2().abs() > room;
-    if is_far(units.u) {
-        let data = "value, gap, ambient, flux and f";
-        return Err(beyond::<R>(scene, ("u is", units.u), units.u, data));
-    }
-    let others = std::iter::once(("fluxes are", units.flux())).chain(energy);
-    match others.into_iter().find(|(_, unit)| is_far(*unit)) {
-        Some(far) => {
-            let data = "conductivity, coefficient, flux and f";
-            Err(beyond::<R>(scene, far, units.conductivity, data))
-        }
-        None => Ok(()),
-    }
-}
-
-/// `what` is near `size`, and would be near 1 with `data` divided by `unit`.
-fn beyond<R: Scalar>(scene: &Scene, (what, size): (&str, f64), unit: f64, data: &str) -> Error {
+/// Refuses what is not within 2^−`room` and 2^`room`.
+fn refuse<R: Scalar>(scene: &Scene, units: &Units, what: &str, room: f64) -> Result<()> {
+    const OF_U: &str = "value, gap, ambient, flux and f";
+    const OF_A: &str = "conductivity, coefficient, flux and f";
+    let sizes = [
+        ("u is", units.u, units.u, OF_U),
+        ("fluxes are", units.flux(), units.conductivity, OF_A),
+        ("energy norms are", units.energy(), units.conductivity, OF_A),
+    ];
+    let far = sizes.into_iter().find(|(_, size, ..)| size.log2().abs() > room);
+    let Some((of, size, unit, data)) = far else { return Ok(()) };
     let [size, unit] = [size, unit].map(|unit| unit.log10().round());
-    let message = format!("{what} near 1e{size}, too far from 1 for {} to compute with", R::NAME);
+    let message = format!("{of} near 1e{size}, which {} cannot {what} with all digits", R::NAME);
     let hint =
         format!("state the scene in other units: {data} divided by 1e{unit}{}", wider::<R>());
-    InputError::new(message).file(&scene.path).hint(hint).into()
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
 /// Refuses defaults of inputs that would not be what the scene says.
