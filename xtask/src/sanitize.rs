@@ -5,7 +5,7 @@
 //! it, for this build alone. Std comes as it is, without; the kernel has none of it, and the allocator of the tests
 //! is the sanitizer's. What it cannot see is an offset that is wrong and still inside of u: the tests see that.
 //!
-//! An offset of `Rows` made too large by hand, in either width of indices, ends these tests.
+//! Offsets of `Rows` made too large by hand end each of the tests, at the line of `psor` that reads there.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};

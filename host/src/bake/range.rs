@@ -30,11 +30,9 @@ pub(crate) fn refuse_squares<R: Scalar>(scene: &Scene, units: &Units) -> Result<
 fn refuse<R: Scalar>(scene: &Scene, units: &Units, what: &str, room: f64) -> Result<()> {
     const OF_U: &str = "value, gap, ambient, flux and f";
     const OF_A: &str = "conductivity, coefficient, flux and f";
-    let sizes = [
-        ("u is", units.u, units.u, OF_U),
-        ("fluxes are", units.flux(), units.conductivity, OF_A),
-        ("energy norms are", units.energy(), units.conductivity, OF_A),
-    ];
+    // Energy norms U √α lie between the two.
+    let sizes =
+        [("u is", units.u, units.u, OF_U), ("fluxes are", units.flux(), units.conductivity, OF_A)];
     let far = sizes.into_iter().find(|(_, size, ..)| size.log2().abs() > room);
     let Some((of, size, unit, data)) = far else { return Ok(()) };
     let [size, unit] = [size, unit].map(|unit| unit.log10().round());
