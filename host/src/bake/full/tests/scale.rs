@@ -165,7 +165,7 @@ fn answers_that_the_scalar_cannot_hold_are_refused() -> Result<()> {
         (powers(115, 0), "u is near 1e35, which f32 cannot hold"),
         (powers(0, -132), "fluxes are near 1e-39, which f32 cannot hold"),
         (powers(-90, 220), "fluxes are near 1e40, which f32 cannot hold"),
-        (powers(-70, -50), "fluxes are near 1e-36, which f32 cannot hold"),
+        (powers(-70, -50), "fluxes are near 1e-35, which f32 cannot hold"),
     ] {
         let error = baked::<f32>(units).expect_err("out of range").to_string();
         assert!(error.contains(what), "{error}");
