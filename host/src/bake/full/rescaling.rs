@@ -62,13 +62,17 @@ fn in_units_of_the_scene(report: Report<Scalar>) -> Report<Scalar> {{
             algebraic: of.algebraic * ENERGY_UNIT,
             oscillation: of.oscillation * ENERGY_UNIT,
             rounding: of.rounding * ENERGY_UNIT,
-            // Next to underflow a product is less than it should be.
-            total: (of.total * ENERGY_UNIT).max(Scalar::MIN_POSITIVE),
+            total: no_less_than_normal(of.total * ENERGY_UNIT),
         }}),
         other => other,
     }};
     let (residual, force) = (report.residual * U_UNIT, report.force * FLUX_UNIT);
     Report {{ residual, force, verdict, ..report }}
+}}
+
+/// Next to underflow a product is less than it should be.
+fn no_less_than_normal(total: Scalar) -> Scalar {{
+    if total < Scalar::MIN_POSITIVE {{ Scalar::MIN_POSITIVE }} else {{ total }}
 }}
 ",
         scale.u, scale.flux, scale.energy
