@@ -9,11 +9,12 @@ use std::fmt::Write as _;
 use signorini_kernel::error::Array;
 use signorini_kernel::{Error, Index, Model};
 
+use crate::bake::range::refuse_squares;
 use crate::error::Result;
 use crate::problem::{Assembled, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::unfit;
+use crate::solve::{choose_units, unfit};
 
 /// What is exported.
 #[derive(Debug, Clone, Copy)]
@@ -27,8 +28,9 @@ pub struct Origin<'a> {
 /// The source text.
 ///
 /// # Errors
-/// Numbers that the scalar type cannot hold.
+/// Numbers that the scalar type cannot hold or compute with in the scene's units.
 pub fn export<R: Scalar>(origin: Origin) -> Result<String> {
+    refuse_squares::<R>(origin.scene, &choose_units(origin.scene, origin.problem)?)?;
     let unfit = unfit::<R>(origin.scene);
     let assembled = Assembled::<R>::new(origin.problem).map_err(&unfit)?;
     assembled.system().map_err(&unfit)?;

@@ -128,6 +128,13 @@ fn export_writes_a_model() {
     assert_eq!(wrong.status.code(), Some(2));
     let huge = arguments(&folder.path().join("none.rs"), &["--input", "river=-1e300"]);
     assert_eq!(huge.status.code(), Some(2), "f32 has no such number");
+    let far = arguments(&folder.path().join("none.rs"), &["--input", "river=-1e20"]);
+    assert_eq!(far.status.code(), Some(2), "f32 has no squares of it");
+    let said = String::from_utf8_lossy(&far.stderr).into_owned();
+    assert!(said.contains("u is near 1e20, which f32 cannot square"), "{said}");
+    let wide = folder.path().join("wide.rs");
+    let far = arguments(&wide, &["--input", "river=-1e20", "--scalar", "f64"]);
+    assert_eq!(far.status.code(), Some(0));
     assert!(!folder.path().join("none.rs").exists(), "nothing is left of a failure");
     assert_eq!(arguments(&file.join("below/a/file.rs"), &[]).status.code(), Some(1));
 }

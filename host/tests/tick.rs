@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use signorini_host::mesh::gmsh;
 use signorini_host::mesh::structured::{Cells, grid};
 use signorini_host::norms::errors;
 use signorini_host::problem::Problem;
 use signorini_host::scene::Scene;
+use signorini_host::scene::units::Units;
 use signorini_host::solve::{Options, ScalarKind, solve};
 use signorini_host::tick::{Budget, Moment, play};
 
@@ -141,6 +143,38 @@ fn refused(scene: &Path, out: &Path, more: &[&str]) -> String {
     assert_eq!(output.status.code(), Some(2), "{more:?}: {message}");
     assert!(!message.contains("panicked") && !out.exists(), "{more:?}: {message}");
     message
+}
+
+/// What is far from 1 plays in other units, and each number of the table comes back in the scene's.
+#[test]
+fn other_units_change_no_digit() {
+    let units = Units { u: 2f64.powi(-60), conductivity: 2f64.powi(-80) };
+    let moments = [0.0, 0.05].map(|time| Moment { time, inputs: Vec::new() });
+    for (name, scalar) in [
+        (MOVING, ScalarKind::F32),
+        (MOVING, ScalarKind::F64),
+        ("scenes/membrane.toml", ScalarKind::F64),
+    ] {
+        let path = meshes(name);
+        let scene = Scene::read(&path).expect("a scene");
+        let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+        let played = |units: Units| {
+            let scene = units.inverse().scene(&scene);
+            let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
+            let budget = Budget { scalar, sweeps: 20_000, error: 0.0 };
+            play(&scene, &problem, None, &moments, &budget, |_| {}).expect("ticks")
+        };
+        let (near, far) = (played(Units::default()), played(units));
+        for (near, far) in near.iter().zip(&far) {
+            let times = |x: Option<f64>, unit: f64| x.map(|x| x * unit);
+            assert_eq!((far.status, far.sweeps), (near.status, near.sweeps), "{name}");
+            assert_eq!(far.contact_force, times(near.contact_force, units.flux()), "{name}");
+            assert_eq!(far.contact_length, near.contact_length, "{name}");
+            assert_eq!(far.combined, times(near.combined, units.energy()), "{name}");
+            let [far, near] = [far, near].map(|tick| tick.bound.expect("a bound"));
+            assert_eq!(far, near.times(units.energy()), "{name}");
+        }
+    }
 }
 
 #[test]

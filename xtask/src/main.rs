@@ -20,6 +20,7 @@ mod peers;
 mod ranks;
 mod record;
 mod replay;
+mod sanitize;
 mod setup;
 mod size;
 mod snapshot;
@@ -47,7 +48,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 13] = [
+const VERBS: [Verb; 14] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -57,6 +58,11 @@ const VERBS: [Verb; 13] = [
         name: "no-std",
         about: "the kernel links without std and without an allocator; breaches are caught",
         work: Work::Steps(no_std::run),
+    },
+    Verb {
+        name: "sanitize",
+        about: "sweeps under AddressSanitizer: no access outside of an array",
+        work: Work::Steps(sanitize::run),
     },
     Verb {
         name: "setup",

@@ -1,8 +1,10 @@
 //! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out.
 
+use std::process::Command;
+
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
-use crate::{audit, boards, cost, cross, firmware, fuzz, mutants, no_std, ranks, size};
+use crate::{audit, boards, cost, cross, firmware, fuzz, mutants, no_std, ranks, sanitize, size};
 
 /// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
@@ -28,6 +30,7 @@ pub fn run(steps: &mut Steps) {
         run_cargo(doc)
     });
     no_std::run(steps);
+    sanitize::run(steps);
     steps.check("formatting, tests/fuzz", || {
         run_cargo(cargo(&["fmt", "--manifest-path", fuzz::MANIFEST, "--check"]))
     });
@@ -51,8 +54,13 @@ pub fn run(steps: &mut Steps) {
 
 /// Runs `cargo test` with these words and counts its tests.
 pub fn counted(words: &[&str]) -> (Tally, Option<String>) {
+    counted_by(cargo(words))
+}
+
+/// The same for a whole command.
+pub fn counted_by(command: Command) -> (Tally, Option<String>) {
     let mut tally = Tally::default();
-    let ended = run_with_lines(cargo(words), |line| {
+    let ended = run_with_lines(command, |line| {
         if let Some(binary) = result_line(line) {
             tally.passed += binary.passed;
             tally.failed += binary.failed;

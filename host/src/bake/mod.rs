@@ -16,6 +16,7 @@ pub mod explain;
 pub mod face;
 pub mod full;
 mod item;
+pub(crate) mod range;
 pub mod setting;
 pub mod superposition;
 pub mod text;

@@ -3,6 +3,7 @@
 use signorini_kernel::Relaxation;
 use signorini_kernel::tick::Progress;
 
+use super::range::refuse_inputs;
 use crate::error::{InputError, Result};
 use crate::scalar::Scalar;
 use crate::scene::{Quantity, Scene};
@@ -28,8 +29,9 @@ pub fn scalar(scene: &Scene, asked: Option<ScalarKind>) -> Result<ScalarKind> {
     }
 }
 
-/// The setting, where a module in the scalar `R` can have it; without one the default.
+/// The setting, where a module in the scalar `R` can have it and hold the inputs; without one the default.
 pub(super) fn checked<R: Scalar>(scene: &Scene) -> Result<Setting> {
+    refuse_inputs::<R>(scene)?;
     let setting = scene.setting.unwrap_or_default();
     let wrong = |message: String| InputError::new(message).file(&scene.path);
     let bound = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);

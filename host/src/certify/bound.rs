@@ -36,6 +36,15 @@ impl ErrorBound {
         Self { total: self.total + more, rounding: self.rounding + more, ..self }
     }
 
+    /// The same in other units.
+    #[must_use]
+    pub fn times(self, unit: f64) -> Self {
+        let Self { total, gap, algebraic, oscillation, rounding } = self;
+        let [total, gap, algebraic, oscillation, rounding] =
+            [total, gap, algebraic, oscillation, rounding].map(|x| x * unit);
+        Self { total, gap, algebraic, oscillation, rounding }
+    }
+
     /// Widens the kernel's numbers.
     pub fn new<R: Scalar>(certificate: &Certificate<R>) -> Self {
         Self {

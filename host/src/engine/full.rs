@@ -56,16 +56,20 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
     }
 
     fn answer(&self, problem: &Problem) -> Result<Answer> {
-        let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
-        let (u, tau) = (wide(self.controller.u()), wide(self.controller.tau()));
+        let units = self.baked.units();
+        let wide = |numbers: &[R], unit: f64| -> Vec<f64> {
+            numbers.iter().map(|x| x.wide() * unit).collect()
+        };
+        let u = wide(self.controller.u(), units.u);
+        let tau = wide(self.controller.tau(), units.flux());
         let counts = problem.topology.counts;
         let on_contact = self.controller.u().iter().skip(counts.free);
         let certificate = self.report.as_ref().and_then(|report| report.verdict.certificate());
         let certified = certify::Answer {
-            vertices: wide(self.controller.vertices()),
+            vertices: wide(self.controller.vertices(), units.u),
             bubbles: match self.controller.bubbles() {
                 [] => vec![0.0; u.len()],
-                bubbles => wide(bubbles),
+                bubbles => wide(bubbles, units.u),
             },
             tau: tau.clone(),
             indicators: Vec::new(),

@@ -7,7 +7,7 @@
 //! and every number of its solution is that of the first one to the last bit, as long as none was
 //! too large or too small for the scalar: then only the second one can be computed.
 
-use super::{Boundary, Condition, Field, Located, Scene};
+use super::{Boundary, Condition, Field, Located, Quantity, Scene};
 use crate::expression::Expression;
 
 /// What 1 stands for, each a power of two.
@@ -73,6 +73,16 @@ impl Units {
             times(&mut input.pattern, self.of(input.field.value));
         }
         scene
+    }
+
+    /// The unit of an output.
+    pub fn of_output(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Flux | Quantity::Force => self.flux(),
+            Quantity::Length => 1.0,
+            Quantity::Probe { .. } => self.u,
+            Quantity::Bound => self.energy(),
+        }
     }
 
     fn of(&self, field: Field) -> f64 {

@@ -15,7 +15,7 @@ pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use solution::{Seconds, Solution, status_name};
 pub use tuned::{Trials, tuned_omega};
-pub(crate) use units::{in_units, times};
+pub(crate) use units::{choose as choose_units, in_units, times};
 
 use std::time::Instant;
 
@@ -43,7 +43,7 @@ pub(crate) use solution::centre_floating;
 /// # Errors
 /// No solution, numbers that the scalar type cannot hold, a singular matrix.
 pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let units = units::choose(scene, problem)?;
+    let units = choose_units(scene, problem)?;
     if units == Units::default() {
         return solve_in_its_units(scene, problem, options);
     }

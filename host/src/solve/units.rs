@@ -1,6 +1,5 @@
 //! The units in which a problem is solved: those in which its numbers are near 1.
 
-use crate::certify::ErrorBound;
 use crate::error::{InputError, Result};
 use crate::problem::{Assembled, Problem};
 use crate::scene::Scene;
@@ -15,7 +14,7 @@ const NEAR: i32 = 20;
 ///
 /// # Errors
 /// Numbers whose energy f64 cannot hold.
-pub(super) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
+pub(crate) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
     let [u, conductivity] = sizes(problem).map(power);
     // An even power, whose root is a power of two as well.
     let conductivity = conductivity & !1;
@@ -90,18 +89,11 @@ pub(crate) fn times(units: &Units, mut solution: Solution) -> Solution {
     times(&mut solution.u, units.u);
     times(&mut solution.flux, units.flux());
     solution.contact_force *= units.flux();
-    solution.bound = solution.bound.map(|bound| scaled(&bound, units.energy()));
+    solution.bound = solution.bound.map(|bound| bound.times(units.energy()));
     let certified = &mut solution.certified;
     times(&mut certified.vertices, units.u);
     times(&mut certified.bubbles, units.u);
     times(&mut certified.tau, units.flux());
     times(&mut certified.indicators, units.energy() * units.energy());
     solution
-}
-
-fn scaled(bound: &ErrorBound, unit: f64) -> ErrorBound {
-    let ErrorBound { total, gap, algebraic, oscillation, rounding } = *bound;
-    let [total, gap, algebraic, oscillation, rounding] =
-        [total, gap, algebraic, oscillation, rounding].map(|x| x * unit);
-    ErrorBound { total, gap, algebraic, oscillation, rounding }
 }

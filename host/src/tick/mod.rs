@@ -5,7 +5,8 @@
 //! ```
 //! Mesh, numbering and A are set up once; between ticks only loads, gaps and boundary values change,
 //! which is what happens on a device. The player is the kernel's own tick ([`held`]) wherever D or R holds
-//! every part, and otherwise a warm solve ([`player`]).
+//! every part, and otherwise a warm solve ([`player`]). Where the numbers of the first moment are far from 1 they play
+//! in other units, and all answers are in the scene's.
 
 pub mod coarse;
 pub mod held;
@@ -27,7 +28,8 @@ use crate::outputs::{Reading, declared};
 use crate::problem::{Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{Options, ScalarKind};
+use crate::scene::units::Units;
+use crate::solve::{Options, ScalarKind, choose_units, in_units};
 use player::{Answer, Player};
 
 /// When a tick happens, and what the inputs are then.
@@ -74,6 +76,19 @@ impl Tick {
     /// Whether the solve broke down; one that its budget cut off did not.
     pub fn failed(&self) -> bool {
         matches!(self.status, "stalled" | "not-finite")
+    }
+
+    /// From `units` to those that the scene had before.
+    fn rescale(&mut self, scene: &Scene, units: &Units) {
+        let times = |number: &mut Option<f64>, unit: f64| {
+            *number = number.map(|x| x * unit).filter(|x| x.is_finite());
+        };
+        times(&mut self.contact_force, units.flux());
+        times(&mut self.combined, units.energy());
+        self.bound = self.bound.map(|bound| bound.times(units.energy()));
+        for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
+            times(output, units.of_output(of.quantity));
+        }
     }
 }
 
@@ -132,12 +147,24 @@ fn play_in<R: Scalar>(
     if let Some(first) = moments.first() {
         first.set(&mut scene, &mut problem)?;
     }
-    let (scene, problem) = (&scene, &problem);
     let mut coarse = coarse.cloned();
     if let Some(coarse) = &mut coarse {
-        coarse.set_time(scene, problem.time)?;
+        coarse.set_time(&scene, problem.time)?;
     }
-    let coarse = coarse.as_ref();
+    let units = choose_units(&scene, &problem)?;
+    if units != Units::default() {
+        let own = scene.clone();
+        (scene, problem) = in_units(&own, &problem, &units)?;
+        if let Some(coarse) = &mut coarse {
+            *coarse = in_units(&own, coarse, &units)?.1;
+        }
+    }
+    let (scene, problem, coarse) = (&scene, &problem, coarse.as_ref());
+    let budget = &Budget { error: budget.error / units.energy(), ..*budget };
+    let mut done = |tick: &mut Tick| {
+        tick.rescale(scene, &units);
+        done(tick);
+    };
     let parts = Parts::examine(scene, problem)?;
     let mut all = |engine: &mut held::Engine| {
         through(scene, problem, moments, budget.scalar, engine, &mut done)
@@ -159,14 +186,14 @@ fn through(
     moments: &[Moment],
     scalar: ScalarKind,
     engine: &mut held::Engine,
-    done: &mut impl FnMut(&Tick),
+    done: &mut impl FnMut(&mut Tick),
 ) -> Result<Vec<Tick>> {
     let (mut scene, mut problem) = (scene.clone(), problem.clone());
     let ticks = moments.iter().map(|moment| {
         moment.set(&mut scene, &mut problem)?;
         let answer = engine(&scene, &problem).map_err(|error| error.at_time(moment.time))?;
-        let tick = read_off(&scene, &problem, scalar, answer)?;
-        done(&tick);
+        let mut tick = read_off(&scene, &problem, scalar, answer)?;
+        done(&mut tick);
         Ok(tick)
     });
     ticks.collect()

@@ -13,6 +13,7 @@ mod candidates;
 mod work;
 
 use super::budget::{Budget, Needs, Shortfall};
+use super::range::{refuse_answers, refuse_squares};
 use super::trial::Trial;
 use super::{condensed, full};
 use crate::condense::{check_size, condense};
@@ -21,6 +22,7 @@ use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::ModelKind;
+use crate::solve::choose_units;
 use advice::too_large;
 use candidates::{of_condensed, of_full};
 
@@ -103,12 +105,19 @@ impl<R: Scalar> Choice<R> {
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
         let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
-        if forced == Some(ModelKind::Condensed) || (forced.is_none() && few) {
+        let units = choose_units(scene, problem)?;
+        refuse_answers::<R>(scene, &units)?;
+        // Condensation is in the scene's units, in f64.
+        let near = refuse_squares::<f64>(scene, &units);
+        if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
+            near?;
             match of_condensed(scene, &condense(scene, problem)?, &budget) {
                 Ok(found) => candidates = found,
                 Err(error) if forced.is_some() => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
+        } else if let (None, Err(error)) = (forced, near) {
+            excluded.push(format!("condensed: {error}"));
         } else if forced.is_none() {
             let edges = problem.topology.counts.edges();
             let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");

@@ -1,6 +1,7 @@
 //! The generated text: no warnings, and the bits of the same arrays on this machine.
 
 use super::{Baked, Controller, Work, source};
+use crate::bake::choice::{Choice, Model};
 use crate::bake::compiled::printed;
 use crate::bake::face::Face;
 use crate::certify::fixtures::on_grid;
@@ -10,7 +11,8 @@ use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::setting::{Omega, Setting, Start};
+use crate::scene::units::Units;
+use crate::setting::{ModelKind, Omega, Setting, Start};
 
 /// Prints the outputs of a cold and two warm ticks as bits.
 const MAIN: &str = "
@@ -199,5 +201,50 @@ fn the_names_scene_has_corners() -> Result<()> {
     let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
     let form = condense(&scene, &problem)?.certificate.expect("a bound");
     assert_eq!(form.corners.len(), 1);
+    Ok(())
+}
+
+/// Flux, force, length, probe and bound, in the units that NAMES has.
+fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let scene = units.inverse().scene(&scene);
+    let problem = Problem::new(&scene, problem.mesh)?;
+    let baked = Baked::<R>::new(&condense(&scene, &problem)?, PIVOTS, true).expect("in range");
+    let inputs = [0.3, -0.7, 0.5, 0.0].map(R::narrow);
+    let (outputs, _) = Controller::new(&baked).tick(&inputs).expect("a tick");
+    let quantities = scene.outputs.iter().map(|output| units.of_output(output.quantity));
+    Ok(outputs.iter().zip(quantities).map(|(output, unit)| output.wide() / unit).collect())
+}
+
+/// As long as the answers are within range: condensed models have a unit of energy.
+#[test]
+fn other_units_change_no_digit() -> Result<()> {
+    let powers = |u, a| Units { u: 2f64.powi(u), conductivity: 2f64.powi(a) };
+    let near = outputs_in::<f32>(Units::default())?;
+    assert!(near[1] > 0.0 && near[2] > 0.0, "{near:?}");
+    for units in [powers(0, -100), powers(0, 100), powers(-60, 0), powers(60, 40)] {
+        assert_eq!(outputs_in::<f32>(units)?, near, "{units:?}");
+    }
+    let near = outputs_in::<f64>(Units::default())?;
+    for units in [powers(-400, 200), powers(400, -400)] {
+        assert_eq!(outputs_in::<f64>(units)?, near, "{units:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_too_far_from_1_is_not_condensed() -> Result<()> {
+    let choice = |u: i32, conductivity: i32, kind| {
+        let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+        let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) };
+        let scene = units.inverse().scene(&scene);
+        let problem = Problem::new(&scene, problem.mesh)?;
+        Choice::<f64>::new(&scene, &problem, kind, false)
+    };
+    let refused = choice(-400, -200, Some(ModelKind::Condensed)).expect_err("underflow");
+    assert!(refused.to_string().contains("fluxes are near 1e-181, which f64"), "{refused}");
+    let other = choice(-400, -200, None)?;
+    assert!(matches!(other.candidate().model, Model::Full(_)));
+    assert!(other.excluded[0].contains("fluxes are near"), "{:?}", other.excluded);
     Ok(())
 }

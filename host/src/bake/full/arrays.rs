@@ -12,7 +12,9 @@ use signorini_kernel::tick::Limits;
 use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
+use super::faint::refuse_faint;
 use super::limits;
+use super::scale::Scale;
 use crate::bake::face::Face;
 use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
@@ -53,6 +55,8 @@ pub struct Baked<R: Scalar> {
     pub(super) corners: Vec<[u32; 2]>,
     pub(super) start: R,
     pub(super) how: How<R>,
+    /// Where the numbers above are not in the scene's units.
+    pub(super) scale: Option<Scale<R>>,
 }
 
 /// How its ticks are solved.
@@ -113,12 +117,8 @@ impl<R: Scalar> Baked<R> {
         self.how.certified
     }
 
-    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
-    ///
-    /// # Errors
-    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers that the
-    /// scalar type cannot hold.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+    /// The same in the units that `scene` is in.
+    pub(super) fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
         let setting = checked::<R>(scene)?;
         let held = Parts::examine(scene, problem)?;
         refuse_loose(scene, &held)?;
@@ -127,11 +127,11 @@ impl<R: Scalar> Baked<R> {
         assembled.system().map_err(&unfit)?;
         let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
         let ground = certifier.ground(&assembled).map_err(&unfit)?;
-        let face = Face::new(scene, problem);
         let functionals = functionals(scene, problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
         let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
         data.check().map_err(&unfit)?;
+        refuse_faint(scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let how = How::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
@@ -170,6 +170,7 @@ impl<R: Scalar> Baked<R> {
             corners: Vec::new(),
             start: R::ZERO,
             how,
+            scale: None,
         }
     }
 

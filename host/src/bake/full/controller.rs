@@ -123,15 +123,20 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
             },
             progress: &mut self.progress,
         };
+        let limits = baked.scale.map_or(limits, |scale| scale.limits(limits));
         let mut outputs = vec![R::ZERO; baked.outputs.len()];
         let report = match baked.how.fast {
             true => baked.run::<R::Fast, WIDTH>(inputs, limits, memory, &mut outputs)?,
             false => baked.run::<Libm, WIDTH>(inputs, limits, memory, &mut outputs)?,
         };
+        let report = match baked.scale {
+            Some(scale) => scale.answer(&baked.outputs, &mut outputs, report),
+            None => report,
+        };
         Ok((outputs, report))
     }
 
-    /// Means of u over the edges.
+    /// Means of u over the edges, in [`Baked::units`] as all arrays below.
     pub fn u(&self) -> &[R] {
         &self.u
     }

@@ -150,7 +150,8 @@ impl<R: Scalar> Data<R> {
 }
 
 impl<R: Scalar> Pattern<R> {
-    fn weights(&self) -> Vec<R> {
+    /// Every number of it.
+    pub fn weights(&self) -> Vec<R> {
         let of = |shares: &[Share<R, u32>]| shares.iter().map(|share| share.weight).collect();
         match self {
             Self::Source { triangles, quads } => [of(triangles), of(quads)].concat(),

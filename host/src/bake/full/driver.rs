@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::arrays::How;
 use super::items::Item;
+use super::rescaling::Rescaling;
 use super::source::imports;
 use crate::scalar::Scalar;
 
@@ -18,18 +19,25 @@ const NAMES: &[(&str, &str)] = &[
     ("DataMemory", "full::DataMemory"),
     ("Memory", "full::Memory"),
     ("OwnedRows", "rows::OwnedRows"),
+    ("Certificate", "certificate::Certificate"),
+    ("Verdict", "certificate::Verdict"),
     ("Deadline", "tick::Deadline"),
     ("Limits", "tick::Limits"),
     ("Progress", "tick::Progress"),
+    ("Report", "tick::Report"),
 ];
 
 /// The struct with its memory, and what it does.
-pub(super) fn controller<R: Scalar>(fields: &[Item], how: &How<R>) -> String {
-    let text = body(fields, how);
+pub(super) fn controller<R: Scalar>(
+    fields: &[Item],
+    how: &How<R>,
+    rescaling: &Rescaling,
+) -> String {
+    let text = body(fields, how, rescaling);
     imports(NAMES, &text, "") + &text
 }
 
-fn body<R: Scalar>(fields: &[Item], how: &How<R>) -> String {
+fn body<R: Scalar>(fields: &[Item], how: &How<R>, rescaling: &Rescaling) -> String {
     let mut text = format!(
         "
 /// When a tick ends: {}.
@@ -84,6 +92,7 @@ impl Controller {
     if how.cold {
         text += "        self.progress = Progress::NONE;\n";
     }
+    text += &rescaling.before;
     text += "        let memory = Memory {
             tick: signorini_kernel::tick::Memory {
                 rows: self.rows.of(&data::FULL.ground.edges)?,
@@ -112,6 +121,7 @@ impl Controller {
         "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory, &mut outputs)?;",
         call(how)
     );
+    text += &rescaling.after;
     text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })
     }
 }
@@ -121,7 +131,7 @@ impl Default for Controller {
         Self::new()
     }
 }
-"
+" + &rescaling.items
 }
 
 /// What ends a tick.

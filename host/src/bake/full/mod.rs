@@ -16,8 +16,11 @@ mod bent;
 mod controller;
 mod data;
 mod driver;
+mod faint;
 mod items;
 mod listing;
+mod rescaling;
+mod scale;
 mod source;
 #[cfg(test)]
 mod tests;

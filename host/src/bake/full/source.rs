@@ -6,6 +6,7 @@ use super::arrays::Baked;
 use super::driver::controller;
 use super::items::{memory, sizes, statics};
 use super::listing::listing;
+use super::rescaling::rescaling;
 use crate::bake::face::About;
 use crate::scalar::Scalar;
 
@@ -34,7 +35,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let mut text = baked.face.source::<R>(&about);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);
-    text += &controller(&fields, &baked.how);
+    text += &controller(&fields, &baked.how, &rescaling(baked));
     text + &listing(baked, &data)
 }
 

@@ -1,0 +1,72 @@
+//! `cargo xtask sanitize`: tests of the kernel under AddressSanitizer, for the one file with `unsafe` code.
+//!
+//! A sweep reads u by offsets without a test (`psor`). Compiled with the sanitizer, a test ends at the first access
+//! outside of an array on the heap or the stack. The flag is not stable: `RUSTC_BOOTSTRAP` lets a stable compiler take
+//! it, for this build alone. Std comes as it is, without; the kernel has none of it, and the allocator of the tests
+//! is the sanitizer's. What it cannot see is an offset that is wrong and still inside of u: the tests see that.
+//!
+//! Offsets of `Rows` made too large by hand end each of the tests, at the line of `psor` that reads there.
+
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+use crate::cargo::{cargo, target_dir};
+use crate::steps::{Steps, Tally};
+use crate::test::counted_by;
+use crate::toolchain::output;
+
+/// Whole solves and ticks in both scalars, with short and long indices.
+const TESTS: [&str; 3] = ["replay", "exact", "tick"];
+/// Reads one number behind an array.
+const OUTSIDE: &str = "
+fn main() {
+    let numbers = vec![1_u32; std::env::args().count()];
+    std::process::exit(unsafe { *numbers.as_ptr().add(numbers.len()) } as i32 & 1);
+}
+";
+const FLAG: &str = "-Zsanitizer=address";
+
+/// That it catches anything, then the tests.
+pub fn run(steps: &mut Steps) {
+    steps.check("a number behind an array is caught", caught);
+    steps.step("sweeps stay inside of u", || match tests() {
+        Ok(command) => counted_by(command),
+        Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+    });
+}
+
+fn caught() -> Result<(), String> {
+    let program = target_dir("sanitize").join("outside");
+    let folder = target_dir("sanitize");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut compiler = Command::new("rustc");
+    compiler.args([FLAG, "--edition", "2024", "-", "-o"]).arg(&program);
+    compiler.env("RUSTC_BOOTSTRAP", "1").stdin(Stdio::piped());
+    let mut compiler = compiler.spawn().map_err(|error| format!("rustc: {error}"))?;
+    if let Some(mut text) = compiler.stdin.take() {
+        text.write_all(OUTSIDE.as_bytes()).map_err(|error| format!("rustc: {error}"))?;
+    }
+    let status = compiler.wait().map_err(|error| format!("rustc: {error}"))?;
+    if !status.success() {
+        return Err(format!("no AddressSanitizer in this toolchain: rustc {FLAG}: {status}"));
+    }
+    let ran = Command::new(&program).output().map_err(|error| error.to_string())?;
+    let said = String::from_utf8_lossy(&ran.stderr);
+    if said.contains("heap-buffer-overflow") { Ok(()) } else { Err("not caught".to_owned()) }
+}
+
+fn tests() -> Result<Command, String> {
+    let mut command = cargo(&["test", "--locked", "--no-fail-fast", "-p", "signorini-kernel"]);
+    command.args(TESTS.iter().flat_map(|test| ["--test", test]));
+    // With a target of its own, programs that run while it builds stay as they are.
+    command.arg("--target").arg(host()?).arg("--target-dir").arg(target_dir("sanitize"));
+    command.env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", FLAG);
+    Ok(command)
+}
+
+/// The triple of this machine.
+fn host() -> Result<String, String> {
+    let said = output(Command::new("rustc").arg("-vV"))?;
+    let line = said.lines().find_map(|line| line.strip_prefix("host: "));
+    line.map(str::to_owned).ok_or_else(|| "rustc -vV names no host".to_owned())
+}
