@@ -10,7 +10,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings};
 use signorini_kernel::sparse::elimination::PatternBuffers;
 use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Direct, Factor, Memory, Pattern, Progress};
+use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Memory, Pattern, Progress};
 
 use crate::reference::minimum_degree;
 use crate::scalar::Scalar;
@@ -146,20 +146,11 @@ impl<R: Scalar> Contact<R> {
         }
     }
 
-    fn memory(&mut self) -> Memory<'_, R> {
+    fn memory(&mut self) -> DirectMemory<'_, R> {
         let Self { schur, tableau, flags: [exchanged, none, open], numbers, places } = self;
         let [column, next, scale, load, x, residual, scratch] = numbers;
         let iterate = Iterate { x, residual, scratch, open };
-        Memory {
-            schur,
-            tableau,
-            exchanged,
-            none,
-            columns: [column, next],
-            scale,
-            load,
-            iterate,
-            places,
-        }
+        let contact = Memory { tableau, exchanged, columns: [column, next], load, iterate };
+        DirectMemory { schur, scale, none, contact, places }
     }
 }
