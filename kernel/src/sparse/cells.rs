@@ -18,9 +18,12 @@ use crate::stiffness::Stiffness;
 
 /// What a defect is made of (borrowed).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Balance<'a, R, I> {
+pub struct Balance<'a, R, I> {
+    /// Cells by the edges of their sides.
     pub edges: &'a Edges<'a, I>,
+    /// K^T
     pub stiffness: Stiffness<'a, R>,
+    /// What holds the boundary.
     pub boundary: Boundary<'a, R, I>,
     /// b, one entry an unknown.
     pub load: &'a [R],
@@ -28,6 +31,14 @@ pub(crate) struct Balance<'a, R, I> {
 
 impl<R: Real, I: Index> Defect<R, I> for Balance<'_, R, I> {
     fn measure(&self, factor: &Factor<R, I>, u: &[R], places: &mut [R]) {
+        self.defects(factor, u, places);
+    }
+}
+
+impl<R: Real, I: Index> Balance<'_, R, I> {
+    /// The defect of u, one entry an edge, in `places`, one entry an unknown.
+    #[inline(never)]
+    pub fn defects(&self, factor: &Factor<R, I>, u: &[R], places: &mut [R]) {
         for (unknown, &load) in self.load.iter().enumerate() {
             write(places, factor.place(unknown), load);
         }

@@ -124,7 +124,7 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
     }
 
     /// y = L⁻¹ r_I and b = r_C − L_CI y, in place. `y` has one entry an unknown, by places.
-    pub(super) fn eliminate(&self, y: &mut [R]) {
+    pub fn eliminate(&self, y: &mut [R]) {
         for j in 0..self.counts.free {
             let own = read(y, j);
             for (row, value) in self.column(j) {
@@ -136,7 +136,7 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
     }
 
     /// z_I = L⁻ᵀ (D⁻¹ y − L_CIᵀ v), in place; v stands behind y.
-    pub(super) fn substitute(&self, y: &mut [R]) {
+    pub fn substitute(&self, y: &mut [R]) {
         for j in (0..self.counts.free).rev() {
             let start = read(y, j) * read(self.inverse, j);
             let sum = self.column(j).fold(start, |sum, (row, value)| sum - value * read(y, row));

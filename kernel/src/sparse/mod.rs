@@ -21,13 +21,13 @@
 //! last. The memory is the caller's: [`elimination::Pattern`] says how much L takes. Solving costs twice the
 //! entries of L in multiply-adds and one pass over S, whatever the condition.
 
-mod cells;
+pub mod cells;
 pub mod contact;
 pub mod direct;
 pub mod elimination;
 pub mod factor;
 
-pub(crate) use cells::Balance;
+pub use cells::Balance;
 pub use contact::{Exact, Factored, Memory, Solved};
 pub use direct::{Direct, DirectMemory, Progress};
 pub use elimination::Pattern;

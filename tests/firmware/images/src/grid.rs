@@ -15,6 +15,11 @@ pub const SQUARES: usize = COLUMNS * LINES;
 /// More edges than either kind of cells has.
 pub const EDGES: usize = 408;
 
+/// How far to the right a vertex stands.
+pub fn column(vertex: u16) -> usize {
+    usize::from(vertex) % (COLUMNS + 1)
+}
+
 /// Memory of the mesh and its numbering.
 pub struct Grid<R, const T: usize, const Q: usize> {
     vertices: [[R; 2]; VERTICES],
