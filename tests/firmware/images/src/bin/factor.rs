@@ -11,7 +11,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
-use signorini_firmware::grid::{EDGES, Grid, SQUARES, column};
+use signorini_firmware::grid::{COLUMNS, EDGES, Grid, SQUARES, column};
 use signorini_firmware::journal::Bits;
 use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
@@ -74,11 +74,11 @@ fn stages<R: Bits, const ROW: usize, const T: usize, const Q: usize>(
     let mut of_unknowns = [[0_u16; EDGES]; 5];
     let [order, place, parent, visited, path] = &mut of_unknowns;
     let order = cut(order, counts.free)?;
-    order.iter_mut().enumerate().for_each(|(at, edge)| *edge = at as u16);
-    order.sort_unstable_by_key(|&edge| {
-        let ends = edges.endpoints(&mesh, edge.into());
-        ends.map(column).iter().sum::<usize>()
+    let from_left = (0..=2 * COLUMNS).flat_map(|far| (0..counts.free).map(move |edge| (far, edge)));
+    let along = from_left.filter(|&(far, edge)| {
+        edges.endpoints(&mesh, edge).map(column).iter().sum::<usize>() == far
     });
+    order.iter_mut().zip(along).for_each(|(place, (_, edge))| *place = edge as u16);
     let (mut pointers, mut ends) = ([0; EDGES + 1], [0; EDGES]);
     let visited = cut(visited, counts.free)?;
     let buffers = PatternBuffers {
