@@ -8,14 +8,15 @@ use signorini_kernel::tick::{Ended, Report};
 use super::compiled::same_bits_of;
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, rows, source};
+use crate::bake::choice::{Candidate, Choice, Model};
 use crate::bake::full::sizes;
 use crate::error::Result;
 use crate::mesh::gmsh;
 use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
-use crate::scene::Scene;
-use crate::setting::{Method, Setting, Start};
+use crate::scene::{Scene, Target};
+use crate::setting::{Method, ModelKind, Setting, Start};
 use crate::solve::{Options, Solution, SolverKind, solve};
 
 fn factor() -> Setting {
@@ -180,5 +181,58 @@ fn the_factor_is_counted() -> Result<()> {
     assert_eq!(sizes(&with).flash - sizes(&without).flash, flash);
     assert_eq!(sizes(&with).ram - sizes(&without).ram, 256 + 8 * (6 * 4 + 2));
     assert!(source(&with).contains("static ENTRIES") && !source(&without).contains("Factor"));
+    Ok(())
+}
+
+/// Entries of the factor of a candidate.
+fn entries<R: Scalar>(candidate: &Candidate<R>) -> Option<usize> {
+    match &candidate.model {
+        Model::Full(baked) => baked.entries(),
+        Model::Condensed(_) => None,
+    }
+}
+
+#[test]
+fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
+    let (asked, problem) = anisotropy()?;
+    let with = |solver| {
+        let setting = Setting { solver, ..Setting::default() };
+        Scene { setting: Some(setting), ..asked.clone() }
+    };
+    let choose = |scene: &Scene| Choice::<f64>::new(scene, &problem, Some(ModelKind::Full), false);
+    let choice = choose(&with(None))?;
+    let [factored, swept] = &choice.candidates[..] else { panic!("two models") };
+    assert!(choice.chosen == 0 && entries(factored).is_some() && entries(swept).is_none());
+    assert!(factored.trial.settled && !swept.trial.settled);
+    assert!(factored.trial.rounds[0] > 0 && factored.trial.sweeps == [0, 0]);
+    assert!(factored.needs.flash > swept.needs.flash && factored.needs.ram > swept.needs.ram);
+    for (solver, expected) in [(Method::Sweeps, false), (Method::Factor, true)] {
+        let choice = choose(&with(Some(solver)))?;
+        let [only] = &choice.candidates[..] else { panic!("one model") };
+        assert_eq!(entries(only).is_some(), expected, "{solver:?}");
+    }
+    // Where there is no room for the factor.
+    let flash = Some(factored.needs.flash - 1);
+    let target = Target { flash, ram: None, tick: None, clock: None };
+    let choice = choose(&Scene { target: Some(target), ..with(None) })?;
+    assert!(entries(choice.candidate()).is_none());
+    Ok(())
+}
+
+#[test]
+fn bake_takes_the_one_that_costs_less() -> Result<()> {
+    // On a coarse grid a few sweeps are enough.
+    let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
+    for ((scene, problem), is_factored) in [(coarse, false), (super::standard("strip.toml")?, true)]
+    {
+        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Full), false)?;
+        let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions).collect();
+        let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
+        assert!(
+            first <= second && choice.candidates.iter().all(|of| of.trial.settled),
+            "{costs:?}"
+        );
+        assert_eq!(entries(choice.candidate()).is_some(), is_factored, "{costs:?}");
+    }
     Ok(())
 }
