@@ -15,7 +15,7 @@ use signorini_kernel::sparse::direct::normalise;
 use signorini_kernel::sparse::elimination::PatternBuffers;
 use signorini_kernel::sparse::factor::FactorBuffers;
 use signorini_kernel::sparse::{self, Exact, Factor, Factored, Pattern};
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Report, Tick};
+use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Report, Running, Tick};
 use signorini_kernel::{Error, Libm, Relaxation, assembly};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
@@ -82,6 +82,9 @@ impl Baked {
     }
 }
 
+/// A tick and what solves it.
+type Both<'a> = (Tick<'a, f64, u16, QUADS>, Exact<'a, f64, u16>);
+
 /// Memory of ticks, and of the exchanges.
 struct Store {
     rows: Vec<Row<f64, u16, QUADS>>,
@@ -113,7 +116,7 @@ impl Store {
         &'a mut self,
         foundation: &'a Foundation,
         baked: &'a Baked,
-    ) -> Result<(Tick<'a, f64, u16, QUADS>, Exact<'a, f64, u16>), Error> {
+    ) -> Result<Both<'a>, Error> {
         let ground = foundation.ground()?;
         let [load, vertices, bubbles, tau, u] = &mut self.numbers;
         let rows = Rows::new(&ground.edges, &mut self.rows)?;
@@ -163,7 +166,7 @@ const INPUTS: [(f64, f64); 5] = [(1.0, 0.0), (-4.0, -0.3), (1.0, 0.08), (1.0, 0.
 /// Ticks by `advance` and by sweeps to the end, with the same data.
 fn beside_sweeps(
     advance: impl Fn(
-        &mut signorini_kernel::tick::Running<'_, '_, f64, u16, QUADS>,
+        &mut Running<'_, '_, f64, u16, QUADS>,
         &mut Exact<f64, u16>,
     ) -> Result<Report<f64>, Error>,
     mut compare: impl FnMut(&Report<f64>, &Exact<f64, u16>, [&[f64]; 2], [&[f64]; 2]),
@@ -290,7 +293,7 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
     assert_eq!((report.ended, report.sweeps), (Ended::Accurate, 0));
     assert!(report.residual < 1e-14 && exact.solved().is_some());
     let contact = foundation.plate.edges()?.counts().free;
-    assert!(tick.u()[contact..].iter().any(|&u| u == GAP));
+    assert!(tick.u()[contact..].contains(&GAP));
     exact.restart()?;
     assert!(exact.solved().is_none());
     Ok(())
