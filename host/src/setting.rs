@@ -8,13 +8,14 @@
 //! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
 //! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
 //! model = "full"        # full or condensed                                          [bake: the smaller]
+//! solver = "sweeps"     # full: sweeps, or a factor worked out on the host           [bake: the quicker]
 //! start = "warm"        # warm: from the tick before; cold: every tick anew          [warm]
 //! omega = 1.93          # a fixed relaxation factor, or "auto"                       [auto]
 //! sweeps = 12           # exactly so many; condensed: instead of the exact method    [none]
 //! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
 //! certificate = true    # the error bound                                            [true]
 //! ```
-//! `sweeps` and `share` exclude each other. The file reads them in [`crate::scene`].
+//! `sweeps` and `share` exclude each other, and a factor excludes both. The file reads them in [`crate::scene`].
 
 use serde::{Deserialize, Serialize};
 use signorini_kernel::element::QuadElement;
@@ -39,6 +40,9 @@ pub struct Setting {
     /// Full or condensed; `None` leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelKind>,
+    /// What solves a full model; `None` leaves it to the command.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solver: Option<Method>,
     /// What a tick starts from.
     pub start: Start,
     /// Relaxation factor.
@@ -62,6 +66,7 @@ impl Default for Setting {
             scalar: None,
             math: MathKind::Libm,
             model: None,
+            solver: None,
             start: Start::Warm,
             omega: Omega::Auto,
             sweeps: None,
@@ -128,6 +133,16 @@ pub enum ModelKind {
     Condensed,
 }
 
+/// What solves the full model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Projected SOR.
+    Sweeps,
+    /// A sparse factor, and exchanges on the contact edges.
+    Factor,
+}
+
 /// What a tick starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -177,6 +192,7 @@ mod tests {
             cells: Some(CellKind::Quads),
             element: QuadElement::Nonparametric,
             scalar: Some(Precision::Mixed),
+            solver: Some(Method::Factor),
             omega: Omega::Fixed(1.93),
             sweeps: Some(12),
             certificate: false,

@@ -110,7 +110,7 @@ struct Image {
     holds: &'static [Absence],
 }
 
-const IMAGES: [Image; 6] = [
+const IMAGES: [Image; 7] = [
     Image {
         scene: "tests/firmware/scenes/linear.toml",
         model: "--condensed",
@@ -124,7 +124,7 @@ const IMAGES: [Image; 6] = [
         holds: &[SOLVER],
     },
     Image {
-        scene: "meshes/scenes/levee.toml",
+        scene: "tests/firmware/scenes/levee-swept.toml",
         model: "--full",
         lacks: &[SOLVER, QUADS, ROBIN],
         holds: &[FULL, TRIANGLES, BOUND],
@@ -136,16 +136,22 @@ const IMAGES: [Image; 6] = [
         holds: &[FULL, TRIANGLES],
     },
     Image {
-        scene: "meshes/scenes/slab.toml",
+        scene: "tests/firmware/scenes/slab-swept.toml",
         model: "--full",
         lacks: &[SOLVER, TRIANGLES],
         holds: &[FULL, QUADS, ROBIN],
     },
     Image {
-        scene: "meshes/scenes/strip.toml",
+        scene: "tests/firmware/scenes/strip-swept.toml",
         model: "--full",
         lacks: &[SOLVER, ROBIN],
         holds: &[FULL, TRIANGLES, QUADS],
+    },
+    Image {
+        scene: "tests/firmware/scenes/strip-factored.toml",
+        model: "--full",
+        lacks: &[ROBIN],
+        holds: &[SOLVER, FULL, TRIANGLES, QUADS],
     },
 ];
 

@@ -25,12 +25,17 @@ struct Image {
     last: &'static str,
 }
 
-/// The stages on a mesh, those of the condensed problem, and functions of micromath beside libm's.
-const IMAGES: [Image; 3] = [
+/// The stages on a mesh, those of its factor and of the condensed problem, and functions of micromath beside libm's.
+const IMAGES: [Image; 4] = [
     Image {
         bin: "cost",
         kinds: &["f32 triangles", "f32 quads", "f64 triangles", "f64 quads"],
         last: "certificate",
+    },
+    Image {
+        bin: "factor",
+        kinds: &["f32 triangles", "f32 quads", "f64 triangles", "f64 quads"],
+        last: "substitution, entries",
     },
     Image {
         bin: "dense",

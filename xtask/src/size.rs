@@ -51,19 +51,19 @@ const KINDS: [Kind; 7] = [
     },
     Kind {
         what: "levee, on triangles",
-        scene: "meshes/scenes/levee.toml",
+        scene: "tests/firmware/scenes/levee-swept.toml",
         model: "--full",
         most: 24 * 1024,
     },
     Kind {
         what: "slab, on quads, transfer laws",
-        scene: "meshes/scenes/slab.toml",
+        scene: "tests/firmware/scenes/slab-swept.toml",
         model: "--full",
         most: 32 * 1024,
     },
     Kind {
         what: "strip, on both",
-        scene: "meshes/scenes/strip.toml",
+        scene: "tests/firmware/scenes/strip-swept.toml",
         model: "--full",
         most: 32 * 1024,
     },

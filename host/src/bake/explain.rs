@@ -59,9 +59,9 @@ pub fn warning<R: Scalar>(choice: &Choice<R>) -> Option<String> {
 }
 
 fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
-    let mut rows = vec![
-        ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", ""].map(str::to_owned),
-    ];
+    let head =
+        ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", "substitutions", ""];
+    let mut rows = vec![head.map(str::to_owned)];
     for (at, candidate) in choice.candidates.iter().enumerate() {
         let Candidate { name, needs, trial, shortfalls, lacks, infinite, .. } = candidate;
         let short: Vec<_> = shortfalls.iter().map(|short| short.key).collect();
@@ -79,6 +79,7 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
             needs.instructions.map_or("-".to_owned(), |count| format!("{count:.0}")),
             trial.pivots[0].to_string(),
             trial.sweeps[0].to_string(),
+            trial.rounds[0].to_string(),
             verdict,
         ]);
     }
@@ -89,6 +90,7 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
         limit(budget.ram),
         limit(budget.flash),
         budget.cycles.map_or("-".to_owned(), |cycles| format!("{cycles:.0} cycles")),
+        String::new(),
         String::new(),
         String::new(),
         String::new(),

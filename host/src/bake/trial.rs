@@ -1,6 +1,7 @@
 //! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs near the scene's own.
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::tick::Ended;
 
 use super::{condensed, full};
 use crate::scalar::Scalar;
@@ -17,6 +18,19 @@ pub struct Trial {
     pub pivots: [u32; 2],
     /// Sweeps.
     pub sweeps: [u32; 2],
+    /// Substitutions with a factor.
+    pub rounds: [u32; 2],
+    /// Whether no tick was cut off by its limits, the first one included.
+    pub settled: bool,
+}
+
+/// What one tick did.
+#[derive(Debug, Clone, Copy)]
+struct Tick {
+    pivots: u32,
+    sweeps: u32,
+    rounds: u32,
+    settled: bool,
 }
 
 /// That of a condensed model.
@@ -24,7 +38,7 @@ pub fn of_condensed<R: Scalar>(baked: &condensed::Baked<R>, defaults: &[f64]) ->
     let mut controller = condensed::Controller::new(baked);
     let ticks = inputs::<R>(defaults, TICKS).filter_map(|inputs| {
         let (_, report) = controller.tick(&inputs).ok()?;
-        Some((report.pivots, report.sweeps))
+        Some(Tick { pivots: report.pivots, sweeps: report.sweeps, rounds: 0, settled: true })
     });
     summary(ticks)
 }
@@ -42,20 +56,29 @@ fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &
     let mut controller = full::Controller::<R, WIDTH>::new(baked);
     let ticks = inputs::<R>(defaults, FULL_TICKS).filter_map(|inputs| {
         let (_, report) = controller.tick(&inputs).ok()?;
-        Some((0, report.sweeps))
+        let (pivots, rounds) =
+            controller.solved().map_or((0, 0), |solved| (solved.pivots, solved.rounds));
+        let settled = matches!(report.ended, Ended::Settled | Ended::Accurate);
+        Some(Tick { pivots, sweeps: report.sweeps, rounds, settled })
     });
     summary(ticks)
 }
 
-/// The first tick, which begins cold, is left out.
-fn summary(ticks: impl Iterator<Item = (u32, u32)>) -> Trial {
-    let (mut pivots, mut sweeps): (Vec<_>, Vec<_>) = ticks.skip(1).unzip();
-    let both = |counts: &mut Vec<u32>| {
+/// The work of the first tick, which begins cold, is left out.
+fn summary(ticks: impl Iterator<Item = Tick>) -> Trial {
+    let ticks: Vec<Tick> = ticks.collect();
+    let both = |count: fn(&Tick) -> u32| {
+        let mut counts: Vec<u32> = ticks.iter().skip(1).map(count).collect();
         counts.sort_unstable();
         let median = counts.get(counts.len() / 2).copied().unwrap_or(0);
         [median, counts.last().copied().unwrap_or(0)]
     };
-    Trial { pivots: both(&mut pivots), sweeps: both(&mut sweeps) }
+    Trial {
+        pivots: both(|tick| tick.pivots),
+        sweeps: both(|tick| tick.sweeps),
+        rounds: both(|tick| tick.rounds),
+        settled: !ticks.is_empty() && ticks.iter().all(|tick| tick.settled),
+    }
 }
 
 /// The scene's own inputs, then such within a tenth of them (within ±0.1 where they are 0), as

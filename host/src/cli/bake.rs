@@ -27,7 +27,9 @@ Examples:
 
 The smallest model that represents the scene exactly and fits its [target] is chosen:
 condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one,
-and win over the scene's [setting]; what does not fit is an error.
+and win over the scene's [setting]; what does not fit is an error. A full model is solved by
+sweeps or by a factor in flash, whichever takes fewer instructions and ends; setting.solver
+asks for one of them.
 
 In the firmware:
   mod levee;

@@ -6,15 +6,16 @@ use toml::de::DeValue;
 use super::entry::Entry;
 use super::table::Table;
 use crate::error::{InputError, Result};
-use crate::setting::{CellKind, MathKind, ModelKind, Omega, Precision, Setting, Start};
+use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "refine",
     "cells",
     "element",
     "scalar",
     "math",
     "model",
+    "solver",
     "start",
     "omega",
     "sweeps",
@@ -31,6 +32,7 @@ const SCALARS: [(&str, Precision); 3] =
 const MATHS: [(&str, MathKind); 2] = [("libm", MathKind::Libm), ("micromath", MathKind::Micromath)];
 const MODELS: [(&str, ModelKind); 2] =
     [("full", ModelKind::Full), ("condensed", ModelKind::Condensed)];
+const SOLVERS: [(&str, Method); 2] = [("sweeps", Method::Sweeps), ("factor", Method::Factor)];
 const STARTS: [(&str, Start); 2] = [("cold", Start::Cold), ("warm", Start::Warm)];
 
 /// Six refinements make 4096 cells of one.
@@ -47,6 +49,7 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
         scalar: choice(table, "scalar", &SCALARS)?,
         math: choice(table, "math", &MATHS)?.unwrap_or(default.math),
         model: choice(table, "model", &MODELS)?,
+        solver: choice(table, "solver", &SOLVERS)?,
         start: choice(table, "start", &STARTS)?.unwrap_or(default.start),
         omega: read(table, "omega", omega)?.unwrap_or(default.omega),
         sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
@@ -88,6 +91,7 @@ fn error(table: &Table, key: &str, message: &str) -> InputError {
 fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'static str)> {
     let Setting { scalar, math, model, start, omega, sweeps, share, certificate, .. } = *setting;
     let condensed = model == Some(ModelKind::Condensed);
+    let factored = setting.solver == Some(Method::Factor);
     let full_only = "remove it, or take model = \"full\"";
     let rules = [
         (
@@ -107,6 +111,30 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
             "share",
             "the condensed model has no share to stop at",
             "remove it, or write a number of sweeps",
+        ),
+        (
+            setting.solver.is_some() && condensed,
+            "solver",
+            "the condensed model has solvers of its own",
+            full_only,
+        ),
+        (
+            sweeps.is_some() && factored,
+            "sweeps",
+            "a factor takes no sweeps",
+            "remove it, or write solver = \"sweeps\"",
+        ),
+        (
+            share.is_some() && factored,
+            "share",
+            "a factor leaves nothing of the bound to sweeps",
+            "remove it, or write solver = \"sweeps\"",
+        ),
+        (
+            scalar == Some(Precision::Mixed) && factored,
+            "scalar",
+            "a factor is for one number format",
+            "write f32 or f64, or solver = \"sweeps\"",
         ),
         (
             matches!(omega, Omega::Fixed(_)) && condensed,

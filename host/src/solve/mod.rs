@@ -2,6 +2,7 @@
 
 mod direct;
 mod factored;
+mod ldlt;
 mod mixed;
 mod options;
 mod solution;
@@ -35,6 +36,7 @@ use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
 pub(crate) use direct::Reduced;
+pub(crate) use ldlt::{Exchanges, Ldlt};
 pub(crate) use solution::centre_floating;
 
 /// Solves `problem`, which `scene` states on a mesh; where its numbers are far from 1, in units in which

@@ -7,7 +7,7 @@ use super::record::{Point, Trade};
 
 /// Where each column stands in a point's JSON; its name is this path with `_` between the words. Columns
 /// are added at the end, so that readers by position go on working.
-const COLUMNS: [&str; 36] = [
+const COLUMNS: [&str; 37] = [
     "/name",
     "/scalar",
     "/math",
@@ -44,6 +44,7 @@ const COLUMNS: [&str; 36] = [
     "/setting/sweeps",
     "/setting/share",
     "/setting/certificate",
+    "/setting/solver",
 ];
 
 /// The text of `trade.csv`: `scene,target,` and a column for each field of a point (`error_energy`,
@@ -85,7 +86,8 @@ mod tests {
     fn every_field_of_a_point_has_a_column() {
         let mut point = trade("levee", 4).points.remove(0);
         point.setting = serde_json::from_str(
-            r#"{"cells": "quads", "scalar": "f32", "model": "full", "sweeps": 1, "share": 0.1}"#,
+            r#"{"cells": "quads", "scalar": "f32", "model": "full", "solver": "sweeps", "sweeps": 1,
+                "share": 0.1}"#,
         )
         .unwrap();
         let mut found = leaves("", &serde_json::to_value(&point).unwrap());

@@ -10,7 +10,7 @@ use crate::engine::{self, Answer, Engine};
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::setting::{MathKind, ModelKind, Omega, Precision, Setting, Start};
+use crate::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
 /// Repeats of a cold solve; of those that take long, fewer.
 const REPEATS: usize = 5;
@@ -144,6 +144,7 @@ fn point(
             "out of exchanges".to_owned()
         }
         (Some(ModelKind::Condensed), None, _) => "exact".to_owned(),
+        _ if setting.solver == Some(Method::Factor) => "factor".to_owned(),
         (_, None, share) => format!("share {}", share.unwrap_or(crate::bake::full::SHARE)),
     };
     let contact = problem.topology.counts.contact;

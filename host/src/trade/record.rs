@@ -52,9 +52,9 @@ pub struct Point {
     pub level: u32,
     /// Edges not on D.
     pub unknowns: usize,
-    /// When a tick ends: `share 0.1`, `12 sweeps`, `exact`.
+    /// When a tick ends: `share 0.1`, `12 sweeps`, `exact`, `factor`.
     pub stop: String,
-    /// Sweeps of a tick in the median; 0 for the exact method.
+    /// Sweeps of a tick in the median; 0 for the exact method and a factor.
     pub sweeps: u32,
     /// `cold`, `warm`.
     pub start: String,

@@ -27,6 +27,7 @@ use crate::index::{Index, read};
 use crate::math::{Libm, Math};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
+use crate::sparse::Exact;
 use crate::tick::{self, Deadline, Ended, Limits, Progress, Report, Running, Tick};
 
 /// A baked scene (borrowed).
@@ -121,6 +122,47 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         self.answer(inputs, memory, outputs, advance)
     }
 
+    /// A tick that a factor solves, in the manner of [`Running::advance_factored`]. `exact` holds the factor of the
+    /// scene's matrix, and what the last tick left in its memory; it is [`Exact::restart`]ed here before the first.
+    ///
+    /// # Errors
+    /// As for [`Full::tick`]; a factor of another mesh.
+    pub fn tick_factored<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        exact: &mut Exact<R, I>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        begin(exact, memory.progress)?;
+        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
+            running.advance_factored::<M, F>(exact, limits, deadline)
+        };
+        self.answer(inputs, memory, outputs, advance)
+    }
+
+    /// The same without a bound, and with no more memory and ground than [`Full::tick_uncertified`].
+    ///
+    /// # Errors
+    /// As for [`Full::tick_factored`].
+    pub fn tick_factored_uncertified<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        exact: &mut Exact<R, I>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        begin(exact, memory.progress)?;
+        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
+            running.advance_factored_uncertified::<M, F>(exact, limits, deadline)
+        };
+        self.answer(inputs, memory, outputs, advance)
+    }
+
     /// A tick that `advance` brings to its end.
     fn answer<const WIDTH: usize>(
         &self,
@@ -192,4 +234,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         on_contact.zip(lower).for_each(|(u, &lower)| *u = lower);
         memory.active.fill(false);
     }
+}
+
+/// Before the first tick the memory of the exchanges holds nothing.
+fn begin<R: Real, I: Index>(exact: &mut Exact<R, I>, progress: &Progress<R>) -> Result<(), Error> {
+    if progress.has_begun() { Ok(()) } else { exact.restart() }
 }

@@ -8,190 +8,199 @@
 //!   u, low ← u + L⁻ᵀ(…)          until a correction is the last digit of u, or more than half the one before
 //! ```
 //! S is scaled to a diagonal of 1, x_i = v_i √S_ii, as in a condensed model, and solved by the same
-//! [`crate::condensed::pivoting`]: as many exchanges as edges change sides since the last solve.
+//! [`crate::condensed::pivoting`]: as many exchanges as edges change sides since the last solve. Where d comes
+//! from is left to who asks: a matrix in CSR ([`super::direct`]) or element matrices ([`super::cells`]).
 
 use super::factor::Factor;
-use crate::boundary::Boundary;
 use crate::condensed::Iterate;
-use crate::condensed::blocks::{Block, Blocks, SIDE, padded};
+use crate::condensed::blocks::{Block, Blocks, multiply_add, padded};
 use crate::condensed::pivoting::{self, Found};
 use crate::condensed::tableau::{Start, Tableau};
 use crate::error::{Array, Error, same_length};
+use crate::features;
 use crate::index::{Index, read, write};
 use crate::real::Real;
-use crate::refinement::{defects, renormalise};
-use crate::signorini::{Residual, System};
-use crate::solver::{Settings, Status};
 
 /// Rounds at most, exchanges and corrections together.
 const ROUNDS: u32 = 16;
 
-/// What a solve did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress<R> {
-    /// How it ended: `Converged`, `RoundingLimit` where corrections are down to rounding, or `Stalled` where they
-    /// stopped to shrink before that.
-    pub status: Status,
-    /// The residual of u.
-    pub residual: Residual<R>,
-    /// Exchanges.
-    pub pivots: u32,
-    /// Substitutions with the factor.
-    pub rounds: u32,
+/// Where defects come from.
+pub(crate) trait Defect<R: Real, I: Index> {
+    /// Writes d = b − Ku by places.
+    fn measure(&self, factor: &Factor<R, I>, u: &[R], places: &mut [R]);
 }
 
-/// Memory of a contact problem: P is [`padded`] contact edges, B the number of blocks of S.
+/// K by its factor, which does not change (borrowed): P is [`padded`] contact edges, B the number of blocks of S.
+#[derive(Debug, Clone, Copy)]
+pub struct Factored<'a, R, I> {
+    /// L and D.
+    pub factor: Factor<'a, R, I>,
+    /// S scaled to a diagonal of 1, S_ij / √(S_ii S_jj): B blocks.
+    pub schur: &'a [Block<R>],
+    /// 1/√S_ii: P entries.
+    pub scale: &'a [R],
+    /// Where exchanges begin: B blocks, P entries.
+    pub start: Start<'a, R>,
+}
+
+/// Memory of a contact problem (borrowed).
 #[derive(Debug)]
 pub struct Memory<'a, R> {
-    /// S as the factor left it: B blocks. Becomes scaled.
-    pub schur: &'a mut [Block<R>],
-    /// Scratch for exchanges: B blocks.
+    /// Exchanges, kept from solve to solve: B blocks.
     pub tableau: &'a mut [Block<R>],
     /// Which edges are exchanged: P entries.
     pub exchanged: &'a mut [bool],
-    /// Zeros, P of them: where exchanges begin.
-    pub none: &'a mut [bool],
     /// Scratch, P entries each.
     pub columns: [&'a mut [R]; 2],
-    /// Becomes 1/√S_ii: P entries.
-    pub scale: &'a mut [R],
     /// Scratch, P entries.
     pub load: &'a mut [R],
     /// x = v √S_ii, kept from solve to solve; scratch beside it. P entries each.
     pub iterate: Iterate<'a, R>,
-    /// Scratch, one entry an unknown.
-    pub places: &'a mut [R],
+}
+
+/// What a solve did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solved<R> {
+    /// Exchanges.
+    pub pivots: u32,
+    /// Substitutions with the factor.
+    pub rounds: u32,
+    /// The last correction that was made, relative to u; infinite where none made it better.
+    pub change: R,
+}
+
+impl<R: Real> Solved<R> {
+    /// Whether rounding leaves three digits of u at least.
+    pub fn has_digits(&self) -> bool {
+        R::from_count(1024) * self.change <= R::ONE
+    }
 }
 
 /// A factor with its contact problem, ready for any number of loads.
 #[derive(Debug)]
-pub struct Direct<'a, R, I> {
-    factor: Factor<'a, R, I>,
-    schur: &'a [Block<R>],
+pub struct Exact<'a, R, I> {
+    factored: Factored<'a, R, I>,
     tableau: Tableau<'a, R>,
-    none: &'a [bool],
-    scale: &'a [R],
     load: &'a mut [R],
     iterate: Iterate<'a, R>,
-    places: &'a mut [R],
+    solved: Option<Solved<R>>,
 }
 
-impl<'a, R: Real, I: Index> Direct<'a, R, I> {
-    /// Takes a factor and the S that it left in `memory.schur`. `None` where S has no positive diagonal.
+impl<'a, R: Real, I: Index> Exact<'a, R, I> {
+    /// Takes memory that a last solve has left, or that is about to be [`Exact::restart`]ed.
     ///
     /// # Errors
     /// Memory of the wrong length.
-    pub fn new(factor: Factor<'a, R, I>, memory: Memory<'a, R>) -> Result<Option<Self>, Error> {
-        let counts = factor.pattern().counts();
-        let Memory { schur, tableau, exchanged, none, columns, scale, load, iterate, places } =
-            memory;
-        let length = padded(counts.contact);
+    pub fn new(factored: Factored<'a, R, I>, memory: Memory<'a, R>) -> Result<Self, Error> {
+        let contact = factored.factor.counts().contact;
+        let Memory { tableau, exchanged, columns, load, iterate } = memory;
+        let length = padded(contact);
         let Iterate { x, residual, scratch, open } = &iterate;
-        for found in [scale.len(), load.len(), x.len(), residual.len(), scratch.len()] {
+        let numbers = [factored.scale.len(), load.len(), x.len(), residual.len(), scratch.len()];
+        for found in numbers {
             same_length(Array::Scratch, found, length)?;
         }
-        for found in [open.len(), exchanged.len(), none.len()] {
+        for found in [open.len(), exchanged.len()] {
             same_length(Array::Contact, found, length)?;
         }
-        same_length(Array::Scratch, places.len(), counts.unknowns())?;
-        Blocks::new(schur, counts.contact)?;
-        if !normalise(schur, scale, counts.contact) {
-            return Ok(None);
-        }
-        none.fill(false);
-        iterate.x.fill(R::ZERO);
-        let mut tableau = Tableau::new(counts.contact, tableau, exchanged, columns)?;
-        tableau.reset(&Start { blocks: schur, exchanged: none })?;
-        Ok(Some(Self { factor, schur, tableau, none, scale, load, iterate, places }))
+        Blocks::new(factored.schur, contact)?;
+        let tableau = Tableau::new(contact, tableau, exchanged, columns)?;
+        Ok(Self { factored, tableau, load, iterate, solved: None })
     }
 
-    /// Solves `system`, from any `u`, which becomes the answer together with its low part `low`; the
-    /// tolerances of `settings` tell whether it is good enough. `None` where there is no answer that this
-    /// scalar can hold: no solution, or a matrix that is singular in it; u is of no use then.
+    /// Forgets all solves: everything touches, and exchanges begin where they began first.
     ///
     /// # Errors
-    /// Arrays of the wrong length, a system with other edges than the factor's.
-    pub fn solve(
+    /// A start of the wrong length.
+    pub fn restart(&mut self) -> Result<(), Error> {
+        self.iterate.x.fill(R::ZERO);
+        self.solved = None;
+        self.tableau.reset(&self.factored.start)
+    }
+
+    /// What the last solve did; `None` where it found nothing.
+    pub fn solved(&self) -> Option<Solved<R>> {
+        self.solved
+    }
+
+    /// Sizes of the blocks of u.
+    pub(super) fn counts(&self) -> crate::edges::EdgeCounts {
+        self.factored.factor.counts()
+    }
+
+    /// Solves from any `u`, which becomes the answer, at least `lower` on C, together with its low part `low`
+    /// (as long as u, or empty where nobody asks). `places` is scratch, one entry an unknown. `None` where there is no answer that this scalar can hold: no
+    /// solution, or a matrix that is singular in it; u is of no use then.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length.
+    pub(crate) fn solve(
         &mut self,
-        system: &System<R, I>,
-        boundary: &Boundary<R, I>,
-        settings: &Settings<R>,
+        defect: &impl Defect<R, I>,
+        lower: &[R],
+        places: &mut [R],
         u: &mut [R],
         low: &mut [R],
-    ) -> Result<Option<Progress<R>>, Error> {
-        let counts = self.factor.pattern().counts();
+    ) -> Result<Option<Solved<R>>, Error> {
+        let Factored { factor, .. } = self.factored;
+        let counts = factor.counts();
         same_length(Array::Unknowns, u.len(), counts.edges())?;
-        same_length(Array::Scratch, low.len(), u.len())?;
-        same_length(Array::Contact, system.lower().len(), counts.contact)?;
-        self.restart(system, u);
+        same_length(Array::Scratch, places.len(), counts.unknowns())?;
+        same_length(Array::Contact, lower.len(), counts.contact)?;
+        self.solved = None;
+        self.open(lower, u);
         low.fill(R::ZERO);
         let (mut pivots, mut rounds, mut last) = (0, 0, None);
         // Where exchanges find nothing to exchange, what looks wrong is rounding.
         let mut settled = false;
         while rounds < ROUNDS {
             rounds += 1;
-            self.reduce(system, boundary, u);
+            defect.measure(&factor, u, places);
+            self.reduce(places);
             if last.is_none() || !settled && self.is_wrong() {
-                let Some(exchanges) = self.exchange(system.lower(), u)? else { return Ok(None) };
+                let Some(exchanges) = self.exchange(lower, places, u)? else { return Ok(None) };
                 settled = exchanges == 0 && last.is_some();
                 pivots += exchanges;
-                self.substitute(low);
+                factor.substitute(places);
+                self.add(places, counts.free, u, low);
                 // The openings are in u already.
-                let contact = low.iter_mut().skip(counts.free).take(counts.contact);
-                contact.for_each(|change| *change = R::ZERO);
-                renormalise(u, low);
+                low.iter_mut().skip(counts.free).for_each(|rest| *rest = R::ZERO);
                 last = Some(R::ONE / R::ZERO);
                 continue;
             }
-            self.correct()?;
-            let change = self.substitute(low) / size(u);
+            self.correct(places)?;
+            factor.substitute(places);
+            let change = largest(places) / largest(u);
             if last.is_some_and(|last| !(change < R::HALF * last)) {
                 low.fill(R::ZERO);
                 break;
             }
-            renormalise(u, low);
+            self.add(places, counts.unknowns(), u, low);
             last = Some(change);
             if change <= R::EPSILON {
                 break;
             }
         }
-        let residual = system.residual(u);
-        if !(residual.largest.finite() && residual.range.finite()) {
-            return Ok(None);
-        }
-        // The last correction that was made, relative to u, tells how many digits rounding leaves: three at least.
-        let digits = last.is_some_and(|last| R::from_count(1024) * last <= R::ONE);
-        let status = match settings.is_met(&residual, R::ONE) {
-            true => Status::Converged,
-            false if digits => Status::RoundingLimit,
-            false => Status::Stalled,
-        };
-        Ok(Some(Progress { status, residual, pivots, rounds }))
+        lift(lower, counts.free, u, low);
+        self.solved = last.map(|change| Solved { pivots, rounds, change });
+        Ok(self.solved)
     }
 
     /// Contact edges onto ψ + v, v as the last solve left it.
-    fn restart(&mut self, system: &System<R, I>, u: &mut [R]) {
-        let contact = u.iter_mut().skip(system.counts().free).zip(system.lower());
-        for ((u, &lower), (x, &scale)) in contact.zip(self.iterate.x.iter().zip(self.scale)) {
+    fn open(&mut self, lower: &[R], u: &mut [R]) {
+        let contact = u.iter_mut().skip(self.counts().free).zip(lower);
+        let openings = self.iterate.x.iter().zip(self.factored.scale);
+        for ((u, &lower), (x, &scale)) in contact.zip(openings) {
             *u = lower + *x * scale;
         }
     }
 
-    /// y and, scaled in `load`, b̃ for the defect of u.
-    fn reduce(&mut self, system: &System<R, I>, boundary: &Boundary<R, I>, u: &[R]) {
-        let pattern = self.factor.pattern();
-        let free = pattern.counts().free;
-        for (unknown, defect) in defects(system, u).enumerate() {
-            write(self.places, pattern.place(unknown), defect);
-        }
-        boundary.add_to_diagonal(|edge, coefficient| {
-            if let Some(defect) = self.places.get_mut(pattern.place(edge)) {
-                *defect -= coefficient * read(u, edge);
-            }
-        });
-        self.factor.eliminate(self.places);
+    /// y and, scaled in `load`, b̃ for the defect that `places` holds.
+    fn reduce(&mut self, places: &mut [R]) {
+        let Factored { factor, scale, .. } = &self.factored;
+        factor.eliminate(places);
         self.load.fill(R::ZERO);
-        let reduced = self.places.iter().skip(free).zip(self.scale);
+        let reduced = places.iter().skip(factor.counts().free).zip(*scale);
         self.load.iter_mut().zip(reduced).for_each(|(load, (&b, &scale))| *load = b * scale);
     }
 
@@ -205,15 +214,23 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
 
     /// Finds which edges touch; u_C = ψ + v, and the change of v goes behind y. Returns the exchanges, or
     /// nothing where there is no solution.
-    fn exchange(&mut self, lower: &[R], u: &mut [R]) -> Result<Option<u32>, Error> {
-        let counts = self.factor.pattern().counts();
-        let matrix = Blocks::new(self.schur, counts.contact)?;
-        let start = Start { blocks: self.schur, exchanged: self.none };
+    fn exchange(
+        &mut self,
+        lower: &[R],
+        places: &mut [R],
+        u: &mut [R],
+    ) -> Result<Option<u32>, Error> {
+        if !features::CONTACT {
+            return Ok(Some(0));
+        }
+        let Factored { factor, schur, scale, start } = self.factored;
+        let counts = factor.counts();
+        let matrix = Blocks::new(schur, counts.contact)?;
         for (open, &x) in self.iterate.open.iter_mut().zip(self.iterate.x.iter()) {
             *open = x > R::ZERO;
         }
         let Iterate { x, residual, scratch, open } = &mut self.iterate;
-        crate::condensed::blocks::multiply_add(&matrix, x, open, self.load)?;
+        multiply_add(&matrix, x, open, self.load)?;
         let cap = (4 * counts.contact + 16) as u32;
         let iterate = Iterate { x, residual, scratch, open };
         let (found, pivots) =
@@ -221,68 +238,54 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         if found != Found::Exact {
             return Ok(None);
         }
-        let values = self.iterate.x.iter().zip(self.scale).zip(lower);
+        let values = self.iterate.x.iter().zip(scale).zip(lower);
         let contact = u.iter_mut().skip(counts.free).zip(values);
         for ((u, ((&x, &scale), &lower)), place) in contact.zip(counts.free..) {
             let new = lower + x * scale;
-            write(self.places, place, new - *u);
+            write(places, place, new - *u);
             *u = new;
         }
         Ok(Some(pivots))
     }
 
     /// The change of v with the edges that touch held, behind y.
-    fn correct(&mut self) -> Result<(), Error> {
-        let free = self.factor.pattern().counts().free;
+    fn correct(&mut self, places: &mut [R]) -> Result<(), Error> {
+        if !features::CONTACT {
+            return Ok(());
+        }
+        let Factored { factor, scale, .. } = self.factored;
         let change = &mut *self.iterate.scratch;
         self.tableau.respond(self.load, change)?;
-        let entries = self.places.iter_mut().skip(free).zip(change.iter().zip(self.scale));
+        let entries = places.iter_mut().skip(factor.counts().free).zip(change.iter().zip(scale));
         for ((place, (&z, &scale)), &x) in entries.zip(self.iterate.x.iter()) {
             *place = if x > R::ZERO { -z * scale } else { R::ZERO };
         }
         Ok(())
     }
 
-    /// `low` = L⁻ᵀ(…) by unknowns; returns its largest entry.
-    fn substitute(&mut self, low: &mut [R]) -> R {
-        self.factor.substitute(self.places);
-        let pattern = self.factor.pattern();
-        let mut most = R::ZERO;
-        for (place, &z) in self.places.iter().enumerate() {
-            write(low, pattern.unknown(place), z);
-            if !(z.magnitude() <= most) {
-                most = z.magnitude();
-            }
+    /// u + z of the first unknowns as the nearest number and the exact rest.
+    fn add(&self, places: &[R], unknowns: usize, u: &mut [R], low: &mut [R]) {
+        for (unknown, u) in u.iter_mut().enumerate().take(unknowns) {
+            let z = read(places, self.factored.factor.place(unknown));
+            let sum = *u + z;
+            write(low, unknown, z + (*u - sum));
+            *u = sum;
         }
-        most
     }
 }
 
-/// max |u|, at least the smallest normal number.
-fn size<R: Real>(u: &[R]) -> R {
-    u.iter().fold(R::TINY, |most, u| most.or_larger(u.magnitude()))
+/// max |x|, at least the smallest normal number; NaN stays.
+fn largest<R: Real>(x: &[R]) -> R {
+    let larger = |most: R, x: &R| if x.magnitude() <= most { most } else { x.magnitude() };
+    x.iter().fold(R::TINY, larger)
 }
 
-/// S to a diagonal of 1, `scale` to 1/√S_ii; false where an entry on the diagonal is not positive.
-fn normalise<R: Real>(schur: &mut [Block<R>], scale: &mut [R], order: usize) -> bool {
-    let mut positive = true;
-    scale.fill(R::ZERO);
-    for (row, scale) in scale.iter_mut().enumerate().take(order) {
-        let position = crate::condensed::blocks::count(row / SIDE * SIDE) + row / SIDE;
-        let line = schur.get(position).and_then(|block| block.get(row % SIDE));
-        let diagonal = line.map_or(R::ZERO, |line| read(line, row % SIDE));
-        *scale = R::ONE / diagonal.rounded_sqrt();
-        positive &= diagonal > R::ZERO && scale.finite();
-    }
-    let mut blocks = schur.iter_mut();
-    for row in 0..order.div_ceil(SIDE) {
-        for (column, block) in blocks.by_ref().take(row + 1).enumerate() {
-            for (r, line) in block.iter_mut().enumerate() {
-                for (c, entry) in line.iter_mut().enumerate() {
-                    *entry *= read(scale, row * SIDE + r) * read(scale, column * SIDE + c);
-                }
-            }
+/// A correction may round to less than ψ.
+fn lift<R: Real>(lower: &[R], free: usize, u: &mut [R], low: &mut [R]) {
+    for ((u, &lower), at) in u.iter_mut().skip(free).zip(lower).zip(free..) {
+        if !(*u >= lower) {
+            *u = lower;
+            write(low, at, R::ZERO);
         }
     }
-    positive
 }

@@ -83,13 +83,23 @@ impl<'a, I: Index> Pattern<'a, I> {
     }
 
     /// The unknown that is eliminated at `place`.
-    pub fn unknown(&self, place: usize) -> usize {
+    pub(super) fn unknown(&self, place: usize) -> usize {
         if place < self.counts.free { read(self.order, place).at() } else { place }
     }
 
     /// The place of an unknown.
     pub(super) fn place(&self, unknown: usize) -> usize {
         if unknown < self.counts.free { read(self.place, unknown).at() } else { unknown }
+    }
+
+    /// The place of each free unknown.
+    pub(super) fn places(&self) -> &'a [I] {
+        self.place
+    }
+
+    /// Where the columns of L start; one more is where the last one ends.
+    pub(super) fn pointers(&self) -> &'a [u32] {
+        self.pointers
     }
 
     /// The next place on the way to the root.

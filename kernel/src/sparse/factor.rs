@@ -12,6 +12,7 @@
 use super::elimination::Pattern;
 use crate::condensed::blocks::{Block, SIDE, count};
 use crate::csr::Csr;
+use crate::edges::EdgeCounts;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read, write};
 use crate::real::Real;
@@ -36,12 +37,14 @@ pub struct FactorBuffers<'a, R, I> {
 }
 
 /// L and D (borrowed).
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Factor<'a, R, I> {
-    pattern: Pattern<'a, I>,
+    places: &'a [I],
+    pointers: &'a [u32],
     rows: &'a [I],
     values: &'a [R],
     inverse: &'a [R],
+    counts: EdgeCounts,
 }
 
 /// A pivot may fall to this many ε of the diagonal that it began as: below, rounding has eaten it.
@@ -92,17 +95,37 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
             }
         }
         let Growing { rows, values, inverse, .. } = growing;
-        Ok(Some(Self { pattern, rows, values, inverse }))
+        let (places, pointers) = (pattern.places(), pattern.pointers());
+        Ok(Some(Self { places, pointers, rows, values, inverse, counts }))
     }
 
-    /// Where the entries of L stand.
-    pub fn pattern(&self) -> &Pattern<'a, I> {
-        &self.pattern
+    /// Takes what another machine has factored: the place of each free unknown, where the columns of L
+    /// start (and end: one more), their rows and entries, and 1/D by places. Nothing is checked: wrong
+    /// numbers make wrong answers and nothing worse.
+    pub const fn baked(
+        places: &'a [I],
+        pointers: &'a [u32],
+        rows: &'a [I],
+        values: &'a [R],
+        inverse: &'a [R],
+        counts: EdgeCounts,
+    ) -> Self {
+        Self { places, pointers, rows, values, inverse, counts }
+    }
+
+    /// Sizes of the blocks of u.
+    pub fn counts(&self) -> EdgeCounts {
+        self.counts
+    }
+
+    /// The place of an unknown: of a contact unknown its number.
+    pub(super) fn place(&self, unknown: usize) -> usize {
+        if unknown < self.counts.free { read(self.places, unknown).at() } else { unknown }
     }
 
     /// y = L⁻¹ r_I and b = r_C − L_CI y, in place. `y` has one entry an unknown, by places.
-    pub(super) fn eliminate(&self, y: &mut [R]) {
-        for j in 0..self.pattern.counts().free {
+    pub fn eliminate(&self, y: &mut [R]) {
+        for j in 0..self.counts.free {
             let own = read(y, j);
             for (row, value) in self.column(j) {
                 if let Some(entry) = y.get_mut(row) {
@@ -113,8 +136,8 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
     }
 
     /// z_I = L⁻ᵀ (D⁻¹ y − L_CIᵀ v), in place; v stands behind y.
-    pub(super) fn substitute(&self, y: &mut [R]) {
-        for j in (0..self.pattern.counts().free).rev() {
+    pub fn substitute(&self, y: &mut [R]) {
+        for j in (0..self.counts.free).rev() {
             let start = read(y, j) * read(self.inverse, j);
             let sum = self.column(j).fold(start, |sum, (row, value)| sum - value * read(y, row));
             write(y, j, sum);
@@ -123,7 +146,7 @@ impl<'a, R: Real, I: Index> Factor<'a, R, I> {
 
     /// (row, entry) of column j of L.
     fn column(&self, j: usize) -> impl Iterator<Item = (usize, R)> + use<'_, R, I> {
-        let range = self.pattern.start(j)..self.pattern.start(j + 1);
+        let range = read(self.pointers, j) as usize..read(self.pointers, j + 1) as usize;
         let rows = self.rows.get(range.clone()).unwrap_or(&[]);
         let values = self.values.get(range).unwrap_or(&[]);
         rows.iter().zip(values).map(|(row, &value)| (row.at(), value))

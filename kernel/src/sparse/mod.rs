@@ -14,15 +14,21 @@
 //!
 //! ```text
 //!   order (from the host) ─► elimination (pattern of L) ─► factor (L, D, S) ─► contact (exchanges, corrections)
+//!                                                          or baked             ▲ defects: direct (rows of K)
+//!                                                                               └          cells (element matrices)
 //! ```
 //! The order of elimination is worked out beforehand, by whatever keeps L sparse; the contact unknowns come
 //! last. The memory is the caller's: [`elimination::Pattern`] says how much L takes. Solving costs twice the
 //! entries of L in multiply-adds and one pass over S, whatever the condition.
 
+pub mod cells;
 pub mod contact;
+pub mod direct;
 pub mod elimination;
 pub mod factor;
 
-pub use contact::{Direct, Memory, Progress};
+pub use cells::Balance;
+pub use contact::{Exact, Factored, Memory, Solved};
+pub use direct::{Direct, DirectMemory, Progress};
 pub use elimination::Pattern;
 pub use factor::Factor;

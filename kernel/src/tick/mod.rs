@@ -17,6 +17,7 @@
 //! out of balance can go: then every answer has a bound. Parts that contact alone holds need a forest that
 //! follows the active set, and shifts of the whole part ([`crate::solver`]).
 
+mod factored;
 mod report;
 mod resume;
 mod running;

@@ -25,7 +25,7 @@ pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
     /// Sweeps and algebraic part at the last certificate.
     earlier: Option<(u32, R)>,
     /// The verdict on the present iterate, where it is known.
-    verdict: Option<Verdict<R>>,
+    pub(super) verdict: Option<Verdict<R>>,
 }
 
 impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH> {
@@ -142,7 +142,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         memory.rows.gather(&ground.edges, ground.stiffness, boundary, memory.load, search.omega)
     }
 
-    fn certified(&mut self) -> Result<Verdict<R>, Error> {
+    pub(super) fn certified(&mut self) -> Result<Verdict<R>, Error> {
         if let Some(verdict) = self.verdict {
             return Ok(verdict);
         }
@@ -233,7 +233,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
     }
 }
 
-fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
+pub(super) fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
     match verdict {
         Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
         Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),

@@ -48,7 +48,8 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         self.report(ended, Verdict::NotAsked)
     }
 
-    fn recover(&mut self) -> Result<(), Error> {
+    /// τ of the present iterate.
+    pub(super) fn recover(&mut self) -> Result<(), Error> {
         let (ground, memory) = (&self.tick.ground, &mut self.tick.memory);
         let loads = self.data.given.loads;
         flux::recover(&ground.edges, ground.stiffness, loads, memory.u, &[], memory.tau).map(|_| ())

@@ -7,7 +7,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::sparse::elimination::PatternBuffers;
 use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Direct, Factor, Memory, Pattern, Progress};
+use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Memory, Pattern, Progress};
 use signorini_kernel::{Error, Index, Real};
 
 /// Solves with the free unknowns eliminated as `order` says, twice; `None` where the kernel finds no answer.
@@ -44,17 +44,15 @@ pub fn solve<R: Real, I: Index>(
     let [column, next, scale, load, x, residual, scratch] = &mut numbers;
     let mut flags = [(); 3].map(|()| vec![false; length]);
     let [exchanged, none, open] = &mut flags;
-    let memory = Memory {
-        schur: &mut schur,
+    let contact = Memory {
         tableau: &mut tableau,
         exchanged,
-        none,
         columns: [column, next],
-        scale,
         load,
         iterate: Iterate { x, residual, scratch, open },
-        places: &mut vec![R::ZERO; counts.unknowns()],
     };
+    let places = &mut vec![R::ZERO; counts.unknowns()];
+    let memory = DirectMemory { schur: &mut schur, scale, none, contact, places };
     let Some(mut direct) = Direct::new(factor, memory)? else { return Ok(None) };
     let Some(found) = direct.solve(system, boundary, settings, u, low)? else { return Ok(None) };
     // Again from its own answer: edges that changed sides stay where they are, but for rounding.

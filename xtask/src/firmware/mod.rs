@@ -50,13 +50,14 @@ pub fn run(words: &[&str]) -> ExitCode {
 
 /// A scene, its model, and the instructions that a tick may take in the median.
 ///
-/// A seepage face, quads and transfer laws, both kinds of cells; then more than 50 000 unknowns condensed to 64
+/// A seepage face, quads and transfer laws, both kinds of cells, swept and by a factor; then more than 50 000 unknowns condensed to 64
 /// and 96 contact edges.
-const TESTED: [(&str, &str, Option<u64>); 6] = [
+const TESTED: [(&str, &str, Option<u64>); 7] = [
     ("meshes/scenes/levee.toml", "--condensed", None),
     ("meshes/scenes/slab.toml", "--condensed", None),
     ("meshes/scenes/strip.toml", "--condensed", None),
-    ("meshes/scenes/strip.toml", "--full", None),
+    ("tests/firmware/scenes/strip-swept.toml", "--full", None),
+    ("tests/firmware/scenes/strip-factored.toml", "--full", None),
     ("tests/firmware/scenes/levee-64.toml", "--condensed", Some(60_000)),
     ("tests/firmware/scenes/levee-96.toml", "--condensed", Some(120_000)),
 ];

@@ -1,15 +1,13 @@
-//! The models there are, each with what it takes.
+//! The variants of the condensed model, each with what it takes.
 
 use super::work::{allowed, fixed, within};
 use super::{Candidate, Model};
 use crate::bake::budget::{Budget, Needs};
 use crate::bake::costs::Costs;
 use crate::bake::setting::checked;
-use crate::bake::trial::{self, Trial};
-use crate::bake::{condensed, full};
+use crate::bake::{condensed, trial};
 use crate::condense::Condensate;
 use crate::error::{InputError, Result};
-use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::{Quantity, Scene};
 use crate::setting::Setting;
@@ -72,12 +70,12 @@ fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &Condensate) -> Result<
 }
 
 /// The name of an output that is the error bound.
-fn bound_of(scene: &Scene) -> Option<String> {
+pub(super) fn bound_of(scene: &Scene) -> Option<String> {
     let bound = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);
     bound.map(|output| output.name.value.clone())
 }
 
-fn time(needs: &Needs) -> f64 {
+pub(super) fn time(needs: &Needs) -> f64 {
     needs.instructions.unwrap_or(f64::INFINITY)
 }
 
@@ -121,49 +119,4 @@ fn condensed_as<R: Scalar>(
         lacks: None,
         infinite: None,
     })
-}
-
-/// The full model, tried where there is room for it.
-pub(super) fn of_full<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    budget: &Budget,
-) -> Result<Candidate<R>> {
-    let baked = full::Baked::<R>::new(scene, problem)?;
-    let sizes = full::sizes(&baked);
-    let memory = Needs::with_code(", on ", sizes, None);
-    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
-    // A model that has no room is not tried.
-    let trial = match budget.shortfalls(&memory).is_empty() {
-        true => trial::of_full(&baked, &defaults),
-        false => Trial::default(),
-    };
-    let cells = if baked.has_quads() { "quads" } else { "triangles" };
-    let last = if baked.is_certified() { "certificate" } else { "flux by edges" };
-    let costs = Costs::measured();
-    let instructions = full_tick::<R>(&costs, cells, problem, trial.sweeps[0], last);
-    let needs = Needs { instructions: instructions.filter(|_| trial.sweeps[0] > 0), ..memory };
-    Ok(Candidate {
-        name: if baked.is_certified() { "full" } else { "full, no error bound" }.to_owned(),
-        lacks: None,
-        infinite: bound_of(scene).filter(|_| !baked.has_bound()),
-        model: Model::Full(Box::new(baked)),
-        shortfalls: budget.shortfalls(&needs),
-        needs,
-        trial,
-    })
-}
-
-/// Load and rows, sweeps, and what comes last.
-fn full_tick<R: Scalar>(
-    costs: &Costs,
-    cells: &str,
-    problem: &Problem,
-    sweeps: u32,
-    last: &str,
-) -> Option<f64> {
-    let of = |stage: &str| costs.of_mesh::<R>(cells, stage);
-    let (unknowns, number) = (problem.topology.counts.unknowns() as f64, problem.cells() as f64);
-    let rows = of("rows from cells")? + f64::from(sweeps) * of("sweep")?;
-    Some(unknowns * rows + number * (of("load")? + of(last)?))
 }

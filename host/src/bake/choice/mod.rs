@@ -1,15 +1,16 @@
 //! Which model: the smallest that represents the scene exactly and fits the device.
 //!
 //! ```text
-//!   condensed, exact method │ condensed, sweeps alone │ both without the bound │ full
+//!   condensed, exact method │ condensed, sweeps alone │ both without the bound │ full │ full, by a factor
 //!   ── each with its needs (bytes from its arrays, instructions from counted parts and a trial) ──►
 //!   the first that fits what `[target]` declares
 //! ```
-//! Without the bound a model comes last of its kind, and only where no output asks for it. A scene of which one
+//! Of two that differ in their solver the quicker one comes first. Without the bound a model comes last of its kind, and only where no output asks for it. A scene of which one
 //! model has no bound at all gets one that has, if there is any, where an output asks for it.
 
 mod advice;
 mod candidates;
+mod meshes;
 mod work;
 
 use super::budget::{Budget, Needs, Shortfall};
@@ -24,7 +25,8 @@ use crate::scene::Scene;
 use crate::setting::ModelKind;
 use crate::solve::choose_units;
 use advice::too_large;
-use candidates::{of_condensed, of_full};
+use candidates::of_condensed;
+use meshes::of_full;
 
 /// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
 const MOST_CONTACTS: usize = 1000;
@@ -126,13 +128,13 @@ impl<R: Scalar> Choice<R> {
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
         if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
-            match of_full(scene, problem, &budget) {
-                Ok(mut candidate) => {
+            match of_full(scene, problem, &budget, &mut excluded) {
+                Ok(mut found) => {
                     // Its sweeps depend on the inputs: who asks for it is warned, not refused.
-                    if forced.is_some() {
+                    for candidate in found.iter_mut().filter(|_| forced.is_some()) {
                         candidate.shortfalls.retain(|short| short.key != "target.tick");
                     }
-                    candidates.push(candidate);
+                    candidates.append(&mut found);
                 }
                 Err(error) if candidates.is_empty() => return Err(error),
                 Err(error) => excluded.push(format!("full: {error}")),
@@ -141,7 +143,8 @@ impl<R: Scalar> Choice<R> {
         // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
         let flash = |at: &usize| candidates[*at].needs.flash;
         let first = candidates.iter().position(Candidate::has_all);
-        let full = candidates.iter().rposition(Candidate::has_all);
+        let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
+        let full = candidates.iter().position(|of| is_full(of) && of.has_all());
         let complete = match first.zip(full) {
             Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => {
                 Some(full)

@@ -12,6 +12,7 @@ use signorini_kernel::tick::Limits;
 use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
+use super::factored::Factored;
 use super::faint::refuse_faint;
 use super::limits;
 use super::scale::Scale;
@@ -24,7 +25,7 @@ use crate::functional::{Functional, Linear, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::setting::{MathKind, Omega, Setting, Start};
+use crate::setting::{MathKind, Method, Omega, Setting, Start};
 use crate::solve::unfit;
 
 /// A scene as the full model takes it, in the scalar `R`.
@@ -57,6 +58,7 @@ pub struct Baked<R: Scalar> {
     pub(super) how: How<R>,
     /// Where the numbers above are not in the scene's units.
     pub(super) scale: Option<Scale<R>>,
+    pub(super) factored: Option<Factored<R>>,
 }
 
 /// How its ticks are solved.
@@ -112,6 +114,11 @@ impl<R: Scalar> Baked<R> {
         self.how.limits
     }
 
+    /// Entries of the factor that solves its ticks, if one does.
+    pub fn entries(&self) -> Option<usize> {
+        self.factored.as_ref().map(Factored::entries)
+    }
+
     /// Whether its ticks have a certificate.
     pub fn is_certified(&self) -> bool {
         self.how.certified
@@ -136,7 +143,11 @@ impl<R: Scalar> Baked<R> {
         let how = How::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
         let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
-        Ok(if how.certified { baked } else { baked.without_bound() })
+        let baked = if how.certified { baked } else { baked.without_bound() };
+        match setting.solver {
+            Some(Method::Factor) => baked.with_factor(scene, problem),
+            _ => Ok(baked),
+        }
     }
 
     fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>, how: How<R>) -> Self {
@@ -171,6 +182,7 @@ impl<R: Scalar> Baked<R> {
             start: R::ZERO,
             how,
             scale: None,
+            factored: None,
         }
     }
 

@@ -7,12 +7,14 @@ use signorini_kernel::certificate::Curved;
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
 use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::sparse::{Exact, Solved};
 use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::{Baked, Output};
 use super::data::{Data, Pattern};
 use crate::scalar::Scalar;
+use crate::solve::Exchanges;
 
 /// The controller of a baked scene; `WIDTH` is 4 on triangles alone and else 6.
 #[derive(Debug)]
@@ -27,6 +29,8 @@ pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
     tau: Vec<R>,
     data: Owned<R>,
     progress: Progress<R>,
+    exchanges: Option<Exchanges<R>>,
+    solved: Option<Solved<R>>,
 }
 
 /// [`DataMemory`], owned.
@@ -73,6 +77,8 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
                 transfer: vec![[[R::ZERO; 2]; 8]; data.transfer],
             },
             progress: Progress::NONE,
+            exchanges: baked.factored.as_ref().map(|_| Exchanges::new(counts.contact)),
+            solved: None,
         }
     }
 
@@ -125,15 +131,35 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         };
         let limits = baked.scale.map_or(limits, |scale| scale.limits(limits));
         let mut outputs = vec![R::ZERO; baked.outputs.len()];
-        let report = match baked.how.fast {
-            true => baked.run::<R::Fast, WIDTH>(inputs, limits, memory, &mut outputs)?,
-            false => baked.run::<Libm, WIDTH>(inputs, limits, memory, &mut outputs)?,
+        let factored = baked.factored.as_ref().zip(self.exchanges.as_mut());
+        let mut exact = match factored {
+            Some((factored, own)) => Some(Exact::new(factored.view(), own.memory())?),
+            None => None,
         };
+        let report = match baked.how.fast {
+            true => {
+                baked.run::<R::Fast, WIDTH>(inputs, limits, memory, exact.as_mut(), &mut outputs)?
+            }
+            false => {
+                baked.run::<Libm, WIDTH>(inputs, limits, memory, exact.as_mut(), &mut outputs)?
+            }
+        };
+        self.solved = exact.and_then(|exact| exact.solved()).filter(|_| report.sweeps == 0);
         let report = match baked.scale {
             Some(scale) => scale.answer(&baked.outputs, &mut outputs, report),
             None => report,
         };
         Ok((outputs, report))
+    }
+
+    /// What the factor did in the last tick; `None` without one, or where sweeps had to help.
+    pub fn solved(&self) -> Option<Solved<R>> {
+        self.solved
+    }
+
+    /// Whether the factor alone answers for these inputs.
+    pub(super) fn solves(&mut self, inputs: &[R]) -> bool {
+        self.tick(inputs).is_ok_and(|(_, report)| report.sweeps == 0 && report.residual.finite())
     }
 
     /// Means of u over the edges, in [`Baked::units`] as all arrays below.
@@ -169,12 +195,21 @@ impl<R: Scalar> Baked<R> {
         inputs: &[R],
         limits: Limits<R>,
         memory: Memory<R, u32, WIDTH>,
-        outputs: &mut [R],
+        exact: Option<&mut Exact<R, u32>>,
+        out: &mut [R],
     ) -> Result<Report<R>, KernelError> {
         let never = &mut Deadline::never();
-        self.with(|full| match self.how.certified {
-            true => full.tick_with::<M, WIDTH, _>(inputs, limits, never, memory, outputs),
-            false => full.tick_uncertified::<M, WIDTH, _>(inputs, limits, never, memory, outputs),
+        self.with(|full| match (exact, self.how.certified) {
+            (None, true) => full.tick_with::<M, WIDTH, _>(inputs, limits, never, memory, out),
+            (None, false) => {
+                full.tick_uncertified::<M, WIDTH, _>(inputs, limits, never, memory, out)
+            }
+            (Some(exact), true) => {
+                full.tick_factored::<M, WIDTH, _>(inputs, limits, never, memory, exact, out)
+            }
+            (Some(exact), false) => full.tick_factored_uncertified::<M, WIDTH, _>(
+                inputs, limits, never, memory, exact, out,
+            ),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::arrays::How;
+use super::arrays::{Baked, How};
 use super::items::Item;
 use super::rescaling::Rescaling;
 use super::source::imports;
@@ -15,12 +15,14 @@ const NAMES: &[(&str, &str)] = &[
     ("Micromath", "Micromath"),
     ("Robin", "boundary::Robin"),
     ("Neumann", "boundary::Neumann"),
+    ("Iterate", "condensed::Iterate"),
     ("Curved", "certificate::Curved"),
     ("DataMemory", "full::DataMemory"),
     ("Memory", "full::Memory"),
     ("OwnedRows", "rows::OwnedRows"),
     ("Certificate", "certificate::Certificate"),
     ("Verdict", "certificate::Verdict"),
+    ("Exact", "sparse::Exact"),
     ("Deadline", "tick::Deadline"),
     ("Limits", "tick::Limits"),
     ("Progress", "tick::Progress"),
@@ -30,14 +32,15 @@ const NAMES: &[(&str, &str)] = &[
 /// The struct with its memory, and what it does.
 pub(super) fn controller<R: Scalar>(
     fields: &[Item],
-    how: &How<R>,
+    baked: &Baked<R>,
     rescaling: &Rescaling,
 ) -> String {
-    let text = body(fields, how, rescaling);
+    let text = body(fields, baked, rescaling);
     imports(NAMES, &text, "") + &text
 }
 
-fn body<R: Scalar>(fields: &[Item], how: &How<R>, rescaling: &Rescaling) -> String {
+fn body<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> String {
+    let how = &baked.how;
     let mut text = format!(
         "
 /// When a tick ends: {}.
@@ -48,7 +51,7 @@ pub const LIMITS: Limits<Scalar> =
 #[derive(Debug)]
 pub struct Controller {{
 ",
-        ends(how),
+        ends(baked),
         how.limits.error,
         how.limits.share,
         how.limits.sweeps
@@ -93,14 +96,19 @@ impl Controller {
         text += "        self.progress = Progress::NONE;\n";
     }
     text += &rescaling.before;
+    let has = |field: &str| fields.iter().any(|item| item.name == field);
+    let place = |field: &str| {
+        if has(field) { format!("&mut self.{field}") } else { "&mut []".to_owned() }
+    };
+    if baked.factored.is_some() {
+        text += &exact(&place);
+    }
     text += "        let memory = Memory {
             tick: signorini_kernel::tick::Memory {
                 rows: self.rows.of(&data::FULL.ground.edges)?,
 ";
-    let has = |field: &str| fields.iter().any(|item| item.name == field);
     for field in ["load", "active", "vertices", "bubbles", "tau", "u"] {
-        let place = if has(field) { format!("&mut self.{field}") } else { "&mut []".to_owned() };
-        let _ = writeln!(text, "                {field}: {place},");
+        let _ = writeln!(text, "                {field}: {},", place(field));
     }
     text += "            },
             data: DataMemory {
@@ -118,8 +126,9 @@ impl Controller {
 ";
     let _ = writeln!(
         text,
-        "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory, &mut outputs)?;",
-        call(how)
+        "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory,{} &mut outputs)?;",
+        call(baked),
+        if baked.factored.is_some() { " &mut exact," } else { "" }
     );
     text += &rescaling.after;
     text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })
@@ -134,9 +143,42 @@ impl Default for Controller {
 " + &rescaling.items
 }
 
+/// The exact solver with its memory.
+fn exact(place: &impl Fn(&str) -> String) -> String {
+    format!(
+        "        let contact = signorini_kernel::sparse::Memory {{
+            tableau: {},
+            exchanged: {},
+            columns: [{}, {}],
+            load: {},
+            iterate: Iterate {{
+                x: {},
+                residual: {},
+                scratch: {},
+                open: {},
+            }},
+        }};
+        let mut exact = Exact::new(data::FACTORED, contact)?;
+",
+        place("tableau"),
+        place("exchanged"),
+        place("column"),
+        place("next_column"),
+        place("reduced"),
+        place("openings"),
+        place("balance"),
+        place("change"),
+        place("open"),
+    )
+}
+
 /// What ends a tick.
-fn ends<R: Scalar>(how: &How<R>) -> &'static str {
+fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
+    let how = &baked.how;
     match (how.limits.share > R::ZERO, how.certified) {
+        _ if baked.factored.is_some() => {
+            "with the solution; where the factor does not find it, after these sweeps"
+        }
         (false, _) => "after exactly so many sweeps",
         (true, false) => "once the residual is down to rounding",
         (true, true) => {
@@ -151,12 +193,15 @@ fn from<R: Scalar>(how: &How<R>) -> &'static str {
 }
 
 /// The kernel's tick.
-fn call<R: Scalar>(how: &How<R>) -> String {
-    let math = if how.fast { "Micromath" } else { "Libm" };
-    match how.certified {
-        true if !how.fast => "tick".to_owned(),
-        true => format!("tick_with::<{math}, _, _>"),
-        false => format!("tick_uncertified::<{math}, _, _>"),
+fn call<R: Scalar>(baked: &Baked<R>) -> String {
+    let How { fast, certified, .. } = baked.how;
+    let math = if fast { "Micromath" } else { "Libm" };
+    match (certified, baked.factored.is_some()) {
+        (true, false) if !fast => "tick".to_owned(),
+        (true, false) => format!("tick_with::<{math}, _, _>"),
+        (false, false) => format!("tick_uncertified::<{math}, _, _>"),
+        (true, true) => format!("tick_factored::<{math}, _, _>"),
+        (false, true) => format!("tick_factored_uncertified::<{math}, _, _>"),
     }
 }
 

@@ -49,11 +49,11 @@ pub(super) struct Item {
 
 /// Arrays of the module; empty ones are left out.
 #[derive(Debug, Default)]
-struct List(Vec<Item>);
+pub(super) struct List(Vec<Item>);
 
 impl List {
     /// An array of entries that are `T` on the target.
-    fn put<T>(&mut self, name: &str, doc: &str, of: &str, entries: &[impl Debug]) {
+    pub fn put<T>(&mut self, name: &str, doc: &str, of: &str, entries: &[impl Debug]) {
         if entries.is_empty() {
             return;
         }
@@ -67,7 +67,7 @@ impl List {
     }
 
     /// Memory for as many zeros.
-    fn reserve<T>(&mut self, name: &str, doc: &str, of: &str, zero: &str, length: usize) {
+    pub fn reserve<T>(&mut self, name: &str, doc: &str, of: &str, zero: &str, length: usize) {
         if length == 0 {
             return;
         }
@@ -151,6 +151,9 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
             Output::Bound => {}
         }
     }
+    if let Some(factored) = &baked.factored {
+        factored.statics::<I>(&mut list);
+    }
     list.0
 }
 
@@ -185,6 +188,9 @@ pub(super) fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.reserve::<[R; 2]>("dirichlet_ends", &format!("`DIRICHLET_ENDS` {why}"), "[Scalar; 2]", "[0.0; 2]", data.dirichlet);
     list.reserve::<Curved<R, I>>("curved", &format!("Curved edges {why}"), "Curved<Scalar, Index>", "Curved { edge: 0, mean: 0.0, energy: 0.0, coupling: [0.0; 8] }", data.curved);
     list.reserve::<[[R; 2]; 8]>("transfer", &format!("`TRANSFER` {why}"), "[[Scalar; 2]; 8]", "[[0.0; 2]; 8]", data.transfer);
+    if let Some(factored) = &baked.factored {
+        factored.memory(&mut list);
+    }
     list.0.push(Item {
         name: "progress".to_owned(),
         doc: "What else the next tick starts from.".to_owned(),

@@ -11,6 +11,7 @@ use crate::scalar::Scalar;
 /// What they may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("CellLoads", "assembly::CellLoads"),
+    ("Start", "condensed::tableau::Start"),
     ("Neumann", "boundary::Neumann"),
     ("Robin", "boundary::Robin"),
     ("Cell", "cells::Cell"),
@@ -35,6 +36,8 @@ const NAMES: &[(&str, &str)] = &[
     ("Share", "full::Share"),
     ("Mesh", "Mesh"),
     ("Relaxation", "Relaxation"),
+    ("Factor", "sparse::Factor"),
+    ("Factored", "sparse::Factored"),
     ("Stiffness", "stiffness::Stiffness"),
     ("Tensor", "Tensor"),
 ];
@@ -147,6 +150,33 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         at("CORNERS"),
         baked.start,
         baked.how.relaxation,
+    ) + &factored(baked, &at)
+}
+
+/// The factor, where there is one.
+fn factored<R: Scalar>(baked: &Baked<R>, at: &impl Fn(&str) -> String) -> String {
+    if baked.factored.is_none() {
+        return String::new();
+    }
+    format!(
+        "
+    /// The matrix by its factor.
+    pub(super) static FACTORED: Factored<'static, Scalar, Index> = Factored {{
+        factor: Factor::baked({}, {}, {}, {}, {}, {:?}),
+        schur: {schur},
+        scale: {},
+        start: Start {{ blocks: {schur}, exchanged: {} }},
+    }};
+",
+        at("PLACES"),
+        at("COLUMNS"),
+        at("ROWS"),
+        at("ENTRIES"),
+        at("INVERSE"),
+        baked.counts,
+        at("SCALE"),
+        at("NONE"),
+        schur = at("SCHUR"),
     )
 }
 

@@ -16,6 +16,7 @@ mod bent;
 mod controller;
 mod data;
 mod driver;
+mod factored;
 mod faint;
 mod items;
 mod listing;

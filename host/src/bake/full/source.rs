@@ -19,13 +19,14 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     };
     let (features, sizes, counts) = (baked.features(), sizes(baked), baked.counts);
     let about = format!(
-        "The full model in {}: {} unknowns, {} of them contact edges, on {} triangles and {} quads{}. \
+        "The full model in {}: {} unknowns, {} of them contact edges, on {} triangles and {} quads{}{}. \
          {} bytes of RAM in a [`Controller`], {} bytes of data in flash.",
         R::NAME,
         counts.unknowns(),
         counts.contact,
         baked.of_triangles.len(),
         baked.of_quads.len(),
+        if baked.factored.is_some() { ", solved by a factor" } else { "" },
         if baked.how.certified { "" } else { ", without its error bound (left out)" },
         sizes.ram,
         sizes.flash
@@ -35,7 +36,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let mut text = baked.face.source::<R>(&about);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);
-    text += &controller(&fields, &baked.how, &rescaling(baked));
+    text += &controller(&fields, baked, &rescaling(baked));
     text + &listing(baked, &data)
 }
 

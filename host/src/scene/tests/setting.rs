@@ -6,7 +6,7 @@ use signorini_kernel::element::QuadElement;
 
 use super::{LEVEE, SMALL, hint, parse};
 use crate::scene::Scene;
-use crate::setting::{CellKind, MathKind, ModelKind, Omega, Precision, Setting, Start};
+use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
 /// The small scene with these lines of a setting; the first stands in line 6.
 fn with(lines: &str) -> String {
@@ -22,7 +22,7 @@ fn every_key_is_read_and_what_is_left_out_is_the_default() {
     assert_eq!(super::scene(SMALL).setting, None);
     assert_eq!(setting(""), Some(Setting::default()));
     let all = "refine = 0x2\ncells = 'quads'\nelement = 'nonparametric'\nscalar = 'f32'\nmath = 'micromath'\nmodel = 'full'\n\
-        start = 'cold'\nomega = 1.5\nshare = 0.25\ncertificate = true";
+        solver = 'sweeps'\nstart = 'cold'\nomega = 1.5\nshare = 0.25\ncertificate = true";
     let expected = Setting {
         refine: 2,
         cells: Some(CellKind::Quads),
@@ -30,6 +30,7 @@ fn every_key_is_read_and_what_is_left_out_is_the_default() {
         scalar: Some(Precision::F32),
         math: MathKind::Micromath,
         model: Some(ModelKind::Full),
+        solver: Some(Method::Sweeps),
         start: Start::Cold,
         omega: Omega::Fixed(1.5),
         sweeps: None,
@@ -52,6 +53,7 @@ fn what_is_written_is_read_again() {
         Setting { scalar: Some(Precision::Mixed), share: Some(0.1), ..Setting::default() },
         Setting { element: QuadElement::Nonparametric, ..Setting::default() },
         Setting { refine: 6, cells: Some(CellKind::Triangles), ..Setting::default() },
+        Setting { solver: Some(Method::Factor), ..Setting::default() },
         Setting { omega: Omega::Fixed(1.93), start: Start::Cold, ..Setting::default() },
     ] {
         let text = toml::to_string(&written).expect("a text");
@@ -77,6 +79,20 @@ const WRONG: &[(&str, &str)] = &[
     ("scalar = 'f16'", "6: setting.scalar: `f16` is not one of: f32, f64, f32+f64"),
     ("math = 'std'", "6: setting.math: `std` is not one of: libm, micromath"),
     ("model = 'half'", "6: setting.model: `half` is not one of: full, condensed"),
+    ("solver = 'direct'", "6: setting.solver: `direct` is not one of: sweeps, factor"),
+    (
+        "model = 'condensed'\nsolver = 'factor'",
+        "7: setting.solver: the condensed model has solvers of its own",
+    ),
+    ("solver = 'factor'\nsweeps = 9", "7: setting.sweeps: a factor takes no sweeps"),
+    (
+        "solver = 'factor'\nshare = 0.1",
+        "7: setting.share: a factor leaves nothing of the bound to sweeps",
+    ),
+    (
+        "solver = 'factor'\nscalar = 'f32+f64'",
+        "7: setting.scalar: a factor is for one number format",
+    ),
     ("start = 'hot'", "6: setting.start: `hot` is not one of: cold, warm"),
     ("omega = 2", "6: setting.omega: 2 is not inside (0, 2)"),
     ("omega = 0.0", "6: setting.omega: 0 is not inside (0, 2)"),

@@ -1,7 +1,7 @@
 //! What of the full product of knobs makes sense, is in reach, and is measured.
 
 use super::{Combination, Factor, Ground, Stop};
-use crate::setting::{MathKind, ModelKind, Omega, Precision, Setting, Start};
+use crate::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 use crate::trade::target::Target;
 
 impl Combination {
@@ -10,6 +10,7 @@ impl Combination {
         self.senseless(ground).or_else(|| self.out_of_reach(ground)).or_else(|| {
             let measured = match self.model {
                 ModelKind::Condensed => self.is_condensed_point(),
+                ModelKind::Full if self.stop == Stop::Exact => self.is_factored_point(ground),
                 ModelKind::Full => self.is_crossed(ground) || self.is_single(ground),
             };
             (!measured).then_some("knobs that do not act on each other are turned one at a time")
@@ -19,11 +20,15 @@ impl Combination {
     /// What means nothing.
     fn senseless(&self, ground: &Ground) -> Option<&'static str> {
         let condensed = self.model == ModelKind::Condensed;
-        if condensed != (self.stop == Stop::Exact) && !(condensed && self.stop == Stop::Sweeps(12))
-        {
-            return Some(
-                "the exact method and 12 sweeps are for condensed models, shares for full ones",
-            );
+        if condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)) {
+            return Some("shares and other sweeps than 12 are for full models");
+        }
+        if !condensed && self.stop == Stop::Sweeps(12) {
+            return Some("12 sweeps are for condensed models");
+        }
+        let exact = self.stop == Stop::Exact;
+        if exact && !condensed && (self.omega != Factor::Auto || self.math != MathKind::Libm) {
+            return Some("a factor has no ω");
         }
         if condensed && self.omega != Factor::Auto {
             return Some("a condensed model has its best ω from the host");
@@ -63,7 +68,13 @@ impl Combination {
         if condensed && self.scalar == Precision::Mixed {
             return Some("f32+f64 is for the full model on the host");
         }
+        if self.scalar == Precision::Mixed && self.stop == Stop::Exact {
+            return Some("f32+f64 is for sweeps");
+        }
         if !condensed && ground.is_loose {
+            if self.stop == Stop::Exact {
+                return Some("contact alone holds the domain: no factor");
+            }
             if ground.target != Target::Host {
                 return Some("contact alone holds the domain: the full model needs shifts");
             }
@@ -147,6 +158,15 @@ impl Combination {
         usual || own && others.into_iter().filter(|other| *other).count() == 1
     }
 
+    /// The factor of the full model: on the scene's cells, of whatever size, and on the others once; on the scene's
+    /// own mesh also without its bound.
+    fn is_factored_point(&self, ground: &Ground) -> bool {
+        let usual = self.scalar == Precision::F32 && self.start == main_start(ground);
+        let own = self.cells.is_none() && self.level == 0;
+        let everywhere = self.cells.is_none() || self.level == 0;
+        usual && if self.certificate { everywhere } else { own }
+    }
+
     pub fn setting(&self, ground: &Ground) -> Setting {
         let omega = match self.omega {
             Factor::Auto => Omega::Auto,
@@ -158,12 +178,14 @@ impl Combination {
             Stop::Sweeps(sweeps) => (None, Some(sweeps)),
             Stop::Exact => (None, None),
         };
+        let factored = self.model == ModelKind::Full && self.stop == Stop::Exact;
         Setting {
             refine: self.level,
             cells: self.cells,
             scalar: Some(self.scalar),
             math: self.math,
             model: Some(self.model),
+            solver: factored.then_some(Method::Factor),
             start: self.start,
             omega,
             sweeps,

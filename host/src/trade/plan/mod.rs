@@ -6,6 +6,7 @@
 //!   one at a time, from f32, the scene's cells and mesh, share 0.1:
 //!               the other start │ ω tuned, unit │ 5, 20, 80 sweeps with certificate │ share 0.1 in f64
 //!               micromath │ f32+f64 │ condensed: f64, without certificate, 12 sweeps
+//!               factor: finer meshes, the other cells, without certificate
 //! ```
 //! Everything else of the full product of knobs is counted with the reason why it is left out.
 
@@ -33,6 +34,7 @@ enum Factor {
 enum Stop {
     Share(f64),
     Sweeps(u32),
+    /// With the solution: the exchanges of a condensed model, the factor of a full one.
     Exact,
 }
 
@@ -136,7 +138,7 @@ fn combinations(ground: &Ground) -> impl Iterator<Item = Combination> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setting::Omega;
+    use crate::setting::{Method, Omega};
 
     const GROUND: Ground = Ground {
         target: Target::Host,
@@ -187,6 +189,10 @@ mod tests {
         assert!(has(&|s| s.omega == Omega::Fixed(1.0)) && has(&|s| s.omega == Omega::Fixed(1.9)));
         assert!(has(&|s| s.start == Start::Cold) && has(&|s| s.start == Start::Warm));
         assert!(has(&|s| s.model == Some(ModelKind::Condensed)) && has(&|s| !s.certificate));
+        let factored = settings.iter().filter(|s| s.solver == Some(Method::Factor));
+        assert!(factored.clone().all(|s| s.sweeps.is_none() && s.share.is_none()));
+        // Three levels, the other cells, and without the bound.
+        assert_eq!(factored.count(), 5);
     }
 
     #[test]

@@ -6,7 +6,8 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Real};
 
-const COLUMNS: usize = 16;
+/// Squares along x.
+pub const COLUMNS: usize = 16;
 const LINES: usize = 8;
 /// Vertices.
 pub const VERTICES: usize = (COLUMNS + 1) * (LINES + 1);
@@ -14,6 +15,11 @@ pub const VERTICES: usize = (COLUMNS + 1) * (LINES + 1);
 pub const SQUARES: usize = COLUMNS * LINES;
 /// More edges than either kind of cells has.
 pub const EDGES: usize = 408;
+
+/// How far to the right a vertex stands.
+pub fn column(vertex: u16) -> usize {
+    usize::from(vertex) % (COLUMNS + 1)
+}
 
 /// Memory of the mesh and its numbering.
 pub struct Grid<R, const T: usize, const Q: usize> {

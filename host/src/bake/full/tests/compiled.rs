@@ -29,7 +29,8 @@ fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u6
     same_bits_of::<R, WIDTH>(&scene, &problem, bits)
 }
 
-fn same_bits_of<R: Scalar, const WIDTH: usize>(
+/// Outputs of the module and of the host's controller.
+pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
     scene: &Scene,
     problem: &Problem,
     bits: impl Fn(R) -> u64,

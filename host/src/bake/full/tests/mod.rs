@@ -1,6 +1,7 @@
 //! Baked arrays through the kernel, against the solver on the same scene.
 
 mod compiled;
+mod factored;
 mod scale;
 mod setting;
 
