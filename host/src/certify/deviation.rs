@@ -70,6 +70,11 @@ impl Deviation<'_> {
         ])
     }
 
+    /// What rounding may leave of w.
+    pub(crate) fn rounding(&self) -> f64 {
+        ROUNDING * self.ends.iter().fold(0.0, |most: f64, end| most.max(end.abs()))
+    }
+
     fn exceeds(&self, threshold: f64) -> Result<bool> {
         for point in f64::GAUSS[DATA_POINTS - 1] {
             if self.at(point[0])?[0].abs() > threshold {
