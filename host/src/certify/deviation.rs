@@ -50,6 +50,16 @@ impl<'s> Deviations<'s> {
         let at = self.0.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
         Some(&self.0[at])
     }
+
+    /// Those of the sides of cell `at`, triangles first.
+    pub(crate) fn of_cell(&self, problem: &Problem, at: usize) -> Vec<Option<&Deviation<'s>>> {
+        let topology = &problem.topology;
+        let edges: &[u32] = match topology.of_triangles.get(at) {
+            Some(edges) => edges,
+            None => &topology.of_quads[at - topology.of_triangles.len()],
+        };
+        edges.iter().map(|&edge| self.on(edge as usize)).collect()
+    }
 }
 
 impl Deviation<'_> {
@@ -91,12 +101,7 @@ pub(crate) struct Lift<'d, 's>(Vec<Option<&'d Deviation<'s>>>);
 impl<'d, 's> Lift<'d, 's> {
     /// That of cell `at`, triangles first.
     pub(crate) fn on_cell(problem: &Problem, at: usize, deviations: &'d Deviations<'s>) -> Self {
-        let topology = &problem.topology;
-        let edges: &[u32] = match topology.of_triangles.get(at) {
-            Some(edges) => edges,
-            None => &topology.of_quads[at - topology.of_triangles.len()],
-        };
-        Self(edges.iter().map(|&edge| deviations.on(edge as usize)).collect())
+        Self(deviations.of_cell(problem, at))
     }
 
     /// Whether no side's data leave their chord.

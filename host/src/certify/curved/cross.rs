@@ -18,13 +18,7 @@ pub(super) fn points(cell: &Cell, sides: [usize; 2], panels: [&Panels; 2]) -> Ve
             points
         }
         Cell::Triangle(_) => between_rays(sides, panels),
-        Cell::Quad(_) => {
-            let [along_x, along_y] = of_square(sides, panels).map(|panels| panels.rule());
-            let rows = along_y.iter();
-            let square =
-                rows.flat_map(|&[y, wy]| along_x.iter().map(move |&[x, wx]| (x, y, wx * wy)));
-            square.map(|(x, y, weight)| ([x, y, 0.0], weight)).collect()
-        }
+        Cell::Quad(_) => of_square(sides.into_iter().zip(panels)),
     }
 }
 
@@ -56,7 +50,7 @@ const GRADED: i32 = 16;
 ///   λ_r = xy/z    λ_q = ay/z    λ_p = bx/z    dλ_p dλ_q = xy/z³ da db
 /// ```
 /// where p, q are the apices of the first and the second side. The side pq is collapsed into x = y = 0.
-fn between_rays([mine, its]: [usize; 2], panels: [&Panels; 2]) -> Vec<([f64; 3], f64)> {
+pub(super) fn between_rays([mine, its]: [usize; 2], panels: [&Panels; 2]) -> Vec<([f64; 3], f64)> {
     let [p, q] = [(mine + 2) % 3, (its + 2) % 3];
     let r = 3 - p - q;
     // x and y run from an apex to r.
@@ -75,13 +69,18 @@ fn between_rays([mine, its]: [usize; 2], panels: [&Panels; 2]) -> Vec<([f64; 3],
     along.iter().flat_map(|&x| across.iter().map(move |&y| point(x, y))).collect()
 }
 
-/// Panels along x̂ and ŷ that hold those of two sides of a quad.
-fn of_square(sides: [usize; 2], panels: [&Panels; 2]) -> [Panels; 2] {
-    let mut found = [Panels::regular(), Panels::regular()];
-    for (side, panels) in sides.into_iter().zip(panels) {
+/// The square of panels along x̂ and ŷ that hold those of sides of a quad.
+pub(super) fn of_square<'p>(
+    sides: impl Iterator<Item = (usize, &'p Panels)>,
+) -> Vec<([f64; 3], f64)> {
+    let mut axes = [Panels::regular(), Panels::regular()];
+    for (side, panels) in sides {
         let turned = if side < 2 { panels.clone() } else { panels.reversed() };
-        let axis = &mut found[side % 2];
+        let axis = &mut axes[side % 2];
         *axis = axis.clone().with(&turned.ends);
     }
-    found
+    let [along_x, along_y] = axes.map(|panels| panels.rule());
+    let rows = along_y.iter();
+    let square = rows.flat_map(|&[y, wy]| along_x.iter().map(move |&[x, wx]| (x, y, wx * wy)));
+    square.map(|(x, y, weight)| ([x, y, 0.0], weight)).collect()
 }

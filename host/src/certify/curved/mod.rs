@@ -9,6 +9,7 @@
 //! nobody downstream needs a quadrature: s is a sum of vertex functions and bubbles.
 
 mod cross;
+mod inside;
 mod panels;
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ use crate::scene::Scene;
 use panels::Panels;
 
 pub(crate) use cross::half_triangle;
+pub(crate) use inside::points;
 pub(crate) use panels::PANELS;
 
 /// Gauss points a panel, and away from the edge.

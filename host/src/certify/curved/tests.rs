@@ -4,10 +4,12 @@ use super::*;
 use crate::certify::conductivity::Conductivity;
 use crate::certify::data::Data;
 use crate::certify::deviation::Lift;
+use crate::certify::exact::distance;
 use crate::certify::fixtures::{self, CURVED, PARABOLA};
 use crate::mesh::Mesh;
 use crate::mesh::structured::{Cells, grid};
 use crate::quadrature::on_panels;
+use crate::solve::{Options, SolverKind, solve};
 
 /// v of an edge as a function of the point, by its definition and without its gradient.
 fn value(cell: &Cell, side: usize, deviation: &Deviation, reference: [f64; 3]) -> f64 {
@@ -271,6 +273,34 @@ fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
             assert!((found / expected - 1.0).abs() < 2e-4, "cell {at}: {found} {expected}");
         }
         assert!(pairs > 1, "no cells with two curved sides were tried");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
+    // u = y² − x² + 1 with σ·n = 0 above a gap that is rough: nothing touches, and the extensions are most of the bound.
+    let exact = "[exact]\nu = \"y^2 - x^2 + 1\"\ngradient = [\"-2*x\", \"2*y\"]\n";
+    for gap in [
+        "-0.5 - 30*max(0, x - 0.99)",
+        "-0.5 - 3*max(0, x - 0.85)",
+        "-0.5 + 0.3*max(0, 1 - abs(x - 0.3)/0.05)",
+        "-0.5 - 30*max(0, x - 0.99) - 3*abs(x + 0.9)",
+        "-1.5 + tanh((x - 0.4)/1e-4)",
+    ] {
+        let text = PARABOLA
+            .replace("20 + 1e6*y", "y^2 - x^2 + 1")
+            .replace("\"-x^2\"", &format!("{gap:?}"));
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let (scene, problem) = fixtures::on_grid(&(text.clone() + exact), grid(4, cells))?;
+            let options = Options { solver: SolverKind::Direct, ..Options::default() };
+            let solution = solve(&scene, &problem, &options)?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let admissible = solution.certified.admissible();
+            let found = distance(&scene, exact, &problem, &admissible)?;
+            let ratio = solution.bound.expect("a bound").gap / found.identity;
+            assert!((ratio - 1.0).abs() < 2e-4, "{gap}, {cells:?}: {ratio}");
+        }
     }
     Ok(())
 }

@@ -6,7 +6,8 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Real};
 
-const COLUMNS: usize = 16;
+/// Squares in a row, and edges of contact and of u given.
+pub const COLUMNS: usize = 16;
 const LINES: usize = 8;
 /// Vertices.
 pub const VERTICES: usize = (COLUMNS + 1) * (LINES + 1);
