@@ -45,7 +45,7 @@ impl<R: Scalar> Data<R> {
         let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
         let ends = Ends::at_time(scene, problem, time)?;
         let curved = curved(scene, problem, time)?;
-        let finite = curved.iter().all(|of| of.energy.is_finite());
+        let jumps = curved.iter().any(|of| of.jump);
         let curved = curved.into_iter().map(|of| Curved {
             edge: of.edge,
             mean: R::narrow(of.mean),
@@ -55,7 +55,7 @@ impl<R: Scalar> Data<R> {
         let of_cells = oscillation(scene, problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
         let mut transfer = robin(scene, problem, time)?;
-        let has_bound = finite && ends.is_continuous(problem) && transfer.iter().all(is_moderate);
+        let has_bound = !jumps && ends.is_continuous(problem) && transfer.iter().all(is_moderate);
         if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
             transfer.clear();
         }

@@ -68,21 +68,36 @@ impl Deviation<'_> {
     /// # Errors
     /// Data that are not finite or not differentiable there.
     pub(crate) fn at(&self, t: f64) -> Result<[f64; 2]> {
-        let [a, b] = self.segment;
-        let direction = [b[0] - a[0], b[1] - a[1]];
-        let x = [a[0] + t * direction[0], a[1] + t * direction[1]];
-        let chord = self.ends[0] + t * (self.ends[1] - self.ends[0]);
+        let ([a, b], x) = (self.segment, self.place(t));
         let gradient = self.data.gradient_at(x[0], x[1]);
-        let slope = gradient[0] * direction[0] + gradient[1] * direction[1];
+        let slope = gradient[0] * (b[0] - a[0]) + gradient[1] * (b[1] - a[1]);
         Ok([
-            self.data.finite(self.data.at(x[0], x[1]) - chord, x)?,
+            self.data.finite(self.value(t), x)?,
             self.data.finite(slope - (self.ends[1] - self.ends[0]), x)?,
         ])
     }
 
-    /// What rounding may leave of w.
+    /// w at t; not finite where the data are not.
+    pub(crate) fn value(&self, t: f64) -> f64 {
+        let [x, y] = self.place(t);
+        self.data.at(x, y) - (self.ends[0] + t * (self.ends[1] - self.ends[0]))
+    }
+
+    fn place(&self, t: f64) -> [f64; 2] {
+        let [a, b] = self.segment;
+        [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
+    }
+
+    /// What rounding may leave of w: that of the data, and of the place where they are evaluated.
     pub(crate) fn rounding(&self) -> f64 {
-        ROUNDING * self.ends.iter().fold(0.0, |most: f64, end| most.max(end.abs()))
+        let of_place = |point: &[f64; 2]| {
+            let [x, y] = self.place(point[0]);
+            let [by_x, by_y] = self.data.gradient_at(x, y);
+            (by_x * x).abs() + (by_y * y).abs()
+        };
+        let of_data = self.ends.iter().map(|end| end.abs());
+        let all = of_data.chain(f64::GAUSS[DATA_POINTS - 1].iter().map(of_place));
+        ROUNDING * all.fold(0.0, f64::max)
     }
 
     fn exceeds(&self, threshold: f64) -> Result<bool> {

@@ -38,12 +38,14 @@ pub struct Curved {
     /// ∫₀¹ w dt, in the unit of u.
     pub mean: f64,
     /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v′ for each earlier record v′ in the same cell: the sum over a
-    /// cell's records is the energy of the sum of their extensions. Infinite where w jumps.
+    /// cell's records is the energy of the sum of their extensions.
     pub energy: f64,
     /// ∫_T A∇v·∇N_k. Triangles: k = 0, 1, 2 the barycentric functions of the cell's vertices. Quads:
     /// 0 to 3 the bilinear functions of the vertices, 4 to 7 the bubbles 4t(1 − t)(1 − η) of the
     /// sides. The rest is 0.
     pub coupling: [f64; 8],
+    /// Whether w jumps: no function of finite energy is w on the edge, and these numbers mean nothing.
+    pub jump: bool,
 }
 
 /// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
@@ -94,8 +96,8 @@ impl<'d, 's> Extension<'d, 's> {
 
     /// The record, cross terms still missing.
     fn integrate(&self) -> Result<Curved> {
-        let mut record =
-            Curved { edge: self.deviation.edge as u32, mean: 0.0, energy: 0.0, coupling: [0.0; 8] };
+        let (edge, jump) = (self.deviation.edge as u32, self.panels.jump);
+        let mut record = Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], jump };
         let away = self.rule_away();
         for [t, weight] in self.panels.rule() {
             let [w, slope] = self.deviation.at(t)?;
@@ -106,9 +108,6 @@ impl<'d, 's> Extension<'d, 's> {
                 let weight = weight * weight_away * self.area_element(&local, eta);
                 self.add(&mut record, &local, gradient, weight);
             }
-        }
-        if self.panels.jump {
-            record.energy = f64::INFINITY;
         }
         Ok(record)
     }

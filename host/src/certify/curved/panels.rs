@@ -115,9 +115,9 @@ struct Rise<'a, 's> {
 }
 
 impl Rise<'_, '_> {
-    /// |∫ₐᵇ w′ dt − (w(b) − w(a))|
+    /// |∫ₐᵇ w′ dt − (w(b) − w(a))|; NaN, which tells nothing, where a single point is singular.
     fn missing(&self, [a, b]: [f64; 2]) -> Result<f64> {
-        let mut rest = self.deviation.at(b)?[0] - self.deviation.at(a)?[0];
+        let mut rest = self.deviation.value(b) - self.deviation.value(a);
         for [t, weight] in &self.rule {
             rest -= (b - a) * weight * self.deviation.at(a + (b - a) * t)?[1];
         }
