@@ -68,6 +68,14 @@ fn grazing_and_switching_contact_keep_their_bound() {
     }
 }
 
+/// u_D has a layer of 6e−5 at the end of an edge of ⅛, which 32 points do not see.
+#[test]
+fn a_layer_at_the_end_of_an_edge_keeps_its_bound() {
+    let found = cases("contrast 1e8, anisotropy 6.103515625e-5");
+    assert_eq!(outcomes(&found, "f64"), "c");
+    assert_eq!(outcomes(&found, "f32"), "p");
+}
+
 #[test]
 fn an_unknown_case_is_wrong_input() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -44,7 +44,9 @@ impl<R: Scalar> Data<R> {
         let time = problem.time;
         let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
         let ends = Ends::at_time(scene, problem, time)?;
-        let curved = curved(scene, problem, time)?.into_iter().map(|of| Curved {
+        let curved = curved(scene, problem, time)?;
+        let jumps = curved.iter().any(|of| of.jump);
+        let curved = curved.into_iter().map(|of| Curved {
             edge: of.edge,
             mean: R::narrow(of.mean),
             energy: R::narrow(of.energy),
@@ -53,7 +55,7 @@ impl<R: Scalar> Data<R> {
         let of_cells = oscillation(scene, problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
         let mut transfer = robin(scene, problem, time)?;
-        let has_bound = ends.is_continuous(problem) && transfer.iter().all(is_moderate);
+        let has_bound = !jumps && ends.is_continuous(problem) && transfer.iter().all(is_moderate);
         if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
             transfer.clear();
         }
@@ -67,8 +69,8 @@ impl<R: Scalar> Data<R> {
         })
     }
 
-    /// Whether these data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes
-    /// on a part of an edge.
+    /// Whether these data allow for a bound: u_D is continuous, ψ is along each edge, and no transfer coefficient nearly
+    /// vanishes on a part of an edge.
     pub fn has_bound(&self) -> bool {
         self.has_bound
     }

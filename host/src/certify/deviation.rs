@@ -50,6 +50,16 @@ impl<'s> Deviations<'s> {
         let at = self.0.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
         Some(&self.0[at])
     }
+
+    /// Those of the sides of cell `at`, triangles first.
+    pub(crate) fn of_cell(&self, problem: &Problem, at: usize) -> Vec<Option<&Deviation<'s>>> {
+        let topology = &problem.topology;
+        let edges: &[u32] = match topology.of_triangles.get(at) {
+            Some(edges) => edges,
+            None => &topology.of_quads[at - topology.of_triangles.len()],
+        };
+        edges.iter().map(|&edge| self.on(edge as usize)).collect()
+    }
 }
 
 impl Deviation<'_> {
@@ -58,16 +68,36 @@ impl Deviation<'_> {
     /// # Errors
     /// Data that are not finite or not differentiable there.
     pub(crate) fn at(&self, t: f64) -> Result<[f64; 2]> {
-        let [a, b] = self.segment;
-        let direction = [b[0] - a[0], b[1] - a[1]];
-        let x = [a[0] + t * direction[0], a[1] + t * direction[1]];
-        let chord = self.ends[0] + t * (self.ends[1] - self.ends[0]);
+        let ([a, b], x) = (self.segment, self.place(t));
         let gradient = self.data.gradient_at(x[0], x[1]);
-        let slope = gradient[0] * direction[0] + gradient[1] * direction[1];
+        let slope = gradient[0] * (b[0] - a[0]) + gradient[1] * (b[1] - a[1]);
         Ok([
-            self.data.finite(self.data.at(x[0], x[1]) - chord, x)?,
+            self.data.finite(self.value(t), x)?,
             self.data.finite(slope - (self.ends[1] - self.ends[0]), x)?,
         ])
+    }
+
+    /// w at t; not finite where the data are not.
+    pub(crate) fn value(&self, t: f64) -> f64 {
+        let [x, y] = self.place(t);
+        self.data.at(x, y) - (self.ends[0] + t * (self.ends[1] - self.ends[0]))
+    }
+
+    fn place(&self, t: f64) -> [f64; 2] {
+        let [a, b] = self.segment;
+        [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
+    }
+
+    /// What rounding may leave of w: that of the data, and of the place where they are evaluated.
+    pub(crate) fn rounding(&self) -> f64 {
+        let of_place = |point: &[f64; 2]| {
+            let [x, y] = self.place(point[0]);
+            let [by_x, by_y] = self.data.gradient_at(x, y);
+            (by_x * x).abs() + (by_y * y).abs()
+        };
+        let of_data = self.ends.iter().map(|end| end.abs());
+        let all = of_data.chain(f64::GAUSS[DATA_POINTS - 1].iter().map(of_place));
+        ROUNDING * all.fold(0.0, f64::max)
     }
 
     fn exceeds(&self, threshold: f64) -> Result<bool> {
@@ -86,12 +116,7 @@ pub(crate) struct Lift<'d, 's>(Vec<Option<&'d Deviation<'s>>>);
 impl<'d, 's> Lift<'d, 's> {
     /// That of cell `at`, triangles first.
     pub(crate) fn on_cell(problem: &Problem, at: usize, deviations: &'d Deviations<'s>) -> Self {
-        let topology = &problem.topology;
-        let edges: &[u32] = match topology.of_triangles.get(at) {
-            Some(edges) => edges,
-            None => &topology.of_quads[at - topology.of_triangles.len()],
-        };
-        Self(edges.iter().map(|&edge| deviations.on(edge as usize)).collect())
+        Self(deviations.of_cell(problem, at))
     }
 
     /// Whether no side's data leave their chord.

@@ -17,6 +17,7 @@ use signorini_kernel::geometry::scaled_normal;
 use super::admissible::Admissible;
 use super::cell::{Cell, Jet};
 use super::conductivity::{Conductivity, apply, dot, inverse, product};
+use super::curved;
 use super::deviation::Deviations;
 use super::sampled::{Lifted, Sampled, Solution};
 use crate::error::Result;
@@ -38,8 +39,8 @@ pub struct Distance {
     pub identity: f64,
 }
 
-/// Integrates the distances at the time of the problem, with 16×16 points a cell and 64 an edge; the means are those of
-/// `problem.loads`.
+/// Integrates the distances at the time of the problem, with 16×16 points a cell and 64 an edge, more where ψ or u_D has a
+/// kink or a layer inside an edge; the means are those of `problem.loads`.
 ///
 /// # Errors
 /// An exact solution or data that are not finite at a quadrature point.
@@ -143,7 +144,10 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
         let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, tau, tau);
-        let points = cell.points(rule);
+        let points = match U::ANYWHERE && L::ANYWHERE {
+            true => curved::points(problem, at, self.deviations, rule)?,
+            false => cell.points(rule),
+        };
         let (u, lift) = (self.u.on_cell(at, &points)?, self.lift.on_cell(at, &points)?);
         let lift = lift.iter().copied().chain(repeat(Jet::default()));
         for ((point, u), lift) in points.iter().zip(u.iter()).zip(lift) {

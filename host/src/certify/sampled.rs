@@ -19,6 +19,9 @@ const PORTION: usize = 64;
 
 /// A function at the points of [`POINTS`]×[`POINTS`] Gauss points a cell.
 pub(crate) trait Sampled {
+    /// Whether it is evaluated at any points, or kept at those of the rule.
+    const ANYWHERE: bool;
+
     /// At `points`, all those of cell `at` (triangles first). Empty: 0 all over the cell.
     ///
     /// # Errors
@@ -34,6 +37,8 @@ pub(crate) struct Solution<'a> {
 }
 
 impl Sampled for Solution<'_> {
+    const ANYWHERE: bool = true;
+
     fn on_cell(&self, _: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
         let jet = |point: &Point| {
             let (value, gradient) = exact_at(self.scene, self.exact, point.x, self.time)?;
@@ -50,6 +55,8 @@ pub(crate) struct Lifted<'a> {
 }
 
 impl Sampled for Lifted<'_> {
+    const ANYWHERE: bool = true;
+
     fn on_cell(&self, at: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
         let lift = Lift::on_cell(self.problem, at, self.deviations);
         if lift.is_zero() {
@@ -82,6 +89,8 @@ impl Table {
 }
 
 impl Sampled for Table {
+    const ANYWHERE: bool = false;
+
     fn on_cell(&self, at: usize, _: &[Point]) -> Result<Cow<'_, [Jet]>> {
         Ok(Cow::Borrowed(&self.0[at]))
     }

@@ -8,6 +8,9 @@
 //! The last integral needs only w̄ and fluxes: ∫∇v·τ = w̄ τ_E + ∫v f̄. The other two are here, so that
 //! nobody downstream needs a quadrature: s is a sum of vertex functions and bubbles.
 
+mod cross;
+mod inside;
+mod panels;
 #[cfg(test)]
 mod tests;
 
@@ -16,11 +19,14 @@ use super::conductivity::{Conductivity, product};
 use super::deviation::{Deviation, Deviations};
 use crate::error::Result;
 use crate::problem::Problem;
-use crate::quadrature::{gauss, on_panels};
+use crate::quadrature::gauss;
 use crate::scene::Scene;
+use panels::Panels;
 
-/// Panels along an edge, for data with a kink there.
-pub(crate) const PANELS: u32 = 4;
+pub(crate) use cross::half_triangle;
+pub(crate) use inside::points;
+pub(crate) use panels::PANELS;
+
 /// Gauss points a panel, and away from the edge.
 pub(crate) const POINTS: usize = 8;
 
@@ -38,6 +44,8 @@ pub struct Curved {
     /// 0 to 3 the bilinear functions of the vertices, 4 to 7 the bubbles 4t(1 − t)(1 − η) of the
     /// sides. The rest is 0.
     pub coupling: [f64; 8],
+    /// Whether w jumps: no function of finite energy is w on the edge, and these numbers mean nothing.
+    pub jump: bool,
 }
 
 /// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
@@ -49,7 +57,7 @@ pub fn curved(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<Curved>
     let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
     let mut records = Vec::with_capacity(deviations.len());
     for deviation in &deviations {
-        let extension = Extension::new(scene, problem, deviation);
+        let extension = Extension::new(scene, problem, deviation)?;
         let mut record = extension.integrate()?;
         // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
         for earlier in extensions.iter().filter(|other| other.at == extension.at) {
@@ -68,13 +76,15 @@ struct Extension<'d, 's> {
     side: usize,
     cell: Cell,
     conductivity: Conductivity<'s>,
+    panels: Panels,
 }
 
 impl<'d, 's> Extension<'d, 's> {
-    fn new(scene: &'s Scene, problem: &Problem, deviation: &'d Deviation<'s>) -> Self {
+    fn new(scene: &'s Scene, problem: &Problem, deviation: &'d Deviation<'s>) -> Result<Self> {
         let (at, side) = problem.topology.first_side(deviation.edge);
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
-        Self { deviation, at, side, cell, conductivity }
+        let panels = Panels::along(deviation)?;
+        Ok(Self { deviation, at, side, cell, conductivity, panels })
     }
 
     /// ∇v at a point of its cell.
@@ -86,10 +96,10 @@ impl<'d, 's> Extension<'d, 's> {
 
     /// The record, cross terms still missing.
     fn integrate(&self) -> Result<Curved> {
-        let mut record =
-            Curved { edge: self.deviation.edge as u32, mean: 0.0, energy: 0.0, coupling: [0.0; 8] };
+        let (edge, jump) = (self.deviation.edge as u32, self.panels.jump);
+        let mut record = Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], jump };
         let away = self.rule_away();
-        for [t, weight] in on_panels(PANELS, &gauss(POINTS)) {
+        for [t, weight] in self.panels.rule() {
             let [w, slope] = self.deviation.at(t)?;
             record.mean += weight * w;
             for &[eta, weight_away] in &away {
@@ -136,7 +146,8 @@ impl<'d, 's> Extension<'d, 's> {
     /// ∫_T A∇v·∇v′
     fn cross(&self, other: &Self) -> Result<f64> {
         let mut sum = 0.0;
-        for (reference, weight) in self.cross_points(other) {
+        let (sides, panels) = ([self.side, other.side], [&self.panels, &other.panels]);
+        for (reference, weight) in cross::points(&self.cell, sides, panels) {
             let local = self.cell.local(reference);
             let (mine, its) = (self.gradient(&local)?, other.gradient(&local)?);
             let a = self.conductivity.at(local.x);
@@ -144,42 +155,4 @@ impl<'d, 's> Extension<'d, 's> {
         }
         Ok(sum)
     }
-
-    /// Reference points with their weights, to be multiplied by the area element.
-    fn cross_points(&self, other: &Self) -> Vec<([f64; 3], f64)> {
-        let along = on_panels(PANELS, &gauss(POINTS));
-        match self.cell {
-            Cell::Triangle(_) => {
-                let apices = [(self.side + 2) % 3, (other.side + 2) % 3];
-                let [mine, its] = apices;
-                let mut points = half_triangle(mine, its, &along);
-                points.extend(half_triangle(its, mine, &along));
-                points
-            }
-            Cell::Quad(_) => {
-                let rows = along.iter();
-                let square =
-                    rows.flat_map(|&[y, wy]| along.iter().map(move |&[x, wx]| (x, y, wx * wy)));
-                square.map(|(x, y, weight)| ([x, y, 0.0], weight)).collect()
-            }
-        }
-    }
-}
-
-/// The half of a triangle at vertex `apex`, cut off by the median that parts it from vertex `other`.
-///
-/// The gradient of an extension depends on the direction in which one comes to its apex; collapsed
-/// there, and with the other's apex in the other half, the integrand is as smooth as the data.
-pub(crate) fn half_triangle(apex: usize, other: usize, along: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
-    let third = 3 - apex - other;
-    let away = gauss(POINTS);
-    let point = |[t, along]: [f64; 2], [eta, weight]: [f64; 2]| {
-        let mut lambda = [0.0; 3];
-        lambda[third] = (1.0 - eta) * (1.0 - t);
-        lambda[other] = (1.0 - eta) * 0.5 * t;
-        lambda[apex] = (1.0 - eta) * 0.5 * t + eta;
-        (lambda, 0.5 * along * weight * (1.0 - eta))
-    };
-    let rows = along.iter();
-    rows.flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
 }

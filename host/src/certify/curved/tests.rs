@@ -2,9 +2,14 @@
 
 use super::*;
 use crate::certify::conductivity::Conductivity;
-use crate::certify::fixtures::{self, CURVED};
+use crate::certify::data::Data;
+use crate::certify::deviation::Lift;
+use crate::certify::exact::distance;
+use crate::certify::fixtures::{self, CURVED, PARABOLA};
 use crate::mesh::Mesh;
 use crate::mesh::structured::{Cells, grid};
+use crate::quadrature::on_panels;
+use crate::solve::{Options, SolverKind, solve};
 
 /// v of an edge as a function of the point, by its definition and without its gradient.
 fn value(cell: &Cell, side: usize, deviation: &Deviation, reference: [f64; 3]) -> f64 {
@@ -118,7 +123,7 @@ fn a_tensor_that_varies_in_the_cell_is_taken_where_it_is() -> Result<()> {
 fn a_parabola_over_its_chord() -> Result<()> {
     // ψ = −x² on an edge of length l: w = l² t(1 − t), mean l²/6. On the right isosceles triangle
     // below a cut square (E the bottom, A = I): ∇λ_b + t∇λ_c = (1/l)(1, t − 1) for the apex above b.
-    let scene = fixtures::PARABOLA;
+    let scene = PARABOLA;
     let n = 4;
     let (scene, problem) = fixtures::on_grid(scene, grid(n, Cells::Triangles))?;
     let records = curved(&scene, &problem, 0.0)?;
@@ -158,10 +163,162 @@ fn an_input_bends_an_edge_like_its_boundarys_own_expression() -> Result<()> {
 
 #[test]
 fn affine_data_leave_no_record() -> Result<()> {
-    let affine = fixtures::PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
+    let affine = PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
     for cells in [Cells::Triangles, Cells::Quads] {
         let (scene, problem) = fixtures::on_grid(&affine, grid(7, cells))?;
         assert_eq!(curved(&scene, &problem, 0.0)?, []);
+    }
+    Ok(())
+}
+
+/// The record of the contact edge from 0 to 0.5, for a gap with something at 0.3.
+fn with_gap(gap: &str) -> Result<Curved> {
+    let scene = PARABOLA.replace("-x^2", gap);
+    assert_ne!(scene, PARABOLA);
+    let (scene, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
+    let mut records = curved(&scene, &problem, 0.0)?;
+    records.retain(|record| {
+        let [a, b] = problem.segment(record.edge as usize);
+        (a[0] - 0.3) * (b[0] - 0.3) < 0.0
+    });
+    assert_eq!(records.len(), 1);
+    Ok(records.remove(0))
+}
+
+/// ½∫ w′² + ((1 − t)w′ + w)² dt: the energy above, for any w, over a part of the edge.
+fn energy_of(w: impl Fn(f64) -> [f64; 2], [from, to]: [f64; 2]) -> f64 {
+    let term = |[t, weight]: [f64; 2]| {
+        let t = from + (to - from) * t;
+        let [w, slope] = w(t);
+        0.5 * (to - from) * weight * (slope.powi(2) + ((1.0 - t) * slope + w).powi(2))
+    };
+    gauss(4).into_iter().map(term).sum()
+}
+
+#[test]
+fn a_kink_inside_an_edge_is_found() -> Result<()> {
+    // ψ = −30 (x − 0.3)₊ is −15 (t − 0.6)₊, its chord −6t.
+    let record = with_gap("-30*max(0, x - 0.3)")?;
+    let chord = 30.0 * 0.2;
+    let left = |t: f64| [chord * t, chord];
+    let right = |t: f64| [chord * t - 15.0 * (t - 0.6), chord - 15.0];
+    let expected = energy_of(left, [0.0, 0.6]) + energy_of(right, [0.6, 1.0]);
+    assert!((record.energy / expected - 1.0).abs() < 1e-5, "{} {expected}", record.energy);
+    let mean = 0.5 * chord * 0.6;
+    assert!((record.mean / mean - 1.0).abs() < 1e-5, "{} {mean}", record.mean);
+    Ok(())
+}
+
+#[test]
+fn a_layer_inside_an_edge_is_found() -> Result<()> {
+    // w′ = sech²((t − t₀)/δ)/δ and ∫w′² = 4/(3δ), next to which w is nothing; t₀ = 0.6.
+    for width in [1e-3, 1e-6] {
+        let record = with_gap(&format!("tanh((x - 0.3)/{width:e})"))?;
+        let expected = 0.5 * (1.0 + 0.4_f64.powi(2)) * 4.0 / 3.0 / (2.0 * width);
+        let most = 20.0 * width + 1e-4;
+        assert!((record.energy / expected - 1.0).abs() < most, "{} {expected}", record.energy);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_jump_inside_an_edge_has_no_bound() -> Result<()> {
+    assert!(with_gap("sign(x - 0.3)")?.jump && !with_gap("abs(x - 0.3)")?.jump);
+    for (gap, bound) in [("sign(x - 0.3)", false), ("abs(x - 0.3)", true), ("-x^2", true)] {
+        let scene = PARABOLA.replace("-x^2", gap);
+        let (scene, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
+        assert_eq!(Data::<f64>::new(&scene, &problem)?.has_bound(), bound, "{gap}");
+    }
+    Ok(())
+}
+
+#[test]
+fn single_singular_points_do_no_harm() -> Result<()> {
+    // No slope at the end of the edge, no value in its middle.
+    for gap in ["-(x^2)^0.75", "-sin(x - 0.25)/(x - 0.25)"] {
+        let record = with_gap(gap)?;
+        assert!(record.energy > 0.0 && record.energy < 1.0 && !record.jump, "{gap}: {record:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn smooth_data_have_regular_panels() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (scene, problem) = fixtures::on_grid(CURVED, fixtures::distorted(grid(2, cells)))?;
+        for deviation in &Deviations::at_time(&scene, &problem, 0.0)?.0 {
+            assert_eq!(Panels::along(deviation)?, Panels::regular());
+        }
+    }
+    // Far from the origin the places of the points are rounded, on edges of 10⁻⁶ to a few digits.
+    let far = PARABOLA.replace("-x^2", "-(x - 1e3)^2").replace("1e6*y", "1e6*(y - 1e3)/1e-6");
+    let mut mesh = grid(2, Cells::Triangles);
+    mesh.vertices.iter_mut().for_each(|x| *x = [1e3 + 1e-6 * x[0], 1e3 + 1e-6 * x[1]]);
+    let (scene, problem) = fixtures::on_grid(&far, mesh)?;
+    for deviation in &Deviations::at_time(&scene, &problem, 0.0)?.0 {
+        assert_eq!(Panels::along(deviation)?, Panels::regular());
+    }
+    assert_eq!(Panels::regular().rule(), on_panels(PANELS, &gauss(POINTS)));
+    Ok(())
+}
+
+#[test]
+fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
+    // On quads also opposite sides.
+    let scene = CURVED
+        .replace(
+            "sin(2*x) + y^3 - 0.3*x*y^2",
+            "abs(x - 0.31) + 2*max(0, y - 0.62) + max(0, x + 0.57)",
+        )
+        .replace("-2 + exp(x)*(1 + x^2)/20", "-3 - abs(x - 0.43) - max(x, -0.83)");
+    assert_ne!(scene, CURVED);
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (scene, problem) = fixtures::on_grid(&scene, grid(1, cells))?;
+        let deviations = Deviations::at_time(&scene, &problem, 0.0)?;
+        let (records, mut pairs) = (curved(&scene, &problem, 0.0)?, 0);
+        for at in 0..problem.cells() {
+            let here =
+                records.iter().filter(|of| problem.topology.first_side(of.edge as usize).0 == at);
+            let (found, sides) = here.fold((0.0, 0), |(sum, n), of| (sum + of.energy, n + 1));
+            pairs += usize::from(sides > 1);
+            let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+            let lift = Lift::on_cell(&problem, at, &deviations);
+            let mut expected = 0.0;
+            for point in cell.points(&on_panels(300, &gauss(2))) {
+                let gradient = lift.at(&cell.local(point.reference))?.gradient;
+                expected += point.weight * product(&a.at(point.x), gradient, gradient);
+            }
+            assert!((found / expected - 1.0).abs() < 2e-4, "cell {at}: {found} {expected}");
+        }
+        assert!(pairs > 1, "no cells with two curved sides were tried");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
+    // u = y² − x² + 1 with σ·n = 0 above a gap that is rough: nothing touches, and the extensions are most of the bound.
+    let exact = "[exact]\nu = \"y^2 - x^2 + 1\"\ngradient = [\"-2*x\", \"2*y\"]\n";
+    for gap in [
+        "-0.5 - 30*max(0, x - 0.99)",
+        "-0.5 - 3*max(0, x - 0.85)",
+        "-0.5 + 0.3*max(0, 1 - abs(x - 0.3)/0.05)",
+        "-0.5 - 30*max(0, x - 0.99) - 3*abs(x + 0.9)",
+        "-1.5 + tanh((x - 0.4)/1e-4)",
+    ] {
+        let text = PARABOLA
+            .replace("20 + 1e6*y", "y^2 - x^2 + 1")
+            .replace("\"-x^2\"", &format!("{gap:?}"));
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let (scene, problem) = fixtures::on_grid(&(text.clone() + exact), grid(4, cells))?;
+            let options = Options { solver: SolverKind::Direct, ..Options::default() };
+            let solution = solve(&scene, &problem, &options)?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let admissible = solution.certified.admissible();
+            let found = distance(&scene, exact, &problem, &admissible)?;
+            let ratio = solution.bound.expect("a bound").gap / found.identity;
+            assert!((ratio - 1.0).abs() < 2e-4, "{gap}, {cells:?}: {ratio}");
+        }
     }
     Ok(())
 }

@@ -7,6 +7,8 @@ pub mod clock;
 #[cfg(target_os = "none")]
 mod console;
 pub mod draw;
+#[cfg(all(target_os = "none", target_abi = "eabihf"))]
+pub mod flush;
 pub mod journal;
 #[cfg(target_os = "none")]
 pub mod stack;

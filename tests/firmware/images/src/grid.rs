@@ -6,7 +6,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Real};
 
-/// Squares along x.
+/// Squares in a row, and edges of contact and of u given.
 pub const COLUMNS: usize = 16;
 const LINES: usize = 8;
 /// Vertices.

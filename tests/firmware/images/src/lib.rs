@@ -11,6 +11,7 @@ pub mod meter;
 pub mod scenes;
 pub mod stages;
 pub mod tick;
+pub mod tiny;
 
 #[cfg(target_os = "none")]
 pub use signorini_board as board;

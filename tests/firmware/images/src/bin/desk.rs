@@ -23,12 +23,13 @@ fn main() -> std::process::ExitCode {
         Some("sweeps") => stages::sweeps(journal),
         Some("flux") => stages::flux(journal),
         Some("scenes") => stages::scenes(journal),
+        Some("flushed") => signorini_firmware::tiny::ticks(journal),
         Some("tick_linear") => show!(linear_f32, f32, TRIANGLES, false, journal),
         Some("tick_triangles") => show!(levee_f32, f32, TRIANGLES, true, journal),
         Some("tick_quads") => show!(slab_f32, f32, QUADS, true, journal),
         Some("tick_mixed") => show!(strip_f32, f32, QUADS, true, journal),
         _ => {
-            eprintln!("usage: desk elements|assembly|sweeps|flux|scenes|tick_KIND");
+            eprintln!("usage: desk elements|assembly|sweeps|flux|scenes|flushed|tick_KIND");
             return std::process::ExitCode::from(2);
         }
     }

@@ -1,0 +1,72 @@
+//! What the README says of the extremes, of fuzzing and of mutants is what their committed records hold.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+/// A file of the repository.
+fn read(path: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    std::fs::read_to_string(root.join(path)).expect(path)
+}
+
+/// Every phrase stands in the README, wherever its lines break.
+fn readme_says(phrases: &[String]) {
+    let readme: Vec<String> = read("README.md").split_whitespace().map(str::to_owned).collect();
+    let readme = readme.join(" ");
+    let missing: Vec<_> = phrases.iter().filter(|phrase| !readme.contains(*phrase)).collect();
+    assert!(missing.is_empty(), "README.md lacks {missing:?}");
+}
+
+/// The words of each line of a record that has `count` of them.
+fn lines(record: &str, count: usize) -> Vec<Vec<&str>> {
+    let lines = record.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    lines.filter(|words| words.len() == count).collect()
+}
+
+fn number(word: &str) -> Option<u64> {
+    word.parse().ok()
+}
+
+#[test]
+fn the_readme_quotes_the_record_of_the_extremes() {
+    let record: Value =
+        serde_json::from_str(&read("host/benches/extremes/extremes.json")).expect("JSON");
+    let cases = record["cases"].as_array().expect("cases");
+    let count = |outcome: &str| cases.iter().filter(|case| case["outcome"] == outcome).count();
+    let [correct, poor, refused, wrong] =
+        ["correct", "certified-poor", "typed-error", "wrong"].map(count);
+    let all = cases.len();
+    assert_eq!(all, correct + poor + refused + wrong);
+    readme_says(&[
+        format!("{all} cases in about"),
+        format!(
+            "Of {all} cases {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong."
+        ),
+    ]);
+}
+
+#[test]
+fn the_readme_quotes_the_record_of_fuzzing() {
+    let record = read("tests/fuzz/record.txt");
+    // target, executions, edges, corpus, found, date
+    let targets = lines(&record, 6)
+        .into_iter()
+        .filter_map(|words| Some(format!("{} {:.1}", words[0], number(words[1])? as f64 / 1e6)));
+    let phrases: Vec<String> = targets.collect();
+    assert_eq!(phrases.len(), 5, "{phrases:?}");
+    readme_says(&phrases);
+}
+
+#[test]
+fn the_readme_quotes_the_record_of_mutants() {
+    let record = read("tests/mutants/record.txt");
+    // path, content, mutants, caught, timeout, missed, unviable
+    let files = lines(&record, 7).into_iter().filter_map(|words| {
+        let [mutants, caught, timeout, _, unviable] = [2, 3, 4, 5, 6].map(|at| number(words[at]));
+        Some((caught? + timeout?, mutants? - unviable?))
+    });
+    let (killed, viable) = files.fold((0, 0), |sum, file| (sum.0 + file.0, sum.1 + file.1));
+    assert!(viable > 0 && 100 * killed >= 95 * viable, "{killed} of {viable}");
+    readme_says(&[format!("{killed} of {viable} viable mutants")]);
+}
