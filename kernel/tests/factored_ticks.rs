@@ -4,133 +4,16 @@
 mod plate;
 
 use plate::Side;
+use plate::factor::{Baked, Store};
 use plate::foundation::{Foundation, GAP};
-use signorini_kernel::condensed::Iterate;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::tableau::Start;
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::EdgeCounts;
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::sparse::direct::normalise;
-use signorini_kernel::sparse::elimination::PatternBuffers;
-use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{self, Exact, Factor, Factored, Pattern};
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Report, Running, Tick};
-use signorini_kernel::{Error, Libm, Relaxation, assembly};
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::full::{self, Base, DataMemory, Full, Functional};
+use signorini_kernel::rows::QUADS;
+use signorini_kernel::sparse::Exact;
+use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Progress, Report, Running};
+use signorini_kernel::{Error, Libm, Relaxation};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
-
-/// L, D and S of the plate, unknowns in their own order.
-struct Baked {
-    counts: EdgeCounts,
-    places: Vec<u16>,
-    pointers: Vec<u32>,
-    rows: Vec<u16>,
-    values: Vec<f64>,
-    inverse: Vec<f64>,
-    schur: Vec<Block<f64>>,
-    scale: Vec<f64>,
-    none: Vec<bool>,
-}
-
-impl Baked {
-    fn new(foundation: &Foundation) -> Result<Self, Error> {
-        let (edges, boundary) = (foundation.plate.edges()?, foundation.boundary()?);
-        let counts = edges.counts();
-        let mut row_ptr = vec![0; counts.unknowns() + 1];
-        let mut col_idx = vec![0; edges.nonzeros()];
-        let mut entries = vec![0.0; edges.nonzeros()];
-        assembly::pattern(&edges, &mut row_ptr, &mut col_idx)?;
-        assembly::values(&edges, foundation.stiffness(), &boundary, &row_ptr, &mut entries)?;
-        let matrix = Csr::new(&row_ptr, &col_idx, &entries, counts.edges())?;
-        let free = counts.free;
-        // Every third one first: places are not numbers.
-        let order: Vec<u16> = (0..3).flat_map(|first| (first..free as u16).step_by(3)).collect();
-        let [mut places, mut parent] = [(); 2].map(|()| vec![0; free]);
-        let mut pointers = vec![0; free + 1];
-        let buffers = PatternBuffers {
-            place: &mut places,
-            parent: &mut parent,
-            visited: &mut vec![0; free],
-            pointers: &mut pointers,
-        };
-        let pattern = Pattern::new(&matrix, counts, &order, buffers)?;
-        let number = pattern.entries();
-        let (mut rows, mut values) = (vec![0; number], vec![0.0; number]);
-        let (mut inverse, mut row) = (vec![0.0; free], vec![0.0; counts.unknowns()]);
-        let mut schur = vec![[[0.0; SIDE]; SIDE]; count(counts.contact)];
-        let buffers = FactorBuffers {
-            rows: &mut rows,
-            values: &mut values,
-            inverse: &mut inverse,
-            ends: &mut vec![0; free],
-            path: &mut vec![0; free],
-            visited: &mut vec![0; free],
-            row: &mut row,
-        };
-        Factor::new(&matrix, pattern, buffers, &mut schur)?.expect("a factor");
-        let mut scale = vec![0.0; padded(counts.contact)];
-        assert!(normalise(&mut schur, &mut scale, counts.contact));
-        let none = vec![false; scale.len()];
-        Ok(Self { counts, places, pointers, rows, values, inverse, schur, scale, none })
-    }
-
-    fn view(&self) -> Factored<'_, f64, u16> {
-        let Self { counts, places, pointers, rows, values, inverse, schur, scale, none } = self;
-        let factor = Factor::baked(places, pointers, rows, values, inverse, *counts);
-        Factored { factor, schur, scale, start: Start { blocks: schur, exchanged: none } }
-    }
-}
-
-/// A tick and what solves it.
-type Both<'a> = (Tick<'a, f64, u16, QUADS>, Exact<'a, f64, u16>);
-
-/// Memory of ticks, and of the exchanges.
-struct Store {
-    rows: Vec<Row<f64, u16, QUADS>>,
-    active: Vec<bool>,
-    numbers: [Vec<f64>; 5],
-    tableau: Vec<Block<f64>>,
-    flags: [Vec<bool>; 2],
-    columns: [Vec<f64>; 6],
-}
-
-impl Store {
-    fn new(foundation: &Foundation) -> Result<Self, Error> {
-        let counts = foundation.plate.edges()?.counts();
-        let (unknowns, edges) = (counts.unknowns(), counts.edges());
-        let lengths = [unknowns, foundation.plate.vertices.len(), edges, edges, edges];
-        let length = padded(counts.contact);
-        Ok(Self {
-            rows: vec![Row::EMPTY; unknowns],
-            active: vec![false; counts.contact],
-            numbers: lengths.map(|length| vec![0.0; length]),
-            // What was there before does not matter.
-            tableau: vec![[[7.0; SIDE]; SIDE]; count(counts.contact)],
-            flags: [(); 2].map(|()| vec![true; length]),
-            columns: [(); 6].map(|()| vec![7.0; length]),
-        })
-    }
-
-    fn of<'a>(
-        &'a mut self,
-        foundation: &'a Foundation,
-        baked: &'a Baked,
-    ) -> Result<Both<'a>, Error> {
-        let ground = foundation.ground()?;
-        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
-        let rows = Rows::new(&ground.edges, &mut self.rows)?;
-        let memory = Memory { rows, load, active: &mut self.active, vertices, bubbles, tau, u };
-        let ([exchanged, open], [column, next, load, x, residual, scratch]) =
-            (&mut self.flags, &mut self.columns);
-        let iterate = Iterate { x, residual, scratch, open };
-        let tableau = &mut self.tableau;
-        let contact = sparse::Memory { tableau, exchanged, columns: [column, next], load, iterate };
-        let mut exact = Exact::new(baked.view(), contact)?;
-        exact.restart()?;
-        Ok((Tick::new(ground, memory, Relaxation::Adaptive(1.0))?, exact))
-    }
-}
 
 /// Data whose source is multiplied, and whose gap bends along the contact.
 struct Input {
@@ -296,5 +179,74 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
     assert!(tick.u()[contact..].contains(&GAP));
     exact.restart()?;
     assert!(exact.solved().is_none());
+    Ok(())
+}
+
+#[test]
+fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (baked, given) = (Baked::new(&foundation)?, foundation.given()?);
+    let boundary = &given.boundary;
+    let flux: Vec<f64> =
+        foundation.lower.iter().enumerate().map(|(at, _)| boundary.contact_flux(at)).collect();
+    let VertexData { gap, given: on_dirichlet } = given.ends;
+    let touching: Vec<u16> = (0..foundation.lower.len() as u16).collect();
+    let full = Full {
+        ground: foundation.ground()?,
+        base: Base {
+            loads: given.loads,
+            neumann: boundary.neumann(),
+            robin: boundary.robin(),
+            contact_flux: &flux,
+            gap: &foundation.lower,
+            dirichlet: &foundation.dirichlet,
+            ends: VertexData { gap, given: on_dirichlet },
+            curved: &[],
+            curved_sums: &[],
+            transfer: &[],
+        },
+        patterns: &[],
+        oscillation: &[],
+        outputs: &[Functional::Force(&touching), Functional::Bound],
+        has_bound: true,
+        corners: &[],
+        start: 0.0,
+        relaxation: Relaxation::Adaptive(1.0),
+    };
+    let mut forces = Vec::new();
+    for certified in [true, false] {
+        let (mut store, mut progress) = (Store::new(&foundation)?, Progress::NONE);
+        for round in 0..2 {
+            let (tick, mut exact) = store.memory(&foundation, &baked)?;
+            let data = DataMemory::default();
+            let memory = full::Memory { tick, data, progress: &mut progress };
+            let (never, mut outputs) = (&mut Deadline::never(), [0.0; 2]);
+            let report = match certified {
+                true => full.tick_factored::<Libm, QUADS, _>(
+                    &[],
+                    NO_SWEEPS,
+                    never,
+                    memory,
+                    &mut exact,
+                    &mut outputs,
+                )?,
+                false => full.tick_factored_uncertified::<Libm, QUADS, _>(
+                    &[],
+                    NO_SWEEPS,
+                    never,
+                    memory,
+                    &mut exact,
+                    &mut outputs,
+                )?,
+            };
+            assert_eq!((report.ended, report.sweeps), (Ended::Settled, 0));
+            // The exchanges of the first tick are still there in the second.
+            let pivots = exact.solved().expect("a solution").pivots;
+            assert_eq!(pivots > 0, round == 0, "{pivots}");
+            assert_eq!(outputs[1].is_finite(), certified);
+            forces.push(outputs[0]);
+        }
+    }
+    assert!(forces[0] > 0.1 && off(&forces, &[forces[0]; 4]) < 1e-12, "{forces:?}");
     Ok(())
 }

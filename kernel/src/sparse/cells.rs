@@ -42,9 +42,9 @@ impl<R: Real, I: Index> Balance<'_, R, I> {
         for (unknown, &load) in self.load.iter().enumerate() {
             write(places, factor.place(unknown), load);
         }
+        // Dirichlet edges have no place.
         let mut take = |edge: usize, flow: R| {
-            let inside = edge < factor.counts().unknowns();
-            if let Some(defect) = places.get_mut(factor.place(edge)).filter(|_| inside) {
+            if let Some(defect) = places.get_mut(factor.place(edge)) {
                 *defect -= flow;
             }
         };

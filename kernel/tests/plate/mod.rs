@@ -1,6 +1,7 @@
 //! A small plate that several tests share.
 #![allow(dead_code)]
 
+pub mod factor;
 pub mod foundation;
 
 use signorini_kernel::Error;
