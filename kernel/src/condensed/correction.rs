@@ -11,43 +11,65 @@
 use super::blocks::{Block, SIDE, filled};
 use crate::real::Real;
 
-/// T −= Σ c cᵀ · `inverse` over some columns c, each with its own inverse.
+/// T −= c cᵀ · `inverse`
 #[inline(always)]
-pub(super) fn subtract<R: Real, const N: usize>(
+pub(super) fn subtract_one<R: Real>(
     blocks: &mut [Block<R>],
     order: usize,
-    columns: [&[[R; SIDE]]; N],
-    inverses: [R; N],
+    column: &[[R; SIDE]],
+    inverse: R,
 ) {
     let mut rest = blocks;
-    for row in 0..order.div_ceil(SIDE) {
+    for (row, own) in column.iter().enumerate() {
         let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        let mut factors = [[R::ZERO; N]; SIDE];
-        for (at, (column, inverse)) in columns.iter().zip(inverses).enumerate() {
-            let Some(own) = column.get(row) else { return };
-            for (factors, &entry) in factors.iter_mut().zip(own) {
-                factors.iter_mut().skip(at).take(1).for_each(|factor| *factor = entry * -inverse);
-            }
-        }
-        add(blocks, columns, filled(&mut factors, row, order));
+        add_one(blocks, column, filled(&mut scaled(own, -inverse), row, order));
         rest = more;
     }
 }
 
-/// Adds to each row of a row of blocks the columns, each times a factor of that row.
+/// T −= a aᵀ · `inverses[0]` + b bᵀ · `inverses[1]`
+#[inline(always)]
+pub(super) fn subtract_two<R: Real>(
+    blocks: &mut [Block<R>],
+    order: usize,
+    [a, b]: [&[[R; SIDE]]; 2],
+    [of_a, of_b]: [R; 2],
+) {
+    let mut rest = blocks;
+    for (row, (own_a, own_b)) in a.iter().zip(b).enumerate() {
+        let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
+        let mut factors = [[R::ZERO; 2]; SIDE];
+        for (pair, (&entry_a, &entry_b)) in factors.iter_mut().zip(own_a.iter().zip(own_b)) {
+            *pair = [entry_a * -of_a, entry_b * -of_b];
+        }
+        add_two(blocks, [a, b], filled(&mut factors, row, order));
+        rest = more;
+    }
+}
+
+/// Adds to each row of a row of blocks the column, times a factor of that row.
 #[cfg_attr(target_arch = "arm", inline(always))]
 #[cfg_attr(not(target_arch = "arm"), inline(never))]
-fn add<R: Real, const N: usize>(
-    blocks: &mut [Block<R>],
-    columns: [&[[R; SIDE]]; N],
-    factors: &[[R; N]],
-) {
-    for (place, block) in blocks.iter_mut().enumerate() {
-        // Copies, which no write to a block can change, stay in registers.
-        let groups = columns.map(|column| column.get(place).copied().unwrap_or([R::ZERO; SIDE]));
-        for (row, factors) in block.iter_mut().zip(factors) {
-            for (group, &factor) in groups.iter().zip(factors) {
-                row.iter_mut().zip(group).for_each(|(entry, &of)| *entry += factor * of);
+fn add_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], factors: &[R]) {
+    for (block, other) in blocks.iter_mut().zip(column) {
+        // A copy, which no write to a block can change, stays in registers.
+        let other = *other;
+        for (row, &factor) in block.iter_mut().zip(factors) {
+            row.iter_mut().zip(other).for_each(|(entry, other)| *entry += factor * other);
+        }
+    }
+}
+
+/// The same with two columns, and a pair of factors a row.
+#[cfg_attr(target_arch = "arm", inline(always))]
+#[cfg_attr(not(target_arch = "arm"), inline(never))]
+fn add_two<R: Real>(blocks: &mut [Block<R>], [a, b]: [&[[R; SIDE]]; 2], factors: &[[R; 2]]) {
+    for (block, (other_a, other_b)) in blocks.iter_mut().zip(a.iter().zip(b)) {
+        let (other_a, other_b) = (*other_a, *other_b);
+        for (row, &[factor_a, factor_b]) in block.iter_mut().zip(factors) {
+            let others = other_a.into_iter().zip(other_b);
+            for (entry, (a, b)) in row.iter_mut().zip(others) {
+                *entry = *entry + factor_a * a + factor_b * b;
             }
         }
     }

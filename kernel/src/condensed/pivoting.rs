@@ -113,10 +113,9 @@ fn search<R: Real>(
 fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
     let (mut found, mut most) = (None, noise);
     for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
-        // z = −x within, w elsewhere.
-        let wrong = if within { z } else { -z };
-        if wrong > most {
-            (found, most) = (Some(at), wrong);
+        // z = −x within, w elsewhere: both are wrong where their signs say otherwise.
+        if (z > R::ZERO) == within && z.magnitude() > most {
+            (found, most) = (Some(at), z.magnitude());
             if !by_most {
                 break;
             }

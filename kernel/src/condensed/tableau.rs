@@ -19,7 +19,7 @@
 //! against S now and then ([`super::pivoting`]).
 
 use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
-use super::correction::{position, scaled, store, subtract};
+use super::correction::{position, scaled, store, subtract_one, subtract_two};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
@@ -159,7 +159,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     pub(super) fn finish(&mut self) {
         if let Some(Pivot { at, inverse, shrink }) = self.waiting.take() {
             let column = groups(self.column);
-            subtract(self.blocks, self.order, [column], [inverse]);
+            subtract_one(self.blocks, self.order, column, inverse);
             store(self.blocks, at, column, inverse, |group, _| scaled(group, shrink));
         }
     }
@@ -195,7 +195,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// Two corrections in one pass: `first` with `column`, `second` with `next`.
     fn correct_twice(&mut self, first: Pivot<R>, second: Pivot<R>) {
         let (column, next) = (groups(self.column), groups(self.next));
-        subtract(self.blocks, self.order, [column, next], [first.inverse, second.inverse]);
+        subtract_two(self.blocks, self.order, [column, next], [first.inverse, second.inverse]);
         if first.at != second.at {
             // What the first leaves in its own row and column, the second still corrects.
             let own = self.next.get(first.at).copied().unwrap_or_default() * second.inverse;
