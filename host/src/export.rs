@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use signorini_kernel::error::Array;
 use signorini_kernel::{Error, Index, Model};
 
-use crate::bake::range::refuse_squares;
+use crate::bake::range::{refuse_lengths, refuse_squares};
 use crate::error::Result;
 use crate::problem::{Assembled, Problem};
 use crate::scalar::Scalar;
@@ -31,6 +31,7 @@ pub struct Origin<'a> {
 /// Numbers that the scalar type cannot hold or compute with in the scene's units.
 pub fn export<R: Scalar>(origin: Origin) -> Result<String> {
     refuse_squares::<R>(origin.scene, &choose_units(origin.scene, origin.problem)?)?;
+    refuse_lengths::<R>(origin.scene, origin.problem)?;
     let unfit = unfit::<R>(origin.scene);
     let assembled = Assembled::<R>::new(origin.problem).map_err(&unfit)?;
     assembled.system().map_err(&unfit)?;

@@ -8,6 +8,7 @@
 //! 1e±32 and 1e±12 in f32.
 
 use crate::error::{InputError, Result};
+use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
@@ -39,6 +40,22 @@ fn refuse<R: Scalar>(scene: &Scene, units: &Units, what: &str, room: f64) -> Res
     let message = format!("{of} near 1e{size}, which {} cannot {what} with all digits", R::NAME);
     let hint =
         format!("state the scene in other units: {data} divided by 1e{unit}{}", wider::<R>());
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
+/// Refuses a mesh whose edges a program in `R` could not hold the lengths of.
+pub(crate) fn refuse_lengths<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
+    let room = -R::TINY.wide().log2() - NEAR;
+    let length = |edge| {
+        let [a, b] = problem.segment(edge);
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    };
+    let mut lengths = (0..problem.topology.counts.edges()).map(length);
+    let Some(far) = lengths.find(|length| length.log2().abs() > room) else { return Ok(()) };
+    let size = far.log10().round();
+    let message =
+        format!("the mesh has edges near 1e{size}, which {} cannot hold with all digits", R::NAME);
+    let hint = format!("state lengths in another unit{}", wider::<R>());
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 

@@ -12,6 +12,9 @@ use crate::scene::{Field, Scene};
 /// A deviation below this part of the largest boundary datum is the rounding of an affine one.
 const ROUNDING: f64 = 1e-14;
 
+/// Rules along an edge in search of a deviation: a bump narrower than a fortieth of the edge may lie between all points.
+const LOOKS: u32 = 8;
+
 /// w on one edge.
 pub(crate) struct Deviation<'s> {
     /// The edge.
@@ -19,6 +22,8 @@ pub(crate) struct Deviation<'s> {
     data: Sum<'s>,
     segment: [[f64; 2]; 2],
     ends: [f64; 2],
+    /// The largest boundary datum of all edges.
+    scale: f64,
 }
 
 /// The edges whose data are not affine, ascending.
@@ -31,14 +36,14 @@ impl<'s> Deviations<'s> {
         let counts = problem.topology.counts;
         let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
         let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
-        let threshold = ROUNDING * ends.scale();
+        let scale = ends.scale();
         let mut found = Vec::new();
         for (edge, (field, ends)) in contact.chain(given) {
             let data = Sum::on_edge(scene, problem, edge, field, time);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
-            let deviation = Deviation { edge, data, segment, ends };
-            if deviation.exceeds(threshold)? {
+            let deviation = Deviation { edge, data, segment, ends, scale };
+            if deviation.exceeds(ROUNDING * scale)? {
                 found.push(deviation);
             }
         }
@@ -95,15 +100,19 @@ impl Deviation<'_> {
             let [by_x, by_y] = self.data.gradient_at(x, y);
             (by_x * x).abs() + (by_y * y).abs()
         };
-        let of_data = self.ends.iter().map(|end| end.abs());
-        let all = of_data.chain(f64::GAUSS[DATA_POINTS - 1].iter().map(of_place));
-        ROUNDING * all.fold(0.0, f64::max)
+        let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
+        ROUNDING * places.fold(self.scale, f64::max)
     }
 
+    /// At the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them miss is
+    /// not seen at all.
     fn exceeds(&self, threshold: f64) -> Result<bool> {
-        for point in f64::GAUSS[DATA_POINTS - 1] {
-            if self.at(point[0])?[0].abs() > threshold {
-                return Ok(true);
+        for panel in 0..LOOKS {
+            for point in f64::GAUSS[DATA_POINTS - 1] {
+                let t = (f64::from(panel) + point[0]) / f64::from(LOOKS);
+                if self.at(t)?[0].abs() > threshold {
+                    return Ok(true);
+                }
             }
         }
         Ok(false)

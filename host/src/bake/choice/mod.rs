@@ -14,7 +14,7 @@ mod meshes;
 mod work;
 
 use super::budget::{Budget, Needs, Shortfall};
-use super::range::{refuse_answers, refuse_squares};
+use super::range::{refuse_answers, refuse_lengths, refuse_squares};
 use super::trial::Trial;
 use super::{condensed, full};
 use crate::condense::{check_size, condense};
@@ -109,6 +109,7 @@ impl<R: Scalar> Choice<R> {
         let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
         let units = choose_units(scene, problem)?;
         refuse_answers::<R>(scene, &units)?;
+        refuse_lengths::<R>(scene, problem)?;
         // Condensation is in the scene's units, in f64.
         let near = refuse_squares::<f64>(scene, &units);
         if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
