@@ -79,3 +79,25 @@ pub(crate) fn refuse_inputs<R: Scalar>(scene: &Scene) -> Result<()> {
 pub(crate) fn wider<R: Scalar>() -> &'static str {
     if size_of::<R>() < size_of::<f64>() { ", or use --scalar f64" } else { "" }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::fixtures::{self, SMOOTH};
+    use crate::mesh::structured::{Cells, grid};
+
+    #[test]
+    fn lengths_that_f32_cannot_hold_are_refused() -> Result<()> {
+        for (unit, is_held) in
+            [(1e-40, false), (1e-30, true), (1.0, true), (1e30, true), (1e36, false)]
+        {
+            let mut mesh = grid(2, Cells::Mixed);
+            mesh.vertices.iter_mut().flatten().for_each(|x| *x *= unit);
+            let text = SMOOTH.replace("x^2*y + y^2 + x^3", "1").replace("x^3", "0");
+            let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+            assert_eq!(refuse_lengths::<f32>(&scene, &problem).is_ok(), is_held, "{unit}");
+            refuse_lengths::<f64>(&scene, &problem)?;
+        }
+        Ok(())
+    }
+}

@@ -148,3 +148,28 @@ impl<'d, 's> Lift<'d, 's> {
         Ok(sum)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::fixtures::{self, SMOOTH};
+    use crate::mesh::structured::{Cells, grid};
+
+    fn curved(gap: &str) -> Result<usize> {
+        let text = SMOOTH.replace("gap = \"x^3\"", &format!("gap = \"{gap}\""));
+        let (scene, problem) = fixtures::on_grid(&text, grid(4, Cells::Triangles))?;
+        let free = problem.topology.counts.free;
+        let contact = free..problem.topology.counts.unknowns();
+        let found = Deviations::at_time(&scene, &problem, 0.0)?;
+        Ok(found.0.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
+    }
+
+    /// In the middle of an edge of ¼ the points of one rule lie 0.046 apart.
+    #[test]
+    fn a_bump_between_the_points_of_one_rule_is_seen() -> Result<()> {
+        assert_eq!(curved("max(0, 1 - abs(x-0.375)/0.02)")?, 1);
+        assert_eq!(curved("max(0, 1 - abs(x-0.375)/0.004)")?, 1);
+        assert_eq!(curved("2*x - 1")?, 0);
+        Ok(())
+    }
+}
