@@ -5,20 +5,26 @@
 //!   minimise ½ xᵀŜx − b̂ᵀx over x ≥ 0,   Ŝ_ij = d_i S_ij d_j,   b̂ = d (b̃ − Sψ)
 //! ```
 //! S comes from the reference factorisation, so that loads may be any: [`crate::condense`] takes patterns
-//! with inputs, and its matrix and loads are these. ‖x − x*‖_Ŝ is the energy distance of the full fields.
+//! with inputs, and its matrix and loads are these, in the same order along the boundary. ‖x − x*‖_Ŝ is the energy distance of the full fields.
 
-use faer::MatRef;
+use faer::Mat;
 
-use crate::condense::Condensate;
+use crate::condense::{Condensate, along_boundary};
 use crate::error::Result;
+use crate::problem::Problem;
 use crate::reference::{Factor, Linear};
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, Tick};
 
 /// The condensed problems, and the model that the kernel's exact method is baked from.
-pub(super) fn condensed(full: &Quadratic, factor: &Factor) -> Result<(Quadratic, Condensate)> {
-    let (n, free, schur) = (full.contact(), full.free(), factor.schur());
+pub(super) fn condensed(
+    problem: &Problem,
+    full: &Quadratic,
+    factor: &Factor,
+) -> Result<(Quadratic, Condensate)> {
+    let (n, free, edges) = (full.contact(), full.free(), along_boundary(problem));
+    let schur = Mat::from_fn(n, n, |i, j| factor.schur()[(edges[i], edges[j])]);
     let d: Vec<f64> = (0..n).map(|i| 1.0 / schur[(i, i)].sqrt()).collect();
     let mut matrix = Matrix::new();
     for i in 0..n {
@@ -27,15 +33,17 @@ pub(super) fn condensed(full: &Quadratic, factor: &Factor) -> Result<(Quadratic,
     }
     let mut ticks = Vec::new();
     for (tick, condensed) in full.ticks.iter().zip(condensed_loads(full)?) {
-        let product = |i: usize| (0..n).map(|j| schur[(i, j)] * tick.lower[j]).sum::<f64>();
-        let load = (0..n).map(|i| d[i] * (condensed[i] - product(i))).collect();
+        let product = |i: usize| (0..n).map(|j| schur[(i, j)] * tick.lower[edges[j]]).sum::<f64>();
+        let load = (0..n).map(|i| d[i] * (condensed[edges[i]] - product(i))).collect();
         ticks.push(Tick { load, lower: vec![0.0; n] });
     }
-    let openings =
-        full.answers.iter().zip(&full.ticks).map(|(u, tick)| {
-            (0..n).map(|i| ((u[free + i] - tick.lower[i]) / d[i]).max(0.0)).collect()
-        });
+    let openings = full.answers.iter().zip(&full.ticks).map(|(u, tick)| {
+        let opening = |i: usize| u[free + edges[i]] - tick.lower[edges[i]];
+        (0..n).map(|i| (opening(i) / d[i]).max(0.0)).collect()
+    });
     let answers = openings.collect();
+    let held = edges.iter().map(|&edge| full.floating.get(edge) == Some(&true));
+    let floating: Vec<bool> = held.collect();
     let condensate = Condensate {
         contact: n,
         inputs: 1,
@@ -47,15 +55,16 @@ pub(super) fn condensed(full: &Quadratic, factor: &Factor) -> Result<(Quadratic,
         outputs: Vec::new(),
         certificate: Err("left out".to_owned()),
         energy_unit: 1.0,
-        held_by_contact: held_by_contact(full, schur),
+        held_by_contact: held_by_contact(&floating, &schur),
+        edges,
     };
-    Ok((Quadratic { matrix, ticks, answers, floating: full.floating.clone() }, condensate))
+    Ok((Quadratic { matrix, ticks, answers, floating }, condensate))
 }
 
 /// The contact unknowns of each part that contact alone holds: S knows nothing from one part to another.
-fn held_by_contact(full: &Quadratic, schur: MatRef<f64>) -> Vec<Vec<usize>> {
+fn held_by_contact(floating: &[bool], schur: &Mat<f64>) -> Vec<Vec<usize>> {
     let mut held: Vec<Vec<usize>> = Vec::new();
-    for i in (0..full.contact()).filter(|&i| full.floating.get(i) == Some(&true)) {
+    for i in (0..floating.len()).filter(|&i| floating[i]) {
         let together = |part: &&mut Vec<usize>| part.iter().any(|&j| schur[(i, j)] != 0.0);
         match held.iter_mut().find(together) {
             Some(part) => part.push(i),

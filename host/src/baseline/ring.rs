@@ -64,7 +64,7 @@ impl Ring<'_> {
         take("conforming P1", conforming);
 
         let begin = Instant::now();
-        match condensed(&full, &factor) {
+        match condensed(self.problem, &full, &factor) {
             Ok((quadratic, condensate)) => {
                 let seconds = begin.elapsed().as_secs_f64();
                 let contest = Contest { problem: "condensed", quadratic: &quadratic, ..contest };

@@ -30,17 +30,22 @@ pub(super) struct Chain {
     pub corners: Vec<Corner>,
 }
 
-/// Contact edges at a vertex, counted from the first one, with ψ of every pattern there.
+/// The unknowns of the contact edges at a vertex, with ψ of every pattern there.
 type Meeting = BTreeMap<u32, Vec<(usize, Vec<f64>)>>;
 
 impl Chain {
-    /// `openings` holds d_i, the unit of each opening.
+    /// `edges` holds the contact edge of each unknown, `openings` d_i, the unit of its opening.
     ///
     /// # Errors
     /// A sentence why s cannot be fixed beforehand.
-    pub fn new(problem: &Problem, patterns: &[Pattern], openings: &[f64]) -> Result<Self, String> {
+    pub fn new(
+        problem: &Problem,
+        patterns: &[Pattern],
+        edges: &[usize],
+        openings: &[f64],
+    ) -> Result<Self, String> {
         let dirichlet = given(problem, patterns);
-        let meetings = meetings(problem, patterns);
+        let meetings = meetings(problem, patterns, edges);
         let mut chain =
             Self { contact: Vec::new(), gap: Vec::new(), dirichlet, corners: Vec::new() };
         for (&vertex, meeting) in &meetings {
@@ -56,7 +61,7 @@ impl Chain {
                     chain.corners.extend(corners);
                 }
                 None => {
-                    let place = place(problem, &meetings, vertex, openings)?;
+                    let place = place(problem, &meetings, vertex, edges, openings)?;
                     chain.contact.push((vertex, place));
                     chain.gap.push(psi);
                 }
@@ -86,12 +91,12 @@ fn given(problem: &Problem, patterns: &[Pattern]) -> BTreeMap<u32, Vec<f64>> {
     given
 }
 
-fn meetings(problem: &Problem, patterns: &[Pattern]) -> Meeting {
-    let counts = problem.topology.counts;
+fn meetings(problem: &Problem, patterns: &[Pattern], edges: &[usize]) -> Meeting {
+    let free = problem.topology.counts.free;
     let mut meetings = Meeting::new();
-    for at in 0..counts.contact {
-        for (end, vertex) in problem.ends[counts.free + at].into_iter().enumerate() {
-            let psi = patterns.iter().map(|pattern| pattern.ends.gap[at][end]).collect();
+    for (at, &edge) in edges.iter().enumerate() {
+        for (end, vertex) in problem.ends[free + edge].into_iter().enumerate() {
+            let psi = patterns.iter().map(|pattern| pattern.ends.gap[edge][end]).collect();
             meetings.entry(vertex).or_default().push((at, psi));
         }
     }
@@ -130,18 +135,19 @@ fn place(
     problem: &Problem,
     meetings: &Meeting,
     vertex: u32,
+    edges: &[usize],
     openings: &[f64],
 ) -> Result<Vertex, String> {
     let free = problem.topology.counts.free;
-    let length = |edge: usize| problem.lengths[free + edge];
-    let edges: Vec<usize> = meetings[&vertex].iter().map(|&(edge, _)| edge).collect();
-    let (edges, weights, beside) = match edges[..] {
+    let length = |at: usize| problem.lengths[free + edges[at]];
+    let here: Vec<usize> = meetings[&vertex].iter().map(|&(at, _)| at).collect();
+    let (edges, weights, beside) = match here[..] {
         [left, right] => {
             let whole = length(left) + length(right);
             ([left, right], [length(right) / whole, length(left) / whole], [left, right])
         }
         [end] => {
-            let next = next_along(problem, meetings, vertex, end);
+            let next = next_along(problem, meetings, vertex, edges, end);
             let slope = next.map_or(0.0, |next| length(end) / (length(end) + length(next)));
             ([end, next.unwrap_or(end)], [1.0 + slope, -slope], [end; 2])
         }
@@ -154,10 +160,16 @@ fn place(
     Ok(Vertex { edges, weights, beside })
 }
 
-/// The contact edge behind edge `end`, seen from `vertex`.
-fn next_along(problem: &Problem, meetings: &Meeting, vertex: u32, end: usize) -> Option<usize> {
-    let ends = problem.ends[problem.topology.counts.free + end];
+/// The unknown of the contact edge behind that of `end`, seen from `vertex`.
+fn next_along(
+    problem: &Problem,
+    meetings: &Meeting,
+    vertex: u32,
+    edges: &[usize],
+    end: usize,
+) -> Option<usize> {
+    let ends = problem.ends[problem.topology.counts.free + edges[end]];
     let far = ends.into_iter().find(|&other| other != vertex)?;
-    let mut edges = meetings.get(&far)?.iter().map(|&(edge, _)| edge);
-    edges.find(|&edge| edge != end)
+    let mut unknowns = meetings.get(&far)?.iter().map(|&(at, _)| at);
+    unknowns.find(|&at| at != end)
 }

@@ -8,7 +8,12 @@ use crate::problem::{Loads, Problem};
 
 /// What each column is the field of: patterns without opening, unit openings without load, and a source
 /// that adds up to 1 where asked for.
-pub(super) fn columns(problem: &Problem, patterns: &[Pattern], source: bool) -> Vec<Given> {
+pub(super) fn columns(
+    problem: &Problem,
+    patterns: &[Pattern],
+    edges: &[usize],
+    source: bool,
+) -> Vec<Given> {
     let counts = problem.topology.counts;
     let of_patterns = patterns
         .iter()
@@ -22,7 +27,7 @@ pub(super) fn columns(problem: &Problem, patterns: &[Pattern], source: bool) -> 
         ..Loads::default()
     };
     silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
-    for opened in 0..counts.contact {
+    for &opened in edges {
         let mut contact = vec![0.0; counts.contact];
         contact[opened] = 1.0;
         columns.push(Given { loads: silent.clone(), contact });

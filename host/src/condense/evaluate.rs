@@ -37,6 +37,13 @@ impl Condensate {
         rows.zip(self.load_of(p)).map(|(row, load)| dot(row, x) - load).collect()
     }
 
+    /// What belongs to the unknowns, in the order of the contact edges.
+    pub fn by_edge(&self, x: &[f64]) -> Vec<f64> {
+        let mut by_edge = vec![0.0; self.contact];
+        self.edges.iter().zip(x).for_each(|(&edge, &x)| by_edge[edge] = x);
+        by_edge
+    }
+
     /// The declared outputs of any x ≥ 0; `None` where there is no bound.
     pub fn outputs(&self, p: &[f64], x: &[f64]) -> Vec<Option<f64>> {
         let value = |measure: &Measure| match measure {

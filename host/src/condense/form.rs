@@ -24,6 +24,8 @@ pub(super) struct Ground<'g> {
     pub scene: &'g Scene,
     pub problem: &'g Problem,
     pub parts: &'g Parts,
+    /// The contact edge of each unknown.
+    pub edges: &'g [usize],
     pub patterns: &'g [Pattern],
     /// Columns of p, then those of x.
     pub fields: &'g [Field],
@@ -56,7 +58,7 @@ impl Ground<'_> {
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
-        let chain = match Chain::new(problem, patterns, self.openings) {
+        let chain = match Chain::new(problem, patterns, self.edges, self.openings) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };

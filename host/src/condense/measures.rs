@@ -15,24 +15,25 @@ use crate::scene::Scene;
 pub(super) fn measures(
     scene: &Scene,
     problem: &Problem,
+    edges: &[usize],
     patterns: &[Pattern],
     fields: &[Field],
 ) -> Result<Vec<Measure>> {
     let measure = |functional: &Functional| match functional {
         Functional::Linear(functional) => linear(problem, patterns, fields, functional),
-        Functional::Length(lengths) => length(problem, lengths),
+        Functional::Length(lengths) => length(problem, edges, lengths),
         Functional::Bound => Measure::Bound,
     };
     Ok(functionals(scene, problem)?.iter().map(measure).collect())
 }
 
-fn length(problem: &Problem, lengths: &[(usize, f64)]) -> Measure {
+fn length(problem: &Problem, edges: &[usize], lengths: &[(usize, f64)]) -> Measure {
     let counts = problem.topology.counts;
-    let mut of_contact = vec![0.0; counts.contact];
+    let mut by_edge = vec![0.0; counts.contact];
     for &(edge, length) in lengths {
-        of_contact[edge - counts.free] = length;
+        by_edge[edge - counts.free] = length;
     }
-    Measure::Length { of_contact }
+    Measure::Length { of_contact: edges.iter().map(|&edge| by_edge[edge]).collect() }
 }
 
 fn linear(

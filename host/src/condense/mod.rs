@@ -29,6 +29,7 @@ mod factor;
 mod form;
 mod functions;
 mod measures;
+mod order;
 mod patterns;
 mod points;
 mod reach;
@@ -50,6 +51,7 @@ use columns::columns;
 use elimination::{Field, fields};
 use form::Ground;
 use measures::measures;
+pub(crate) use order::along_boundary;
 use patterns::patterns;
 pub use recovery::{Recovery, recoverable};
 
@@ -58,6 +60,9 @@ pub use recovery::{Recovery, recoverable};
 pub struct Condensate {
     /// n, the number of contact edges; may be 0.
     pub contact: usize,
+    /// The contact edge of each unknown, counted from the first contact edge of the mesh: they follow each other
+    /// along the boundary.
+    pub edges: Vec<usize>,
     /// m, the number of inputs with the constant 1, which comes first.
     pub inputs: usize,
     /// Ŝ, n × n, row by row: symmetric with a unit diagonal.
@@ -76,7 +81,7 @@ pub struct Condensate {
     pub certificate: std::result::Result<Form, String>,
     /// U, in the unit of ‖A^½∇u‖.
     pub energy_unit: f64,
-    /// The contact edges of each part that nothing else holds: Ŝ is singular there.
+    /// The unknowns of each part that nothing else holds: Ŝ is singular there.
     pub held_by_contact: Vec<Vec<usize>>,
 }
 
@@ -119,18 +124,18 @@ pub struct Form {
 /// A contact vertex: where e = s − ψ comes from there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vertex {
-    /// The two edges (counted from the first contact edge) that e is interpolated from.
+    /// The two unknowns that e is interpolated from.
     pub edges: [usize; 2],
     /// e = U Σ weights · x\[edges\]
     pub weights: [f64; 2],
-    /// The contact edges that meet here; the same one twice at an end.
+    /// The unknowns of the contact edges that meet here; the same one twice at an end.
     pub beside: [usize; 2],
 }
 
 /// A contact edge whose end is on D: it adds excess·r̂ to (gap/U)² where it is active.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Corner {
-    /// The edge, counted from the first contact edge.
+    /// The unknown of that edge.
     pub edge: usize,
     /// (u_D − ψ)/d at that end as m factors of p.
     pub excess: Vec<f64>,
@@ -174,29 +179,32 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
     let parts = examined(scene, problem)?;
     let patterns = patterns(scene, problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);
+    let edges = along_boundary(problem);
     let alone = parts.counts.contact == 1 && parts.counts.held == 0;
-    let mut fields = fields(scene, problem, &columns(problem, &patterns, alone))?;
+    let mut fields = fields(scene, problem, &columns(problem, &patterns, &edges, alone))?;
     let source = fields.split_off(m + n).pop();
-    let opening = scaled(scene, problem, &mut fields[m..])?;
-    let matrix = matrix(problem, &fields[m..], &opening);
-    let load = |field: &Field, q: &[f64]| condensed_load(problem, field, q, &opening);
+    let opening = scaled(scene, problem, &edges, &mut fields[m..])?;
+    let matrix = matrix(problem, &edges, &fields[m..], &opening);
+    let load = |field: &Field, q: &[f64]| condensed_load(problem, &edges, field, q, &opening);
     let mut condensate = Condensate {
         contact: n,
+        edges: edges.clone(),
         inputs: m,
         matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
         multiplier: opening.iter().map(|d| 1.0 / d).collect(),
         load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads.contact_flux)).collect(),
         defaults: std::iter::once(1.0).chain(scene.inputs.iter().map(|i| i.default)).collect(),
-        outputs: measures(scene, problem, &patterns, &fields)?,
+        outputs: measures(scene, problem, &edges, &patterns, &fields)?,
         certificate: Err(String::new()),
         energy_unit: 1.0,
-        held_by_contact: held_by_contact(problem, &parts, n),
+        held_by_contact: held_by_contact(problem, &parts, &edges),
         opening: opening.clone(),
     };
     let ground = Ground {
         scene,
         problem,
         parts: &parts,
+        edges: &edges,
         patterns: &patterns,
         fields: &fields,
         openings: &opening,
@@ -224,12 +232,17 @@ fn examined(scene: &Scene, problem: &Problem) -> Result<Parts> {
 }
 
 /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
-fn scaled(scene: &Scene, problem: &Problem, fields: &mut [Field]) -> Result<Vec<f64>> {
+fn scaled(
+    scene: &Scene,
+    problem: &Problem,
+    edges: &[usize],
+    fields: &mut [Field],
+) -> Result<Vec<f64>> {
     /// S_ii below this part of the fluxes around is the rounding of 0.
     const ROUNDING: f64 = 1e-11;
     let free = problem.topology.counts.free;
-    let scale = |(at, field): (usize, &mut Field)| {
-        let own = field.flux[free + at];
+    let scale = |(edge, field): (&usize, &mut Field)| {
+        let own = field.flux[free + edge];
         let most = field.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
         if own > ROUNDING * most {
             let opening = 1.0 / own.sqrt();
@@ -240,30 +253,36 @@ fn scaled(scene: &Scene, problem: &Problem, fields: &mut [Field]) -> Result<Vec<
         let hint = "refine the mesh along the contact boundary";
         Err(InputError::new(message).file(&scene.path).hint(hint).into())
     };
-    fields.iter_mut().enumerate().map(scale).collect()
+    edges.iter().zip(fields).map(scale).collect()
 }
 
 /// Ŝ from the fluxes of the scaled fields; rounding leaves them not quite symmetric.
-fn matrix(problem: &Problem, fields: &[Field], openings: &[f64]) -> Mat<f64> {
+fn matrix(problem: &Problem, edges: &[usize], fields: &[Field], openings: &[f64]) -> Mat<f64> {
     let free = problem.topology.counts.free;
-    let entry = |i: usize, j: usize| openings[i] * fields[j].flux[free + i];
+    let entry = |i: usize, j: usize| openings[i] * fields[j].flux[free + edges[i]];
     Mat::from_fn(openings.len(), openings.len(), |i, j| {
         if i == j { 1.0 } else { 0.5 * (entry(i, j) + entry(j, i)) }
     })
 }
 
 /// −d_i ∫_E (σ·n − q)
-fn condensed_load(problem: &Problem, field: &Field, q: &[f64], openings: &[f64]) -> Vec<f64> {
+fn condensed_load(
+    problem: &Problem,
+    edges: &[usize],
+    field: &Field,
+    q: &[f64],
+    openings: &[f64],
+) -> Vec<f64> {
     let fluxes = &field.flux[problem.topology.counts.free..];
-    openings.iter().zip(fluxes.iter().zip(q)).map(|(d, (flux, q))| d * (q - flux)).collect()
+    edges.iter().zip(openings).map(|(&edge, d)| d * (q[edge] - fluxes[edge])).collect()
 }
 
-/// Contact edges by the parts that they alone hold.
-fn held_by_contact(problem: &Problem, parts: &Parts, contact: usize) -> Vec<Vec<usize>> {
-    let Ok(edges) = problem.topology.edges() else { return Vec::new() };
+/// Unknowns by the parts that they alone hold.
+fn held_by_contact(problem: &Problem, parts: &Parts, edges: &[usize]) -> Vec<Vec<usize>> {
+    let Ok(topology) = problem.topology.edges() else { return Vec::new() };
     let mut held = BTreeMap::<usize, Vec<usize>>::new();
-    for at in 0..contact {
-        let part = parts.of_edge(&edges, problem.topology.counts.free + at);
+    for (at, edge) in edges.iter().enumerate() {
+        let part = parts.of_edge(&topology, problem.topology.counts.free + edge);
         if parts.support(part) == Support::Contact {
             held.entry(part).or_default().push(at);
         }

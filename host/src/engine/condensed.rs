@@ -80,7 +80,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
             omega: self.baked.sweeps.omega.wide(),
             residual: largest_violation(&self.condensate.residual(&p, &x), &x),
             force: pressed.map(|(flux, q)| flux - q).sum(),
-            active: x.iter().map(|&x| x == 0.0).collect(),
+            active: self.condensate.by_edge(&x).into_iter().map(|x| x == 0.0).collect(),
             bound: certificate.map(ErrorBound::new),
             certified: certified.filter(|_| certificate.is_some()).unwrap_or_default(),
             u,

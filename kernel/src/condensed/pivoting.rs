@@ -3,10 +3,11 @@
 //!
 //! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
 //! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
-//! wrong side. The one that is wrong by most is exchanged, until none is: that takes as many exchanges
-//! as edges change sides, or hardly more, where a pass over all that are wrong takes a sixth more. It
-//! need not end for every positive definite S, and after n exchanges the first wrong one is taken instead,
-//! which does (Murty).
+//! wrong side. Those are exchanged that are wrong by at least half as much as the one that is wrong by most, one after
+//! the other and as far as those before have not mended them, until none is left: that takes as many exchanges as
+//! edges change sides, or hardly more, and a look at all unknowns only where several exchanges have been made. It
+//! need not end for every positive definite S, and after n exchanges the first wrong one is taken
+//! instead, which does (Murty).
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
@@ -95,33 +96,50 @@ fn search<R: Real>(
     let patience = z.len() as u32;
     let mut pivots = 0;
     loop {
-        let is_patient = pivots < patience;
-        let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
+        let most = largest(z, tableau.exchanged());
+        if !(most > noise) {
             return Ok((Found::Exact, pivots));
-        };
-        if pivots >= cap {
-            return Ok((Found::OutOfPivots, pivots));
         }
-        if !tableau.exchange(at, z)? {
+        let least = if pivots < patience { noise.or_larger(R::HALF * most) } else { noise };
+        let (before, mut next) = (pivots, 0);
+        while let Some(at) = wrong(z, tableau.exchanged(), least, next) {
+            if pivots >= cap {
+                return Ok((Found::OutOfPivots, pivots));
+            }
+            if !tableau.exchange(at, z)? {
+                return Ok((Found::Worn, pivots));
+            }
+            pivots += 1;
+            next = if pivots < patience { at + 1 } else { z.len() };
+        }
+        if pivots == before {
+            // An infinite one is no more than half of itself.
             return Ok((Found::Worn, pivots));
         }
-        pivots += 1;
     }
 }
 
-/// The unknown that is on the wrong side by most, or the first that is.
-fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
-    let (mut found, mut most) = (None, noise);
-    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
-        // z = −x within, w elsewhere: both are wrong where their signs say otherwise.
-        if (z > R::ZERO) == within && z.magnitude() > most {
-            (found, most) = (Some(at), z.magnitude());
-            if !by_most {
-                break;
-            }
+/// By how much an unknown is on the wrong side, where it is: z = −x within, w elsewhere.
+fn excess<R: Real>(z: R, within: bool) -> R {
+    if within { z } else { -z }
+}
+
+/// What the one that is wrong by most is wrong by; 0 where none is.
+fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
+    let mut most = [R::ZERO; SIDE];
+    for (z, exchanged) in groups(z).iter().zip(groups(exchanged)) {
+        for ((most, &z), &within) in most.iter_mut().zip(z).zip(exchanged) {
+            *most = most.or_larger(excess(z, within));
         }
     }
-    found
+    most.into_iter().fold(R::ZERO, R::or_larger)
+}
+
+/// The first unknown from `from` on that is wrong by more than `least`.
+fn wrong<R: Real>(z: &[R], exchanged: &[bool], least: R, from: usize) -> Option<usize> {
+    let sides = z.iter().zip(exchanged).enumerate().skip(from);
+    let mut wrong = sides.filter(|(_, (z, within))| excess(**z, **within) > least);
+    wrong.next().map(|(at, _)| at)
 }
 
 /// Σ x_i², padded
