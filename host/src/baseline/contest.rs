@@ -3,10 +3,14 @@
 //! * Cold: all that follows the matrix and the load, symbolic passes and factorisations included.
 //! * Warm: tick after tick with new loads and bounds; what the tick before left may be used, and memory,
 //!   patterns and factors stand. The median over the ticks is what counts.
+//! * Repeats: each goes on for 20 ms and counts by its fastest pass, since a processor that has slept is slow at first
+//!   and whatever else a shared machine does only adds to a pass. The median over the repeats is what counts. On condensed problems
+//!   all solvers take turns for some seconds, so that everybody has repeats in the same good and bad times.
 //! * Equal error: the loosest tolerance among 0.1, 0.01, … whose answers all lie within `target` of the
 //!   discrete solution. It is found before anything is timed. Exact methods and solvers left as they come have one
 //!   answer; `algebraic_error` tells how near it is.
 
+use std::iter::once;
 use std::time::Instant;
 
 use crate::cycles;
@@ -15,8 +19,12 @@ use crate::trade::record::Baseline;
 
 use super::quadratic::Quadratic;
 
-/// Repeats of a measurement.
-const REPEATS: usize = 5;
+/// Repeats of a measurement, and most of them where solvers take turns.
+const REPEATS: [usize; 2] = [5, 200];
+/// Seconds of a repeat, at least.
+const REPEAT: f64 = 0.02;
+/// Seconds that they take turns for.
+const TURNS: f64 = 3.0;
 /// Seconds after which no repeat begins.
 const PATIENCE: f64 = 2.0;
 
@@ -67,59 +75,135 @@ pub(super) struct Contest<'q> {
 struct Pass {
     cycles: f64,
     iterations: u32,
-    /// The largest of all.
+    /// The largest of all ticks.
     distance: f64,
+}
+
+/// A solver's name, and the solver or why it cannot take part.
+pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn Contestant + 'e>>);
+
+/// The repeats of a solver at the loosest tolerance that will do, 10^`exponent`.
+struct Series {
+    exponent: i32,
+    passes: Vec<Pass>,
+    spent: f64,
 }
 
 impl Contest<'_> {
     /// Both starts.
     pub fn hold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Vec<Baseline>> {
-        let (cold, tolerance) = self.start(solver, "cold", contestant, 0, Self::cold)?;
-        if self.quadratic.ticks.len() < 2 {
-            return Ok(vec![cold]);
-        }
-        let (warm, _) = self.start(solver, "warm", contestant, tolerance, Self::warm)?;
-        Ok(vec![cold, warm])
+        let cold = self.series(contestant, Start::Cold, 0)?;
+        let warm = self.warm_series(contestant, &cold)?;
+        let warm = warm.map(|warm| self.baseline(solver, "warm", &warm));
+        Ok(once(self.baseline(solver, "cold", &cold)).chain(warm).collect())
     }
 
     /// A cold start alone.
     pub fn hold_cold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Baseline> {
-        Ok(self.start(solver, "cold", contestant, 0, Self::cold)?.0)
+        Ok(self.baseline(solver, "cold", &self.series(contestant, Start::Cold, 0)?))
+    }
+
+    /// Both starts of several solvers, which take turns when warm.
+    pub fn hold_in_turns<'e>(
+        &self,
+        entrants: Vec<Entrant<'e>>,
+    ) -> Vec<(&'static str, Result<Vec<Baseline>>)> {
+        let ready = |entrant: Entrant<'e>| (entrant.0, self.ready(entrant));
+        let mut in_turns: Vec<_> = entrants.into_iter().map(ready).collect();
+        let begin = Instant::now();
+        for _ in REPEATS[0]..REPEATS[1] {
+            if begin.elapsed().as_secs_f64() > TURNS {
+                break;
+            }
+            for (_, ready) in &mut in_turns {
+                let Ok((contestant, _, Some(warm))) = ready else { continue };
+                if let Err(error) = self.repeat(&mut **contestant, Start::Warm, warm) {
+                    *ready = Err(error);
+                }
+            }
+        }
+        let finished = in_turns.into_iter().map(|(name, ready)| {
+            let warm = |warm: Series| self.baseline(name, "warm", &warm);
+            (name, ready.map(|(_, cold, series)| once(cold).chain(series.map(warm)).collect()))
+        });
+        finished.collect()
+    }
+
+    /// A solver with its cold start and the beginning of its warm one.
+    fn ready<'e>(
+        &self,
+        (name, entrant): Entrant<'e>,
+    ) -> Result<(Box<dyn Contestant + 'e>, Baseline, Option<Series>)> {
+        let mut contestant = entrant?;
+        let cold = self.series(&mut *contestant, Start::Cold, 0)?;
+        let warm = self.warm_series(&mut *contestant, &cold)?;
+        Ok((contestant, self.baseline(name, "cold", &cold), warm))
+    }
+
+    /// Where there is more than one tick.
+    fn warm_series(
+        &self,
+        contestant: &mut dyn Contestant,
+        cold: &Series,
+    ) -> Result<Option<Series>> {
+        let has_ticks = self.quadratic.ticks.len() > 1;
+        has_ticks.then(|| self.series(contestant, Start::Warm, cold.exponent)).transpose()
     }
 
     /// Finds the tolerance, below 10^`above`, then measures.
-    fn start(
-        &self,
-        solver: &str,
-        start: &str,
-        contestant: &mut dyn Contestant,
-        above: i32,
-        pass: impl Fn(&Self, &mut dyn Contestant, f64) -> Result<Pass>,
-    ) -> Result<(Baseline, i32)> {
+    fn series(&self, contestant: &mut dyn Contestant, start: Start, above: i32) -> Result<Series> {
         let mut exponent = above - i32::from(above == 0);
         let begin = Instant::now();
-        let mut trial = pass(self, contestant, 10f64.powi(exponent))?;
+        let mut trial = self.pass(contestant, start, exponent)?;
         while trial.distance > self.target && exponent > contestant.finest() {
             exponent -= 1;
-            trial = pass(self, contestant, 10f64.powi(exponent))?;
+            trial = self.pass(contestant, start, exponent)?;
         }
-        let mut passes = vec![trial];
-        if begin.elapsed().as_secs_f64() < PATIENCE * REPEATS as f64 {
-            passes.clear();
+        let spent = begin.elapsed().as_secs_f64();
+        let mut series = Series { exponent, passes: vec![trial], spent };
+        if spent < PATIENCE * REPEATS[0] as f64 {
+            series = Series { exponent, passes: Vec::new(), spent: 0.0 };
         }
-        let begin = Instant::now();
-        while passes.len() < REPEATS
-            && (passes.is_empty() || begin.elapsed().as_secs_f64() < PATIENCE)
-        {
-            passes.push(pass(self, contestant, 10f64.powi(exponent))?);
+        while series.passes.len() < REPEATS[0] && series.spent < PATIENCE {
+            self.repeat(contestant, start, &mut series)?;
         }
+        Ok(series)
+    }
+
+    /// One more: as many passes as time allows, and the fastest.
+    fn repeat(
+        &self,
+        contestant: &mut dyn Contestant,
+        start: Start,
+        series: &mut Series,
+    ) -> Result<()> {
+        let (begin, mut passes) = (Instant::now(), Vec::new());
+        while passes.is_empty() || begin.elapsed().as_secs_f64() < REPEAT {
+            passes.push(self.pass(contestant, start, series.exponent)?);
+        }
+        let fastest = passes.into_iter().min_by(|a, b| a.cycles.total_cmp(&b.cycles));
+        series.passes.extend(fastest);
+        series.spent += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn pass(&self, contestant: &mut dyn Contestant, start: Start, exponent: i32) -> Result<Pass> {
+        let tolerance = 10f64.powi(exponent);
+        match start {
+            Start::Cold => self.cold(contestant, tolerance),
+            Start::Warm => self.warm(contestant, tolerance),
+        }
+    }
+
+    fn baseline(&self, solver: &str, start: &str, series: &Series) -> Baseline {
+        let Series { exponent, passes, .. } = series;
         let (cycles, cycles_spread) = median_and_spread(passes.iter().map(|pass| pass.cycles));
-        let baseline = Baseline {
+        Baseline {
             solver: solver.to_owned(),
             problem: self.problem.to_owned(),
             unknowns: self.quadratic.matrix.order(),
             start: start.to_owned(),
-            tolerance: 10f64.powi(exponent),
+            tolerance: 10f64.powi(*exponent),
             cycles,
             cycles_spread,
             ratio: 1.0,
@@ -128,8 +212,7 @@ impl Contest<'_> {
             target: self.target,
             error: None,
             iterations: passes.last().map_or(0, |pass| pass.iterations),
-        };
-        Ok((baseline, exponent))
+        }
     }
 
     fn cold(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {

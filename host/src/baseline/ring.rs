@@ -10,12 +10,13 @@ use super::cascade::Cascade;
 use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::conforming::Conforming;
-use super::contest::Contest;
+use super::contest::{Contest, Contestant, Entrant};
 use super::full::{Full, quadratic};
 use super::moment::Moment;
 use super::osqp::{Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
+use super::quadratic::Quadratic;
 use crate::error::Result;
 use crate::problem::{Parts, Problem};
 use crate::scalar::Scalar;
@@ -58,7 +59,9 @@ impl Ring<'_> {
         take("faer active set", contest.hold("faer active set", &mut ActiveSet::new(&full)));
         let kept = ActiveSet::with_factor(&full);
         take(FACTOR_KEPT, kept.and_then(|mut kept| contest.hold(FACTOR_KEPT, &mut kept)));
-        self.general(&contest, &mut take);
+        for (name, entrant) in self.general(&full) {
+            take(name, entrant.and_then(|mut entrant| contest.hold(name, &mut *entrant)));
+        }
         let conforming = Conforming::over(self.scene, self.problem, moments);
         let conforming = conforming.and_then(|p1| p1.compete(self.scene, self.target));
         take("conforming P1", conforming);
@@ -69,11 +72,12 @@ impl Ring<'_> {
                 let seconds = begin.elapsed().as_secs_f64();
                 let contest = Contest { problem: "condensed", quadratic: &quadratic, ..contest };
                 let exact = Pivots::<f64>::new(&condensate, &quadratic.ticks);
-                take(PIVOTS, exact.and_then(|mut exact| contest.hold(PIVOTS, &mut exact)));
-                let name = "kernel pivoting f32";
-                let exact = Pivots::<f32>::new(&condensate, &quadratic.ticks);
-                take(name, exact.and_then(|mut exact| contest.hold(name, &mut exact)));
-                self.general(&contest, &mut take);
+                let in_f32 = Pivots::<f32>::new(&condensate, &quadratic.ticks);
+                let mut entrants =
+                    vec![(PIVOTS, boxed(exact)), ("kernel pivoting f32", boxed(in_f32))];
+                entrants.extend(self.general(&quadratic));
+                let found = contest.hold_in_turns(entrants);
+                found.into_iter().for_each(|(name, found)| take(name, found));
                 let n = quadratic.matrix.order();
                 notes.push(format!(
                     "condensing to {n} unknowns takes {seconds:.3} s, once, outside of all counts"
@@ -86,17 +90,17 @@ impl Ring<'_> {
     }
 
     /// Solvers that know nothing but a matrix.
-    fn general(&self, contest: &Contest, take: &mut impl FnMut(&str, Result<Vec<Baseline>>)) {
-        take("Clarabel", contest.hold("Clarabel", &mut Clarabel::new(contest.quadratic)));
-        let Some(program) = self.osqp else { return };
+    fn general<'q>(&self, quadratic: &'q Quadratic) -> Vec<Entrant<'q>> {
+        let mut entrants = vec![("Clarabel", boxed(Ok(Clarabel::new(quadratic))))];
+        let Some(program) = self.osqp else { return entrants };
         for (name, manner) in [
             ("OSQP", Manner::Watched),
             ("OSQP, polished", Manner::Polished),
             ("OSQP as it comes", Manner::Defaults),
         ] {
-            let osqp = Osqp::new(program, contest.quadratic, manner);
-            take(name, osqp.and_then(|mut osqp| contest.hold(name, &mut osqp)));
+            entrants.push((name, boxed(Osqp::new(program, quadratic, manner))));
         }
+        entrants
     }
 
     fn sweeps<R: Scalar>(
@@ -123,6 +127,10 @@ impl Ring<'_> {
         let grids: Vec<_> = problems.zip(&grids).collect();
         Ok(vec![contest.hold_cold(CASCADE, &mut Cascade::new(&grids)?)?])
     }
+}
+
+fn boxed<'c, C: Contestant + 'c>(contestant: Result<C>) -> Result<Box<dyn Contestant + 'c>> {
+    contestant.map(|contestant| -> Box<dyn Contestant> { Box::new(contestant) })
 }
 
 fn sweep<R: Scalar, const WIDTH: usize>(

@@ -73,7 +73,7 @@ fn condensed_as_baked() {
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
     let parts = Parts::examine(&scene, &problem).unwrap();
     let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 2)).unwrap();
-    let (ours, model) = condensed(&full, &factor).unwrap();
+    let (ours, model) = condensed(&problem, &full, &factor).unwrap();
     let baked = condense(&scene, &problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
     for (a, b) in model.matrix.iter().zip(&baked.matrix) {
