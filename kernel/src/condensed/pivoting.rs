@@ -3,11 +3,10 @@
 //!
 //! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
 //! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
-//! wrong side. Those are exchanged that are wrong by at least half as much as the one that is wrong by most, one after
-//! the other and as far as those before have not mended them, until none is left: that takes as many exchanges as
-//! edges change sides, or hardly more, and a look at all unknowns only where several exchanges have been made. It
-//! need not end for every positive definite S, and after n exchanges the first wrong one is taken
-//! instead, which does (Murty).
+//! wrong side. The one that is wrong by most is exchanged, until none is: that takes as many exchanges
+//! as edges change sides, or hardly more, where a pass over all that are wrong takes a sixth more. It
+//! need not end for every positive definite S, and after n exchanges the first wrong one is taken instead,
+//! which does (Murty).
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
@@ -100,22 +99,18 @@ fn search<R: Real>(
         if !(most > noise) {
             return Ok((Found::Exact, pivots));
         }
-        let least = if pivots < patience { noise.or_larger(R::HALF * most) } else { noise };
-        let (before, mut next) = (pivots, 0);
-        while let Some(at) = wrong(z, tableau.exchanged(), least, next) {
-            if pivots >= cap {
-                return Ok((Found::OutOfPivots, pivots));
-            }
-            if !tableau.exchange(at, z)? {
-                return Ok((Found::Worn, pivots));
-            }
-            pivots += 1;
-            next = if pivots < patience { at + 1 } else { z.len() };
+        if pivots >= cap {
+            return Ok((Found::OutOfPivots, pivots));
         }
-        if pivots == before {
-            // An infinite one is no more than half of itself.
+        let wrong = |(z, within): (&R, &bool)| {
+            let excess = excess(*z, *within);
+            excess > noise && (excess >= most || pivots >= patience)
+        };
+        let at = z.iter().zip(tableau.exchanged()).position(wrong).unwrap_or_default();
+        if !tableau.exchange(at, z)? {
             return Ok((Found::Worn, pivots));
         }
+        pivots += 1;
     }
 }
 
@@ -133,13 +128,6 @@ fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
         }
     }
     most.into_iter().fold(R::ZERO, R::or_larger)
-}
-
-/// The first unknown from `from` on that is wrong by more than `least`.
-fn wrong<R: Real>(z: &[R], exchanged: &[bool], least: R, from: usize) -> Option<usize> {
-    let sides = z.iter().zip(exchanged).enumerate().skip(from);
-    let mut wrong = sides.filter(|(_, (z, within))| excess(**z, **within) > least);
-    wrong.next().map(|(at, _)| at)
 }
 
 /// Σ x_i², padded
