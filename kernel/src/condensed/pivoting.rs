@@ -95,18 +95,13 @@ fn search<R: Real>(
     let patience = z.len() as u32;
     let mut pivots = 0;
     loop {
-        let most = largest(z, tableau.exchanged());
-        if !(most > noise) {
+        let is_patient = pivots < patience;
+        let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
             return Ok((Found::Exact, pivots));
-        }
+        };
         if pivots >= cap {
             return Ok((Found::OutOfPivots, pivots));
         }
-        let wrong = |(z, within): (&R, &bool)| {
-            let excess = excess(*z, *within);
-            excess > noise && (excess >= most || pivots >= patience)
-        };
-        let at = z.iter().zip(tableau.exchanged()).position(wrong).unwrap_or_default();
         if !tableau.exchange(at, z)? {
             return Ok((Found::Worn, pivots));
         }
@@ -114,9 +109,26 @@ fn search<R: Real>(
     }
 }
 
-/// By how much an unknown is on the wrong side, where it is: z = −x within, w elsewhere.
-fn excess<R: Real>(z: R, within: bool) -> R {
-    if within { z } else { -z }
+/// The unknown that is on the wrong side by most, or the first that is: z = −x within, w elsewhere, and both
+/// are wrong where their signs say otherwise.
+fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    let mut sides = z.iter().zip(exchanged);
+    if by_most && cfg!(not(target_arch = "arm")) {
+        // Where a register holds several numbers, by how much is found first, and who after that.
+        let most = largest(z, exchanged);
+        let is_it = |(&z, &within)| excess(z, within) >= most;
+        return if most > noise { sides.position(is_it) } else { None };
+    }
+    let (mut found, mut most) = (None, noise);
+    for (at, (&z, &within)) in sides.enumerate() {
+        if (z > R::ZERO) == within && z.magnitude() > most {
+            (found, most) = (Some(at), z.magnitude());
+            if !by_most {
+                break;
+            }
+        }
+    }
+    found
 }
 
 /// What the one that is wrong by most is wrong by; 0 where none is.
@@ -128,6 +140,11 @@ fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
         }
     }
     most.into_iter().fold(R::ZERO, R::or_larger)
+}
+
+/// By how much an unknown is on the wrong side, below 0 where it is on the right one.
+fn excess<R: Real>(z: R, within: bool) -> R {
+    if within { z } else { -z }
 }
 
 /// Σ x_i², padded
