@@ -61,7 +61,8 @@ fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) ->
         let p: Vec<f64> = std::iter::once(1.0).chain(p).collect();
         let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
         let open = solution.u[problem.topology.counts.free..].iter().zip(&problem.loads.gap);
-        let as_in_full = x.iter().zip(open).all(|(&x, (u, gap))| (x == 0.0) == (u == gap));
+        let by_edge = model.condensate.by_edge(&x).into_iter();
+        let as_in_full = by_edge.zip(open).all(|(x, (u, gap))| (x == 0.0) == (u == gap));
         assert!(as_in_full, "{}: other edges touch", model.what);
         for (((output, measure), found), expected) in
             all.iter_mut().zip(measures).zip(found).zip(expected)

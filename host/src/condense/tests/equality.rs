@@ -35,11 +35,12 @@ fn compare(scene: &Scene, problem: &Problem, amount: f64, rounds: usize) -> Resu
         }
         let residual = condensate.residual(&p, &x);
         for (at, (r, multiplier)) in residual.iter().zip(&condensate.multiplier).enumerate() {
-            let edge = full.topology.counts.free + at;
-            let opening = solution.u[edge] - full.loads.gap[at];
+            let of_contact = condensate.edges[at];
+            let edge = full.topology.counts.free + of_contact;
+            let opening = solution.u[edge] - full.loads.gap[of_contact];
             let found = condensate.opening[at] * x[at];
             assert!((found - opening).abs() < 1e-9 * scale_of(&solution.u), "{found} {opening}");
-            let force = solution.flux[edge] - full.loads.contact_flux[at];
+            let force = solution.flux[edge] - full.loads.contact_flux[of_contact];
             assert!((r * multiplier - force).abs() < 1e-9 * scale, "{r} {multiplier} {force}");
         }
     }
