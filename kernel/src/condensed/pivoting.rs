@@ -109,18 +109,18 @@ fn search<R: Real>(
     }
 }
 
-/// The unknown that is on the wrong side by most, or the first that is: z = −x within, w elsewhere, and both
-/// are wrong where their signs say otherwise.
+/// The unknown that is on the wrong side by most, or the first that is.
 fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
-    let mut sides = z.iter().zip(exchanged);
     if by_most && cfg!(not(target_arch = "arm")) {
-        // Where a register holds several numbers, by how much is found first, and who after that.
-        let most = largest(z, exchanged);
-        let is_it = |(&z, &within)| excess(z, within) >= most;
-        return if most > noise { sides.position(is_it) } else { None };
+        return in_lanes(z, exchanged, noise);
     }
+    in_turn(z, exchanged, noise, by_most)
+}
+
+/// One after the other: z = −x within, w elsewhere, and both are wrong where their signs say otherwise.
+fn in_turn<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
     let (mut found, mut most) = (None, noise);
-    for (at, (&z, &within)) in sides.enumerate() {
+    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
         if (z > R::ZERO) == within && z.magnitude() > most {
             (found, most) = (Some(at), z.magnitude());
             if !by_most {
@@ -129,6 +129,13 @@ fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Optio
         }
     }
     found
+}
+
+/// The same by most, where a register holds several numbers: by how much first, and then who.
+fn in_lanes<R: Real>(z: &[R], exchanged: &[bool], noise: R) -> Option<usize> {
+    let most = largest(z, exchanged);
+    let is_it = |(&z, &within)| excess(z, within) >= most;
+    if most > noise { z.iter().zip(exchanged).position(is_it) } else { None }
 }
 
 /// What the one that is wrong by most is wrong by; 0 where none is.
@@ -209,4 +216,30 @@ fn correct<R: Real>(
         *x = if within && corrected > R::ZERO { corrected } else { R::ZERO };
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_find_the_same_unknown() {
+        let exchanged: [bool; 24] = core::array::from_fn(|at| at % 3 == 0);
+        let mut found = [0; 2];
+        for shift in 0..200 {
+            // Every value twice, some of both signs.
+            let number = |at: usize| ((at % 12 * 37 + shift * 53) % 101) as f64 - 70.0;
+            let z: [f64; 24] =
+                core::array::from_fn(|at| if at % 5 == 4 { 0.0 } else { number(at) });
+            for noise in [0.0, 28.0, 69.0] {
+                let one = in_turn(&z, &exchanged, noise, true);
+                assert_eq!(in_lanes(&z, &exchanged, noise), one, "{shift}, {noise}");
+                found[usize::from(one.is_some())] += 1;
+            }
+            let first = in_turn(&z, &exchanged, 1.0, false);
+            let is_wrong = |&at: &usize| (if exchanged[at] { z[at] } else { -z[at] }) > 1.0;
+            assert_eq!(first, (0..24).find(is_wrong));
+        }
+        assert!(found[0] > 0 && found[1] > 100, "{found:?}");
+    }
 }
