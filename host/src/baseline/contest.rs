@@ -3,8 +3,9 @@
 //! * Cold: all that follows the matrix and the load, symbolic passes and factorisations included.
 //! * Warm: tick after tick with new loads and bounds; what the tick before left may be used, and memory,
 //!   patterns and factors stand. The median over the ticks is what counts.
-//! * Repeats: each goes on for 20 ms and counts by its fastest pass, since a processor that has slept is slow at first
-//!   and whatever else a shared machine does only adds to a pass. The median over the repeats is what counts. On condensed problems
+//! * Repeats: each goes on for 100 ms and counts by its fastest pass, since a processor that has slept is slow at first
+//!   and whatever else a shared machine does only adds to a pass; where a pass takes longer it is the only one. The
+//!   median over the repeats is what counts. On condensed problems
 //!   all solvers take turns for some seconds, so that everybody has repeats in the same good and bad times.
 //! * Equal error: the loosest tolerance among 0.1, 0.01, … whose answers all lie within `target` of the
 //!   discrete solution. It is found before anything is timed. Exact methods and solvers left as they come have one
@@ -22,9 +23,9 @@ use super::quadratic::Quadratic;
 /// Repeats of a measurement, and most of them where solvers take turns.
 const REPEATS: [usize; 2] = [5, 200];
 /// Seconds of a repeat, at least.
-const REPEAT: f64 = 0.02;
+const REPEAT: f64 = 0.1;
 /// Seconds that they take turns for.
-const TURNS: f64 = 3.0;
+const TURNS: f64 = 2.0;
 /// Seconds after which no repeat begins.
 const PATIENCE: f64 = 2.0;
 
@@ -34,6 +35,15 @@ pub(super) enum Start {
     Cold,
     /// From what the last run left.
     Warm,
+}
+
+impl Start {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Cold => "cold",
+            Self::Warm => "warm",
+        }
+    }
 }
 
 /// One solve.
@@ -82,6 +92,13 @@ struct Pass {
 /// A solver's name, and the solver or why it cannot take part.
 pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn Contestant + 'e>>);
 
+/// A solver that takes turns: the tolerance of its last start, and what was found of it.
+struct Ready<'e> {
+    contestant: Box<dyn Contestant + 'e>,
+    exponent: i32,
+    found: Vec<Baseline>,
+}
+
 /// The repeats of a solver at the loosest tolerance that will do, 10^`exponent`.
 struct Series {
     exponent: i32,
@@ -94,50 +111,63 @@ impl Contest<'_> {
     pub fn hold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Vec<Baseline>> {
         let cold = self.series(contestant, Start::Cold, 0)?;
         let warm = self.warm_series(contestant, &cold)?;
-        let warm = warm.map(|warm| self.baseline(solver, "warm", &warm));
-        Ok(once(self.baseline(solver, "cold", &cold)).chain(warm).collect())
+        let warm = warm.map(|warm| self.baseline(solver, Start::Warm, &warm));
+        Ok(once(self.baseline(solver, Start::Cold, &cold)).chain(warm).collect())
     }
 
     /// A cold start alone.
     pub fn hold_cold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Baseline> {
-        Ok(self.baseline(solver, "cold", &self.series(contestant, Start::Cold, 0)?))
+        Ok(self.baseline(solver, Start::Cold, &self.series(contestant, Start::Cold, 0)?))
     }
 
-    /// Both starts of several solvers, which take turns when warm.
+    /// Both starts of several solvers, which take turns.
     pub fn hold_in_turns<'e>(
         &self,
         entrants: Vec<Entrant<'e>>,
     ) -> Vec<(&'static str, Result<Vec<Baseline>>)> {
-        let ready = |entrant: Entrant<'e>| (entrant.0, self.ready(entrant));
-        let mut in_turns: Vec<_> = entrants.into_iter().map(ready).collect();
+        let ready = |(name, entrant): Entrant<'e>| {
+            (name, entrant.map(|contestant| Ready { contestant, exponent: 0, found: Vec::new() }))
+        };
+        let mut all: Vec<_> = entrants.into_iter().map(ready).collect();
+        self.turns(&mut all, Start::Cold);
+        if self.quadratic.ticks.len() > 1 {
+            self.turns(&mut all, Start::Warm);
+        }
+        all.into_iter().map(|(name, ready)| (name, ready.map(|ready| ready.found))).collect()
+    }
+
+    /// One start of all who are still there.
+    fn turns(&self, all: &mut [(&'static str, Result<Ready>)], start: Start) {
+        let trial = |(_, ready): &mut (_, Result<Ready>)| match ready {
+            Ok(ready) => self.trial(&mut *ready.contestant, start, ready.exponent).map(Some),
+            Err(_) => Ok(None),
+        };
+        let mut series: Vec<_> = all.iter_mut().map(trial).collect();
         let begin = Instant::now();
-        for _ in REPEATS[0]..REPEATS[1] {
-            if begin.elapsed().as_secs_f64() > TURNS {
+        for round in 0..REPEATS[1] {
+            if round >= REPEATS[0] && begin.elapsed().as_secs_f64() > TURNS {
                 break;
             }
-            for (_, ready) in &mut in_turns {
-                let Ok((contestant, _, Some(warm))) = ready else { continue };
-                if let Err(error) = self.repeat(&mut **contestant, Start::Warm, warm) {
-                    *ready = Err(error);
+            for ((_, ready), series) in all.iter_mut().zip(&mut series) {
+                let (Ok(ready), Ok(Some(own))) = (ready, &mut *series) else { continue };
+                if own.spent >= PATIENCE {
+                    continue;
+                }
+                if let Err(error) = self.repeat(&mut *ready.contestant, start, own) {
+                    *series = Err(error);
                 }
             }
         }
-        let finished = in_turns.into_iter().map(|(name, ready)| {
-            let warm = |warm: Series| self.baseline(name, "warm", &warm);
-            (name, ready.map(|(_, cold, series)| once(cold).chain(series.map(warm)).collect()))
-        });
-        finished.collect()
-    }
-
-    /// A solver with its cold start and the beginning of its warm one.
-    fn ready<'e>(
-        &self,
-        (name, entrant): Entrant<'e>,
-    ) -> Result<(Box<dyn Contestant + 'e>, Baseline, Option<Series>)> {
-        let mut contestant = entrant?;
-        let cold = self.series(&mut *contestant, Start::Cold, 0)?;
-        let warm = self.warm_series(&mut *contestant, &cold)?;
-        Ok((contestant, self.baseline(name, "cold", &cold), warm))
+        for ((name, ready), series) in all.iter_mut().zip(series) {
+            match (&mut *ready, series) {
+                (Ok(ready), Ok(Some(series))) => {
+                    ready.exponent = series.exponent;
+                    ready.found.push(self.baseline(name, start, &series));
+                }
+                (Ok(_), Err(error)) => *ready = Err(error),
+                _ => {}
+            }
+        }
     }
 
     /// Where there is more than one tick.
@@ -152,6 +182,15 @@ impl Contest<'_> {
 
     /// Finds the tolerance, below 10^`above`, then measures.
     fn series(&self, contestant: &mut dyn Contestant, start: Start, above: i32) -> Result<Series> {
+        let mut series = self.trial(contestant, start, above)?;
+        while series.passes.len() < REPEATS[0] && series.spent < PATIENCE {
+            self.repeat(contestant, start, &mut series)?;
+        }
+        Ok(series)
+    }
+
+    /// Finds the tolerance, below 10^`above`. What takes long is measured with that.
+    fn trial(&self, contestant: &mut dyn Contestant, start: Start, above: i32) -> Result<Series> {
         let mut exponent = above - i32::from(above == 0);
         let begin = Instant::now();
         let mut trial = self.pass(contestant, start, exponent)?;
@@ -160,17 +199,13 @@ impl Contest<'_> {
             trial = self.pass(contestant, start, exponent)?;
         }
         let spent = begin.elapsed().as_secs_f64();
-        let mut series = Series { exponent, passes: vec![trial], spent };
-        if spent < PATIENCE * REPEATS[0] as f64 {
-            series = Series { exponent, passes: Vec::new(), spent: 0.0 };
-        }
-        while series.passes.len() < REPEATS[0] && series.spent < PATIENCE {
-            self.repeat(contestant, start, &mut series)?;
-        }
-        Ok(series)
+        Ok(match spent < PATIENCE * REPEATS[0] as f64 {
+            true => Series { exponent, passes: Vec::new(), spent: 0.0 },
+            false => Series { exponent, passes: vec![trial], spent },
+        })
     }
 
-    /// One more: as many passes as time allows, and the fastest.
+    /// One more: as many passes as time allows, the fastest of them with the largest distance of any.
     fn repeat(
         &self,
         contestant: &mut dyn Contestant,
@@ -181,8 +216,9 @@ impl Contest<'_> {
         while passes.is_empty() || begin.elapsed().as_secs_f64() < REPEAT {
             passes.push(self.pass(contestant, start, series.exponent)?);
         }
+        let distance = passes.iter().fold(0.0, |most: f64, pass| pass.distance.max(most));
         let fastest = passes.into_iter().min_by(|a, b| a.cycles.total_cmp(&b.cycles));
-        series.passes.extend(fastest);
+        series.passes.extend(fastest.map(|fastest| Pass { distance, ..fastest }));
         series.spent += begin.elapsed().as_secs_f64();
         Ok(())
     }
@@ -195,14 +231,14 @@ impl Contest<'_> {
         }
     }
 
-    fn baseline(&self, solver: &str, start: &str, series: &Series) -> Baseline {
+    fn baseline(&self, solver: &str, start: Start, series: &Series) -> Baseline {
         let Series { exponent, passes, .. } = series;
         let (cycles, cycles_spread) = median_and_spread(passes.iter().map(|pass| pass.cycles));
         Baseline {
             solver: solver.to_owned(),
             problem: self.problem.to_owned(),
             unknowns: self.quadratic.matrix.order(),
-            start: start.to_owned(),
+            start: start.name().to_owned(),
             tolerance: 10f64.powi(*exponent),
             cycles,
             cycles_spread,

@@ -1,5 +1,6 @@
 //! Everybody on the problems of one scene.
 
+use std::iter::once_with;
 use std::path::Path;
 use std::time::Instant;
 
@@ -89,18 +90,18 @@ impl Ring<'_> {
         Ok(found)
     }
 
-    /// Solvers that know nothing but a matrix.
-    fn general<'q>(&self, quadratic: &'q Quadratic) -> Vec<Entrant<'q>> {
-        let mut entrants = vec![("Clarabel", boxed(Ok(Clarabel::new(quadratic))))];
-        let Some(program) = self.osqp else { return entrants };
-        for (name, manner) in [
+    /// Solvers that know nothing but a matrix, each made when its turn comes.
+    fn general<'q>(&self, quadratic: &'q Quadratic) -> impl Iterator<Item = Entrant<'q>> {
+        let manners = [
             ("OSQP", Manner::Watched),
             ("OSQP, polished", Manner::Polished),
             ("OSQP as it comes", Manner::Defaults),
-        ] {
-            entrants.push((name, boxed(Osqp::new(program, quadratic, manner))));
-        }
-        entrants
+        ];
+        let programs = self.osqp.into_iter().flat_map(move |program| {
+            let osqp = move |manner| boxed(Osqp::new(program, quadratic, manner));
+            manners.into_iter().map(move |(name, manner)| (name, osqp(manner)))
+        });
+        once_with(|| ("Clarabel", boxed(Ok(Clarabel::new(quadratic))))).chain(programs)
     }
 
     fn sweeps<R: Scalar>(

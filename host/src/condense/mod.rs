@@ -44,7 +44,7 @@ use std::collections::BTreeMap;
 use faer::Mat;
 use signorini_kernel::components::Support;
 
-use crate::error::{InputError, Result};
+use crate::error::{Error, InputError, Result};
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
 use columns::columns;
@@ -180,6 +180,10 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
     let patterns = patterns(scene, problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);
     let edges = along_boundary(problem);
+    let held_by_contact = held_by_contact(problem, &parts, &edges);
+    if held_by_contact.iter().any(|part| part.len() == 1) {
+        return Err(held_by_one(scene));
+    }
     let alone = parts.counts.contact == 1 && parts.counts.held == 0;
     let mut fields = fields(scene, problem, &columns(problem, &patterns, &edges, alone))?;
     let source = fields.split_off(m + n).pop();
@@ -197,7 +201,7 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
         outputs: measures(scene, problem, &edges, &patterns, &fields)?,
         certificate: Err(String::new()),
         energy_unit: 1.0,
-        held_by_contact: held_by_contact(problem, &parts, &edges),
+        held_by_contact,
         opening: opening.clone(),
     };
     let ground = Ground {
@@ -249,11 +253,16 @@ fn scaled(
             field.scale(opening);
             return Ok(opening);
         }
-        let message = "boundary: a single contact edge holds a part of the domain";
-        let hint = "refine the mesh along the contact boundary";
-        Err(InputError::new(message).file(&scene.path).hint(hint).into())
+        Err(held_by_one(scene))
     };
     edges.iter().zip(fields).map(scale).collect()
+}
+
+/// Constants cost no energy there: its diagonal entry is 0.
+fn held_by_one(scene: &Scene) -> Error {
+    let message = "boundary: a single contact edge holds a part of the domain";
+    let hint = "refine the mesh along the contact boundary";
+    InputError::new(message).file(&scene.path).hint(hint).into()
 }
 
 /// Ŝ from the fluxes of the scaled fields; rounding leaves them not quite symmetric.

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 type Meetings = BTreeMap<u32, Vec<usize>>;
 
 /// The contact edge of each unknown, counted from the first contact edge: chain after chain from one
-/// end to the other, then closed curves.
+/// end to the other, then closed curves. Where more than two edges meet, any of them goes on.
 pub(crate) fn along_boundary(problem: &Problem) -> Vec<usize> {
     let counts = problem.topology.counts;
     let ends = &problem.ends[counts.free..][..counts.contact];

@@ -8,11 +8,16 @@ use crate::scene::Scene;
 /// Numbers a line.
 const ACROSS: usize = 8;
 
-/// minimise ½xᵀSx − (Bp)ᵀx over x ≥ 0: N, M, S by rows, B by columns and the default p, in f32.
+/// minimise ½xᵀSx − (Bp)ᵀx over x ≥ 0: N, M, S by rows, B by columns and the default p, in f32; and which
+/// contact edge each unknown is on.
 pub fn header(scene: &Scene, condensate: &Condensate) -> String {
-    let Condensate { contact, inputs, matrix, load, defaults, .. } = condensate;
+    let Condensate { contact, inputs, matrix, load, defaults, edges, .. } = condensate;
+    let edges: Vec<_> = edges.chunks(2 * ACROSS).map(|line| format!("{line:?}")).collect();
+    let edges = edges.join("\n   ").replace(['[', ']'], "");
     let mut text = format!(
-        "/* {}\n   minimise 1/2 x'Sx - (Bp)'x over x >= 0, p[0] = 1.\n   Written by `signorini \
+        "/* {}\n   minimise 1/2 x'Sx - (Bp)'x over x >= 0, p[0] = 1.\n   \
+         The unknowns follow the boundary: on the contact edges of edges.csv, counted from 0,\n   \
+         {edges}.\n   Written by `signorini \
          condense` {}; do not edit. */\n#define N {contact} /* contact edges */\n#define M {inputs} \
          /* inputs, the constant included, first */\n",
         scene.title.replace("*/", "* /").replace('\n', " "),

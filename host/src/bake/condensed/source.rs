@@ -53,7 +53,7 @@ fn constants<R: Scalar>(baked: &Baked<R>) -> String {
     let (contact, sweeps) = (baked.contact, baked.sweeps);
     let mut text = format!(
         "
-/// Contact edges.
+/// Contact edges; the unknowns follow them along the boundary.
 pub const CONTACT: usize = {contact};
 /// The same, filled up to whole blocks.
 const PADDED: usize = {padded};

@@ -35,6 +35,22 @@ fn a_part_that_nothing_holds() -> Result<()> {
     Ok(())
 }
 
+/// Rounding need not tell: on quads the flux of a constant is no smaller than the others.
+#[test]
+fn a_part_that_a_single_edge_holds() -> Result<()> {
+    let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.contact]\nkind = \"contact\"\ngap = \"0\"\n[boundary.default]\nkind = \"neumann\"\nflux = \"-1\"\n";
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        for one in 0..4 {
+            let mut mesh = grid(2, cells);
+            mesh.curves[0].edges = vec![mesh.curves[0].edges[one]];
+            let (scene, problem) = on_grid(text, mesh)?;
+            let refusal = condense(&scene, &problem).expect_err("singular").to_string();
+            assert!(refusal.contains("a single contact edge"), "{cells:?}: {refusal}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn more_fields_than_memory_holds() -> Result<()> {
     let (scene, problem) = on_grid(ALL, grid(2, Cells::Triangles))?;
