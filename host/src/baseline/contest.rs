@@ -3,7 +3,7 @@
 //! * Cold: all that follows the matrix and the load, symbolic passes and factorisations included.
 //! * Warm: tick after tick with new loads and bounds; what the tick before left may be used, and memory,
 //!   patterns and factors stand. The median over the ticks is what counts.
-//! * Repeats: each goes on for 100 ms and counts by its fastest pass, since a processor that has slept is slow at first
+//! * Repeats: each goes on for 20 ms and counts by its fastest pass, since a processor that has slept is slow at first
 //!   and whatever else a shared machine does only adds to a pass; where a pass takes longer it is the only one. The
 //!   median over the repeats is what counts. On condensed problems
 //!   all solvers take turns for some seconds, so that everybody has repeats in the same good and bad times.
@@ -23,7 +23,7 @@ use super::quadratic::Quadratic;
 /// Repeats of a measurement, and most of them where solvers take turns.
 const REPEATS: [usize; 2] = [5, 200];
 /// Seconds of a repeat, at least.
-const REPEAT: f64 = 0.1;
+const REPEAT: f64 = 0.02;
 /// Seconds that they take turns for.
 const TURNS: f64 = 2.0;
 /// Seconds after which no repeat begins.
