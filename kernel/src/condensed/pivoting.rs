@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn lanes_find_the_same_unknown() {
         let exchanged: [bool; 24] = core::array::from_fn(|at| at % 3 == 0);
-        let mut found = [0; 2];
+        let (mut some, mut none) = (0, 0);
         for shift in 0..200 {
             // Every value twice, some of both signs.
             let number = |at: usize| ((at % 12 * 37 + shift * 53) % 101) as f64 - 70.0;
@@ -234,12 +234,12 @@ mod tests {
             for noise in [0.0, 28.0, 69.0] {
                 let one = in_turn(&z, &exchanged, noise, true);
                 assert_eq!(in_lanes(&z, &exchanged, noise), one, "{shift}, {noise}");
-                found[usize::from(one.is_some())] += 1;
+                *(if one.is_some() { &mut some } else { &mut none }) += 1;
             }
             let first = in_turn(&z, &exchanged, 1.0, false);
-            let is_wrong = |&at: &usize| (if exchanged[at] { z[at] } else { -z[at] }) > 1.0;
-            assert_eq!(first, (0..24).find(is_wrong));
+            let by = z.iter().zip(&exchanged).map(|(z, within)| if *within { *z } else { -z });
+            assert_eq!(first, by.into_iter().position(|by| by > 1.0));
         }
-        assert!(found[0] > 0 && found[1] > 100, "{found:?}");
+        assert!(none > 0 && some > 100, "{none} {some}");
     }
 }
