@@ -21,6 +21,7 @@ mod pivots;
 mod psor;
 mod quadratic;
 mod ring;
+mod series;
 pub mod sizes;
 mod table;
 #[cfg(test)]

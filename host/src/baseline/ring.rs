@@ -126,7 +126,7 @@ impl Ring<'_> {
             |problem| Full::new(problem, &Parts::examine(self.scene, problem)?, &moments[..1]);
         let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
-        Ok(vec![contest.hold_cold(CASCADE, &mut Cascade::new(&grids)?)?])
+        contest.hold_cold(CASCADE, &mut Cascade::new(&grids)?)
     }
 }
 
