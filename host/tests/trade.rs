@@ -388,7 +388,13 @@ fn the_readme_says_how_far_condensed_ticks_are_ahead() {
         let [least, most] = [f64::INFINITY, 0.0].map(|start: f64| {
             found.iter().fold(start, |a, &b| if start > 0.0 { a.min(b) } else { a.max(b) })
         });
+        assert!(least >= 20.0, "{solver} takes {least} times as long at least, no 20 times");
         let row = format!("{solver:<18}{least:>6.0}{most:>8.0}");
         assert!(readme.contains(&row), "README.md lacks `{row}`");
     }
+    let full = record.iter().flat_map(|(_, record)| record["baselines"].as_array().unwrap());
+    let full = full.filter(|b| b["problem"] == "full" && b["start"] == "warm");
+    let least = full.filter_map(|b| b["to_condensed"].as_f64()).fold(f64::INFINITY, f64::min);
+    let sentence = format!("{} times as long at least", least.floor());
+    assert!(readme.contains(&sentence), "README.md lacks `{sentence}`");
 }
