@@ -7,7 +7,7 @@
 //! element = "parametric" # or nonparametric: full rates of u_h on quads of any shape  [parametric]
 //! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
 //! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
-//! model = "full"        # full or condensed                                          [bake: the smaller]
+//! model = "full"        # full or condensed                                          [full; bake: the smaller]
 //! solver = "sweeps"     # full: sweeps, or a factor worked out on the host           [bake: the quicker]
 //! start = "warm"        # warm: from the tick before; cold: every tick anew          [warm]
 //! omega = 1.93          # a fixed relaxation factor, or "auto"                       [auto]
@@ -15,7 +15,8 @@
 //! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
 //! certificate = true    # the error bound                                            [true]
 //! ```
-//! `sweeps` and `share` exclude each other, and a factor excludes both. The file reads them in [`crate::scene`].
+//! `sweeps` and `share` exclude each other, and a factor excludes both. Where `bake` may choose the model, a key that
+//! means something to the full one alone asks for that. The file reads them in [`crate::scene`].
 
 use serde::{Deserialize, Serialize};
 use signorini_kernel::element::QuadElement;
@@ -73,6 +74,24 @@ impl Default for Setting {
             share: None,
             certificate: true,
         }
+    }
+}
+
+impl Setting {
+    /// The model: as stated, or the full one where a key has a meaning for that alone.
+    pub fn model_kind(&self) -> Option<ModelKind> {
+        self.model.or(self.of_full_alone().map(|_| ModelKind::Full))
+    }
+
+    /// A key that is set, and means nothing to the condensed model.
+    pub fn of_full_alone(&self) -> Option<&'static str> {
+        let keys = [
+            ("solver", self.solver.is_some()),
+            ("share", self.share.is_some()),
+            ("omega", matches!(self.omega, Omega::Fixed(_))),
+            ("start", self.start == Start::Cold),
+        ];
+        keys.into_iter().find(|(_, is_set)| *is_set).map(|(key, _)| key)
     }
 }
 

@@ -117,6 +117,21 @@ fn a_bound_that_is_read_is_not_left_infinite_where_a_model_has_one() {
 }
 
 #[test]
+fn a_key_for_the_full_model_alone_asks_for_it() {
+    for key in ["solver = \"factor\"", "share = 0.1", "omega = 1.9", "start = \"cold\""] {
+        let setting = format!("[setting]\n{key}\n[target]");
+        let changes = [("[target]", setting.as_str())];
+        let (_, _, stderr, source) = bake("scenes/levee.toml", &changes, &[]);
+        assert!(source.expect("a module").contains("MODEL: &str = \"full\""), "{key}: {stderr}");
+        let (status, _, stderr, source) = bake("scenes/levee.toml", &changes, &["--condensed"]);
+        assert_eq!((status, source), (2, None), "{key}");
+        let name = key.split(' ').next().unwrap_or_default();
+        let message = format!("setting.{name}: means nothing to the condensed model");
+        assert!(stderr.contains(&message), "{stderr}");
+    }
+}
+
+#[test]
 fn hints_do_not_promise_meshes_that_cannot_be() {
     for (model, target) in
         [("--condensed", "flash = 1000"), ("--full", "flash = 1000"), ("--full", "flash = 20000")]

@@ -18,7 +18,7 @@ use super::range::{refuse_answers, refuse_lengths, refuse_squares};
 use super::trial::Trial;
 use super::{condensed, full};
 use crate::condense::{check_size, condense};
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
@@ -95,7 +95,7 @@ impl<R: Scalar> Choice<R> {
     ///
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
-    /// was asked for from existing.
+    /// was asked for from existing, or a key of the setting from meaning anything to it.
     pub fn new(
         scene: &Scene,
         problem: &Problem,
@@ -103,7 +103,11 @@ impl<R: Scalar> Choice<R> {
         compared: bool,
     ) -> Result<Self> {
         let budget = Budget::of(scene);
-        let forced = forced.or(scene.setting.and_then(|setting| setting.model));
+        let setting = scene.setting.unwrap_or_default();
+        let forced = forced.or(setting.model_kind());
+        if let (Some(ModelKind::Condensed), Some(key)) = (forced, setting.of_full_alone()) {
+            return Err(for_full_alone(scene, key).into());
+        }
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
         let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
@@ -162,4 +166,11 @@ impl<R: Scalar> Choice<R> {
     pub fn candidate(&self) -> &Candidate<R> {
         &self.candidates[self.chosen]
     }
+}
+
+/// The error that a key of the setting does not go with the condensed model that the command asks for.
+fn for_full_alone(scene: &Scene, key: &str) -> InputError {
+    InputError::new(format!("setting.{key}: means nothing to the condensed model"))
+        .file(&scene.path)
+        .hint("remove it, or do not ask for the condensed model")
 }
