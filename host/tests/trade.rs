@@ -370,31 +370,54 @@ fn the_readme_quotes_the_record() {
     assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
 }
 
-/// What the README says of condensed warm ticks: the least of each ratio over the standard scenes.
+/// What the README says of condensed warm ticks, on scenes with more than rounding to be wrong about.
 #[test]
 fn the_readme_says_how_far_condensed_ticks_are_ahead() {
     let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
-    let record = recorded("host");
-    let ratios = |solver: &str, problem: &str| -> Vec<f64> {
-        let ratio = |(_, record): &(PathBuf, Value)| {
-            let own = cycles(&record["baselines"], "kernel pivoting f64", "condensed", "warm")?;
-            Some(cycles(&record["baselines"], solver, problem, "warm")? / own)
-        };
-        record.iter().filter_map(ratio).collect()
+    let warm = |record: &Value, solver: &str, problem: &str| {
+        let all = record["baselines"].as_array().expect("baselines");
+        let same = |b: &&Value| b["solver"] == solver && b["problem"] == problem;
+        all.iter().filter(same).find(|b| b["start"] == "warm").cloned()
     };
-    for solver in ["Clarabel", "OSQP as it comes", "OSQP, polished", "OSQP"] {
-        let found = ratios(solver, "condensed");
-        assert_eq!(found.len(), record.len(), "{solver}");
-        let [least, most] = [f64::INFINITY, 0.0].map(|start: f64| {
-            found.iter().fold(start, |a, &b| if start > 0.0 { a.min(b) } else { a.max(b) })
-        });
-        assert!(least >= 20.0, "{solver} takes {least} times as long at least, no 20 times");
-        let row = format!("{solver:<18}{least:>6.0}{most:>8.0}");
-        assert!(readme.contains(&row), "README.md lacks `{row}`");
+    let is_near = |b: &Value| number(b, "algebraic_error") <= number(b, "target");
+    let own = |record: Value| Some((warm(&record, "kernel pivoting f64", "condensed")?, record));
+    let scenes: Vec<_> =
+        recorded("host").into_iter().filter_map(|(_, record)| own(record)).collect();
+    let scenes: Vec<_> = scenes.into_iter().filter(|(own, _)| is_near(own)).collect();
+    assert!(scenes.len() > 20);
+    let mut missing = Vec::new();
+    let mut quote = |line: String| {
+        if !readme.contains(&line) {
+            missing.push(line);
+        }
+    };
+    for (solver, promised) in [
+        ("Clarabel", 20.0),
+        ("OSQP as it comes", 20.0),
+        ("OSQP, polished", 20.0),
+        ("OSQP", 20.0),
+        ("OSQP, every iteration", 0.0),
+    ] {
+        let ratio = |(own, record): &(Value, Value)| {
+            let other = warm(record, solver, "condensed").expect(solver);
+            assert!(is_near(&other) || solver == "OSQP as it comes", "{other}");
+            number(&other, "cycles") / number(own, "cycles")
+        };
+        let found: Vec<f64> = scenes.iter().map(ratio).collect();
+        let least = found.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = found.iter().copied().fold(0.0, f64::max);
+        assert!(least >= promised, "{solver} takes {least} times as long at least");
+        quote(format!("{solver:<22}{least:>6.0}{most:>8.0}"));
     }
-    let full = record.iter().flat_map(|(_, record)| record["baselines"].as_array().unwrap());
-    let full = full.filter(|b| b["problem"] == "full" && b["start"] == "warm");
+    let all = |key: &str| -> Vec<f64> { scenes.iter().map(|(own, _)| number(own, key)).collect() };
+    let most = |key: &str| all(key).into_iter().fold(0.0, f64::max);
+    let least = all("cycles").into_iter().fold(f64::INFINITY, f64::min);
+    let [least, median, slowest] = [least, most("cycles"), most("worst")].map(|c| 1e-3 * c);
+    quote(format!("{least:.1} to {median:.1} thousand cycles"));
+    quote(format!("{slowest:.0} thousand in the slowest tick"));
+    let full = scenes.iter().flat_map(|(_, record)| record["baselines"].as_array().unwrap());
+    let full = full.filter(|b| b["problem"] == "full" && b["start"] == "warm" && is_near(b));
     let least = full.filter_map(|b| b["to_condensed"].as_f64()).fold(f64::INFINITY, f64::min);
-    let sentence = format!("{} times as long at least", least.floor());
-    assert!(readme.contains(&sentence), "README.md lacks `{sentence}`");
+    quote(format!("{} times as long at least", least.floor()));
+    assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
 }

@@ -2,29 +2,24 @@
 //!
 //! * Cold: all that follows the matrix and the load, symbolic passes and factorisations included.
 //! * Warm: tick after tick with new loads and bounds; what the tick before left may be used, and memory,
-//!   patterns and factors stand. The median over the ticks is what counts.
+//!   patterns and factors stand. The median over the ticks is what counts, and the slowest is recorded.
 //! * Repeats: each goes on for 100 ms and counts by its fastest pass, since a processor that has slept is slow at first
 //!   and whatever else a shared machine does only adds to a pass; where a pass takes longer it is the only one. The
-//!   median over the repeats is what counts. On condensed problems
-//!   all solvers take turns for some seconds, so that everybody has repeats in the same good and bad times.
+//!   median over the repeats is what counts. On condensed problems all solvers take turns, so that everybody has
+//!   repeats in the same good and bad times.
 //! * Equal error: the loosest tolerance among 0.1, 0.01, … whose answers all lie within `target` of the
-//!   discrete solution. It is found before anything is timed. Exact methods and solvers left as they come have one
-//!   answer; `algebraic_error` tells how near it is.
-
-use std::time::Instant;
+//!   discrete solution; warm starts begin the search with that of the cold one. It is found before anything is timed. Exact
+//!   methods and solvers left as they come have one answer; `algebraic_error` tells how near it is.
 
 use crate::cycles;
 use crate::error::Result;
 use crate::trade::record::Baseline;
 
 use super::quadratic::Quadratic;
+use super::series::Series;
 
-/// Repeats of a measurement, and most of them where solvers take turns.
-pub(super) const REPEATS: [usize; 2] = [5, 200];
-/// Seconds that they take turns for.
-const TURNS: f64 = 2.0;
-/// Seconds after which no repeat begins.
-pub(super) const PATIENCE: f64 = 2.0;
+/// Repeats of a solver alone, and of several in turns.
+const REPEATS: [usize; 2] = [5, 9];
 
 /// What a solve begins with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,90 +86,81 @@ pub(super) struct Contest<'q> {
 /// A solver's name, and the solver or why it cannot take part.
 pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn Contestant + 'e>>);
 
-/// A solver that takes turns: the tolerance of its last start, and what was found of it.
-struct Ready<'e> {
-    contestant: Box<dyn Contestant + 'e>,
-    exponent: i32,
+/// A solver on its way through the starts: `Err` once it has failed.
+struct Competitor<'e> {
+    name: &'e str,
+    contestant: Result<Box<dyn Contestant + 'e>>,
+    /// Of the last start.
+    series: Series,
     found: Vec<Baseline>,
 }
 
-impl<'e> Ready<'e> {
-    fn new(contestant: Box<dyn Contestant + 'e>) -> Self {
-        Self { contestant, exponent: 0, found: Vec::new() }
+impl<'e> Competitor<'e> {
+    fn new(name: &'e str, contestant: Result<Box<dyn Contestant + 'e>>) -> Self {
+        Self { name, contestant, series: Series::default(), found: Vec::new() }
+    }
+
+    /// Has it do some `work`, unless it has failed.
+    fn attempt(&mut self, work: impl FnOnce(&mut dyn Contestant, &mut Series) -> Result<()>) {
+        let Ok(contestant) = &mut self.contestant else { return };
+        if let Err(error) = work(&mut **contestant, &mut self.series) {
+            self.contestant = Err(error);
+        }
+    }
+
+    fn result(self) -> Result<Vec<Baseline>> {
+        self.contestant.map(|_| self.found)
     }
 }
 
 impl Contest<'_> {
-    /// Both starts.
+    /// Cold and warm.
     pub fn hold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Vec<Baseline>> {
-        let mut one = [(solver, Ok(Ready::new(Box::new(contestant))))];
-        self.both(&mut one, 0.0);
-        let [(_, ready)] = one;
-        ready.map(|ready| ready.found)
+        self.alone(solver, contestant, &[Start::Cold, Start::Warm])
     }
 
-    /// A cold start alone.
-    pub fn hold_cold(
+    /// These starts of one solver.
+    pub fn alone(
         &self,
         solver: &str,
         contestant: &mut dyn Contestant,
+        starts: &[Start],
     ) -> Result<Vec<Baseline>> {
-        let mut one = [(solver, Ok(Ready::new(Box::new(contestant))))];
-        self.turns(&mut one, Start::Cold, 0.0);
-        let [(_, ready)] = one;
-        ready.map(|ready| ready.found)
+        let mut one = [Competitor::new(solver, Ok(Box::new(contestant)))];
+        starts.iter().for_each(|&start| self.measure(&mut one, start, REPEATS[0]));
+        let [one] = one;
+        one.result()
     }
 
-    /// Both starts of several solvers, which take turns for some seconds.
+    /// Both starts of several solvers, which take turns.
     pub fn hold_in_turns<'e>(
         &self,
         entrants: Vec<Entrant<'e>>,
     ) -> Vec<(&'static str, Result<Vec<Baseline>>)> {
-        let ready = |(name, entrant): Entrant<'e>| (name, entrant.map(Ready::new));
-        let mut all: Vec<_> = entrants.into_iter().map(ready).collect();
-        self.both(&mut all, TURNS);
-        all.into_iter().map(|(name, ready)| (name, ready.map(|ready| ready.found))).collect()
+        let (names, mut all): (Vec<_>, Vec<_>) = entrants
+            .into_iter()
+            .map(|(name, contestant)| (name, Competitor::new(name, contestant)))
+            .unzip();
+        self.measure(&mut all, Start::Cold, REPEATS[1]);
+        self.measure(&mut all, Start::Warm, REPEATS[1]);
+        names.into_iter().zip(all.into_iter().map(Competitor::result)).collect()
     }
 
-    /// A warm start needs more than one tick.
-    fn both(&self, all: &mut [(&str, Result<Ready>)], seconds: f64) {
-        self.turns(all, Start::Cold, seconds);
-        if self.quadratic.ticks.len() > 1 {
-            self.turns(all, Start::Warm, seconds);
+    /// One start of all who are still there. A warm one needs more than one tick.
+    fn measure(&self, all: &mut [Competitor], start: Start, repeats: usize) {
+        if start == Start::Warm && self.quadratic.ticks.len() < 2 {
+            return;
         }
-    }
-
-    /// One start of all who are still there.
-    fn turns(&self, all: &mut [(&str, Result<Ready>)], start: Start, seconds: f64) {
-        let trial = |(_, ready): &mut (&str, Result<Ready>)| match ready {
-            Ok(ready) => self.trial(&mut *ready.contestant, start, ready.exponent).map(Some),
-            Err(_) => Ok(None),
-        };
-        let mut series: Vec<_> = all.iter_mut().map(trial).collect();
-        let begin = Instant::now();
-        for round in 0..REPEATS[1] {
-            if round >= REPEATS[0] && begin.elapsed().as_secs_f64() >= seconds {
-                break;
-            }
-            for ((_, ready), series) in all.iter_mut().zip(&mut series) {
-                let (Ok(ready), Ok(Some(own))) = (ready, &mut *series) else { continue };
-                if own.spent >= PATIENCE {
-                    continue;
-                }
-                if let Err(error) = self.repeat(&mut *ready.contestant, start, own) {
-                    *series = Err(error);
-                }
+        for one in &mut *all {
+            one.attempt(|contestant, series| self.trial(contestant, start, series));
+        }
+        for _ in 0..repeats {
+            for one in &mut *all {
+                one.attempt(|contestant, series| self.repeat(contestant, start, series));
             }
         }
-        for ((name, ready), series) in all.iter_mut().zip(series) {
-            match (&mut *ready, series) {
-                (Ok(ready), Ok(Some(series))) => {
-                    ready.exponent = series.exponent;
-                    ready.found.push(self.baseline(name, start, &series));
-                }
-                (Ok(_), Err(error)) => *ready = Err(error),
-                _ => {}
-            }
+        for one in all.iter_mut().filter(|one| one.contestant.is_ok()) {
+            one.found.push(self.baseline(one.name, start, &one.series));
         }
     }
 }

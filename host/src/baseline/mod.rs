@@ -50,8 +50,8 @@ const SHARE: f64 = 0.01;
 /// why, and how long condensing takes.
 ///
 /// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads multiplied
-/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q) by another 1 ± 0.1, so that
-/// the contact set moves.
+/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q) by another 1 ± 0.1. In
+/// most scenes the contact set moves by that.
 ///
 /// # Errors
 /// A problem without a solution. A solver that fails is a remark.

@@ -6,7 +6,7 @@
 //! ```text
 //!   → {"starts", "rows", "values", "contact", "ticks": [{"load", "lower"}, …]}
 //!   → {"tick", "cold", "tolerance", "manner"}
-//!   ← {"cycles", "iterations", "u"}
+//!   ← {"cycles", "iterations", "u" or null}
 //! ```
 
 use std::io::{BufRead, BufReader, BufWriter, Write};
@@ -35,6 +35,11 @@ fn build() -> std::result::Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.args(["xtask", "osqp"]).current_dir(root).stdin(Stdio::null());
+    if cfg!(target_arch = "x86_64") {
+        // The features of the kernel that it is compared with, whatever the environment says today.
+        let is_wide = cfg!(all(target_feature = "avx2", target_feature = "fma"));
+        command.env("RUSTFLAGS", if is_wide { "-C target-feature=+avx2,+fma" } else { "" });
+    }
     let output = command.output().map_err(|error| format!("OSQP is left out: cargo: {error}"))?;
     let last = |bytes: &[u8]| {
         let text = String::from_utf8_lossy(bytes);
@@ -77,7 +82,9 @@ pub(super) enum Manner {
     Defaults,
     /// With the loosest tolerance that will do, looked at every 5 iterations.
     Watched,
-    /// The same, and the answer solved again on the bounds found active.
+    /// The same, looked at after every iteration.
+    Eager,
+    /// Looked at every 5 iterations, and the answer solved again on the bounds found active.
     Polished,
 }
 
@@ -85,7 +92,8 @@ pub(super) enum Manner {
 struct Answer {
     cycles: f64,
     iterations: u32,
-    u: Vec<f64>,
+    /// `None` where it has none.
+    u: Option<Vec<f64>>,
 }
 
 /// The solver on its problem, until it is dropped.
@@ -127,6 +135,7 @@ impl Contestant for Osqp {
         self.answers.read_line(&mut line).map_err(failed)?;
         let Answer { cycles, iterations, u } =
             serde_json::from_str(&line).map_err(|error| failed(format!("OSQP: {error}")))?;
+        let u = u.ok_or_else(|| failed(format!("no answer after {iterations} iterations")))?;
         Ok(Run { cycles, iterations, u })
     }
 
@@ -136,7 +145,7 @@ impl Contestant for Osqp {
 }
 
 impl Drop for Osqp {
-    /// The end of its input ends the process; should it hang, it is killed.
+    /// Nobody waits for an answer any more.
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();

@@ -11,7 +11,7 @@ use super::cascade::Cascade;
 use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::conforming::Conforming;
-use super::contest::{Contest, Contestant, Entrant};
+use super::contest::{Contest, Contestant, Entrant, Start};
 use super::full::{Full, quadratic};
 use super::moment::Moment;
 use super::osqp::{Manner, Osqp};
@@ -94,6 +94,7 @@ impl Ring<'_> {
     fn general<'q>(&self, quadratic: &'q Quadratic) -> impl Iterator<Item = Entrant<'q>> {
         let manners = [
             ("OSQP", Manner::Watched),
+            ("OSQP, every iteration", Manner::Eager),
             ("OSQP, polished", Manner::Polished),
             ("OSQP as it comes", Manner::Defaults),
         ];
@@ -126,7 +127,7 @@ impl Ring<'_> {
             |problem| Full::new(problem, &Parts::examine(self.scene, problem)?, &moments[..1]);
         let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
-        contest.hold_cold(CASCADE, &mut Cascade::new(&grids)?)
+        contest.alone(CASCADE, &mut Cascade::new(&grids)?, &[Start::Cold])
     }
 }
 

@@ -5,47 +5,56 @@ use std::time::Instant;
 use crate::error::Result;
 use crate::trade::record::Baseline;
 
-use super::contest::{Contest, Contestant, PATIENCE, REPEATS, Start};
+use super::contest::{Contest, Contestant, Run, Start};
 
 /// Seconds of a repeat, at least.
 const REPEAT: f64 = 0.1;
+/// Seconds after which no repeat begins.
+const ENOUGH: f64 = 2.0;
+/// Seconds after which the trial itself is the measurement.
+const LONG: f64 = 10.0;
 
 /// Runs over a row of ticks.
 pub(super) struct Pass {
+    /// The median of all ticks.
     cycles: f64,
+    /// The slowest tick.
+    worst: f64,
     iterations: u32,
     /// The largest of all ticks.
     distance: f64,
 }
 
 /// The repeats of a solver at the loosest tolerance that will do, 10^`exponent`.
+#[derive(Default)]
 pub(super) struct Series {
-    pub exponent: i32,
-    pub passes: Vec<Pass>,
+    exponent: i32,
+    passes: Vec<Pass>,
     /// Seconds.
-    pub spent: f64,
+    spent: f64,
 }
 
 impl Contest<'_> {
-    /// Finds the tolerance, below 10^`above`. What takes long is measured with that.
+    /// Begins a series: finds its tolerance, which is no looser than that of the series before.
     pub(super) fn trial(
         &self,
         contestant: &mut dyn Contestant,
         start: Start,
-        above: i32,
-    ) -> Result<Series> {
-        let mut exponent = above - i32::from(above == 0);
+        series: &mut Series,
+    ) -> Result<()> {
         let begin = Instant::now();
+        let mut exponent = series.exponent.min(-1);
         let mut trial = self.pass(contestant, start, exponent)?;
         while trial.distance > self.target && exponent > contestant.finest() {
             exponent -= 1;
             trial = self.pass(contestant, start, exponent)?;
         }
         let spent = begin.elapsed().as_secs_f64();
-        Ok(match spent < PATIENCE * REPEATS[0] as f64 {
-            true => Series { exponent, passes: Vec::new(), spent: 0.0 },
+        *series = match spent < LONG {
+            true => Series { exponent, ..Series::default() },
             false => Series { exponent, passes: vec![trial], spent },
-        })
+        };
+        Ok(())
     }
 
     /// One more: as many passes as time allows, the fastest of them with the largest distance of any.
@@ -55,6 +64,9 @@ impl Contest<'_> {
         start: Start,
         series: &mut Series,
     ) -> Result<()> {
+        if series.spent >= ENOUGH {
+            return Ok(());
+        }
         let (begin, mut passes) = (Instant::now(), Vec::new());
         while passes.is_empty() || begin.elapsed().as_secs_f64() < REPEAT {
             passes.push(self.pass(contestant, start, series.exponent)?);
@@ -85,6 +97,7 @@ impl Contest<'_> {
             tolerance: 10f64.powi(*exponent),
             cycles,
             cycles_spread,
+            worst: median_and_spread(passes.iter().map(|pass| pass.worst)).0,
             ratio: 1.0,
             to_condensed: None,
             algebraic_error: passes.iter().fold(0.0, |most, pass| pass.distance.max(most)),
@@ -97,7 +110,8 @@ impl Contest<'_> {
     fn cold(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {
         let run = contestant.run(0, Start::Cold, tolerance)?;
         let distance = self.quadratic.distance(0, &run.u);
-        Ok(Pass { cycles: run.cycles, iterations: run.iterations, distance })
+        let Run { cycles, iterations, .. } = run;
+        Ok(Pass { cycles, worst: cycles, iterations, distance })
     }
 
     /// The ticks after the first.
@@ -112,7 +126,9 @@ impl Contest<'_> {
         }
         iterations.sort_unstable();
         let iterations = iterations[iterations.len() / 2];
-        Ok(Pass { cycles: median_and_spread(cycles.into_iter()).0, iterations, distance })
+        let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
+        let (cycles, _) = median_and_spread(cycles.into_iter());
+        Ok(Pass { cycles, worst, iterations, distance })
     }
 }
 

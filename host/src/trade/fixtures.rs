@@ -110,6 +110,7 @@ fn baseline(solver: &str, ratio: f64, iterations: u32) -> Baseline {
         unknowns: 96,
         start: "warm".to_owned(),
         cycles: 9_876.0 * ratio,
+        worst: 20_000.0 * ratio,
         tolerance: 1e-6,
         to_condensed: Some(ratio),
         target: 1e-4,

@@ -136,6 +136,8 @@ pub struct Baseline {
     pub cycles: f64,
     /// (largest − smallest)/median of the repeats.
     pub cycles_spread: f64,
+    /// Cycles of the slowest tick, the median over the repeats.
+    pub worst: f64,
     /// The loosest tolerance, in powers of ten, at which `algebraic_error` comes to lie within `target`.
     pub tolerance: f64,
     /// Cycles over those of the kernel's best answer in f64 for the same problem and start; conforming

@@ -3,7 +3,7 @@
 //!
 //! minimise ½ uᵀPu − bᵀu over u ≥ ψ on the last unknowns. Cold: set up and solved; warm: new b and ψ go
 //! into the workspace, and it starts from its last answer. Settings are OSQP's own but for the tolerance,
-//! the number of iterations, and a look every 5 of them, so that it need not go on when it is done.
+//! the number of iterations, and a look every 5 of them or after each, so that it need not go on when it is done.
 
 use std::io::{BufRead, Write};
 
@@ -52,7 +52,9 @@ enum Manner {
     /// It looks every 5 iterations, not 25, whether the tolerance is met, and adapts its step by iterations,
     /// not by the clock: the same every time.
     Watched,
-    /// The same, and the answer solved again on the bounds found active.
+    /// The same, after every iteration.
+    Eager,
+    /// Every 5 iterations, and the answer solved again on the bounds found active.
     Polished,
 }
 
@@ -60,7 +62,8 @@ enum Manner {
 struct Answer {
     cycles: u64,
     iterations: u32,
-    u: Vec<f64>,
+    /// `None` where it has none.
+    u: Option<Vec<f64>>,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -105,7 +108,7 @@ fn solve(
             answer
         }
     };
-    Ok(Answer { cycles, iterations, u: u.unwrap_or_else(|| vec![0.0; cost.len()]) })
+    Ok(Answer { cycles, iterations, u })
 }
 
 fn run(problem: &mut Problem, start: u64) -> (u64, u32, Option<Vec<f64>>) {
@@ -129,7 +132,7 @@ fn settings(question: &Question) -> Settings {
         .eps_abs(question.tolerance)
         .eps_rel(question.tolerance)
         .max_iter(MOST)
-        .check_termination(Some(5))
+        .check_termination(Some(if question.manner == Manner::Eager { 1 } else { 5 }))
         .adaptive_rho_interval(Some(25))
         .polish(question.manner == Manner::Polished)
 }
