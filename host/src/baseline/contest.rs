@@ -9,8 +9,8 @@
 //!   repeats in the same good and bad times; where these differ, turns are taken again, and the calmest of
 //!   three rows of repeats counts, for all of them.
 //! * Equal error: the loosest tolerance among 0.1, 0.01, … whose answers all lie within `target` of the
-//!   discrete solution; warm starts begin the search with that of the cold one. It is found before anything is timed. Exact
-//!   methods and solvers left as they come have one answer; `algebraic_error` tells how near it is.
+//!   discrete solution, cold and warm apart. It is found before anything is timed. Exact methods and solvers left as
+//!   they come have one answer; `algebraic_error` tells how near it is.
 
 use crate::cycles;
 use crate::error::Result;

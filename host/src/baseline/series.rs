@@ -35,7 +35,7 @@ pub(super) struct Series {
 }
 
 impl Contest<'_> {
-    /// Begins a series: finds its tolerance, which is no looser than that of the series before.
+    /// Begins a series: finds its tolerance.
     pub(super) fn trial(
         &self,
         contestant: &mut dyn Contestant,
@@ -43,7 +43,7 @@ impl Contest<'_> {
         series: &mut Series,
     ) -> Result<()> {
         let begin = Instant::now();
-        let mut exponent = series.exponent.min(-1);
+        let mut exponent = -1;
         let mut trial = self.pass(contestant, start, exponent)?;
         while trial.distance > self.target && exponent > contestant.finest() {
             exponent -= 1;
