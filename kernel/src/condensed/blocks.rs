@@ -74,65 +74,31 @@ pub fn multiply_add<R: Real>(
     }
     let (x, used, sums) = (groups(x), groups(used), groups_mut(sum));
     let mut rest = matrix.blocks();
+    let is_any = |used: &[bool; SIDE]| *used != [false; SIDE];
     for (row, (own, is_used)) in x.iter().zip(used).enumerate() {
-        let Some(Row { left, diagonal, below }) = Row::split(rest, row) else { break };
+        let Some((left, [diagonal, below @ ..])) = rest.split_at_checked(row) else { break };
         let Some((above, [sum, ..])) = sums.split_at_mut_checked(row) else { break };
-        let mut room = sum.map(|sum| [sum, R::ZERO]);
-        let pairs = filled(&mut room, row, matrix.order());
-        let is_any = |used: &[bool; SIDE]| *used != [false; SIDE];
-        add_products(left.iter().zip(x).zip(used.iter().map(is_any)), pairs);
+        let mut pairs = sum.map(|sum| [sum, R::ZERO]);
+        add_products(left.iter().zip(x).zip(used.iter().map(is_any)), &mut pairs);
         if is_any(is_used) {
-            add_products([((diagonal, own), true)].into_iter(), pairs);
+            add_products([((diagonal, own), true)].into_iter(), &mut pairs);
             // A copy, which no write to a sum can change, stays in registers.
             let own = *own;
             left.iter().zip(above).for_each(|(block, sum)| add_transposed(block, &own, sum));
         }
-        *sum = room.map(|[even, odd]| even + odd);
+        *sum = pairs.map(|[even, odd]| even + odd);
         rest = below;
     }
     Ok(())
 }
 
-/// What of a group is no padding. Where registers hold one number each it is all of it: eight rows, and the
-/// compiler knows it, stay in registers, which gains more than padding takes. Where they hold several, a number
-/// of rows that it does not know keeps the compiler from taking rows together, and turning their numbers about.
-#[inline(always)]
-pub(super) fn filled<T>(group: &mut [T; SIDE], number: usize, order: usize) -> &mut [T] {
-    if cfg!(target_arch = "arm") {
-        return group;
-    }
-    group.get_mut(..SIDE.min(order.saturating_sub(number * SIDE))).unwrap_or_default()
-}
-
-/// One row of blocks.
-pub(super) struct Row<'a, R> {
-    /// Left of the diagonal.
-    pub left: &'a [Block<R>],
-    /// On it.
-    pub diagonal: &'a Block<R>,
-    /// All rows that follow.
-    pub below: &'a [Block<R>],
-}
-
-impl<'a, R> Row<'a, R> {
-    /// Row `row` of the blocks that begin with it.
-    #[inline(always)]
-    pub fn split(blocks: &'a [Block<R>], row: usize) -> Option<Self> {
-        let (left, rest) = blocks.split_at_checked(row)?;
-        let (diagonal, below) = rest.split_first()?;
-        Some(Self { left, diagonal, below })
-    }
-}
-
-/// `pairs` += Σ B x over the terms in use, a sum of the even columns and one of the odd ones for each row: what a register of two
-/// numbers adds up.
+/// `pairs` += Σ B x over the terms in use, a sum of the even columns and one of the odd ones for each row.
 ///
-/// As many rows as `pairs` has: rows of padding cost nothing.
-#[cfg_attr(target_arch = "arm", inline(always))]
-#[cfg_attr(not(target_arch = "arm"), inline(never))]
+/// Within the loop over rows of blocks, and with a number of rows that the compiler knows: the sums stay in registers.
+#[inline(always)]
 pub(super) fn add_products<'a, R: Real>(
     terms: impl Iterator<Item = ((&'a Block<R>, &'a [R; SIDE]), bool)>,
-    pairs: &mut [[R; 2]],
+    pairs: &mut [[R; 2]; SIDE],
 ) {
     for ((block, x), is_used) in terms {
         if !is_used {

@@ -8,7 +8,7 @@
 //! The exchanged unknown's own entry of its column is handed over as 0; its row and column, which follow
 //! other formulas, are written afterwards by `store`.
 
-use super::blocks::{Block, SIDE, filled};
+use super::blocks::{Block, SIDE};
 use crate::real::Real;
 
 /// T −= c cᵀ · `inverse`
@@ -45,6 +45,17 @@ pub(super) fn subtract_two<R: Real>(
         add_two(blocks, [a, b], filled(&mut factors, row, order));
         rest = more;
     }
+}
+
+/// What of a group is no padding. Where registers hold one number each it is all of it: eight rows, and the
+/// compiler knows it, stay in registers, which gains more than padding takes. Where they hold several, a number
+/// of rows that it does not know keeps the compiler from taking rows together, and turning their numbers about.
+#[inline(always)]
+fn filled<T>(group: &mut [T; SIDE], number: usize, order: usize) -> &mut [T] {
+    if cfg!(target_arch = "arm") {
+        return group;
+    }
+    group.get_mut(..SIDE.min(order.saturating_sub(number * SIDE))).unwrap_or_default()
 }
 
 /// Adds to each row of a row of blocks the column, times a factor of that row.

@@ -9,8 +9,9 @@
 
 use core::iter;
 
-use super::blocks::{Block, Blocks, SIDE, add_products, add_transposed, filled};
-use super::blocks::{Row, groups, groups_mut, padded};
+use super::blocks::{
+    Block, Blocks, SIDE, add_products, add_transposed, groups, groups_mut, padded,
+};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
@@ -26,13 +27,10 @@ pub fn sweep<R: Real>(matrix: &Blocks<R>, load: &[R], omega: R, x: &mut [R]) -> 
     let mut moved = R::ZERO;
     let (mut rest, x) = (matrix.blocks(), groups_mut(x));
     for (row, load) in groups(load).iter().enumerate() {
-        let Some(Row { left, diagonal, below }) = Row::split(rest, row) else { break };
+        let Some((left, [diagonal, below @ ..])) = rest.split_at_checked(row) else { break };
         let Some((before, [own, after @ ..])) = x.split_at_mut_checked(row) else { break };
         let mut pairs = [[R::ZERO; 2]; SIDE];
-        add_products(
-            left.iter().zip(&*before).zip(iter::repeat(true)),
-            filled(&mut pairs, row, matrix.order()),
-        );
+        add_products(left.iter().zip(&*before).zip(iter::repeat(true)), &mut pairs);
         let mut sums = pairs.map(|[even, odd]| even + odd);
         // Column `row` of the rows that follow: each is one block longer than the one before.
         let mut column = below.get(row..).unwrap_or_default();
