@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use super::moment::Moment;
 use super::ring::Ring;
-use super::verdict::verdict;
 use super::{SHARE, discretisation_error, osqp};
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
@@ -50,8 +49,6 @@ pub struct Size {
     pub target: f64,
     /// The solvers.
     pub baselines: Vec<Baseline>,
-    /// Who wins, where PSOR loses, and what to take there.
-    pub verdict: String,
 }
 
 /// Measures everybody on every grid; tells `progress` in words what comes next.
@@ -99,8 +96,7 @@ pub(super) fn size(
     notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
     let counts = problem.topology.counts;
     let (unknowns, contact) = (counts.unknowns(), counts.contact);
-    let verdict = verdict(unknowns, &baselines);
-    Ok(Size { n, unknowns, contact, discretisation_error, target, baselines, verdict })
+    Ok(Size { n, unknowns, contact, discretisation_error, target, baselines })
 }
 
 /// Grids that this one refines, the coarsest first.

@@ -2,6 +2,7 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
+use super::verdict::verdict;
 use super::{Size, Sizes};
 use crate::trade::record::Baseline;
 
@@ -33,7 +34,8 @@ pub fn table(sizes: &Sizes) -> String {
     for column in table.column_iter_mut().skip(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    let verdicts: String = sizes.rows.iter().map(|size| format!("* {}\n", size.verdict)).collect();
+    let verdicts = sizes.rows.iter().map(|size| verdict(size.unknowns, &size.baselines));
+    let verdicts: String = verdicts.map(|verdict| format!("* {verdict}\n")).collect();
     let notes: String = sizes.notes.iter().map(|note| format!("* {note}\n")).collect();
     format!(
         "Other solvers on the same matrices, at equal error: {}\n\

@@ -1,88 +1,116 @@
 //! What the figures of one size say, in plain sentences.
 
-use super::ring::{CASCADE, PIVOTS, PSOR};
+use super::ring::PSOR;
 use crate::trade::record::Baseline;
 
-/// Who wins cold and warm, where PSOR loses and what to take there. Cold counts the full problem alone:
+/// The part of PSOR's cycles that is less by more than noise.
+const AHEAD: f64 = 0.95;
+
+/// Who wins cold and warm, where PSOR loses, and what to take there. Cold counts the full problem alone:
 /// condensing is itself more than a solve. Conforming P1 solves another problem and is left out.
 pub(super) fn verdict(unknowns: usize, baselines: &[Baseline]) -> String {
     let fair = |start: &'static str| {
         let reached = move |b: &&Baseline| b.algebraic_error <= b.target && b.start == start;
         baselines.iter().filter(reached).filter(|b| b.problem != "conforming P1")
     };
-    let fastest =
-        |of: Vec<&Baseline>| of.into_iter().min_by(|a, b| a.cycles.total_cmp(&b.cycles)).cloned();
-    let on_full = |start| fair(start).filter(|b| b.problem == "full");
     // A factor that stands is no cold start.
-    let cold = fastest(on_full("cold").filter(|b| !b.solver.ends_with("factor kept")).collect());
-    let warm = fastest(fair("warm").collect());
-    let warm_on_full = fastest(on_full("warm").collect());
-    let (Some(cold), Some(warm), Some(warm_on_full)) = (cold, warm, warm_on_full) else {
+    let is_cold = |b: &&Baseline| b.problem == "full" && !b.solver.ends_with("factor kept");
+    let cold = fastest(fair("cold").filter(is_cold));
+    let warm = fastest(fair("warm").filter(|b| b.problem == "full"));
+    let (Some(first), Some(overall)) = (cold.first(), fastest(fair("warm")).first().copied())
+    else {
         return format!("{unknowns} unknowns: nobody reached the error asked for.");
     };
-    let cycles = |name: &str, start| fair(start).find(|b| b.solver == name).map(|b| b.cycles);
-    let times = |name: &str, start, least: &Baseline| match cycles(name, start) {
-        Some(cycles) => format!("{:.1}×", cycles / least.cycles),
-        None => "–".to_owned(),
-    };
-    let mut text = format!(
-        "{unknowns} unknowns. Cold: {} wins with {}; to it PSOR costs {}, Clarabel {}, OSQP {}. ",
-        cold.solver,
-        amount(cold.cycles),
-        times(PSOR, "cold", &cold),
-        times("Clarabel", "cold", &cold),
-        times("OSQP", "cold", &cold),
-    );
-    text += &format!(
-        "Warm: {} ({}) wins with {}; on the full problem {} with {}, to which PSOR costs {}. ",
-        warm.solver,
-        warm.problem,
-        amount(warm.cycles),
-        warm_on_full.solver,
-        amount(warm_on_full.cycles),
-        times(PSOR, "warm", &warm_on_full),
-    );
-    text + &advice(
-        &cold,
-        &warm_on_full,
-        cycles(CASCADE, "cold"),
-        cycles(PSOR, "cold"),
-        cycles(PIVOTS, "warm"),
+    format!(
+        "{unknowns} unknowns. Cold: {} with {}. {} Warm: {} ({}) with {}. {}",
+        first.solver,
+        amount(first.cycles),
+        losses("Cold", &cold),
+        overall.solver,
+        overall.problem,
+        amount(overall.cycles),
+        losses("Warm, on the full problem,", &warm),
     )
 }
 
-fn advice(
-    cold: &Baseline,
-    warm_on_full: &Baseline,
-    cascade: Option<f64>,
-    psor: Option<f64>,
-    pivots: Option<f64>,
-) -> String {
-    let mut text = String::new();
-    let is_kernel = |b: &Baseline| b.solver.starts_with("kernel");
-    let loses = match (is_kernel(cold), is_kernel(warm_on_full)) {
-        (true, true) => None,
-        (true, false) => Some(("warm", warm_on_full)),
-        (false, true) => Some(("cold", cold)),
-        (false, false) => Some(("cold and warm", warm_on_full)),
+/// From the fastest on.
+fn fastest<'b>(of: impl Iterator<Item = &'b Baseline>) -> Vec<&'b Baseline> {
+    let mut sorted: Vec<&Baseline> = of.collect();
+    sorted.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
+    sorted
+}
+
+/// To whom PSOR with the ω it finds itself loses by more than repeats differ, and by how much.
+fn losses(start: &str, sorted: &[&Baseline]) -> String {
+    let Some(psor) = sorted.iter().find(|b| b.solver == PSOR).map(|b| b.cycles) else {
+        return format!("{start} PSOR does not reach the error: take {}.", sorted[0].solver);
     };
-    text += &match loses {
-        None => "PSOR loses nowhere on the full problem.".to_owned(),
-        Some((start, to)) => format!("PSOR loses {start}: take {}.", to.solver),
-    };
-    if let (Some(cascade), Some(psor)) = (cascade, psor) {
-        text +=
-            &format!(" A start from coarse to fine costs {:.2} of a cold PSOR.", cascade / psor);
+    let ahead = sorted.iter().filter(|b| b.cycles < AHEAD * psor);
+    let ahead: Vec<String> =
+        ahead.map(|b| format!("{} ({:.2})", b.solver, b.cycles / psor)).collect();
+    match ahead.split_first() {
+        None => format!("{start} PSOR loses to nobody."),
+        Some((first, [])) => format!("{start} PSOR loses: take {first} of its cycles."),
+        Some((first, rest)) => format!(
+            "{start} PSOR loses: take {first} of its cycles; ahead are also {}.",
+            rest.join(", ")
+        ),
     }
-    if let Some(pivots) = pivots {
-        text += &format!(" Condensed, a tick costs {}.", amount(pivots));
-    }
-    text
 }
 
 fn amount(cycles: f64) -> String {
     match cycles {
         1e6.. => format!("{:.1} Mcycles", 1e-6 * cycles),
         _ => format!("{:.1} kcycles", 1e-3 * cycles),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn baseline(solver: &str, start: &str, problem: &str, cycles: f64) -> Baseline {
+        Baseline {
+            solver: solver.to_owned(),
+            problem: problem.to_owned(),
+            unknowns: 100,
+            start: start.to_owned(),
+            tolerance: 0.1,
+            cycles,
+            cycles_spread: 0.0,
+            worst: cycles,
+            ratio: 1.0,
+            to_condensed: None,
+            algebraic_error: 0.5,
+            target: 1.0,
+            error: None,
+            iterations: 1,
+        }
+    }
+
+    #[test]
+    fn psor_loses_to_whoever_is_ahead_of_it_whosever_they_are() {
+        let mut far = baseline("Clarabel", "cold", "full", 1.0);
+        far.algebraic_error = 2.0;
+        let all = [
+            baseline(PSOR, "cold", "full", 10e6),
+            baseline("kernel PSOR f64, coarse to fine", "cold", "full", 4e6),
+            baseline("faer active set", "cold", "full", 7e6),
+            baseline("OSQP", "cold", "full", 9.8e6),
+            baseline("faer active set, factor kept", "cold", "full", 1e6),
+            baseline("PSOR", "cold", "conforming P1", 1.0),
+            far,
+            baseline(PSOR, "warm", "full", 2e6),
+            baseline("OSQP", "warm", "full", 3e6),
+            baseline("kernel pivoting f64", "warm", "condensed", 2e3),
+        ];
+        assert_eq!(
+            verdict(100, &all),
+            "100 unknowns. Cold: kernel PSOR f64, coarse to fine with 4.0 Mcycles. Cold PSOR loses: take kernel PSOR \
+             f64, coarse to fine (0.40) of its cycles; ahead are also faer active set (0.70). Warm: kernel pivoting \
+             f64 (condensed) with 2.0 kcycles. Warm, on the full problem, PSOR loses to nobody."
+        );
+        let cut = verdict(100, &all[1..2]);
+        assert_eq!(cut, "100 unknowns: nobody reached the error asked for.");
     }
 }

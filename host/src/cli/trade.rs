@@ -34,10 +34,10 @@ pub struct Arguments {
     /// Scene files (TOML) [default: every standard scene]
     scenes: Vec<PathBuf>,
     /// The most that a tick may cost: cycles on the host, instructions on m4f and m7
-    #[arg(long, value_name = "N", value_parser = budget, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = budget, allow_hyphen_values = true)]
     budget_cycles: Option<f64>,
     /// The largest energy error, absolute or (with %) as a part of the solution's energy norm
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Tolerance>,
     /// Whose cost decides: this machine's, or that of an emulated Cortex-M4F or M7 [default: host]
     #[arg(long, value_enum)]
@@ -63,6 +63,13 @@ fn budget(text: &str) -> std::result::Result<f64, String> {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let wish = Wish { budget: self.budget_cycles, error: self.max_error };
+        if self.no_peers && self.scenes.is_empty() && self.out.is_none() {
+            let message =
+                "--no-peers without a scene: the record of the standard scenes has all solvers";
+            return Err(InputError::new(message)
+                .hint("name scenes, or a folder with --out")
+                .into());
+        }
         let campaign = match self.scenes.is_empty() {
             true => Campaign::standard(self.target, self.out.as_deref(), !self.no_peers)?,
             false => Campaign::of(
@@ -99,7 +106,12 @@ fn refused(trades: &[(PathBuf, crate::trade::record::Trade)], wish: &Wish) -> Re
     match unmet {
         Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {
             let message = format!("{}: {}", trade.scene, trade.recommendation.text);
-            let hint = "ask for less, or refine the mesh: every setting measured is in trade.csv";
+            let advice = match (wish.budget, wish.error) {
+                (Some(_), Some(_)) => "allow more cycles or a larger error",
+                (Some(_), None) => "allow more cycles",
+                _ => "allow a larger error, or refine the mesh",
+            };
+            let hint = format!("{advice}: every setting measured is in trade.csv");
             Err(InputError::new(message).hint(hint).into())
         }
         _ => Ok(0),

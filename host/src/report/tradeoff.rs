@@ -70,18 +70,29 @@ pub fn tradeoff(found: &Tradeoff) -> String {
         html += &findings(&found.findings);
     }
     if !found.sizes.is_empty() {
-        let _ = write!(
-            html,
-            "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n",
-            lines(&found.sizes)
-        );
+        html += &sizes(&found.sizes);
     }
     html.extend(found.scenes.iter().map(panel));
     html
 }
 
+/// The table as it is, and what it says as sentences that may break.
+fn sizes(text: &str) -> String {
+    let (said, table): (Vec<&str>, Vec<&str>) =
+        text.lines().partition(|line| line.starts_with(SAID));
+    let said: Vec<String> = said.iter().map(|line| line.replacen(SAID, "", 1)).collect();
+    format!(
+        "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n{}",
+        lines(&table.join("\n")),
+        findings(&said)
+    )
+}
+
+/// What begins a sentence in listings of the terminal.
+const SAID: &str = "* ";
+
 const LEAD: &str = "<p class=\"lead\">What a user can turn, measured: each scene was solved with many \
-                    settings. Errors are true ones, as parts of the solution’s energy; bounds are \
+                    settings. Errors are distances to the exact solution, or to a much finer one, as parts of its energy; bounds are \
                     certified. The last columns are the cycles of other solvers for the same condensed problem, \
                     from the answer of the tick before, over those of the kernel.</p>\n";
 

@@ -155,9 +155,6 @@ impl Campaign {
             }
             before += of;
         }
-        if ended.left == 0 {
-            self.studies.iter().try_for_each(Study::close)?;
-        }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
             let done = std::cell::RefCell::new(done);
             let tell = |name: &str| {
@@ -165,6 +162,10 @@ impl Campaign {
             };
             let sizes = baseline::sizes(tell)?;
             write_atomically(file, json(&sizes).as_bytes())?;
+        }
+        // Last of all: journals that are gone cannot tell what an interrupted campaign has measured.
+        if ended.left == 0 {
+            self.studies.iter().try_for_each(Study::close)?;
         }
         Ok(ended)
     }

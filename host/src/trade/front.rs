@@ -1,7 +1,9 @@
 //! The Pareto front, and the setting to take.
 
+use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
 use super::target::Target;
+use super::truth::EXACT;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -101,14 +103,13 @@ fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
 /// The point with its sentence; without one, what comes nearest.
 pub fn recommend(trade: &Trade, wish: &Wish, target: Target) -> Recommendation {
     match choose(trade, wish) {
-        Some(point) => {
-            Recommendation { text: sentence(trade, point, target), point: Some(point.clone()) }
-        }
+        Some(point) => Recommendation { text: sentence(trade, point), point: Some(point.clone()) },
         None => Recommendation { text: nothing(trade, wish, target), point: None },
     }
 }
 
-fn sentence(trade: &Trade, point: &Point, target: Target) -> String {
+/// What `point` costs and brings, in words.
+pub fn sentence(trade: &Trade, point: &Point) -> String {
     let Point { name, error, bound, .. } = point;
     let certified = match (bound, error.combined) {
         (Some(bound), Some(combined)) => format!(
@@ -122,10 +123,15 @@ fn sentence(trade: &Trade, point: &Point, target: Target) -> String {
         0.0 => String::new(),
         force => format!("; contact force within {}", part(error.force, force)),
     };
+    // Next to a sharp bound, the error of what stands for the truth shows.
+    let by = match trade.truth.as_str() {
+        EXACT => "",
+        _ => " Errors are distances to a finer solution, which has an error of its own.",
+    };
     format!(
-        "For {} {} a tick take {name}: energy error {}{certified}{force}.",
+        "For {} {} a tick take {name}: energy error {}{certified}{force}.{by}",
         thousands(point.cost()),
-        target.unit(),
+        cost_unit(&trade.target),
         part(error.energy, trade.energy)
     )
 }

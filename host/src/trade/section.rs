@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::digits::{or_dash, percent};
+use super::front::sentence;
 use super::listings::{baselines, costs, front, math, skipped};
 use super::picture::{picture, target_name};
 use super::record::{Baseline, Point, Trade};
@@ -110,10 +111,11 @@ fn panel(scene: &Scene) -> TradePanel {
 }
 
 fn study(trade: &Trade) -> TradeStudy {
-    let truth = format!("Errors are true ones: {}", trade.truth);
+    let truth = format!("Errors are distances to {}", trade.truth);
+    let taken = trade.recommendation.point.as_ref().map(|point| sentence(trade, point));
     TradeStudy {
         heading: format!("On the {}", target_name(&trade.target)),
-        recommendation: trade.recommendation.text.clone(),
+        recommendation: taken.unwrap_or_else(|| trade.recommendation.text.clone()),
         notes: [truth].into_iter().chain(skipped(trade)).collect(),
         picture: picture(trade),
         front: front(trade),

@@ -32,6 +32,8 @@ use crate::solve::Solution;
 
 /// How many refinements the reference is finer than the finest mesh that is measured.
 pub const FINER: u32 = 2;
+/// What stands in a record whose scene has one.
+pub const EXACT: &str = "the exact solution";
 
 /// The solution of a scene as well as it is known.
 #[derive(Debug)]
@@ -113,7 +115,7 @@ impl Truth {
     /// What it is, in words.
     pub fn words(&self) -> String {
         match &self.source {
-            Source::Exact(..) => "the exact solution".to_owned(),
+            Source::Exact(..) => EXACT.to_owned(),
             Source::Reference(reference) => reference.words(),
         }
     }
