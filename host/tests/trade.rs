@@ -246,7 +246,7 @@ fn wrong_words_are_named() {
     let bench = Bench::new();
     for (more, part) in [
         (&["--shard", "3/2"][..], "--shard"),
-        (&["--max-error", "-1"], "--max-error"),
+        (&["--max-error", "-1%"], "expected a positive number"),
         (&["--budget-cycles", "0"], "--budget-cycles"),
         (&["--target", "m3"], "m3"),
     ] {
@@ -259,6 +259,9 @@ fn wrong_words_are_named() {
     let (status, _, stderr) = signorini(&["trade", scene, scene]);
     assert_eq!(status, 2);
     assert!(stderr.contains("two scenes of one name"), "{stderr}");
+    let (status, _, stderr) = signorini(&["trade", "--no-peers"]);
+    assert_eq!(status, 2);
+    assert!(stderr.contains("--no-peers without a scene"), "{stderr}");
 }
 
 fn root() -> PathBuf {
@@ -407,7 +410,21 @@ fn the_readme_says_how_far_condensed_ticks_are_ahead() {
             scenes.iter().map(ratio).collect()
         };
         let least = |ratios: &[f64]| ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let (found, slowest) = (ratios("cycles"), least(&ratios("worst")));
+        let (mut found, slowest) = (ratios("cycles"), least(&ratios("worst")));
+        found.sort_by(f64::total_cmp);
+        if solver == "OSQP, every iteration" {
+            quote(format!(
+                "on all other scenes it takes {:.0} times as long or more",
+                found[1].floor()
+            ));
+        }
+        if solver == "OSQP as it comes" {
+            let far = |(_, record): &&(Value, Value)| {
+                !is_near(&warm(record, solver, "condensed").unwrap())
+            };
+            let far = scenes.iter().filter(far).count();
+            quote(format!("in {far} of {} scenes", scenes.len()));
+        }
         for (own, record) in &exact {
             let other = warm(record, solver, "condensed").expect(solver);
             assert!(number(&other, "cycles") >= promised * number(own, "cycles"), "{other}");
@@ -427,4 +444,44 @@ fn the_readme_says_how_far_condensed_ticks_are_ahead() {
     let least = full.filter_map(|b| b["to_condensed"].as_f64()).fold(f64::INFINITY, f64::min);
     quote(format!("{} times as long at least", least.floor()));
     assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
+}
+
+/// What micromath costs in the kernel and in load data, as the README says.
+#[test]
+fn the_readme_says_what_micromath_costs() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    let range = |found: &[f64]| {
+        let least = found.iter().copied().fold(f64::INFINITY, f64::min);
+        (least, found.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let mut more = Vec::new();
+    for (_, record) in recorded("m4f") {
+        let points = record["points"].as_array().expect("points");
+        for point in points {
+            let name = point["name"].as_str().expect("a name");
+            let Some((before, after)) = name.split_once(", micromath") else { continue };
+            let twin = points.iter().find(|point| point["name"] == format!("{before}{after}"));
+            let twin = number(twin.expect(name), "instructions");
+            more.push(100.0 * (number(point, "instructions") / twin - 1.0));
+        }
+    }
+    let (fewest, most) = range(&more);
+    let said = format!("from {:.1} % fewer instructions a tick to {most:.1} % more", -fewest);
+    assert!(readme.contains(&said), "{said}");
+    let records = recorded("host");
+    let all = records.iter().flat_map(|(_, record)| record["math"].as_array().expect("math"));
+    let of_kernel = ["search for ω", "lengths of edges"];
+    let in_load = |m: &&Value| !of_kernel.contains(&m["used_in"].as_str().unwrap());
+    let in_loads: Vec<_> = all.filter(in_load).collect();
+    let errors = |functions: [&str; 2]| {
+        let of = |m: &&&Value| functions.contains(&m["function"].as_str().unwrap());
+        let percent = |m: &&Value| 100.0 * number(m, "energy");
+        range(&in_loads.iter().filter(of).map(percent).collect::<Vec<_>>())
+    };
+    let (least, most) = errors(["sin", "cos"]);
+    let said = format!("for an error of {least:.2} to {most:.2} %");
+    assert!(readme.contains(&said), "{said}");
+    let (least, most) = errors(["powf", "sqrt"]);
+    let said = format!("its power and square root cost {least:.1} to {most:.0} %");
+    assert!(readme.contains(&said), "{said}");
 }

@@ -39,7 +39,7 @@ use crate::trade::record::Baseline;
 use moment::Moment;
 use ring::Ring;
 pub use sizes::{Size, Sizes, sizes};
-pub use table::table;
+pub use table::{findings, table};
 
 /// Warm ticks of a scene.
 const TICKS: usize = 20;

@@ -21,7 +21,7 @@ const HEADER: [&str; 12] = [
     "error/target",
 ];
 
-/// One line a solver and size, the verdicts and remarks below.
+/// One line a solver and size.
 pub fn table(sizes: &Sizes) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING);
@@ -34,15 +34,18 @@ pub fn table(sizes: &Sizes) -> String {
     for column in table.column_iter_mut().skip(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    let verdicts = sizes.rows.iter().map(|size| verdict(size.unknowns, &size.baselines));
-    let verdicts: String = verdicts.map(|verdict| format!("* {verdict}\n")).collect();
-    let notes: String = sizes.notes.iter().map(|note| format!("* {note}\n")).collect();
     format!(
         "Other solvers on the same matrices, at equal error: {}\n\
          Ratio: to the kernel's fastest in f64 on that problem; ±: (largest − smallest)/median.\n\
-         {table}\n{verdicts}{notes}",
+         {table}\n",
         sizes.title
     )
+}
+
+/// What the table says, size by size, and the remarks.
+pub fn findings(sizes: &Sizes) -> Vec<String> {
+    let verdicts = sizes.rows.iter().map(|size| verdict(size.unknowns, &size.baselines));
+    verdicts.chain(sizes.notes.iter().cloned()).collect()
 }
 
 fn lines(size: &Size) -> Vec<Vec<String>> {

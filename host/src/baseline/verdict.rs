@@ -25,7 +25,7 @@ pub(super) fn verdict(unknowns: usize, baselines: &[Baseline]) -> String {
         "{unknowns} unknowns. Cold: {} with {}. {} Warm: {} ({}) with {}. {}",
         first.solver,
         amount(first.cycles),
-        losses("Cold", &cold),
+        losses("Cold,", &cold),
         overall.solver,
         overall.problem,
         amount(overall.cycles),
@@ -48,13 +48,9 @@ fn losses(start: &str, sorted: &[&Baseline]) -> String {
     let ahead = sorted.iter().filter(|b| b.cycles < AHEAD * psor);
     let ahead: Vec<String> =
         ahead.map(|b| format!("{} ({:.2})", b.solver, b.cycles / psor)).collect();
-    match ahead.split_first() {
-        None => format!("{start} PSOR loses to nobody."),
-        Some((first, [])) => format!("{start} PSOR loses: take {first} of its cycles."),
-        Some((first, rest)) => format!(
-            "{start} PSOR loses: take {first} of its cycles; ahead are also {}.",
-            rest.join(", ")
-        ),
+    match ahead.as_slice() {
+        [] => format!("{start} PSOR loses to nobody."),
+        ahead => format!("{start} PSOR loses (part of its cycles): take {}.", ahead.join(", or ")),
     }
 }
 
@@ -106,8 +102,8 @@ mod tests {
         ];
         assert_eq!(
             verdict(100, &all),
-            "100 unknowns. Cold: kernel PSOR f64, coarse to fine with 4.0 Mcycles. Cold PSOR loses: take kernel PSOR \
-             f64, coarse to fine (0.40) of its cycles; ahead are also faer active set (0.70). Warm: kernel pivoting \
+            "100 unknowns. Cold: kernel PSOR f64, coarse to fine with 4.0 Mcycles. Cold, PSOR loses (part of its \
+             cycles): take kernel PSOR f64, coarse to fine (0.40), or faer active set (0.70). Warm: kernel pivoting \
              f64 (condensed) with 2.0 kcycles. Warm, on the full problem, PSOR loses to nobody."
         );
         let cut = verdict(100, &all[1..2]);

@@ -149,7 +149,8 @@ fn tradeoff() -> Tradeoff {
     Tradeoff {
         summary: front,
         findings: vec!["f32 < f64".to_owned()],
-        sizes: String::new(),
+        sizes: "a < b".to_owned(),
+        of_sizes: vec!["a > b".to_owned()],
         scenes: vec![scene],
     }
 }

@@ -15,6 +15,8 @@ pub struct Tradeoff {
     pub findings: Vec<String>,
     /// A study of problem sizes, as a table in text; empty where there is none.
     pub sizes: String,
+    /// What follows from it, a sentence each.
+    pub of_sizes: Vec<String>,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
 }
@@ -70,26 +72,16 @@ pub fn tradeoff(found: &Tradeoff) -> String {
         html += &findings(&found.findings);
     }
     if !found.sizes.is_empty() {
-        html += &sizes(&found.sizes);
+        let _ = write!(
+            html,
+            "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n",
+            lines(&found.sizes)
+        );
+        html += &findings(&found.of_sizes);
     }
     html.extend(found.scenes.iter().map(panel));
     html
 }
-
-/// The table as it is, and what it says as sentences that may break.
-fn sizes(text: &str) -> String {
-    let (said, table): (Vec<&str>, Vec<&str>) =
-        text.lines().partition(|line| line.starts_with(SAID));
-    let said: Vec<String> = said.iter().map(|line| line.replacen(SAID, "", 1)).collect();
-    format!(
-        "<h3>From small problems to large ones</h3>\n<pre style=\"overflow-x: auto\">{}</pre>\n{}",
-        lines(&table.join("\n")),
-        findings(&said)
-    )
-}
-
-/// What begins a sentence in listings of the terminal.
-const SAID: &str = "* ";
 
 const LEAD: &str = "<p class=\"lead\">What a user can turn, measured: each scene was solved with many \
                     settings. Errors are distances to the exact solution, or to a much finer one, as parts of its energy; bounds are \

@@ -2,7 +2,6 @@
 
 use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
-use super::target::Target;
 use super::truth::EXACT;
 
 /// What is asked for.
@@ -101,10 +100,10 @@ fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
 }
 
 /// The point with its sentence; without one, what comes nearest.
-pub fn recommend(trade: &Trade, wish: &Wish, target: Target) -> Recommendation {
+pub fn recommend(trade: &Trade, wish: &Wish) -> Recommendation {
     match choose(trade, wish) {
         Some(point) => Recommendation { text: sentence(trade, point), point: Some(point.clone()) },
-        None => Recommendation { text: nothing(trade, wish, target), point: None },
+        None => Recommendation { text: nothing(trade, wish), point: None },
     }
 }
 
@@ -142,7 +141,7 @@ fn part(part: f64, whole: f64) -> String {
     if percent < 1000.0 { format!("{percent:.2} %") } else { format!("{part:.3e}") }
 }
 
-fn nothing(trade: &Trade, wish: &Wish, target: Target) -> String {
+fn nothing(trade: &Trade, wish: &Wish) -> String {
     let cheapest = eligible(trade).min_by(|a, b| a.cost().total_cmp(&b.cost()));
     let best = eligible(trade).min_by(|a, b| by_error(a, b));
     let (Some(cheapest), Some(best)) = (cheapest, best) else {
@@ -150,9 +149,11 @@ fn nothing(trade: &Trade, wish: &Wish, target: Target) -> String {
     };
     let asked = match (wish.budget, wish.error) {
         (Some(budget), Some(_)) => {
-            format!("accurate enough within {} {}", thousands(budget), target.unit())
+            format!("accurate enough within {} {}", thousands(budget), cost_unit(&trade.target))
         }
-        (Some(budget), None) => format!("within {} {}", thousands(budget), target.unit()),
+        (Some(budget), None) => {
+            format!("within {} {}", thousands(budget), cost_unit(&trade.target))
+        }
         _ => "accurate enough".to_owned(),
     };
     format!(
@@ -160,7 +161,7 @@ fn nothing(trade: &Trade, wish: &Wish, target: Target) -> String {
          takes {} with {:.3e}.",
         cheapest.name,
         thousands(cheapest.cost()),
-        target.unit(),
+        cost_unit(&trade.target),
         cheapest.error.energy,
         best.name,
         thousands(best.cost()),

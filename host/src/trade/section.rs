@@ -22,6 +22,7 @@ pub fn section(records: &Records) -> Tradeoff {
         summary: summary(&scenes),
         findings,
         sizes: records.sizes.as_ref().map(baseline::table).unwrap_or_default(),
+        of_sizes: records.sizes.as_ref().map(baseline::findings).unwrap_or_default(),
         scenes: scenes.iter().map(panel).collect(),
     }
 }

@@ -295,7 +295,7 @@ impl Study {
             math,
             recommendation: Recommendation { text: String::new(), point: None },
         };
-        trade.recommendation = recommend(&trade, wish, self.target);
+        trade.recommendation = recommend(&trade, wish);
         trade
     }
 }

@@ -18,14 +18,6 @@ pub enum Target {
 }
 
 impl Target {
-    /// What a tick's cost is counted in.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Host => "cycles",
-            Self::M4f | Self::M7 => "instructions",
-        }
-    }
-
     /// The board, unless it is this machine.
     pub fn board(self) -> Option<Board> {
         match self {
