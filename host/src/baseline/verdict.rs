@@ -42,8 +42,11 @@ fn fastest<'b>(of: impl Iterator<Item = &'b Baseline>) -> Vec<&'b Baseline> {
 
 /// To whom PSOR with the ω it finds itself loses by more than repeats differ, and by how much.
 fn losses(start: &str, sorted: &[&Baseline]) -> String {
+    let Some(fastest) = sorted.first() else {
+        return format!("{start} nobody reaches the error.");
+    };
     let Some(psor) = sorted.iter().find(|b| b.solver == PSOR).map(|b| b.cycles) else {
-        return format!("{start} PSOR does not reach the error: take {}.", sorted[0].solver);
+        return format!("{start} PSOR does not reach the error: take {}.", fastest.solver);
     };
     let ahead = sorted.iter().filter(|b| b.cycles < AHEAD * psor);
     let ahead: Vec<String> =
@@ -105,6 +108,12 @@ mod tests {
             "100 unknowns. Cold: kernel PSOR f64, coarse to fine with 4.0 Mcycles. Cold, PSOR loses (part of its \
              cycles): take kernel PSOR f64, coarse to fine (0.40), or faer active set (0.70). Warm: kernel pivoting \
              f64 (condensed) with 2.0 kcycles. Warm, on the full problem, PSOR loses to nobody."
+        );
+        let without = verdict(100, &[all[1].clone(), all[9].clone()]);
+        assert!(without.contains("Cold, PSOR does not reach the error: take kernel"), "{without}");
+        assert!(
+            without.ends_with("Warm, on the full problem, nobody reaches the error."),
+            "{without}"
         );
         let cut = verdict(100, &all[1..2]);
         assert_eq!(cut, "100 unknowns: nobody reached the error asked for.");

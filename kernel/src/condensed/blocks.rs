@@ -6,8 +6,8 @@
 //!   | 3 4 5   |
 //! ```
 //! Blocks on the diagonal are held whole. A block serves twice, as itself and transposed, so half of
-//! the matrix is all that is stored and read; eight numbers of the sum stay in registers for
-//! 64 products, and of fixed length nothing needs a bounds check. An order that is no multiple of
+//! the matrix is all that is stored and read; the sums of eight rows stay in registers through a row of
+//! blocks, and of fixed length nothing needs a bounds check. An order that is no multiple of
 //! eight is filled up with zeros, and so are vectors: [`padded`] is the length that all arrays have.
 
 use crate::error::{Array, Error, same_length};
