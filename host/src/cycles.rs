@@ -14,6 +14,29 @@ pub const METHOD: &str = "AArch64 generic timer (CNTVCT_EL0), smallest of 7 repe
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub const METHOD: &str = "nanoseconds of the monotonic clock, smallest of 7 repeats";
 
+/// Whether this program is built for registers of four f64 on x86-64, which `cargo xtask wide` asks for.
+pub const IS_WIDE: bool = cfg!(all(target_feature = "avx2", target_feature = "fma"));
+
+/// The registers that this program is built for, for records of cycles.
+pub const REGISTERS: &str = if IS_WIDE {
+    "x86-64 with avx2 and fma"
+} else if cfg!(target_arch = "x86_64") {
+    "any x86-64"
+} else if cfg!(target_arch = "aarch64") {
+    "any AArch64"
+} else {
+    "the target's own"
+};
+
+/// What to say of cycles that a wider build would have less of.
+pub const NARROW: Option<&str> = if cfg!(target_arch = "x86_64") && !IS_WIDE {
+    Some(
+        "cycles of a build for any x86-64; where there is AVX2, `cargo xtask wide run --release -- trade …` measures with it",
+    )
+} else {
+    None
+};
+
 /// The counter.
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]

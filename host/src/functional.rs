@@ -4,30 +4,23 @@ use std::borrow::Cow;
 
 use crate::error::Result;
 use crate::field::CellField;
-use crate::problem::{EdgeKind, Loads, Problem};
+use crate::problem::{EdgeKind, Problem};
 use crate::quadrature::Point;
 use crate::scene::{Located, Output, Quantity, Scene};
 
 /// What an output is made of; edges are counted as [`Problem`] has them.
 #[derive(Debug, Clone)]
 pub enum Functional {
-    /// Linear in the solution and its loads.
-    Linear(Linear),
+    /// ∫τ·n over edges: within the law of contact where they are in contact, elsewhere the flux (15).
+    Flux(Vec<usize>),
+    /// ∫(τ·n − q) ≥ 0 over contact edges, τ within the law of contact.
+    Force(Vec<usize>),
+    /// u_h at a point of a cell (triangles first).
+    Probe(usize, Point),
     /// The lengths of those of these contact edges that are active.
     Length(Vec<(usize, f64)>),
     /// The error bound.
     Bound,
-}
-
-/// A quantity that is linear in the solution and its loads.
-#[derive(Debug, Clone)]
-pub enum Linear {
-    /// ∫σ·n over edges.
-    Flux(Vec<usize>),
-    /// ∫(σ·n − q) over contact edges.
-    Force(Vec<usize>),
-    /// u_h at a point of a cell (triangles first).
-    Probe(usize, Point),
 }
 
 /// The declared outputs; without any, contact force and length.
@@ -62,27 +55,12 @@ impl Functional {
         let contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
         let length = |edge: usize| (edge, problem.lengths[edge]);
         Ok(match output.quantity {
-            Quantity::Flux => Self::Linear(Linear::Flux(edges.collect())),
-            Quantity::Force => Self::Linear(Linear::Force(edges.filter(contact).collect())),
-            Quantity::Probe { at } => Self::Linear(probe(scene, problem, output, at)?),
+            Quantity::Flux => Self::Flux(edges.collect()),
+            Quantity::Force => Self::Force(edges.filter(contact).collect()),
+            Quantity::Probe { at } => probe(scene, problem, output, at)?,
             Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
             Quantity::Bound => Self::Bound,
         })
-    }
-}
-
-impl Linear {
-    /// Its value, from edge means, edge fluxes and the loads they belong to.
-    pub fn at(&self, problem: &Problem, loads: &Loads, u: &[f64], flux: &[f64]) -> f64 {
-        let free = problem.topology.counts.free;
-        match self {
-            Self::Flux(edges) => edges.iter().fold(0.0, |sum, &edge| sum + flux[edge]),
-            Self::Force(edges) => {
-                let force = |&edge: &usize| flux[edge] - loads.contact_flux[edge - free];
-                edges.iter().map(force).fold(0.0, |sum, force| sum + force)
-            }
-            Self::Probe(cell, point) => CellField::new(problem, *cell, u, flux).sample(point).u,
-        }
     }
 }
 
@@ -116,11 +94,11 @@ fn boundary_edges(
 }
 
 /// u_h at a point: in the first cell that holds it.
-fn probe(scene: &Scene, problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Linear> {
+fn probe(scene: &Scene, problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Functional> {
     let nothing = vec![0.0; problem.ends.len()];
     let found = (0..problem.cells()).find_map(|cell| {
         let reference = CellField::new(problem, cell, &nothing, &nothing).locate(at)?;
-        Some(Linear::Probe(cell, Point { x: at, reference, weight: 0.0 }))
+        Some(Functional::Probe(cell, Point { x: at, reference, weight: 0.0 }))
     });
     found.ok_or_else(|| {
         let message = format!("the probe at ({}, {}) lies outside the mesh", at[0], at[1]);

@@ -3,6 +3,7 @@
 pub mod bake;
 pub mod baseline;
 pub mod certify;
+pub mod checkout;
 pub mod cli;
 pub mod condense;
 pub mod cycles;

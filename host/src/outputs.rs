@@ -2,10 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use signorini_kernel::contact::within_law;
+
 use crate::error::Result;
+use crate::field::CellField;
 use crate::functional::Functional;
-use crate::problem::Problem;
+use crate::problem::{EdgeKind, Problem};
 use crate::scene::Scene;
+use crate::scene::units::Units;
 use crate::solve::{ScalarKind, Solution};
 
 /// What outputs are read off.
@@ -15,8 +19,10 @@ pub struct Reading<'a> {
     pub scalar: ScalarKind,
     /// Mean of u_h over each edge.
     pub u: &'a [f64],
-    /// ∫_E σ·n of each edge.
+    /// ∫_E σ·n of each edge, by (15) or balanced.
     pub flux: &'a [f64],
+    /// What 1 stands for in `scalar`.
+    pub units: Units,
     /// The bound on its error, where there is one.
     pub bound: Option<f64>,
 }
@@ -35,9 +41,10 @@ pub fn outputs(
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
     }
-    let Solution { scalar, u, flux, bound, .. } = solution;
+    let Solution { scalar, u, flux, units, bound, .. } = solution;
     let bound = bound.map(|bound| bound.total);
-    let values = declared(scene, problem, Reading { scalar: *scalar, u, flux, bound })?;
+    let reading = Reading { scalar: *scalar, u, flux, units: *units, bound };
+    let values = declared(scene, problem, reading)?;
     let names = scene.outputs.iter().map(|output| output.name.value.clone());
     Ok(names.zip(values).collect())
 }
@@ -57,14 +64,37 @@ pub fn declared(scene: &Scene, problem: &Problem, reading: Reading) -> Result<Ve
 fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Option<f64> {
     let free = problem.topology.counts.free;
     match functional {
-        Functional::Linear(linear) => {
-            Some(linear.at(problem, &problem.loads, reading.u, reading.flux))
+        Functional::Flux(edges) => {
+            Some(edges.iter().fold(0.0, |sum, &edge| sum + reading.flux(problem, edge)))
+        }
+        Functional::Force(edges) => Some(edges.iter().fold(0.0, |sum, &edge| {
+            sum + (reading.flux(problem, edge) - problem.loads.contact_flux[edge - free])
+        })),
+        Functional::Probe(cell, point) => {
+            Some(CellField::new(problem, *cell, reading.u, reading.flux).sample(point).u)
         }
         Functional::Length(lengths) => {
-            let gap = |edge: usize| reading.scalar.round(problem.loads.gap[edge - free]);
-            let active = lengths.iter().filter(|(edge, _)| reading.u[*edge] == gap(*edge));
+            let touches = |edge: usize| reading.u[edge] == reading.gap(problem, edge - free);
+            let active = lengths.iter().filter(|(edge, _)| touches(*edge));
             Some(active.fold(0.0, |sum, (_, length)| sum + length))
         }
         Functional::Bound => reading.bound,
+    }
+}
+
+impl Reading<'_> {
+    /// Mean of ψ over a contact edge as the scalar holds it, so that u_E = ψ_E can be asked.
+    fn gap(&self, problem: &Problem, contact: usize) -> f64 {
+        self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u
+    }
+
+    /// ∫_E τ·n, within the law of contact on a contact edge.
+    fn flux(&self, problem: &Problem, edge: usize) -> f64 {
+        if problem.kinds[edge] != EdgeKind::Contact {
+            return self.flux[edge];
+        }
+        let at = edge - problem.topology.counts.free;
+        let (lower, given) = (self.gap(problem, at), problem.loads.contact_flux[at]);
+        within_law(self.u[edge], lower, self.flux[edge], given)
     }
 }

@@ -3,6 +3,8 @@
 //! Edges take 8 Gauss points, quads 8×8 through the bilinear map. Triangles take n×n Gauss points
 //! through the collapsed square, (x̂, ŷ) ↦ a + x̂ (1 − ŷ)(b − a) + ŷ (c − a): exact to degree 2n − 2.
 
+pub mod bisected;
+
 use signorini_kernel::Real;
 use signorini_kernel::element::rannacher_turek::place;
 

@@ -8,15 +8,16 @@
 //! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
 //! math = "libm"         # libm or micromath: the square root of the search for ω     [libm]
 //! model = "full"        # full or condensed                                          [full; bake: the smaller]
-//! solver = "sweeps"     # full: sweeps, or a factor worked out on the host           [bake: the quicker]
+//! solver = "auto"       # sweeps; full: factor, worked out on the host; condensed: exact  [auto; bake: the quicker]
 //! start = "warm"        # warm: from the tick before; cold: every tick anew          [warm]
 //! omega = 1.93          # a fixed relaxation factor, or "auto"                       [auto]
 //! sweeps = 12           # exactly so many; condensed: instead of the exact method    [none]
 //! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
 //! certificate = true    # the error bound                                            [true]
 //! ```
-//! `sweeps` and `share` exclude each other, and a factor excludes both. Where `bake` may choose the model, a key that
-//! means something to the full one alone asks for that. The file reads them in [`crate::scene`].
+//! `sweeps` and `share` exclude each other, and a factor excludes both. Without `model`, a key that means something to
+//! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` asks for the condensed one. The
+//! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].
 
 use serde::{Deserialize, Serialize};
 use signorini_kernel::element::QuadElement;
@@ -41,7 +42,7 @@ pub struct Setting {
     /// Full or condensed; `None` leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelKind>,
-    /// What solves a full model; `None` leaves it to the command.
+    /// What solves the model; `None`, in the file `auto`, leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<Method>,
     /// What a tick starts from.
@@ -78,18 +79,46 @@ impl Default for Setting {
 }
 
 impl Setting {
-    /// The model: as stated, or the full one where a key has a meaning for that alone.
+    /// The model: as stated, or the one that the solver or another key has a meaning for.
     pub fn model_kind(&self) -> Option<ModelKind> {
-        self.model.or(self.of_full_alone().map(|_| ModelKind::Full))
+        let of_solver = self.solver.map(|solver| match solver {
+            Method::Exact => ModelKind::Condensed,
+            Method::Sweeps | Method::Factor => ModelKind::Full,
+        });
+        self.model.or(of_solver).or(self.of_full_alone().map(|_| ModelKind::Full))
+    }
+
+    /// A key that is set, and means nothing to this model.
+    pub fn foreign_to(&self, model: ModelKind) -> Option<&'static str> {
+        match model {
+            ModelKind::Condensed => self.of_full_alone(),
+            ModelKind::Full => (self.solver == Some(Method::Exact)).then_some("solver"),
+        }
+    }
+
+    /// The keys that are set and say how to solve, in which scalar apart.
+    pub fn of_method(&self) -> Vec<&'static str> {
+        let keys = [
+            ("math", self.math == MathKind::Micromath),
+            ("model", self.model.is_some()),
+            ("solver", self.solver.is_some()),
+            ("start", self.start == Start::Cold),
+            ("omega", matches!(self.omega, Omega::Fixed(_))),
+            ("sweeps", self.sweeps.is_some()),
+            ("share", self.share.is_some()),
+            ("certificate", !self.certificate),
+        ];
+        keys.into_iter().filter(|(_, is_set)| *is_set).map(|(key, _)| key).collect()
     }
 
     /// A key that is set, and means nothing to the condensed model.
-    pub fn of_full_alone(&self) -> Option<&'static str> {
+    fn of_full_alone(&self) -> Option<&'static str> {
         let keys = [
-            ("solver", self.solver.is_some()),
+            ("solver", self.solver == Some(Method::Factor)),
             ("share", self.share.is_some()),
             ("omega", matches!(self.omega, Omega::Fixed(_))),
             ("start", self.start == Start::Cold),
+            ("math", self.math == MathKind::Micromath),
         ];
         keys.into_iter().find(|(_, is_set)| *is_set).map(|(key, _)| key)
     }
@@ -152,14 +181,16 @@ pub enum ModelKind {
     Condensed,
 }
 
-/// What solves the full model.
+/// What solves a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Projected SOR.
     Sweeps,
-    /// A sparse factor, and exchanges on the contact edges.
+    /// Of a full model: a sparse factor, and exchanges on the contact edges.
     Factor,
+    /// Of a condensed model: exchanges, which end with the exact solution.
+    Exact,
 }
 
 /// What a tick starts from.

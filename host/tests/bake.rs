@@ -52,7 +52,8 @@ fn the_levee_is_condensed_and_its_module_says_so() {
         "pub rain: Scalar,",
         "pub wet: Scalar,",
         "pub const CONTACT: usize = 50;",
-        "//! Kernel features:",
+        "//! Kernel features: none.",
+        "A flux is (A∇u)·n with the normal outward: positive where u rises",
         "scene hash",
     ] {
         assert!(source.contains(part), "{part}");
@@ -75,12 +76,66 @@ fn what_does_not_fit_is_an_error_with_the_shortfall() {
     let slow = [("tick = 0.001", "tick = 1e-5")];
     let (status, _, stderr, _) = bake("scenes/levee.toml", &slow, &[]);
     assert_eq!(status, 2);
-    assert!(stderr.contains("target.tick") && stderr.contains("1680 declared"), "{stderr}");
+    for part in
+        ["target.tick", "1680 declared", "instructions in the median tick, at least 1.4 each"]
+    {
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+}
+
+/// 35 280 and 25 200 cycles: with its bound the levee takes more, without it less than the first.
+#[test]
+fn the_bound_is_not_left_out_to_make_room() {
+    for tick in ["tick = 0.00021", "tick = 0.00015"] {
+        let tight = [("tick = 0.001", tick)];
+        let (status, _, stderr, source) = bake("scenes/levee.toml", &tight, &[]);
+        assert_eq!((status, source), (2, None), "{tick}: {stderr}");
+        assert!(stderr.contains("target.tick: ") && stderr.contains(" too many"), "{stderr}");
+    }
+    let tight = [("tick = 0.001", "tick = 0.00021")];
+    let (_, _, stderr, _) = bake("scenes/levee.toml", &tight, &["--condensed"]);
+    assert!(stderr.contains("(certificate = false in [setting]) it would fit"), "{stderr}");
+    let asked =
+        [tight[0], ("[target]", "[setting]\nmodel = \"condensed\"\ncertificate = false\n[target]")];
+    let (status, _, stderr, source) = bake("scenes/levee.toml", &asked, &[]);
+    let source = source.expect("a module");
+    assert!(status == 0 && source.contains("(certificate = false leaves it out)"), "{stderr}");
+    // Room in flash for all but the bound.
+    let little = [("flash = 1048576", "flash = 60000")];
+    let (status, _, stderr, source) = bake("scenes/levee.toml", &little, &["--condensed"]);
+    assert_eq!((status, source), (2, None), "{stderr}");
+    assert!(stderr.contains("target.flash"), "{stderr}");
+}
+
+#[test]
+fn a_condensed_model_has_the_solver_that_is_asked_for() {
+    let with = |lines: &str, more: &[&str]| {
+        let setting = format!("[setting]\n{lines}\n[target]");
+        // Sweeps on the levee take longer than its device has.
+        let changes = [("[target]", setting.as_str()), ("tick = 0.001", "tick = 0.01")];
+        let (status, _, stderr, source) = bake("scenes/levee.toml", &changes, more);
+        (status, stderr, source.unwrap_or_default())
+    };
+    let exact = with("solver = \"exact\"", &[]).2;
+    assert!(exact.contains("MODEL: &str = \"condensed\"") && exact.contains("pub const PIVOTS"));
+    for (lines, more) in [
+        ("model = \"condensed\"\nsolver = \"sweeps\"", &[][..]),
+        ("solver = \"sweeps\"", &["--condensed"]),
+    ] {
+        let (status, stderr, sweeps) = with(&format!("{lines}\ncertificate = false"), more);
+        assert!(sweeps.contains("MODEL: &str = \"condensed\""), "{status} {stderr}");
+        assert!(!sweeps.contains("PIVOTS") && sweeps.contains("pub const SWEEPS"));
+    }
+    for (solver, model) in [("exact", "full"), ("factor", "condensed")] {
+        let (status, stderr, _) = with(&format!("solver = \"{solver}\""), &[&format!("--{model}")]);
+        let message = format!("setting.solver: means nothing to the {model} model");
+        assert!(status == 2 && stderr.contains(&message), "{stderr}");
+    }
 }
 
 #[test]
 fn a_device_without_room_for_the_tableau_gets_sweeps() {
-    let tight = [("ram = 196608", "ram = 6000")];
+    let tight = [("ram = 196608", "ram = 6000"), ("tick = 0.001", "tick = 0.01")];
     let (status, _, _, source) = bake("scenes/levee.toml", &tight, &[]);
     let source = source.expect("a module");
     assert_eq!(status, 0);
@@ -92,10 +147,13 @@ fn an_output_that_stands_in_the_way_is_named() {
     let bound = [
         ("[output.wet]", "[output.error]\nkind = \"bound\"\n[output.wet]"),
         ("flash = 1048576", "flash = 45000"),
+        ("tick = 0.001", "tick = 0.01"),
     ];
     let (status, _, stderr, _) = bake("scenes/levee.toml", &bound, &["--condensed"]);
     assert_eq!(status, 2);
-    assert!(stderr.contains("without output.error it would fit"), "{stderr}");
+    let hint =
+        "without output.error and its error bound (certificate = false in [setting]) it would fit";
+    assert!(stderr.contains(hint), "{stderr}");
 }
 
 #[test]
@@ -109,11 +167,18 @@ fn a_bound_that_is_read_is_not_left_infinite_where_a_model_has_one() {
     let (status, stdout, _, source) = bake("scenes/levee.toml", &jump, &["--explain"]);
     assert_eq!(status, 0);
     assert!(source.expect("a module").contains("MODEL: &str = \"full\""), "{stdout}");
-    assert!(stdout.contains("lacks output.error"), "{stdout}");
+    assert!(stdout.contains("has no error bound"), "{stdout}");
+    // Also where no output reads it.
     let (_, _, _, source) = bake("scenes/levee.toml", &jump[..2], &[]);
-    assert!(source.expect("a module").contains("MODEL: &str = \"condensed\""));
-    let (_, _, _, source) = bake("scenes/levee.toml", &jump, &["--condensed"]);
+    assert!(source.expect("a module").contains("MODEL: &str = \"full\""));
+    // Who asks for a model that has none is told why.
+    let (_, _, stderr, source) = bake("scenes/levee.toml", &jump, &["--condensed"]);
     assert!(source.expect("a module").contains("without an error bound (the gap has a jump"));
+    assert!(stderr.contains("warning: there is no error bound: the gap has a jump"), "{stderr}");
+    let silent = [jump[0], ("[target]", "[setting]\ncertificate = false\n[target]")];
+    let (_, _, stderr, source) = bake("scenes/levee.toml", &silent, &[]);
+    assert!(source.expect("a module").contains("MODEL: &str = \"condensed\""));
+    assert!(!stderr.contains("error bound"), "{stderr}");
 }
 
 #[test]

@@ -80,6 +80,55 @@ fn both_scalars_and_both_solvers_agree() {
     }
 }
 
+/// Solves the levee with a `[setting]` of these lines; returns what is printed and the summary.
+fn levee_in(setting: &str, more: &[&str]) -> (String, Value) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, out) = (folder.path().join("levee.toml"), folder.path().join("out"));
+    let levee = meshes().join("scenes/levee.toml").canonicalize().expect("the levee");
+    std::fs::write(&file, format!("extends = {levee:?}\n[setting]\n{setting}\n")).expect("a file");
+    let out = out.to_string_lossy().into_owned();
+    let mut arguments = vec!["solve", file.to_str().expect("UTF-8"), "--out", &out];
+    arguments.extend(more);
+    let output = signorini(&arguments);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{setting}: {stderr}");
+    let summary = serde_json::from_str(&text(&folder.path().join("out/summary.json")));
+    (String::from_utf8_lossy(&output.stdout).into_owned(), summary.expect("valid JSON"))
+}
+
+#[test]
+fn what_ran_is_said() {
+    for (setting, more, asked, used, printed) in [
+        ("", &[][..], "auto", "kernel sweeps", " sweeps, scaled residual"),
+        ("refine = 1", &[], "auto", "kernel factor", "converged by a factor of "),
+        ("refine = 1\nscalar = 'f32'", &[], "auto", "kernel factor", "by a factor of "),
+        ("refine = 1", &["--max-sweeps", "9000"], "auto", "kernel sweeps", " sweeps, "),
+        ("", &["--solver", "kernel"], "kernel", "kernel sweeps", " sweeps, "),
+        ("", &["--solver", "direct"], "direct", "direct", " active-set steps, "),
+        ("solver = 'factor'", &[], "auto", "kernel factor", "by a factor of "),
+        (
+            "model = 'condensed'\nscalar = 'f32'",
+            &[],
+            "auto",
+            "condensed exact",
+            "exchanges on the condensed",
+        ),
+    ] {
+        let (said, summary) = levee_in(setting, more);
+        assert_eq!(summary["solver"], asked, "{setting} {more:?}");
+        assert_eq!(summary["solver_used"], used, "{setting} {more:?}");
+        assert!(said.contains(printed), "{setting} {more:?}: {said}");
+        assert_eq!(
+            said.contains("sweeps, "),
+            used == "kernel sweeps",
+            "{setting} {more:?}: {said}"
+        );
+        assert_eq!(summary["sweeps"].as_u64() > Some(0), used == "kernel sweeps", "{setting}");
+        let factored = matches!(used, "kernel factor" | "direct");
+        assert_eq!(summary["factor"]["entries"].as_u64() > Some(2000), factored, "{setting}");
+    }
+}
+
 #[test]
 fn a_solve_that_is_cut_off_says_so_and_is_feasible() {
     let (status, folder, summary) = solve("catalogue/b-tri.toml", &["--max-sweeps", "3"]);
@@ -144,6 +193,17 @@ fn help_has_examples() {
     for command in [&["--help"][..], &["solve", "--help"], &["tick", "--help"]] {
         let output = signorini(command);
         assert!(String::from_utf8_lossy(&output.stdout).contains("Examples:"), "{command:?}");
+    }
+}
+
+#[test]
+fn help_lists_every_function_of_expressions() {
+    let help = String::from_utf8_lossy(&signorini(&["solve", "--help"]).stdout).into_owned();
+    let words: Vec<_> = help.split(|c: char| !c.is_ascii_alphanumeric()).collect();
+    for name in
+        "sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs min max sign pi".split(' ')
+    {
+        assert!(words.contains(&name), "{name}: {help}");
     }
 }
 
@@ -276,6 +336,7 @@ fn wrong_arguments_are_refused() {
         (&["solve", scene, "--input", "rain=1"], "rain"),
         (&["solve", scene, "--scalar", "f16"], "f16"),
         (&["solve", scene, "--scalar", "f32", "--solver", "direct"], "direct"),
+        (&["solve", scene, "--max-sweeps", "9", "--solver", "direct"], "max-sweeps"),
         (&["solve", scene, "--out", scene], "is a file"),
         (&["solve", "nowhere.toml"], "nowhere.toml"),
         (&["slove"], "slove"),

@@ -84,3 +84,32 @@ fn an_unknown_case_is_wrong_input() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("--only no such case"), "{message}");
 }
+
+/// One scene of a seed is the same alone, with its files.
+#[test]
+fn a_random_scene_can_be_had_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+        command.args(["extremes", "--seed", "18", "--out"]).arg(folder.path()).args(more);
+        let output = command.output().expect("the binary runs");
+        let told = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        assert!(output.stderr.is_empty(), "quiet in a pipe");
+        let read = |name| std::fs::read_to_string(folder.path().join(name)).expect(name);
+        let record: Value = serde_json::from_str(&read("random.json")).expect("JSON");
+        // All but the seconds, which come last but two.
+        let lines: Vec<_> = read("random.csv").lines().map(str::to_owned).collect();
+        let kept = |line: &String| line.split(',').take(12).collect::<Vec<_>>().join(",");
+        (record, lines.iter().map(kept).collect::<Vec<_>>())
+    };
+    let (record, all) = run(&["--random", "4"]);
+    assert_eq!((&record["seed"], &record["cases"]), (&18.into(), &4.into()));
+    assert_eq!(record["violations"], Value::Array(Vec::new()));
+    let (record, alone) = run(&["--random", "1", "--case", "3"]);
+    assert_eq!(record["cases"], 1);
+    assert_eq!(alone[1], all[4]);
+    for name in ["scene.toml", "mesh.msh"] {
+        assert!(folder.path().join("case-3").join(name).is_file(), "{name}");
+    }
+}

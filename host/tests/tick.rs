@@ -120,6 +120,30 @@ fn a_log_replays_what_inputs_say() {
     assert_eq!(rest.lines[0][1..], set.lines[0][1..]);
 }
 
+#[test]
+fn a_log_is_replayed_by_the_baked_controller() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("inputs.csv");
+    std::fs::write(&log, "t,rain,river\n0,0,0\n1,2,0.5\n2,2,0.5\n").expect("a log");
+    let log = log.to_str().expect("UTF-8");
+    let (full, baked) = (played(LEVEE, &["--log", log]), played(LEVEE, &["--log", log, "--baked"]));
+    assert_eq!((&baked.header, baked.column("t")), (&full.header, full.column("t")));
+    assert_eq!(baked.column("status"), ["exact"; 3]);
+    for name in ["seepage", "head", "contact_force"] {
+        for (own, other) in baked.numbers(name).into_iter().zip(full.numbers(name)) {
+            assert!((own / other - 1.0).abs() < 1e-2, "{name}: {own}, {other}");
+        }
+    }
+    // Outputs are in the controller's scalar, f32.
+    let narrow = |x: &f64| f64::from(*x as f32) == *x;
+    assert!(baked.numbers("seepage").iter().all(narrow));
+    let out = folder.path().join("out");
+    for other in [&["--budget-sweeps", "9"][..], &["--error", "0.1"], &["--coarse", "a.msh"]] {
+        let arguments = [&["--log", log, "--baked"], other].concat();
+        assert!(refused(&meshes(LEVEE), &out, &arguments).contains(other[0]));
+    }
+}
+
 /// A log, the line that is wrong in it, and a part of the message.
 const WRONG_LOGS: &[(&str, &str, &str)] = &[
     ("", "1", "`t`"),

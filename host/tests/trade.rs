@@ -280,6 +280,16 @@ fn recorded(target: &str) -> Vec<(PathBuf, Value)> {
     all
 }
 
+/// Cycles are of a build, and the record says of which.
+#[test]
+fn committed_records_name_the_registers_of_their_cycles() {
+    let sizes = read(&root().join("host/benches/trade/sizes.json"));
+    let studies = recorded("host").into_iter().chain(recorded("m4f")).map(|(_, record)| record);
+    for record in studies.chain([sizes]) {
+        assert!(record["registers"].as_str().is_some_and(|name| name.contains("x86-64")));
+    }
+}
+
 /// `solve` on each committed recommendation, where the exact solution tells.
 #[test]
 fn committed_recommendations_keep_their_promise() {

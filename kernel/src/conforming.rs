@@ -35,6 +35,16 @@ pub struct VertexData<'a, R> {
     pub given: &'a [[R; 2]],
 }
 
+impl<R: Real> VertexData<'_, R> {
+    /// How far u_D may lie below ψ where D and C meet and still be rounding: 64 ε of the largest value.
+    #[inline(never)]
+    pub(crate) fn slack(&self) -> R {
+        let values = self.gap.as_flattened().iter().chain(self.given.as_flattened());
+        let largest = values.fold(R::ZERO, |most, value| most.or_larger(value.magnitude()));
+        R::from_count(64) * R::EPSILON * largest
+    }
+}
+
 /// Imposes what the boundary asks on `values`, the means at the vertices. Returns by how much u_D lies
 /// below ψ where D and C meet, at most 0 for admissible data up to rounding.
 ///

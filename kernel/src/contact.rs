@@ -1,4 +1,12 @@
 //! What a controller reads off the contact boundary: force, length, active edges.
+//!
+//! The flux (15) keeps the law of contact only as far as the solver has converged. Forces are those of the
+//! flux τ that keeps it at any stop:
+//! ```text
+//!   τ = q where u_E > ψ_E,    τ = the larger of q and σ·n of (15) where u_E = ψ_E
+//! ```
+//! so that λ = τ − q ≥ 0 on every edge, and of their sum, to the last bit. What the law takes from a flux is
+//! missing elsewhere: the sum over all of the boundary is −∫f only for the solution.
 
 use crate::boundary::Boundary;
 use crate::edges::{EdgeCounts, Edges};
@@ -7,11 +15,28 @@ use crate::math::Math;
 use crate::mesh::Mesh;
 use crate::real::Real;
 
-/// ∫_C (σ·n − q), the sum of the multiplier λ over the contact boundary; `flux` as filled by
-/// [`crate::flux::recover`].
-pub fn force<R: Real, I: Index>(counts: EdgeCounts, boundary: &Boundary<R, I>, flux: &[R]) -> R {
-    let on_contact = flux.iter().skip(counts.free).take(counts.contact).enumerate();
-    on_contact.fold(R::ZERO, |sum, (at, &flux)| sum + (flux - boundary.contact_flux(at)))
+/// ∫_E τ·n within the law of contact, where E has the mean `u` and ψ the mean `lower`, `flux` is ∫_E σ·n of (15)
+/// and `given` is ∫_E q.
+#[inline(always)]
+pub fn within_law<R: Real>(u: R, lower: R, flux: R, given: R) -> R {
+    if u > lower { given } else { flux.or_larger(given) }
+}
+
+/// ∫_C (τ·n − q) ≥ 0, the sum of the multiplier λ over the contact boundary. `lower` holds the means of ψ, one a
+/// contact edge, `u` those of u and `flux` the fluxes, one an edge each: those of [`crate::flux::recover`], or τ
+/// itself.
+pub fn force<R: Real, I: Index>(
+    counts: EdgeCounts,
+    boundary: &Boundary<R, I>,
+    lower: &[R],
+    u: &[R],
+    flux: &[R],
+) -> R {
+    let on_contact = u.iter().zip(flux).skip(counts.free).zip(lower).enumerate();
+    on_contact.fold(R::ZERO, |sum, (at, ((&u, &flux), &lower))| {
+        let given = boundary.contact_flux(at);
+        sum + (within_law(u, lower, flux, given) - given)
+    })
 }
 
 /// The same from the fluxes of the cells, as filled by [`crate::flux::of_triangles`] and
@@ -19,18 +44,20 @@ pub fn force<R: Real, I: Index>(counts: EdgeCounts, boundary: &Boundary<R, I>, f
 pub fn force_of_cells<R: Real, I: Index>(
     edges: &Edges<I>,
     boundary: &Boundary<R, I>,
+    lower: &[R],
+    u: &[R],
     triangles: &[[R; 3]],
     quads: &[[R; 4]],
 ) -> R {
     let (triangles, quads) = (triangles.as_flattened(), quads.as_flattened());
-    let counts = edges.counts();
-    let on_contact = edges.half_edges().iter().skip(counts.free).take(counts.contact);
-    on_contact.enumerate().fold(R::ZERO, |sum, (at, pair)| {
+    let sides = edges.half_edges().iter().zip(u).skip(edges.counts().free);
+    sides.zip(lower).enumerate().fold(R::ZERO, |sum, (at, ((pair, &u), &lower))| {
         let flux = match pair[0].at().checked_sub(triangles.len()) {
             None => read(triangles, pair[0].at()),
             Some(rest) => read(quads, rest),
         };
-        sum + (flux - boundary.contact_flux(at))
+        let given = boundary.contact_flux(at);
+        sum + (within_law(u, lower, flux, given) - given)
     })
 }
 

@@ -12,6 +12,7 @@
 use crate::assembly::CellLoads;
 use crate::boundary::Boundary;
 use crate::cells::{Cells, Either};
+use crate::contact::within_law;
 use crate::edges::{Block, Edges};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -50,7 +51,7 @@ pub fn impose<R: Real, I: Index>(
     let on_contact = iterate.u.iter().zip(tau.iter_mut()).skip(counts.free);
     for (at, ((&u, tau), &lower)) in on_contact.zip(iterate.lower).enumerate() {
         let given = boundary.contact_flux(at);
-        *tau = if u > lower { given } else { tau.or_larger(given) };
+        *tau = within_law(u, lower, *tau, given);
     }
 }
 

@@ -197,3 +197,21 @@ pub(crate) fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(),
         None => Ok(()),
     }
 }
+
+/// max |x| of numbers whose answer has room in the scalar: 1/ε² times as large they are still finite.
+pub(crate) fn all_moderate<R: crate::Real>(
+    of: Array,
+    numbers: impl Iterator<Item = R>,
+) -> Result<R, Error> {
+    let mut most = R::ZERO;
+    for (at, x) in numbers.enumerate() {
+        // A NaN is taken over as well.
+        if !(x.magnitude() <= most) {
+            most = x.magnitude();
+            if !(most / (R::EPSILON * R::EPSILON)).finite() {
+                return Err(Error::NotFinite { of, at });
+            }
+        }
+    }
+    Ok(most)
+}

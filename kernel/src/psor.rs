@@ -110,6 +110,37 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     Ok(defect)
 }
 
+/// Whether u solves each row but for what rounding makes of its terms: `slack` ε of their sum
+/// |b_i|/K_ii + Σ|K_ij u_j|/K_ii, on contact edges of |u_i| + |ψ_i| where the opening decides. Whoever
+/// changes one entry of K by that much makes u the solution. Costs more than [`defect`], and is asked more seldom.
+#[inline(never)]
+pub(crate) fn is_rounding<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &[R],
+    slack: u32,
+) -> bool {
+    let slack = R::from_count(slack) * R::EPSILON;
+    let omega = rows.omega();
+    let all = rows.free().iter().chain(rows.contact()).zip(u).enumerate();
+    all.into_iter().all(|(i, (row, &own))| {
+        let neighbours = if i < rows.counts().free { WIDTH } else { WIDTH / 2 };
+        let start = (row.load() - omega * own, row.load().magnitude() + omega * own.magnitude());
+        let entries = row.entries().iter().zip(row.offsets()).take(neighbours);
+        let (step, size) = entries.fold(start, |(step, size), (&entry, offset)| {
+            let product = entry * read(u, offset.at() / size_of::<R>());
+            (step - product, size + product.magnitude())
+        });
+        let opening = i.checked_sub(rows.counts().free).and_then(|at| lower.get(at));
+        match opening {
+            Some(&lower) if omega * (own - lower) < -step => {
+                own - lower <= slack * (own.magnitude() + lower.magnitude())
+            }
+            _ => step.magnitude() <= slack * size,
+        }
+    })
+}
+
 /// # Safety
 /// `u` must have an entry for each edge of the rows' mesh.
 #[inline(always)]

@@ -109,6 +109,11 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         {
             *bound = psi - read(u, at);
         }
+        if defect.iter().chain(&*lower).any(|x| !x.finite()) {
+            outcome.status = Status::NotFinite;
+            low.fill(R::ZERO);
+            break;
+        }
         let correction = system.with_data(defect, lower)?;
         let goal = goal(settings, &outcome, size.scale());
         let mut next = solve::<R, I, M, WIDTH>(&correction, goal, low, &mut rows, &mut conjugate)?;

@@ -221,6 +221,12 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         self.counts
     }
 
+    /// b_i / K_ii
+    pub(crate) fn loads(&self) -> impl Iterator<Item = R> {
+        let per_omega = R::ONE / self.omega;
+        self.rows.iter().map(move |row| row.load * per_omega)
+    }
+
     /// The rows of free edges.
     pub(crate) fn free(&self) -> &[Row<R, I, WIDTH>] {
         self.rows.get(..self.counts.free).unwrap_or(&[])

@@ -222,7 +222,9 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
     }
 
     fn judge(&mut self, residual: &Residual<R>) -> Option<Status> {
-        if !(residual.largest.finite() && residual.range.finite()) {
+        // Next to an infinite size everything is small.
+        let Residual { largest, range, load, rounding, .. } = residual;
+        if [largest, range, load, rounding].iter().any(|size| !size.finite()) {
             return Some(Status::NotFinite);
         }
         if self.settings.is_met(residual, self.search.omega) {

@@ -69,6 +69,61 @@ fn too_many_records_are_counted() {
     assert_eq!(square.cells(), 2);
 }
 
+/// Solves with the first conditions, is refused others, and solves again: as if nobody had asked for them.
+#[test]
+fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
+    let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
+    let mut bar = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    let given = |value: f64, flux: f64, coefficient: f64| {
+        move |edge: &BoundaryEdge<f64, u16>| {
+            let [x, y] = edge.middle();
+            Some(match (x == 0.0, y == 0.0) {
+                (true, _) => Condition::Dirichlet { value },
+                (_, true) => Condition::Robin { coefficient, ambient: 1.0 },
+                _ => Condition::Neumann { flux },
+            })
+        }
+    };
+    bar.build(&mesh, UNIT, given(1.0, 0.5, 2.0))?;
+    let bits = |bar: &Workspace<f64, u16, 5, 3, 0, 5, 7, 30, 4>| {
+        let numbers = bar.u().iter().chain(bar.flux());
+        numbers.map(|x| x.to_bits()).collect::<Vec<_>>()
+    };
+    bar.solve(Settings::default())?;
+    let before = bits(&bar);
+    for [value, flux, coefficient] in
+        [[f64::NAN, 0.5, 2.0], [1.0, f64::INFINITY, 2.0], [3.0, 0.7, f64::MAX], [3.0, 0.7, -1.0]]
+    {
+        let found = bar.set_conditions(&mesh, given(value, flux, coefficient));
+        // A coefficient may be as large as it likes where its edge is short.
+        if coefficient < f64::MAX {
+            assert!(found.is_err(), "{value} {flux} {coefficient}");
+        } else {
+            bar.set_conditions(&mesh, given(1.0, 0.5, 2.0))?;
+        }
+        assert_eq!(bits(&bar), before, "{value} {flux} {coefficient}");
+    }
+    assert!(bar.set_conditions(&mesh, |_| None).is_err());
+    assert_eq!(bits(&bar), before);
+    // Finite, and too large for an answer: the data are taken, and no answer is tried.
+    for large in [1e285, f64::MAX / 8.0] {
+        for (value, flux) in [(1.0, large), (large, 0.5)] {
+            bar.set_conditions(&mesh, given(value, flux, 2.0))?;
+            let found = bar.solve(Settings::default());
+            assert!(matches!(found, Err(Error::NotFinite { .. })), "{value} {flux}: {found:?}");
+            bar.set_conditions(&mesh, given(1.0, 0.5, 2.0))?;
+            assert_eq!(bits(&bar), before, "{value} {flux}");
+        }
+    }
+    bar.solve(Settings::default())?;
+    let mut other = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    other.build(&mesh, UNIT, given(1.0, 0.5, 2.0))?;
+    other.solve(Settings::default())?;
+    other.solve(Settings::default())?;
+    assert_eq!(bits(&bar), bits(&other));
+    Ok(())
+}
+
 #[test]
 fn a_part_floats_where_nothing_passes_its_boundary() -> Result<(), Error> {
     let counts = EdgeCounts { free: 3, contact: 0, dirichlet: 0 };

@@ -7,9 +7,11 @@ use std::cell::Cell;
 
 use plate::Side;
 use plate::foundation::{Foundation, GAP};
-use signorini_kernel::certificate::{Certificate, Given, Verdict};
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::certificate::{Certificate, Given, Ground, Verdict};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
+use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick};
 use signorini_kernel::{Error, Libm, Relaxation, flux};
 
@@ -54,7 +56,13 @@ impl Store {
         &'a mut self,
         foundation: &'a Foundation,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        let ground = foundation.ground()?;
+        self.on(foundation.ground()?)
+    }
+
+    fn on<'a>(
+        &'a mut self,
+        ground: Ground<'a, f64, u16>,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
         let [load, vertices, bubbles, tau, u] = &mut self.numbers;
         let rows = Rows::new(&ground.edges, &mut self.rows)?;
         let active = &mut self.active;
@@ -221,6 +229,50 @@ fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), 
     Ok(())
 }
 
+/// λ of each contact edge by the law, from a flux and the openings.
+fn multipliers(foundation: &Foundation, u: &[f64], flux: &[f64]) -> Result<Vec<f64>, Error> {
+    let counts = foundation.plate.edges()?.counts();
+    let boundary = foundation.boundary()?;
+    let law = |at: usize| {
+        let edge = counts.free + at;
+        let touches = u[edge] == foundation.lower[at];
+        if touches { (flux[edge] - boundary.contact_flux(at)).max(0.0) } else { 0.0 }
+    };
+    Ok((0..counts.contact).map(law).collect())
+}
+
+/// The flux (15) alone pulls on some edges for a long time; the force never does, with or without a bound.
+#[test]
+fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let edges = foundation.plate.edges()?;
+    let counts = edges.counts();
+    let never = &mut Deadline::never();
+    let mut pulled = 0;
+    for sweeps in 0..40 {
+        let limits = Limits { sweeps, share: 0.0, error: 0.0 };
+        let (mut bounded, mut unbounded) = (Store::new(&foundation)?, Store::new(&foundation)?);
+        let mut tick = bounded.tick(&foundation)?;
+        let certified = tick.begin(data(&foundation)?)?.advance(limits, never)?;
+        let mut tick = unbounded.tick(&foundation)?;
+        let plain =
+            tick.begin(data(&foundation)?)?.advance_uncertified::<Libm, _>(limits, never)?;
+        let loads = foundation.given()?.loads;
+        let mut flux = vec![0.0; counts.edges()];
+        flux::recover(&edges, foundation.stiffness(), loads, tick.u(), &[], &mut flux)?;
+        let by_law: f64 = multipliers(&foundation, tick.u(), &flux)?.iter().sum();
+        for report in [certified, plain] {
+            assert!(report.force >= 0.0, "{sweeps}: {report:?}");
+            assert!((report.force - by_law).abs() < 1e-13, "{sweeps}: {by_law} {report:?}");
+        }
+        let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
+        let given = foundation.boundary()?.contact_flux(0);
+        pulled += usize::from(on_contact.map(|flux| flux - given).sum::<f64>() < 0.0);
+    }
+    assert!(pulled > 0, "the flux (15) never pulled: this test tests nothing");
+    Ok(())
+}
+
 #[test]
 fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
@@ -268,17 +320,99 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
 fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let counts = foundation.plate.edges()?.counts();
+    let given = foundation.stiffness();
+    let heavy = |entry: &f64| entry * 1e60;
+    let triangles: Vec<_> = given.triangles.iter().map(|k| k.map(|k| heavy(&k))).collect();
+    let quads: Vec<_> = given.quads.iter().map(|k| k.map(|k| heavy(&k))).collect();
+    let stiffness = Stiffness { triangles: &triangles, quads: &quads };
     let mut store = Store::new(&foundation)?;
-    let mut tick = store.tick(&foundation)?;
-    let high = f64::MAX / 4.0;
+    let mut tick = store.on(Ground { stiffness, ..foundation.ground()? })?;
+    let high = f64::MAX / 1e33;
     let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
     let good = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..good.given.ends };
     let data = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    let report = tick.begin(data)?.advance(none, &mut Deadline::never())?;
+    let report = tick.begin(data)?.advance_uncertified::<Libm, _>(none, &mut Deadline::never())?;
     assert!(tick.u().iter().all(|u| u.is_finite()) && report.residual.is_finite(), "{report:?}");
     assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
+    Ok(())
+}
+
+/// Whether `begin` takes data with ψ, u_D or f multiplied.
+fn takes(
+    tick: &mut Tick<f64, u16, QUADS>,
+    foundation: &Foundation,
+    [gap, given, source]: [f64; 3],
+) -> Result<bool, Error> {
+    let times = |numbers: &[f64], by: f64| numbers.iter().map(|x| x * by).collect::<Vec<_>>();
+    let (lower, dirichlet) = (times(&foundation.lower, gap), times(&foundation.dirichlet, given));
+    let (triangles, quads) =
+        (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
+    let good = data(foundation)?;
+    let loads = CellLoads { triangles: &triangles, quads: &quads };
+    let given = Given { loads, ..good.given };
+    match tick.begin(Data { given, lower: &lower, dirichlet: &dirichlet }) {
+        Ok(mut running) => {
+            running.advance(Limits::default(), &mut Deadline::never())?;
+            Ok(true)
+        }
+        Err(Error::NotFinite { .. }) => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// The same ticks twice, with some between that are refused.
+#[test]
+fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut stores = [Store::new(&foundation)?, Store::new(&foundation)?];
+    let [one, other] = &mut stores;
+    let (mut plain, mut tried) = (one.tick(&foundation)?, other.tick(&foundation)?);
+    let bits = |tick: &Tick<f64, u16, QUADS>| {
+        let arrays = [tick.u(), tick.tau(), tick.vertices(), tick.bubbles()];
+        let bits = arrays.map(|array| array.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+        (bits, tick.report().copied())
+    };
+    for part in [1.0, 0.7, -0.3, 1.4, 0.0] {
+        for tick in [&mut plain, &mut tried] {
+            assert!(takes(tick, &foundation, [1.0, part, 1.0 - part])?);
+        }
+        assert_eq!(bits(&plain), bits(&tried), "{part}");
+        for large in [1e280, -1e290, 1e300, f64::MAX] {
+            for parts in [[large, 1.0, 1.0], [1.0, large, 1.0], [1.0, 1.0, large]] {
+                assert!(!takes(&mut tried, &foundation, parts)?, "{parts:?}");
+            }
+        }
+        assert_eq!(bits(&plain), bits(&tried), "{part}");
+    }
+    Ok(())
+}
+
+/// What data of any size have left leads to the answer that a cold start leads to.
+#[test]
+fn after_extreme_ticks_an_ordinary_one_is_right() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut cold, mut warm) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let mut cold = cold.tick(&foundation)?;
+    assert!(takes(&mut cold, &foundation, [1.0; 3])?);
+    let expected = cold.report().and_then(|report| report.verdict.certificate()).copied();
+    let expected = expected.expect("a bound").total;
+    let mut warm = warm.tick(&foundation)?;
+    let mut refused = 0;
+    for decade in (0..=308).step_by(4) {
+        let size = 10f64.powi(decade);
+        for parts in [[size, 1.0, 1.0], [1.0, -size, 1.0], [1.0, 1.0, size], [-size, size, -size]] {
+            refused += u32::from(!takes(&mut warm, &foundation, parts)?);
+            assert!(takes(&mut warm, &foundation, [1.0; 3])?, "{parts:?}");
+            let report = warm.report().expect("an answer");
+            assert_eq!(report.ended, Ended::Settled, "{parts:?}");
+            let total = report.verdict.certificate().expect("a bound").total;
+            assert!(total <= 1.5 * expected, "{parts:?}: {total:e} {expected:e}");
+            assert!(report.sweeps < 400, "{parts:?}: {} sweeps", report.sweeps);
+        }
+    }
+    assert!(refused > 20, "{refused}");
     Ok(())
 }
 

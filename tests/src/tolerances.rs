@@ -86,6 +86,9 @@ table! {
     IDENTITY_SMOOTH: "bound without oscillation against the identity, relative, smooth", 2e-5,
         "in triangles the gradient of an extension has no limit at the opposite vertex, where the 16×16 \
          points of the norms lose digits: 1.1e-5 at worst over 2500 seeds, 15 times less with 32×32";
+    LIFTED: "what the bound for u_h has above that for s, beside the norm of s − u_h, relative", 2e-4,
+        "for lifts in triangles, whose gradient has no limit at the opposite vertex, the norm's 16×16 points lose \
+         digits: 5.1e-5 at worst over 100 seeds; else rounding";
     BOUND_ROUNDING: "what rounding adds to the bound in f64, over the bound", 1e-9,
         "the condition of the matrix times 1e−15: 2.8e-10 at worst, for a jump of 9·10³";
     BOUND_ROUNDING_NARROW: "what rounding adds to the bound in f32, over the bound", 0.1,
@@ -100,6 +103,12 @@ table! {
         "two exact solves of one problem: 3e-12 at worst over 600 seeds";
     CONDENSED_NARROW: "output of the condensed model in f32 against the full one, over its terms", 1e-4,
         "what rounding S to f32 costs: 1e-5 at worst over 600 seeds where λ_min(S) is above 1e-3";
+    FORCE_OF_EDGES: "force against the law of contact on the table of edges in f64, over its terms", 1e-13,
+        "both sum the same fluxes: only the rounding of sums of a hundred terms enters";
+    FORCE_OF_EDGES_NARROW: "the same in f32", 5e-6,
+        "ε = 1.2e-7 for each of at most a hundred terms, not all of one sign, and q rounded once";
+    AFTER_EXTREMES: "answer after extreme ticks against one from a cold start, over its size, in ε of f64", 1e-11,
+        "two solves down to 4√n ε, times the condition of their matrices";
     UNITS: "bound over error in f32, in other units, relative", 1e-6,
         "some roundings of data that are no longer powers of two apart";
 }

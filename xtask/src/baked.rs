@@ -1,8 +1,10 @@
 //! Scenes as `signorini bake` writes them, and the images that hold them.
 //!
-//! Every module and every program is kept under a name of its own: scene, path, scalar, model and inputs. Verbs
-//! that run at the same time do not take each other's.
+//! Every module and every program is kept under a name of its own: scene, path, scalar, model and inputs. Commands that
+//! run at the same time do not take each other's: of two that bake the same, the second waits until the first has done with
+//! its [`Baked`], and programs, which cargo puts under one name whatever their scene, are built and taken away in turns.
 
+use std::fs::File;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
@@ -12,6 +14,8 @@ use std::{env, fs};
 use crate::board::{Board, Build};
 use crate::cargo::{cargo, root, run as run_cargo, target_dir};
 use crate::export::take;
+use crate::lock;
+use crate::toolchain::output;
 
 const PACKAGE: &str = "signorini-scene";
 
@@ -47,10 +51,12 @@ impl From<String> for Failure {
 }
 
 /// A module.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Baked {
     name: String,
     module: PathBuf,
+    /// Nobody else has module and programs of this name meanwhile.
+    _turn: File,
     /// Features of the kernel that it needs.
     pub features: Vec<String>,
 }
@@ -101,19 +107,35 @@ impl Recipe {
         command
     }
 
-    /// Writes the module; the command tells itself what is wrong with a scene.
-    pub fn bake(&self) -> Result<Baked, Failure> {
-        let folder = folder()?;
-        let name = self.name();
-        let fresh = folder.join(format!("{name}.{}.rs", std::process::id()));
+    /// What `bake --explain` says of it.
+    pub fn explained(&self) -> Result<String, String> {
+        let file = folder()?.join(format!("{}.{}.explained.rs", self.name(), std::process::id()));
+        let mut command = self.baking(&file);
+        let said = output(command.arg("--explain"));
+        let _ = fs::remove_file(&file);
+        said
+    }
+
+    /// The command that writes the module to `file`.
+    fn baking(&self, file: &Path) -> Command {
         let mut command = self.command();
-        command.arg("bake").arg(&self.scene).arg("-o").arg(&fresh).args(&self.model);
+        command.arg("bake").arg(&self.scene).arg("-o").arg(file).args(&self.model);
         if let Some(scalar) = &self.scalar {
             command.args(["--scalar", scalar]);
         }
         for input in &self.inputs {
             command.args(["--input", input]);
         }
+        command
+    }
+
+    /// Writes the module; the command tells itself what is wrong with a scene.
+    pub fn bake(&self) -> Result<Baked, Failure> {
+        let folder = folder()?;
+        let name = self.name();
+        let turn = lock::hold(&folder.join(format!("{name}.lock")))?;
+        let fresh = folder.join(format!("{name}.{}.rs", std::process::id()));
+        let mut command = self.baking(&fresh);
         // Where this one was called: the scene's path is from there.
         command.current_dir(env::current_dir().map_err(|error| error.to_string())?);
         let status = command.status().map_err(|error| error.to_string())?;
@@ -126,7 +148,7 @@ impl Recipe {
         take(&fresh, &module)?;
         let source = fs::read_to_string(&module);
         let source = source.map_err(|error| format!("{}: {error}", module.display()))?;
-        Ok(Baked { name, module, features: features(&source) })
+        Ok(Baked { name, module, _turn: turn, features: features(&source) })
     }
 }
 
@@ -141,8 +163,7 @@ impl Baked {
             Build { package: PACKAGE, bins: &["scene"], features: &features, scenes: &self.module };
         let (mut command, folder) = board.build(build)?;
         command.env("SIGNORINI_SCENE", &self.module);
-        run_cargo(command)?;
-        self.keep(&folder.join("scene"), board.name)
+        self.made(command, &folder.join("scene"), board.name)
     }
 
     /// Builds the program for the desk.
@@ -153,16 +174,17 @@ impl Baked {
         let features = [self.of_kernel(), vec!["desk".to_owned()]].concat();
         command.arg("--features").arg(features.join(","));
         command.env("SIGNORINI_SCENE", &self.module).current_dir(root().join("tests/firmware"));
-        run_cargo(command)?;
-        self.keep(&folder.join("release/scene_desk"), "desk")
+        self.made(command, &folder.join("release/scene_desk"), "desk")
     }
 
     fn of_kernel(&self) -> Vec<String> {
         self.features.iter().map(|feature| format!("signorini-kernel/{feature}")).collect()
     }
 
-    /// A copy that the next scene's does not replace.
-    fn keep(&self, program: &Path, machine: &str) -> Result<PathBuf, String> {
+    /// What `command` puts at `program`: a copy that the next scene's does not replace.
+    fn made(&self, command: Command, program: &Path, machine: &str) -> Result<PathBuf, String> {
+        let _turn = lock::hold(&program.with_extension("lock"))?;
+        run_cargo(command)?;
         let kept = folder()?.join(format!("{}.{machine}", self.name));
         let copied = fs::copy(program, &kept);
         copied.map(|_| kept).map_err(|error| format!("{}: {error}", program.display()))
@@ -179,7 +201,7 @@ fn folder() -> Result<PathBuf, String> {
 fn features(module: &str) -> Vec<String> {
     let line = module.lines().find_map(|line| line.strip_prefix(FEATURES));
     let names = line.unwrap_or_default().trim_end_matches('.').split(',').map(str::trim);
-    names.filter(|name| !name.is_empty()).map(str::to_owned).collect()
+    names.filter(|name| !matches!(*name, "" | "none")).map(str::to_owned).collect()
 }
 
 #[cfg(test)]
@@ -191,6 +213,7 @@ mod tests {
         let module =
             "//! Levee.\n//!\n//! Kernel features: contact, triangles.\n\npub type Scalar = f32;\n";
         assert_eq!(features(module), ["contact", "triangles"]);
+        assert_eq!(features("//! Kernel features: none.\n"), [""; 0]);
         assert_eq!(features("//! Levee.\n"), [""; 0]);
     }
 

@@ -2,14 +2,10 @@
 
 use std::env;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
 
-/// The root of the repository.
-pub fn root() -> &'static Path {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-    package.parent().unwrap_or(package)
-}
+pub use crate::checkout::root;
 
 /// Where builds of a workspace apart from the main one go.
 pub fn target_dir(workspace: &str) -> PathBuf {

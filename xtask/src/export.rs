@@ -25,7 +25,7 @@ fn write() -> Result<PathBuf, String> {
     let folder = target_dir("firmware").join("scenes");
     for (name, file, scalars) in SCENES {
         for scalar in scalars {
-            let fresh = folder.join("fresh.rs");
+            let fresh = folder.join(format!("{name}_{scalar}.{}.rs", std::process::id()));
             let mut command =
                 cargo(&["run", "--quiet", "--locked", "--package", "signorini-host", "--"]);
             command.args(["export", file, "--scalar", scalar, "--output"]).arg(&fresh);

@@ -7,14 +7,17 @@ mod baked;
 mod board;
 mod boards;
 mod cargo;
+mod checkout;
 mod cost;
 mod cross;
 mod export;
 mod firmware;
 mod fuzz;
 mod json;
+mod lock;
 mod mutants;
 mod no_std;
+mod oldest;
 mod osqp;
 mod peers;
 mod ranks;
@@ -28,6 +31,7 @@ mod steps;
 mod symbols;
 mod test;
 mod toolchain;
+mod wide;
 
 use std::process::ExitCode;
 
@@ -48,7 +52,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 14] = [
+const VERBS: [Verb; 15] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -115,6 +119,11 @@ const VERBS: [Verb; 14] = [
         work: Work::Command(osqp::command),
     },
     Verb {
+        name: "wide",
+        about: "a command of cargo with AVX2 on x86-64, for benchmarks",
+        work: Work::Command(wide::command),
+    },
+    Verb {
         name: "mutants",
         about: "does a test fail for every single change of the kernel? (minutes)",
         work: Work::Command(mutants::command),
@@ -129,13 +138,17 @@ Examples:
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
   cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 
-Each verb but `firmware`, `fuzz`, `mutants` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+Each verb but `firmware`, `fuzz`, `mutants`, `osqp` and `wide` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let Some((&name, arguments)) = words.split_first() else { return wrong("no verb given") };
+    if let Err(why) = checkout::find() {
+        eprintln!("error: {why}");
+        return ExitCode::from(2);
+    }
     match find(name).map(|verb| &verb.work) {
         Some(Work::Command(command)) => command(arguments),
         _ if words.iter().any(|word| ["--help", "-h", "help"].contains(word)) => {
@@ -144,6 +157,11 @@ fn main() -> ExitCode {
         }
         Some(Work::Steps(work)) => match arguments {
             [] | ["--bless"] => {
+                // Images of one name differ from verb to verb.
+                let _turn = match lock::hold(&cargo::target_dir("firmware").join("steps.lock")) {
+                    Ok(turn) => turn,
+                    Err(why) => return wrong(&why),
+                };
                 let mut steps = Steps::new(!arguments.is_empty());
                 work(&mut steps);
                 steps.finish()

@@ -7,18 +7,28 @@ use std::process::{Command, ExitCode};
 use crate::cargo::{cargo, run, target_dir};
 use crate::setup::install_packages;
 use crate::toolchain::output;
+use crate::wide::widened;
+
+const HELP: &str = "\
+Usage: cargo xtask osqp [--wide]
+
+Builds tests/osqp and prints the program's path; with --wide for AVX2, see `cargo xtask wide --help`.";
 
 /// The verb: the last line of its output is the program's path.
 pub fn command(arguments: &[&str]) -> ExitCode {
-    if let [extra, ..] = arguments {
-        if ["--help", "-h"].contains(extra) {
-            println!("Usage: cargo xtask osqp\n\nBuilds tests/osqp and prints the program's path.");
+    let is_wide = match arguments {
+        [] => false,
+        ["--wide"] => true,
+        ["--help" | "-h", ..] => {
+            println!("{HELP}");
             return ExitCode::SUCCESS;
         }
-        eprintln!("error: `osqp` takes no argument, not `{extra}`");
-        return ExitCode::from(2);
-    }
-    match build() {
+        [extra, ..] => {
+            eprintln!("error: `osqp` takes no argument but `--wide`, not `{extra}`");
+            return ExitCode::from(2);
+        }
+    };
+    match build(is_wide) {
         Ok(path) => {
             println!("{path}");
             ExitCode::SUCCESS
@@ -30,15 +40,19 @@ pub fn command(arguments: &[&str]) -> ExitCode {
     }
 }
 
-fn build() -> Result<String, String> {
+fn build(is_wide: bool) -> Result<String, String> {
     let has_cmake = || output(Command::new("cmake").arg("--version"));
     if let Err(why) = has_cmake() {
         install_packages(&["cmake"]).map_err(|remedy| format!("{why}; {remedy}"))?;
         has_cmake()?;
     }
-    let target = target_dir("osqp");
+    // Each kind has a folder: of two studies at the same time neither gets the other's program.
+    let target = target_dir("osqp").join(if is_wide { "wide" } else { "" });
     let words = ["build", "--release", "--locked", "--manifest-path", "tests/osqp/Cargo.toml"];
-    let mut command = cargo(&words);
+    let mut command = if is_wide { widened(&words) } else { cargo(&words) };
+    if !is_wide {
+        command.env("RUSTFLAGS", "");
+    }
     command.arg("--target-dir").arg(&target);
     run(command)?;
     Ok(target.join("release/signorini-osqp").display().to_string())

@@ -4,7 +4,9 @@ use std::process::Command;
 
 use crate::cargo::{cargo, require, run as run_cargo, run_with_lines};
 use crate::steps::{Steps, Tally};
-use crate::{audit, boards, cost, cross, firmware, fuzz, mutants, no_std, ranks, sanitize, size};
+use crate::{
+    audit, boards, cost, cross, firmware, fuzz, mutants, no_std, oldest, ranks, sanitize, size,
+};
 
 /// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {
@@ -29,6 +31,7 @@ pub fn run(steps: &mut Steps) {
         doc.env("RUSTDOCFLAGS", "-D warnings");
         run_cargo(doc)
     });
+    oldest::run(steps);
     no_std::run(steps);
     sanitize::run(steps);
     steps.check("formatting, tests/fuzz", || {

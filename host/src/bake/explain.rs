@@ -46,14 +46,24 @@ pub fn explanation<R: Scalar>(scene: &Scene, problem: &Problem, choice: &Choice<
     text
 }
 
-/// A warning where a tick probably takes longer than declared.
-pub fn warning<R: Scalar>(choice: &Choice<R>) -> Option<String> {
-    let (cycles, needed) = choice.budget.cycles.zip(choice.candidate().needs.instructions)?;
+/// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.
+pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
+    let unbounded = choice.unbounded().map(|why| {
+        format!("warning: there is no error bound: {why}; certificate = false in [setting] silences this")
+    });
+    late(choice).into_iter().chain(unbounded).collect()
+}
+
+/// That the longest tick of the trial probably takes longer than declared.
+fn late<R: Scalar>(choice: &Choice<R>) -> Option<String> {
+    let (cycles, needed) =
+        choice.budget.cycles.zip(choice.candidate().needs.most_instructions())?;
     let estimated = needed * CYCLES;
     (estimated > cycles).then(|| {
         format!(
-            "warning: a tick of {needed:.0} instructions takes about {estimated:.0} cycles ({CYCLES} an \
-             instruction, estimated); [target] has {cycles:.0}. Measure it on the part."
+            "warning: the longest warm tick tried, of {needed:.0} instructions, takes about {estimated:.0} cycles \
+             ({CYCLES} an instruction, estimated); [target] has {cycles:.0}. Measure it on the part, or give \
+             tick_within a deadline."
         )
     })
 }
@@ -63,20 +73,24 @@ fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
         ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", "substitutions", ""];
     let mut rows = vec![head.map(str::to_owned)];
     for (at, candidate) in choice.candidates.iter().enumerate() {
-        let Candidate { name, needs, trial, shortfalls, lacks, infinite, .. } = candidate;
+        let Candidate { name, needs, trial, shortfalls, lacks_bound, unbounded, .. } = candidate;
         let short: Vec<_> = shortfalls.iter().map(|short| short.key).collect();
-        let verdict =
-            match (at == choice.chosen, lacks.as_ref().or(infinite.as_ref()), short.is_empty()) {
-                (true, ..) => "chosen".to_owned(),
-                (_, Some(output), true) => format!("lacks output.{output}"),
-                (_, None, true) => "would fit".to_owned(),
-                (_, _, false) => format!("beyond {}", short.join(", ")),
-            };
+        let verdict = if at == choice.chosen {
+            "chosen".to_owned()
+        } else if !short.is_empty() {
+            format!("beyond {}", short.join(", "))
+        } else if *lacks_bound {
+            "only with certificate = false".to_owned()
+        } else if unbounded.is_some() {
+            "has no error bound".to_owned()
+        } else {
+            "would fit".to_owned()
+        };
         rows.push([
             name.clone(),
             needs.ram.to_string(),
             needs.flash.to_string(),
-            needs.instructions.map_or("-".to_owned(), |count| format!("{count:.0}")),
+            needs.instructions().map_or("-".to_owned(), |count| format!("{count:.0}")),
             trial.pivots[0].to_string(),
             trial.sweeps[0].to_string(),
             trial.rounds[0].to_string(),

@@ -20,6 +20,22 @@ pub struct Face {
     outputs: Vec<Item>,
 }
 
+/// What the numbers of every module mean.
+const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
+                     a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
+                     towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
+
+const ANSWER: &str = "
+/// What a tick came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// What the controller reads.
+    pub outputs: Outputs,
+    /// How the tick ended, what it took, and how wrong the answer can be.
+    pub report: Report<Scalar>,
+}
+";
+
 /// What a model says of itself in the header.
 #[derive(Debug, Clone)]
 pub struct About<'a> {
@@ -29,8 +45,6 @@ pub struct About<'a> {
     pub text: &'a str,
     /// The features of the kernel that it needs.
     pub features: &'a [&'a str],
-    /// The kernel's type of a report, by its full path.
-    pub report: &'a str,
 }
 
 impl Face {
@@ -92,7 +106,9 @@ impl Face {
                 features.join(", ")
             ),
             "```".to_owned(),
-            format!("Kernel features: {}.", about.features.join(", ")),
+            format!("Kernel features: {}.", features_or_none(about.features)),
+            String::new(),
+            UNITS.to_owned(),
         ];
         let mut table = |kind: &str, items: &[Item]| {
             if !items.is_empty() {
@@ -152,14 +168,14 @@ impl Inputs {
         text += &names("OUTPUTS", &self.outputs);
         text += &from_array("OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
-        text + "}\n" + &answer(about.report)
+        text + "}\n" + ANSWER
     }
 }
 
 /// What an input does, in a sentence.
 fn effect(input: &Input) -> String {
     let (field, unit) = match input.field.value {
-        Field::Flux => ("flux", "that of a flux (A∇u)·n"),
+        Field::Flux => ("flux", "that of a flux (A∇u)·n, n outward"),
         Field::Value => ("value", "that of u"),
         Field::Gap => ("gap", "that of u"),
         Field::Ambient => ("ambient", "that of u"),
@@ -177,10 +193,13 @@ fn meaning(output: &Output) -> String {
     let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
     match output.quantity {
         Quantity::Flux => {
-            format!("∫(A∇u)·n over {place}, outward; unit of a flux times a length.")
+            format!("∫(A∇u)·n over {place}, n outward; unit of a flux times a length.")
         }
         Quantity::Force => {
-            format!("∫(σ·n − q) over {place}, σ = A∇u; unit of a flux times a length.")
+            format!(
+                "∫(σ·n − q) over {place}, σ = A∇u; never negative, wherever a tick ends; unit of a flux times a \
+                 length."
+            )
         }
         Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
@@ -190,19 +209,9 @@ fn meaning(output: &Output) -> String {
     }
 }
 
-fn answer(report: &str) -> String {
-    format!(
-        "
-/// What a tick came to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {{
-    /// What the controller reads.
-    pub outputs: Outputs,
-    /// How the tick ended, and how wrong the answer can be.
-    pub report: {report},
-}}
-"
-    )
+/// The features by name, as `cargo xtask firmware` reads them.
+fn features_or_none(features: &[&str]) -> String {
+    if features.is_empty() { "none".to_owned() } else { features.join(", ") }
 }
 
 /// FNV-1a over what the data are made of.

@@ -4,14 +4,17 @@
 //!   Scene, Problem ─┬─► superposition: loads as base + Σ input · pattern ─► full ──────┬─► source
 //!                   └─► condense: a dense problem on contact edges ───────► condensed ─┘  face, text
 //! ```
-//! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer`, `Controller`.
+//! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
+//! `Controller`.
 
 pub mod budget;
 pub mod choice;
 #[cfg(test)]
-mod compiled;
+pub(crate) mod compiled;
 pub mod condensed;
+mod controller;
 pub mod costs;
+pub mod dense;
 pub mod explain;
 pub mod face;
 pub mod full;

@@ -6,7 +6,6 @@
 use crate::certify::Data;
 use crate::certify::curved::{Curved, curved};
 use crate::certify::ends::Ends;
-use crate::certify::oscillation::oscillation;
 use crate::certify::robin::{RobinPoints, robin};
 use crate::error::Result;
 use crate::problem::{Loads, Problem};
@@ -24,7 +23,7 @@ pub struct Part {
     pub curved: Vec<Curved>,
     /// h and u_ext along the transfer edges.
     pub transfer: Vec<RobinPoints>,
-    /// √Σ osc²
+    /// √Σ osc², and what is left out of ψ and u_D.
     pub oscillation: f64,
     /// Whether these data allow for a bound.
     pub has_bound: bool,
@@ -43,13 +42,13 @@ impl Part {
     fn new(scene: &Scene, problem: &Problem, term: Term) -> Result<Self> {
         let (scene, problem) = (&left_with(scene, &[term]), &mut problem.clone());
         problem.loads = Loads::at_time(scene, problem, 0.0)?;
-        let squares = oscillation(scene, problem, 0.0)?.iter().map(|osc| osc * osc).sum::<f64>();
+        let data = Data::<f64>::new(scene, problem)?;
         Ok(Self {
             ends: Ends::at_time(scene, problem, 0.0)?,
             curved: curved(scene, problem, 0.0)?,
             transfer: robin(scene, problem, 0.0)?,
-            oscillation: squares.sqrt(),
-            has_bound: Data::<f64>::new(scene, problem)?.has_bound(),
+            oscillation: data.oscillation(),
+            has_bound: data.has_bound(),
             loads: std::mem::take(&mut problem.loads),
         })
     }

@@ -12,13 +12,18 @@
 use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::OnceLock;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, OnceLock};
+use std::thread;
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::contest::{Contestant, Run, Start};
 use super::failed;
 use super::quadratic::Quadratic;
+use crate::checkout::root;
+use crate::cycles::IS_WIDE;
 use crate::error::Result;
 
 /// The program, built once a run; `Err` in one line why it cannot be had.
@@ -29,17 +34,12 @@ pub(super) fn program() -> std::result::Result<&'static Path, &'static str> {
 }
 
 fn build() -> std::result::Result<PathBuf, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
-    let root = root.filter(|root| root.join("tests/osqp/Cargo.toml").exists());
-    let root = root.ok_or("OSQP is left out: this program runs outside of its checkout")?;
+    let root = root().map_err(|error| format!("OSQP is left out: {error}"))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.args(["xtask", "osqp"]).current_dir(root).stdin(Stdio::null());
-    if cfg!(target_arch = "x86_64") {
-        // The features of the kernel that it is compared with, whatever the environment says today.
-        let is_wide = cfg!(all(target_feature = "avx2", target_feature = "fma"));
-        command.env("RUSTFLAGS", if is_wide { "-C target-feature=+avx2,+fma" } else { "" });
-    }
+    // The registers of the kernel that it is compared with.
+    command.args(IS_WIDE.then_some("--wide"));
     let output = command.output().map_err(|error| format!("OSQP is left out: cargo: {error}"))?;
     let last = |bytes: &[u8]| {
         let text = String::from_utf8_lossy(bytes);
@@ -96,16 +96,30 @@ struct Answer {
     u: Option<Vec<f64>>,
 }
 
+/// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): who is silent that long hangs.
+const LIMIT: Duration = Duration::from_secs(300);
+
 /// The solver on its problem, until it is dropped.
 pub(super) struct Osqp {
     manner: Manner,
-    child: Child,
+    limit: Duration,
+    child: Mutex<Child>,
     questions: BufWriter<ChildStdin>,
     answers: BufReader<ChildStdout>,
 }
 
 impl Osqp {
     pub fn new(program: &Path, quadratic: &Quadratic, manner: Manner) -> Result<Self> {
+        Self::with_limit(program, quadratic, manner, LIMIT)
+    }
+
+    /// The same with another limit for the time that a problem or an answer may take.
+    pub fn with_limit(
+        program: &Path,
+        quadratic: &Quadratic,
+        manner: Manner,
+        limit: Duration,
+    ) -> Result<Self> {
         let mut command = Command::new(program);
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().map_err(failed)?;
@@ -113,26 +127,56 @@ impl Osqp {
             return Err(failed("OSQP's process has no pipes"));
         };
         let (questions, answers) = (BufWriter::new(questions), BufReader::new(answers));
-        let mut osqp = Self { manner, child, questions, answers };
+        let mut osqp = Self { manner, limit, child: Mutex::new(child), questions, answers };
         let (starts, rows, values) = quadratic.matrix.upper();
         let ticks = quadratic.ticks.iter();
         let ticks = ticks.map(|tick| Data { load: &tick.load, lower: &tick.lower }).collect();
-        osqp.say(&Problem { starts, rows, values, contact: quadratic.contact(), ticks })?;
+        let problem = Problem { starts, rows, values, contact: quadratic.contact(), ticks };
+        within(limit, &osqp.child, || say(&mut osqp.questions, &problem))?;
         Ok(osqp)
     }
+}
 
-    fn say(&mut self, what: &impl Serialize) -> Result<()> {
-        serde_json::to_writer(&mut self.questions, what).map_err(failed)?;
-        writeln!(self.questions).and_then(|()| self.questions.flush()).map_err(failed)
-    }
+/// A line of JSON.
+fn say(to: &mut impl Write, what: &impl Serialize) -> Result<()> {
+    serde_json::to_writer(&mut *to, what).map_err(failed)?;
+    writeln!(to).and_then(|()| to.flush()).map_err(failed)
+}
+
+/// What `work` on the pipes of `child` returns. A process that keeps it waiting beyond `limit` is killed, which ends
+/// both reading and writing.
+fn within<T>(limit: Duration, child: &Mutex<Child>, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    let (done, waiting) = channel::<()>();
+    let watch = move || {
+        let is_late = waiting.recv_timeout(limit) == Err(RecvTimeoutError::Timeout);
+        if let (true, Ok(mut child)) = (is_late, child.lock()) {
+            let _ = child.kill();
+        }
+        is_late
+    };
+    thread::scope(|scope| {
+        let watch = scope.spawn(watch);
+        let result = work();
+        drop(done);
+        match watch.join() {
+            Ok(true) => Err(failed(format!(
+                "OSQP was stopped: it was silent for {} s",
+                limit.as_secs_f64()
+            ))),
+            _ => result,
+        }
+    })
 }
 
 impl Contestant for Osqp {
     fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
         let (cold, manner) = (start == Start::Cold, self.manner);
-        self.say(&Question { tick, cold, tolerance, manner })?;
-        let mut line = String::new();
-        self.answers.read_line(&mut line).map_err(failed)?;
+        let (questions, answers) = (&mut self.questions, &mut self.answers);
+        let line = within(self.limit, &self.child, || {
+            say(questions, &Question { tick, cold, tolerance, manner })?;
+            let mut line = String::new();
+            answers.read_line(&mut line).map(|_| line).map_err(failed)
+        })?;
         let Answer { cycles, iterations, u } =
             serde_json::from_str(&line).map_err(|error| failed(format!("OSQP: {error}")))?;
         let u = u.ok_or_else(|| failed(format!("no answer after {iterations} iterations")))?;
@@ -147,7 +191,52 @@ impl Contestant for Osqp {
 impl Drop for Osqp {
     /// Nobody waits for an answer any more.
     fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        if let Ok(child) = self.child.get_mut() {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::PermissionsExt;
+
+    use super::super::full::quadratic;
+    use super::super::moment::Moment;
+    use super::super::tests::catalogue;
+    use super::*;
+    use crate::mesh::structured::{Cells, grid};
+    use crate::problem::{Parts, Problem};
+
+    /// What a process does that runs this script instead of OSQP.
+    fn ended(script: &str, limit: Duration) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let program = folder.path().join("osqp");
+        std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+        std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
+        let scene = catalogue("moving-tri");
+        let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
+        let parts = Parts::examine(&scene, &problem).unwrap();
+        let (full, _) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 1)).unwrap();
+        let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
+            .and_then(|mut osqp| osqp.run(0, Start::Cold, 1e-3));
+        run.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_process_that_hangs_is_stopped_and_said() {
+        let short = Duration::from_millis(200);
+        // It never reads the problem, which is larger than a pipe; it reads all and never answers.
+        for script in ["exec sleep 600", "cat > /dev/null; sleep 1"] {
+            let why = ended(script, short);
+            assert!(why.contains("stopped") && why.contains("0.2 s"), "{script}: {why}");
+        }
+    }
+
+    #[test]
+    fn a_process_that_ends_is_not_waited_for() {
+        let why = ended("exit 1", Duration::from_secs(600));
+        assert!(why.contains("baseline failed") && !why.contains("stopped"), "{why}");
     }
 }

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::moment::Moment;
 use super::ring::Ring;
 use super::{SHARE, discretisation_error, osqp};
+use crate::checkout::root;
+use crate::cycles::{NARROW, REGISTERS};
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
@@ -28,6 +30,9 @@ const TICKS: usize = 10;
 pub struct Sizes {
     /// What is solved, in words.
     pub title: String,
+    /// The registers that this program was built for; empty in records that do not tell.
+    #[serde(default)]
+    pub registers: String,
     /// By size.
     pub rows: Vec<Size>,
     /// Who could not run and why; how long condensing takes.
@@ -56,8 +61,7 @@ pub struct Size {
 /// # Errors
 /// The scene `meshes/catalogue/moving-tri.toml` is not there.
 pub fn sizes(progress: impl Fn(&str)) -> Result<Sizes> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../meshes/catalogue/moving-tri.toml");
-    let scene = Scene::read(Path::new(file))?;
+    let scene = Scene::read(&root()?.join("meshes/catalogue/moving-tri.toml"))?;
     progress("building OSQP");
     let program = osqp::program();
     let mut notes: Vec<String> = program.err().map(str::to_owned).into_iter().collect();
@@ -66,7 +70,8 @@ pub fn sizes(progress: impl Fn(&str)) -> Result<Sizes> {
         progress(&format!("all solvers on {} unknowns", 6 * n * n));
         rows.push(size(&scene, n, TICKS, program.ok(), &mut notes)?);
     }
-    Ok(Sizes { title: scene.title, rows, notes })
+    notes.extend(NARROW.map(str::to_owned));
+    Ok(Sizes { title: scene.title, registers: REGISTERS.to_owned(), rows, notes })
 }
 
 /// One grid with so many warm ticks.

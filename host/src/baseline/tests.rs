@@ -40,7 +40,7 @@ fn all_solvers_agree_on_small_grids() {
         exact.for_each(|b| assert!(b.algebraic_error < 1e-11, "{b:?}"));
     }
     assert!(notes.iter().all(|note| note.contains("condensing")), "{notes:?}");
-    let study = Sizes { title: scene.title, rows, notes };
+    let study = Sizes { title: scene.title, registers: String::new(), rows, notes };
     let text = table(&study);
     assert!(text.contains("Clarabel") && text.contains("conforming P1"), "{text}");
     let json = serde_json::to_string(&study).unwrap();

@@ -4,19 +4,21 @@ use serde::Serialize;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::certificate::Certificate;
 
-use super::{Answer, Certifier, Data};
+use super::{Answer, Certifier, Data, NoBound};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 
-/// How wrong s and τ can be, in the energy norm; see [`Certificate`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// How wrong s and τ, and u_h, can be in the energy norm; see [`Certificate`].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ErrorBound {
-    /// oscillation + √(gap² + oscillation²) + rounding
+    /// oscillation + √(gap² + oscillation²) + rounding: never less than the error of s and τ.
     pub total: f64,
+    /// Never less than ‖A^½∇_h(u − u_h)‖, the energy error of the edge means.
+    pub of_u: f64,
     /// The bound where f, g and q have no oscillation.
     pub gap: f64,
-    /// What more sweeps would remove.
+    /// What more sweeps would remove, at most the total.
     pub algebraic: f64,
     /// What f, g and q leave out.
     pub oscillation: f64,
@@ -25,30 +27,29 @@ pub struct ErrorBound {
 }
 
 impl ErrorBound {
-    /// Wider by what rounding of very oblique element matrices can hide, `share` of it; less than a thousandth is
-    /// far below what is counted as rounding anyhow.
+    /// Wider by what rounding of oblique element matrices can hide, `share` of it.
     #[must_use]
     pub fn widened(self, share: f64) -> Self {
-        if share < 1e-3 {
-            return self;
-        }
         let more = share * self.total;
-        Self { total: self.total + more, rounding: self.rounding + more, ..self }
+        let of_u = self.of_u + share * self.of_u;
+        Self { total: self.total + more, rounding: self.rounding + more, of_u, ..self }
     }
 
     /// The same in other units.
     #[must_use]
     pub fn times(self, unit: f64) -> Self {
-        let Self { total, gap, algebraic, oscillation, rounding } = self;
-        let [total, gap, algebraic, oscillation, rounding] =
-            [total, gap, algebraic, oscillation, rounding].map(|x| x * unit);
-        Self { total, gap, algebraic, oscillation, rounding }
+        let Self { total, of_u, gap, algebraic, oscillation, rounding } = self;
+        let [total, of_u, gap, algebraic, oscillation, rounding] =
+            [total, of_u, gap, algebraic, oscillation, rounding].map(|x| x * unit);
+        Self { total, of_u, gap, algebraic, oscillation, rounding }
     }
 
     /// Widens the kernel's numbers.
     pub fn new<R: Scalar>(certificate: &Certificate<R>) -> Self {
+        let certificate = certificate.as_parts();
         Self {
             total: certificate.total.wide(),
+            of_u: certificate.of_u.wide(),
             gap: certificate.gap.wide(),
             algebraic: certificate.algebraic.wide(),
             oscillation: certificate.oscillation.wide(),
@@ -63,6 +64,8 @@ pub struct Certified {
     /// `None`: neither D nor R nor active contact edges can take the surplus of some part, or the data
     /// do not allow for it ([`Data::has_bound`]), or they overflow the scalar.
     pub bound: Option<ErrorBound>,
+    /// Why there is none.
+    pub no_bound: Option<NoBound>,
     /// s and τ; no guarantee where there is no bound.
     pub answer: Answer,
 }
@@ -83,6 +86,7 @@ impl Certified {
         let mut certifier = Certifier::new(scene, problem, parts, assembled)?;
         let certificate = certifier.certify(parts, assembled, data, u)?;
         let bound = certificate.as_ref().map(ErrorBound::new);
-        Ok(Self { bound, answer: certifier.answer() })
+        let no_bound = certifier.no_bound(scene, problem, parts, data);
+        Ok(Self { bound, no_bound, answer: certifier.answer() })
     }
 }

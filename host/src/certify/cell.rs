@@ -100,6 +100,13 @@ impl Cell {
         }
     }
 
+    /// The mean of its corners.
+    pub(crate) fn middle(&self) -> [f64; 2] {
+        let corners = self.corners();
+        let sum = |k: usize| corners.iter().map(|corner| corner[k]).sum::<f64>();
+        [0, 1].map(|k| sum(k) / corners.len() as f64)
+    }
+
     /// The largest distance between two of its points.
     pub(crate) fn diameter(&self) -> f64 {
         let pairs =
@@ -119,9 +126,14 @@ impl Cell {
     /// Whether the area element is the same all over it, up to rounding.
     pub(crate) fn is_affine(&self) -> bool {
         const ROUNDING: f64 = 1e-14;
-        let Self::Quad([a, b, c, d]) = self else { return true };
+        self.bend() <= ROUNDING * self.diameter()
+    }
+
+    /// By how much the fourth corner of a quad is off the parallelogram of the others.
+    pub(crate) fn bend(&self) -> f64 {
+        let Self::Quad([a, b, c, d]) = self else { return 0.0 };
         let bend = [0, 1].map(|k| (a[k] - b[k]) + (c[k] - d[k]));
-        bend[0].hypot(bend[1]) <= ROUNDING * self.diameter()
+        bend[0].hypot(bend[1])
     }
 
     /// The points of a one-dimensional rule's square on it.

@@ -7,8 +7,10 @@ use signorini_kernel::equilibrium::Iterate;
 use signorini_kernel::{Error as KernelError, averages};
 
 use super::admissible::Admissible;
+use super::cell::Cell;
 use super::data::Data;
 use super::metric::Metric;
+use super::no_bound::NoBound;
 use super::ways::Ways;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
@@ -25,6 +27,20 @@ pub struct Certifier<R: Scalar> {
     bubbles: Vec<R>,
     tau: Vec<R>,
     indicators: Vec<R>,
+    refusal: Option<Refusal>,
+}
+
+/// Why the last iterate has no bound, apart from its data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Refusal {
+    /// A part without a way out, by a cell in it.
+    NothingActive(usize),
+    /// A part held by nothing.
+    HeldByNothing,
+    /// A contact edge that would be pulled at.
+    Pulled(usize),
+    Overflow,
+    NotAsked,
 }
 
 /// What was certified, in f64.
@@ -45,6 +61,12 @@ impl Answer {
     pub fn admissible(&self) -> Admissible<'_> {
         Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau }
     }
+}
+
+/// A cell of a part that nothing holds.
+fn floating(parts: &Parts) -> usize {
+    let held_by_nothing = |&part: &usize| parts.support(part) == Support::None;
+    parts.roots().find(held_by_nothing).unwrap_or(0)
 }
 
 impl<R: Scalar> Certifier<R> {
@@ -68,6 +90,7 @@ impl<R: Scalar> Certifier<R> {
             bubbles: vec![R::ZERO; edges],
             tau: vec![R::ZERO; edges],
             indicators: vec![R::ZERO; problem.cells()],
+            refusal: None,
         };
         if !certifier.follows_contact && parts.counts.floating == 0 {
             certifier.ways.find(assembled, &certifier.metric, |_| false)?;
@@ -99,10 +122,32 @@ impl<R: Scalar> Certifier<R> {
         };
         let iterate = Iterate { u, lower: assembled.lower() };
         let verdict = certificate::certify(&ground, &data.given(assembled)?, iterate, buffers)?;
-        Ok(match verdict {
-            Verdict::Certified(certificate) => Some(certificate),
-            Verdict::Pulled { .. } | Verdict::NotFinite | Verdict::NotAsked => None,
-        })
+        self.refusal = match verdict {
+            Verdict::Certified(_) => None,
+            Verdict::Pulled { edge } => Some(Refusal::Pulled(edge)),
+            Verdict::NotAsked => Some(Refusal::NotAsked),
+            _ => Some(Refusal::Overflow),
+        };
+        Ok(verdict.certificate().copied())
+    }
+
+    /// Why the last iterate has no bound, given these data.
+    pub fn no_bound(
+        &self,
+        scene: &Scene,
+        problem: &Problem,
+        parts: &Parts,
+        data: &Data<R>,
+    ) -> Option<NoBound> {
+        let middle = |cell| Cell::of(problem, cell).middle();
+        let refused = self.refusal.map(|refusal| match refusal {
+            Refusal::NothingActive(cell) => NoBound::NothingActive { at: middle(cell) },
+            Refusal::HeldByNothing => NoBound::HeldByNothing { at: middle(floating(parts)) },
+            Refusal::Pulled(edge) => NoBound::pulled(scene, problem, edge),
+            Refusal::Overflow => NoBound::Overflow { scalar: R::NAME },
+            Refusal::NotAsked => NoBound::NotAsked,
+        });
+        data.no_bound().cloned().or(refused)
     }
 
     /// What the last certificate was about.
@@ -134,8 +179,13 @@ impl<R: Scalar> Certifier<R> {
         assembled: &Assembled<R>,
         u: &[R],
     ) -> Result<bool, KernelError> {
-        if parts.counts.floating > 0 || !self.follows_contact {
-            return Ok(parts.counts.floating == 0);
+        self.refusal = None;
+        if parts.counts.floating > 0 {
+            self.refusal = Some(Refusal::HeldByNothing);
+            return Ok(false);
+        }
+        if !self.follows_contact {
+            return Ok(true);
         }
         let edges = assembled.edges();
         let (free, lower) = (edges.counts().free, assembled.lower());
@@ -145,7 +195,10 @@ impl<R: Scalar> Certifier<R> {
             gap.is_some_and(|gap| u[edge] == *gap && alone())
         };
         match self.ways.find(assembled, &self.metric, active) {
-            Err(KernelError::NoWayOut { .. }) => Ok(false),
+            Err(KernelError::NoWayOut { cell }) => {
+                self.refusal = Some(Refusal::NothingActive(cell));
+                Ok(false)
+            }
             found => found.map(|()| true),
         }
     }

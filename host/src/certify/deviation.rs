@@ -4,13 +4,18 @@ use signorini_kernel::Real;
 
 use super::cell::{Jet, Local};
 use super::ends::Ends;
+use super::energy::{CellEnergy, Sample};
 use crate::error::Result;
 use crate::problem::{Problem, Sum};
-use crate::quadrature::DATA_POINTS;
+use crate::quadrature::{DATA_POINTS, on_panels};
 use crate::scene::{Field, Scene};
 
-/// A deviation below this part of the largest boundary datum is the rounding of an affine one.
+/// What follows the data of an edge into its cell is left out where its energy is below this part of that of the
+/// largest data; by how much in all is said ([`Deviations::dropped`]).
 const ROUNDING: f64 = 1e-14;
+
+/// Deviations above this part of the largest boundary datum are kept without weighing them.
+const PLAIN: f64 = 1e-9;
 
 /// Rules along an edge in search of a deviation: a bump narrower than a fortieth of the edge may lie between all points.
 const LOOKS: u32 = 8;
@@ -22,12 +27,15 @@ pub(crate) struct Deviation<'s> {
     data: Sum<'s>,
     segment: [[f64; 2]; 2],
     ends: [f64; 2],
-    /// The largest boundary datum of all edges.
-    scale: f64,
 }
 
-/// The edges whose data are not affine, ascending.
-pub(crate) struct Deviations<'s>(pub(crate) Vec<Deviation<'s>>);
+/// The edges whose data are not affine.
+pub(crate) struct Deviations<'s> {
+    /// Ascending.
+    pub(crate) found: Vec<Deviation<'s>>,
+    /// ‖A^½∇Σv‖ of the extensions v that were left out: affine data deviate by rounding.
+    pub(crate) dropped: f64,
+}
 
 impl<'s> Deviations<'s> {
     /// Finds them at time `time`.
@@ -36,24 +44,35 @@ impl<'s> Deviations<'s> {
         let counts = problem.topology.counts;
         let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
         let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
-        let scale = ends.scale();
-        let mut found = Vec::new();
+        let plain = PLAIN * ends.scale();
+        let (mut weighed, mut largest) = (Vec::new(), 0.0_f64);
         for (edge, (field, ends)) in contact.chain(given) {
+            let (at, side) = problem.topology.first_side(edge);
+            let energy = CellEnergy::of(scene, problem, at);
+            largest = largest.max(energy.of_vertices() * ends[0].abs().max(ends[1].abs()));
             let data = Sum::on_edge(scene, problem, edge, field, time);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
-            let deviation = Deviation { edge, data, segment, ends, scale };
-            if deviation.exceeds(ROUNDING * scale)? {
-                found.push(deviation);
-            }
+            let deviation = Deviation { edge, data, segment, ends };
+            let root = match deviation.samples(plain)? {
+                Some(samples) => energy.of_extension(side, &samples),
+                None => f64::INFINITY,
+            };
+            weighed.push((deviation, root));
         }
-        Ok(Self(found))
+        let mut dropped = 0.0;
+        weighed.retain(|(_, root)| {
+            let small = *root <= ROUNDING * largest && largest.is_finite();
+            dropped += if small { *root } else { 0.0 };
+            !small
+        });
+        Ok(Self { found: weighed.into_iter().map(|(deviation, _)| deviation).collect(), dropped })
     }
 
     /// That of an edge.
     pub(crate) fn on(&self, edge: usize) -> Option<&Deviation<'s>> {
-        let at = self.0.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
-        Some(&self.0[at])
+        let at = self.found.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
+        Some(&self.found[at])
     }
 
     /// Those of the sides of cell `at`, triangles first.
@@ -74,8 +93,7 @@ impl Deviation<'_> {
     /// Data that are not finite or not differentiable there.
     pub(crate) fn at(&self, t: f64) -> Result<[f64; 2]> {
         let ([a, b], x) = (self.segment, self.place(t));
-        let gradient = self.data.gradient_at(x[0], x[1]);
-        let slope = gradient[0] * (b[0] - a[0]) + gradient[1] * (b[1] - a[1]);
+        let slope = self.data.slope_at(x, [b[0] - a[0], b[1] - a[1]]);
         Ok([
             self.data.finite(self.value(t), x)?,
             self.data.finite(slope - (self.ends[1] - self.ends[0]), x)?,
@@ -98,24 +116,24 @@ impl Deviation<'_> {
         let of_place = |point: &[f64; 2]| {
             let [x, y] = self.place(point[0]);
             let [by_x, by_y] = self.data.gradient_at(x, y);
-            (by_x * x).abs() + (by_y * y).abs()
+            self.data.at(x, y).abs().max((by_x * x).abs() + (by_y * y).abs())
         };
         let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
-        ROUNDING * places.fold(self.scale, f64::max)
+        ROUNDING * places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max)
     }
 
-    /// At the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them miss is
-    /// not seen at all.
-    fn exceeds(&self, threshold: f64) -> Result<bool> {
-        for panel in 0..LOOKS {
-            for point in f64::GAUSS[DATA_POINTS - 1] {
-                let t = (f64::from(panel) + point[0]) / f64::from(LOOKS);
-                if self.at(t)?[0].abs() > threshold {
-                    return Ok(true);
-                }
+    /// w and w′ at the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them
+    /// miss is not seen at all. `None` where w is far above rounding, or singular.
+    fn samples(&self, plain: f64) -> Result<Option<Vec<Sample>>> {
+        let mut samples = Vec::new();
+        for [t, weight] in on_panels(LOOKS, f64::GAUSS[DATA_POINTS - 1]) {
+            let [w, slope] = self.at(t)?;
+            if w.abs() > plain {
+                return Ok(None);
             }
+            samples.push(Sample { t, weight, w, slope });
         }
-        Ok(false)
+        Ok(Some(samples))
     }
 }
 
@@ -161,7 +179,7 @@ mod tests {
         let free = problem.topology.counts.free;
         let contact = free..problem.topology.counts.unknowns();
         let found = Deviations::at_time(&scene, &problem, 0.0)?;
-        Ok(found.0.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
+        Ok(found.found.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
     }
 
     /// In the middle of an edge of ¼ the points of one rule lie 0.046 apart.

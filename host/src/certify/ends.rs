@@ -1,7 +1,9 @@
 //! ψ and u_D at the ends of edges: the chords that a continuous s follows.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
+use super::energy::CellEnergy;
+use super::no_bound::NoBound;
 use crate::error::Result;
 use crate::problem::{Problem, Sum};
 use crate::scene::{Field, Scene};
@@ -36,19 +38,41 @@ impl Ends {
         })
     }
 
-    /// Whether u_D is continuous where its edges meet, up to rounding: otherwise no function of finite
-    /// energy has these values.
-    pub fn is_continuous(&self, problem: &Problem) -> bool {
+    /// Where u_D differs between two edges by more than rounding: no function of finite energy has these values.
+    pub fn jump(&self, problem: &Problem) -> Option<NoBound> {
         let slack = CONTINUOUS * self.scale();
         let mut at_vertex = HashMap::new();
         let edges = problem.topology.counts.unknowns()..problem.topology.counts.edges();
         let ends = edges
             .zip(&self.given)
             .flat_map(|(edge, values)| problem.ends[edge].into_iter().zip(values.iter().copied()));
-        ends.into_iter().all(|(vertex, value)| {
+        ends.into_iter().find_map(|(vertex, value)| {
             let first = *at_vertex.entry(vertex).or_insert(value);
-            (value - first).abs() <= slack
+            let at = problem.mesh.vertices[vertex as usize];
+            let differ = (value - first).abs() > slack;
+            differ.then_some(NoBound::ValuesDiffer { at, values: [first, value] })
         })
+    }
+
+    /// ‖A^½∇·‖ of what s misses of these data at vertices where they differ by rounding: u_D between two Dirichlet edges,
+    /// or u_D below ψ. s takes one value there, which moves it by the difference in all cells around.
+    pub fn moved(&self, scene: &Scene, problem: &Problem) -> f64 {
+        let counts = problem.topology.counts;
+        let mut values = BTreeMap::<u32, [f64; 2]>::new();
+        for (edge, pair) in (counts.unknowns()..).zip(&self.given) {
+            for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
+                let [low, high] = values.entry(vertex).or_insert([value; 2]);
+                (*low, *high) = (low.min(value), high.max(value));
+            }
+        }
+        for (edge, pair) in (counts.free..).zip(&self.gap) {
+            for (vertex, &psi) in problem.ends[edge].into_iter().zip(pair) {
+                let above = |[_, high]: &mut [f64; 2]| *high = high.max(psi);
+                values.get_mut(&vertex).into_iter().for_each(above);
+            }
+        }
+        let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));
+        of_moved(scene, problem, &spread.collect())
     }
 
     /// The largest modulus of all these numbers.
@@ -56,6 +80,20 @@ impl Ends {
         let all = self.gap.iter().chain(&self.given).flatten();
         all.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
+}
+
+/// ‖A^½∇·‖ of the continuous function that is at most these numbers at these vertices, and 0 at the others.
+pub(crate) fn of_moved(scene: &Scene, problem: &Problem, moved: &BTreeMap<u32, f64>) -> f64 {
+    if moved.values().all(|&by| by == 0.0) {
+        return 0.0;
+    }
+    let of_cell = |at: usize| {
+        let here = problem.vertices_of(at).iter().filter_map(|vertex| moved.get(vertex));
+        let most = here.fold(0.0_f64, |most, by| most.max(by.abs()));
+        if most > 0.0 { most * CellEnergy::of(scene, problem, at).of_vertices() } else { 0.0 }
+    };
+    // Of up to four vertices: (Σ|x|)² ≤ 4Σx².
+    2.0 * (0..problem.cells()).map(of_cell).fold(0.0_f64, f64::hypot)
 }
 
 fn pair(sum: &Sum, segment: [[f64; 2]; 2]) -> Result<[f64; 2]> {

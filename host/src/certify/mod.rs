@@ -6,9 +6,11 @@
 //!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐
 //!   ends         ψ and u_D at the ends of edges      ─┐                                        │
 //!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
+//!   energy       what is left out of either, by A    ─┤                                        │
 //!   oscillation  what the means of f, g, q leave out  ─┤                                       │
 //!   robin        h and u_ext at points of edges       ─┘                                     bound
-//!   admissible ─► exact   the true distance to s and τ, from an exact solution
+//!   admissible ─┬► exact   the true distance to s and τ, from an exact solution
+//!               └► energy_norm  the size of s, and how far u_h lies from it
 //! ```
 
 pub mod admissible;
@@ -20,12 +22,15 @@ pub mod curved;
 mod data;
 pub(crate) mod deviation;
 pub mod ends;
+pub(crate) mod energy;
+pub mod energy_norm;
 pub mod exact;
 #[cfg(test)]
 pub(crate) mod fixtures;
 #[cfg(test)]
 mod identity;
 mod metric;
+mod no_bound;
 pub mod oscillation;
 pub mod robin;
 #[cfg(test)]
@@ -37,4 +42,4 @@ pub use bound::{Certified, ErrorBound};
 pub use certifier::{Answer, Certifier};
 pub(crate) use conductivity::eigenvalues;
 pub use data::Data;
-pub(crate) use data::is_moderate;
+pub use no_bound::{NoBound, Spot};

@@ -8,7 +8,8 @@
 //!   osc_T  = (h_T/π) ‖f − f̄‖_T / √α_T
 //!   osc_E² = (|E| h_K²/|K|)(1/π² + 1/π) ‖g − ḡ‖²_E / α_T
 //! ```
-//! with the diameters h and the smallest eigenvalue α_T of A on T. q counts like g.
+//! with the diameters h and the smallest eigenvalue α_T of A on T. q counts like g; of u_ext what 8 points do not see
+//! ([`super::robin`]).
 
 use std::f64::consts::PI;
 
@@ -16,6 +17,7 @@ use signorini_kernel::geometry::triangle_area;
 
 use super::cell::Cell;
 use super::conductivity::{Conductivity, smallest_eigenvalue};
+use super::robin::missed;
 use crate::error::Result;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{edge_length, gauss, on_panels};
@@ -40,10 +42,12 @@ pub fn oscillation(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<f6
         }
     }
     for edge in 0..problem.kinds.len() {
-        if let EdgeKind::Neumann | EdgeKind::Contact = problem.kinds[edge] {
-            let (at, _) = problem.topology.first_side(edge);
-            cells[at] += of_flux(scene, problem, edge, time)?;
-        }
+        let (at, _) = problem.topology.first_side(edge);
+        cells[at] += match problem.kinds[edge] {
+            EdgeKind::Neumann | EdgeKind::Contact => of_flux(scene, problem, edge, time)?,
+            EdgeKind::Robin => missed(scene, problem, edge, time)?,
+            EdgeKind::Interior | EdgeKind::Dirichlet => 0.0,
+        };
     }
     Ok(cells)
 }
@@ -51,8 +55,8 @@ pub fn oscillation(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<f6
 /// osc_T
 fn of_source(scene: &Scene, problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
     let cell = Cell::of(problem, at);
-    if f.constant().is_some() && cell.is_affine() {
-        return Ok(0.0);
+    if let (Some(f), true) = (f.constant(), cell.is_affine()) {
+        return Ok(of_bend(&cell, f) / alpha(scene, problem, at).sqrt());
     }
     let load = match cell {
         Cell::Triangle(corners) => f.over_triangle(corners)?,
@@ -68,6 +72,19 @@ fn of_source(scene: &Scene, problem: &Problem, at: usize, f: &Sum) -> Result<f64
     }
     let square = f.finite(square, cell.corners()[0])?;
     Ok(cell.diameter() / PI * (square / alpha(scene, problem, at)).sqrt())
+}
+
+/// osc_T √α of a constant f on a quad that only rounding bends: det DF leaves its mean |T| by at most 2 h_T times the
+/// bend, and f − f̄ is f times that over |T|.
+fn of_bend(cell: &Cell, f: f64) -> f64 {
+    let bend = cell.bend();
+    if bend == 0.0 || f == 0.0 {
+        return 0.0;
+    }
+    let area: f64 = cell.points(&gauss(1)).iter().map(|point| point.weight).sum();
+    let diameter = cell.diameter();
+    let difference = f.abs() * (2.0 * diameter / area.sqrt()) * (bend / area.sqrt());
+    diameter / PI * difference * area.sqrt()
 }
 
 /// osc_E; g and q are both the `flux` of their boundary.
@@ -136,6 +153,8 @@ mod tests {
             let mut expected = diameter / PI * (square / smallest()).sqrt();
             for &edge in &problem.topology.of_triangles[at] {
                 let (edge, length) = (edge as usize, problem.lengths[edge as usize]);
+                // 1e−10 of it: u_ext is rational. Its own test is in `robin`.
+                expected += missed(&scene, &problem, edge, 0.0)?;
                 let [[x0, y0], [x1, y1]] = problem.segment(edge);
                 // ‖g − ḡ‖² of a linear g is |E|/12 times its rise squared; of q = −3.5x² − 1 with the
                 // middle m, ∫ = |E| 3.5² (m² l²/3 + l⁴/180).

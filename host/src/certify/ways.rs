@@ -74,7 +74,7 @@ impl<R: Scalar> Ways<R> {
         let stiffness = assembled.stiffness();
         let mesh = assembled.mesh()?;
         let cells = pack(&mesh, edges, stiffness, alpha, compliance, &forest, buffers)?;
-        self.reach = reach(edges, &cells, metric.view(), &forest, &mut numbers)?;
+        self.reach = reach(edges, &cells, metric.view(), &boundary, &forest, &mut numbers)?;
         Ok(())
     }
 

@@ -7,14 +7,14 @@ use clap::Args;
 use super::{scene_at, write_beside};
 use crate::bake::choice::{Choice, Model};
 use crate::bake::condensed;
-use crate::bake::explain::{explanation, warning};
+use crate::bake::explain::{explanation, warnings};
 use crate::bake::face::Face;
 use crate::bake::full;
 use crate::bake::setting;
 use crate::error::Result;
 use crate::mesh::adapted;
 use crate::problem::Problem;
-use crate::progress::{say, waiting};
+use crate::progress::{say, waiting, warn};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::ModelKind;
@@ -25,15 +25,26 @@ Examples:
   signorini bake meshes/scenes/levee.toml -o levee.rs --explain
   signorini bake slab.toml -o slab.rs --full --scalar f64
 
-The smallest model that represents the scene exactly and fits its [target] is chosen:
-condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one,
-and win over the scene's [setting]; what does not fit is an error. A full model is solved by
-sweeps or by a factor in flash, whichever takes fewer instructions and ends; setting.solver
-asks for one of them.
+The smallest model that represents the scene exactly and fits its [target] is chosen: \
+condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one, \
+and win over the scene's [setting]. A full model is solved by sweeps or by a factor in flash, \
+a condensed one by exchanges to the exact solution or by sweeps to a tolerance: whichever \
+takes fewer instructions for inputs within a tenth of the scene's own. setting.solver asks \
+for one of them: sweeps, factor, exact.
+
+What does not fit is an error: bytes of RAM and flash, and the cycles of the median tick \
+tried, counted instructions times 1.4, more than tick times clock. Where the longest takes \
+more at 2 cycles an instruction there is a warning, and for a full model that is asked for \
+there is no more than that, since a deadline cuts it off. The error bound is never left out \
+to make room, but by certificate = false in [setting].
 
 In the firmware:
   mod levee;
-  static mut CONTROLLER: levee::Controller = levee::Controller::new();";
+  static mut CONTROLLER: levee::Controller = levee::Controller::new();
+
+  let controller = unsafe { &mut *&raw mut CONTROLLER }; // once: nothing else may refer to it
+  let answer = controller.tick(levee::Inputs { rain: 2.0, river: 0.1 })?;
+  let seepage = answer.outputs.seepage;";
 
 /// Arguments of `bake`.
 #[derive(Debug, Args)]
@@ -65,6 +76,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        warn(&problem.warnings);
         let text = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
             ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
@@ -89,7 +101,7 @@ impl Arguments {
         if scene.target.is_some_and(|target| target.tick.is_some() && target.clock.is_none()) {
             eprintln!("warning: target.tick is no limit without target.clock");
         }
-        if let Some(warning) = warning(&choice) {
+        for warning in warnings(&choice) {
             eprintln!("{warning}");
         }
         if self.explain {
@@ -99,5 +111,50 @@ impl Arguments {
             Model::Condensed(baked) => condensed::source(&Face::new(scene, problem), baked),
             Model::Full(baked) => full::source(baked),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::bake::compiled::printed;
+
+    /// What stands in the help below `In the firmware:`, without its margin.
+    fn example() -> Vec<&'static str> {
+        let (_, lines) = EXAMPLES.split_once("In the firmware:\n").expect("an example");
+        lines.lines().map(|line| line.trim_start()).collect()
+    }
+
+    fn levee() -> String {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes/levee.toml");
+        let scene = scene_at(&path, &[]).expect("a scene");
+        let mesh = adapted::of_scene(&scene).expect("a mesh");
+        let problem = Problem::new(&scene, mesh).expect("a problem");
+        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Condensed), false);
+        match &choice.expect("a choice").candidate().model {
+            Model::Condensed(baked) => condensed::source(&Face::new(&scene, &problem), baked),
+            Model::Full(baked) => full::source(baked),
+        }
+    }
+
+    #[test]
+    fn the_example_compiles_and_is_the_readme_s() {
+        let lines = example();
+        let readme = include_str!("../../../README.md");
+        assert!(
+            readme.contains(&format!("```rust,ignore\n{}\n```", lines.join("\n"))),
+            "{lines:?}"
+        );
+        let (module, rest) = lines.split_first().expect("lines");
+        assert_eq!(*module, "mod levee;");
+        let program = format!(
+            "mod levee {{\n{}}}\nfn run() -> Result<levee::Scalar, signorini_kernel::Error> {{\n{}\nOk(seepage)\n}}\n\
+             fn main() {{ println!(\"{{}}\", run().is_ok_and(|seepage| seepage > 0.0)); }}\n",
+            levee(),
+            rest.join("\n")
+        );
+        assert_eq!(printed(&program), "true\n");
     }
 }

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::honoured::Command;
 use super::{scene_at, write_beside};
 use crate::bake::condensed::header;
 use crate::condense::condense;
 use crate::error::Result;
 use crate::mesh::adapted;
 use crate::problem::Problem;
+use crate::progress::warn;
 
 const EXAMPLES: &str = "\
 Example:
@@ -32,7 +34,9 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
+        Command::Condense.check(&scene, false)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        warn(&problem.warnings);
         let text = header(&scene, &condense(&scene, &problem)?);
         write_beside(&scene, &self.output, &text)?;
         Ok(0)

@@ -4,12 +4,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::honoured::Command;
 use super::write_beside;
+use crate::bake::setting;
 use crate::error::Result;
 use crate::export::{Origin, export};
 use crate::mesh::adapted;
 use crate::problem::Problem;
+use crate::progress::warn;
 use crate::scene::Scene;
+use crate::scene::term::at_rest_warning;
 use crate::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
@@ -28,9 +32,9 @@ pub struct Arguments {
     /// The Rust file to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Scalar type of the firmware
-    #[arg(long, value_enum, default_value = "f32")]
-    scalar: ScalarKind,
+    /// Scalar type of the firmware [default: the scene's setting.scalar, else f32]
+    #[arg(long, value_enum)]
+    scalar: Option<ScalarKind>,
     /// Set an input of the scene; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     input: Vec<String>,
@@ -42,9 +46,12 @@ impl Arguments {
         for input in &self.input {
             scene.set_input(input)?;
         }
-        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        Command::Export.check(&scene, self.scalar.is_some())?;
+        let mut problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        problem.warnings.extend(at_rest_warning(&scene));
+        warn(&problem.warnings);
         let origin = Origin { scene: &scene, problem: &problem };
-        let text = match self.scalar {
+        let text = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => export::<f32>(origin)?,
             ScalarKind::F64 => export::<f64>(origin)?,
         };

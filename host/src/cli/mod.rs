@@ -4,6 +4,7 @@ mod bake;
 mod condense;
 mod export;
 mod extremes;
+mod honoured;
 mod place;
 mod solve;
 mod tick;
@@ -20,8 +21,8 @@ Examples:
   signorini solve my.toml --scalar f32 --out /tmp/a what a microcontroller would compute
   signorini tick my.toml --budget-sweeps 40         the scene over time, warm-started
   signorini bake my.toml -o my.rs --explain         the scene as the firmware it needs, and why
-  signorini trade my.toml --max-error 1%            what speed costs in accuracy, and the setting to take
-  signorini extremes                                contrast, anisotropy, scales, shapes: what holds how far
+  signorini trade my.toml --max-error 1%            what accuracy costs, and the setting to take
+  signorini extremes                                contrast, scales, shapes: what holds how far
   signorini export my.toml -o my.rs --scalar f32    the scene as data for the kernel's stages
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;

@@ -1,25 +1,26 @@
 //! `signorini solve`: one scene, its files.
 
-use std::path::Path;
-
 use clap::Args;
 
 use super::place::Place;
+use crate::certify::energy_norm;
 use crate::engine;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::field::CellField;
 use crate::mesh::adapted;
 use crate::norms::{Errors, of_solution};
 use crate::output::atomic::write_atomically;
+use crate::output::digits::{percent_above, rounded, supported};
 use crate::output::edges::edges_csv;
 use crate::output::summary::Summary;
 use crate::output::vtu::{Field, vtu};
 use crate::outputs::outputs;
 use crate::problem::Problem;
-use crate::progress::{say, waiting};
+use crate::progress::{say, waiting, warn};
 use crate::scene::Scene;
+use crate::scene::term::at_rest_warning;
 use crate::setting::{Precision, Setting};
-use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
+use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,19 +28,24 @@ Examples:
   signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
   signorini solve levee.toml --scalar f32 --input rain=2e-8
 
-The [setting] of a scene is followed unless --solver, --tolerance or --max-sweeps is given; of it cells, refine and
-scalar hold in any case. A fixed number of warm sweeps is solved as the tick of a controller that has run.";
+The [setting] of a scene is followed unless --solver, --tolerance or --max-sweeps is given: then of it cells, refine, \
+element and scalar hold, and a warning names the keys that give way. A fixed number of warm sweeps is solved as the tick \
+of a controller that has run.
+
+`auto` sweeps on small meshes and takes a factor on large ones, by an estimate of the work; --max-sweeps asks for \
+sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
 
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = format!("{EXAMPLES}\n\n{}", crate::expression::vocabulary()))]
 pub struct Arguments {
     #[command(flatten)]
     place: Place,
     /// Scalar type of the kernel [default: that of the scene's setting, else f64]
     #[arg(long, value_enum)]
     scalar: Option<ScalarKind>,
-    /// The kernel's projected SOR, or the host's active set on a sparse factorisation [default: kernel]
+    /// What suits the size; the kernel's projected SOR, with its factor where that does not end; or the host's
+    /// active set on a sparse factorisation of its own (f64) [default: auto]
     #[arg(long, value_enum)]
     solver: Option<SolverKind>,
     /// Bound on the scaled complementarity residual [default: 1e-13 in f64, the rounding limit in f32]
@@ -61,13 +67,18 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
-        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        self.check(&scene)?;
+        let mut problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        problem.warnings.extend(at_rest_warning(&scene));
+        warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
         let solution =
             waiting(&format!("solving {unknowns} unknowns"), || self.solved(&scene, &problem))?;
         let errors = of_solution(&scene, &problem, &solution)?;
         let declared = outputs(&scene, &problem, &solution)?;
-        let summary = Summary::new(&scene, &problem, self.solver(), &solution, errors, declared);
+        let norm = energy_norm::of_solution(&scene, &problem, &solution)?;
+        let asked = self.solver.unwrap_or(SolverKind::Auto);
+        let summary = Summary::new(&scene, &problem, asked, &solution, errors, norm, declared);
         let files = [
             (
                 "edges.csv",
@@ -79,14 +90,48 @@ impl Arguments {
         for (name, bytes) in files {
             write_atomically(&out.join(name), &bytes)?;
         }
-        report(&scene, &problem, &solution, errors, &out);
+        report(&scene, &problem, &solution, errors, norm);
+        say(format_args!("  written to {}", out.display()));
         // Sweeps that a setting asks for are what was to be done.
-        let asked = self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
-        Ok(if solution.converged() || asked { 0 } else { 3 })
+        let prescribed =
+            self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
+        Ok(if solution.converged() || prescribed { 0 } else { 3 })
     }
 
+    /// A number of sweeps is for who sweeps.
     fn solver(&self) -> SolverKind {
-        self.solver.unwrap_or(SolverKind::Kernel)
+        match (self.solver, self.max_sweeps) {
+            (None | Some(SolverKind::Auto), Some(_)) => SolverKind::Kernel,
+            (asked, _) => asked.unwrap_or(SolverKind::Auto),
+        }
+    }
+
+    /// Refuses what cannot be followed at the same time; warns of what the command line takes the place of.
+    fn check(&self, scene: &Scene) -> Result<()> {
+        let direct = self.solver == Some(SolverKind::Direct);
+        if direct && self.max_sweeps.is_some() {
+            let message = "--max-sweeps: the direct solver takes no sweeps";
+            let hint = "leave it out, or use --solver kernel";
+            return Err(InputError::new(message).hint(hint).into());
+        }
+        let Some(setting) = scene.setting.filter(|_| !self.follows_setting()) else {
+            return Ok(());
+        };
+        let foreign = match (self.scalar, setting.scalar) {
+            (None, Some(Precision::Mixed)) => Some("f32+f64 is for the scene's own solver"),
+            (None, Some(Precision::F32)) if direct => Some("the direct solver works in f64"),
+            _ => None,
+        };
+        if let Some(why) = foreign {
+            let error = InputError::new(format!("setting.scalar: {why}")).file(scene.file());
+            return Err(error.hint("give --scalar, or leave out --solver").into());
+        }
+        let keys = setting.of_method();
+        if !keys.is_empty() {
+            let keys: Vec<_> = keys.iter().map(|key| format!("setting.{key}")).collect();
+            eprintln!("warning: the command line takes the place of {}", keys.join(", "));
+        }
+        Ok(())
     }
 
     /// Whether the command line leaves how to solve to the scene.
@@ -97,7 +142,11 @@ impl Arguments {
     /// As the scene's setting says, where it has one and nothing else was asked for.
     fn solved(&self, scene: &Scene, problem: &Problem) -> Result<Solution> {
         let own = scene.setting.and_then(|setting| setting.scalar);
-        if let (Some(setting), true) = (scene.setting, self.follows_setting()) {
+        let setting = scene.setting.filter(|setting| {
+            let mixed = setting.scalar == Some(Precision::Mixed) && self.scalar.is_none();
+            self.follows_setting() && (mixed || !setting.of_method().is_empty())
+        });
+        if let Some(setting) = setting {
             let scalar = self.scalar.map(|scalar| match scalar {
                 ScalarKind::F32 => Precision::F32,
                 ScalarKind::F64 => Precision::F64,
@@ -105,7 +154,7 @@ impl Arguments {
             let setting = Setting { scalar: scalar.or(own), ..setting };
             return engine::solve(&Scene { setting: Some(setting), ..scene.clone() }, problem);
         }
-        let single = own == Some(Precision::F32) && self.solver() == SolverKind::Kernel;
+        let single = own == Some(Precision::F32);
         let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
         let options = Options {
             scalar,
@@ -139,7 +188,7 @@ fn report(
     problem: &Problem,
     solution: &Solution,
     errors: Option<Errors>,
-    out: &Path,
+    energy_norm: Option<f64>,
 ) {
     let counts = problem.topology.counts;
     say(format_args!("{}", scene.title));
@@ -149,28 +198,38 @@ fn report(
         solution.contact_active,
         counts.contact
     ));
-    say(format_args!(
-        "  {} after {} sweeps, scaled residual {:.1e}",
-        status_name(solution.status),
-        solution.sweeps,
-        solution.algebraic_residual
-    ));
+    say(format_args!("  {}", solution.ending()));
+    let digits = supported(solution.relative_bound(energy_norm));
     say(format_args!(
         "  contact force {}, contact length {}",
-        solution.contact_force, solution.contact_length
+        rounded(solution.contact_force, digits, solution.largest_flux()),
+        rounded(solution.contact_length, digits.max(3), 0.0)
     ));
-    match solution.bound {
-        Some(bound) => say(format_args!(
-            "  error at most {:.4e} in the energy norm, {:.1e} of it by unfinished sweeps",
-            bound.total, bound.algebraic
-        )),
-        None => say(format_args!("  no error bound: see `error_bound` in the README")),
-    }
+    report_bound(solution, energy_norm);
     if let Some(errors) = errors {
         say(format_args!(
-            "  errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}",
-            errors.h1, errors.l2, errors.flux
+            "  true errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}, ‖A^½∇(u − u_h)‖ {:.5e}",
+            errors.h1, errors.l2, errors.flux, errors.energy
         ));
     }
-    say(format_args!("  written to {}", out.display()));
+}
+
+/// How wrong each of the two functions can be, or why nobody knows.
+fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
+    let Some(bound) = solution.bound else {
+        let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
+        return say(format_args!("  no error bound: {reason}"));
+    };
+    let part = |of: f64| match energy_norm {
+        Some(norm) if norm > 0.0 => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
+        _ => "‖A^½∇s‖ is 0".to_owned(),
+    };
+    say(format_args!("  error bounds in the energy norm, guaranteed:"));
+    say(format_args!(
+        "    continuous s (solution.vtu) with flux τ: {:.2e}, {}; unfinished iterations {:.0e} of it",
+        bound.total,
+        part(bound.total),
+        bound.algebraic
+    ));
+    say(format_args!("    edge means u_h (edges.csv): {:.2e}, {}", bound.of_u, part(bound.of_u)));
 }

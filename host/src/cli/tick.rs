@@ -4,16 +4,19 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::honoured::Command;
 use super::place::Place;
 use crate::error::{Error, Result};
 use crate::mesh::{adapted, gmsh};
 use crate::output::atomic::write_atomically;
 use crate::output::ticks::ticks_csv;
 use crate::problem::Problem;
-use crate::progress::{say, steps};
+use crate::progress::{say, steps, warn};
 use crate::report::history;
 use crate::scene::Scene;
+use crate::setting::Precision;
 use crate::solve::{Options, ScalarKind};
+use crate::tick::baked::replay;
 use crate::tick::{Budget, Tick, log, picture, play, schedule};
 
 const EXAMPLES: &str = "\
@@ -21,11 +24,17 @@ Examples:
   signorini tick meshes/catalogue/moving-tri.toml
   signorini tick meshes/scenes/levee.toml --budget-sweeps 40 --scalar f32
   signorini tick meshes/scenes/levee.toml --log inputs.csv
+  signorini tick meshes/scenes/levee.toml --log inputs.csv --baked
 
-A log replays what a device was given, one tick a line; inputs without a column keep their values:
+A log has the inputs of ticks, one tick a line; inputs without a column keep their values:
   t,rain,river
   0,0,0
   0.01,2,0.5
+
+Plain ticks sweep the full model with its certificate. A device has the controller that `bake` wrote: --baked plays \
+the same one, bit for bit, its model, solver, scalar and [setting] chosen as there.
+
+Without --budget-sweeps the first tick on a large mesh starts from the answer of a factor.
 
 A tick that its budget cuts off is normal: its status says so, and the exit status is 0.";
 
@@ -39,7 +48,7 @@ pub struct Arguments {
     /// end of the scene]
     #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
     ticks: Option<u32>,
-    /// Most sweeps of one tick
+    /// Most sweeps of one tick [default: 1 000 000]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     budget_sweeps: Option<u32>,
     /// The certified error, in the energy norm, that is small enough [default: a tick goes on until more
@@ -49,17 +58,23 @@ pub struct Arguments {
     /// A coarser mesh of the same domain, from whose solution the first tick starts
     #[arg(long, value_name = "FILE")]
     coarse: Option<PathBuf>,
-    /// Scalar type of the kernel
-    #[arg(long, value_enum, default_value = "f64")]
-    scalar: ScalarKind,
+    /// Scalar type of the kernel [default: the scene's setting.scalar, else f64; with --baked else f32]
+    #[arg(long, value_enum)]
+    scalar: Option<ScalarKind>,
     /// Times and inputs from a CSV file with the columns t and names of inputs
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+    /// By the controller that `bake` writes for the scene, with its bits
+    #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
+    baked: bool,
 }
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
+        if !self.baked {
+            Command::Tick.check(&scene, self.scalar.is_some())?;
+        }
         let out = self.place.out()?;
         let moments = match &self.log {
             Some(path) => log::read(path, &scene)?,
@@ -68,35 +83,47 @@ impl Arguments {
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, gmsh::read(mesh)?));
         let coarse = coarse.transpose()?;
+        warn(&problem.warnings);
+        if let Some(coarse) = &coarse {
+            warn(&coarse.warnings);
+        }
         let bar = steps(moments.len());
-        let ticks = play(&scene, &problem, coarse.as_ref(), &moments, &self.budget(), |tick| {
+        let done = |tick: &Tick| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
-        });
+        };
+        let ticks = match self.baked {
+            true => replay(&scene, &problem, &moments, self.scalar, done),
+            false => play(&scene, &problem, coarse.as_ref(), &moments, &self.budget(&scene), done)
+                .map(|ticks| ("full, swept".to_owned(), ticks)),
+        };
         bar.finish_and_clear();
-        let ticks = ticks?;
+        let (model, ticks) = ticks?;
         let table = ticks_csv(&scene, &ticks).map_err(|error| Error::Check(error.to_string()))?;
         let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
-        report(&scene, &problem, &ticks, &out);
+        report(&scene, &problem, &model, &ticks, &out);
         Ok(if ticks.iter().any(Tick::failed) { 3 } else { 0 })
     }
 
-    fn budget(&self) -> Budget {
+    fn budget(&self, scene: &Scene) -> Budget {
+        let single = scene.setting.and_then(|setting| setting.scalar) == Some(Precision::F32);
+        let own = if single { ScalarKind::F32 } else { ScalarKind::F64 };
         Budget {
-            scalar: self.scalar,
+            scalar: self.scalar.unwrap_or(own),
             sweeps: self.budget_sweeps.unwrap_or(Options::default().max_sweeps),
             error: self.error.unwrap_or(0.0),
         }
     }
 }
 
-fn report(scene: &Scene, problem: &Problem, ticks: &[Tick], out: &Path) {
+fn report(scene: &Scene, problem: &Problem, model: &str, ticks: &[Tick], out: &Path) {
     let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
     let unknowns = problem.topology.counts.unknowns();
     say(format_args!("{}", scene.title));
     say(format_args!("  {unknowns} unknowns, {} ticks from t = {first} to {last}", ticks.len()));
+    say(format_args!("  model: {model}"));
     let mut sweeps: Vec<u32> = ticks.iter().map(|tick| tick.sweeps).collect();
     let cold = sweeps.first().copied().unwrap_or(0);
     sweeps.sort_unstable();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::{InputError, Result};
-use crate::progress::{say, steps};
+use crate::progress::{say, steps, warn};
 use crate::trade::campaign::{Campaign, Ended};
 use crate::trade::front::{Tolerance, Wish};
 use crate::trade::shard::Shard;
@@ -19,12 +19,14 @@ Examples:
   signorini trade bar.toml --max-error 1% --out out/bar
   signorini trade scenes/*.toml --shard 2/4
 
-A study plans up to 60 settings of a scene (number format, mesh, cells, sweeps, start, ω, model, bound), measures each,
-and recommends one. It leaves trade.json, trade.csv, trade.svg and recommended.toml, a fragment of a
-scene that solve, bake and `cargo xtask firmware` take. A scene with a [setting] is measured in that alone.
-Without a scene it renews the record of every standard scene, on the host and on the M4F.
+A study plans up to 60 settings of a scene (number format, mesh, cells, sweeps, start, ω, model, bound), measures each, \
+and recommends one. It leaves trade.json, trade.csv, trade.svg and recommended.toml, a fragment of a \
+scene that solve, bake and `cargo xtask firmware` take. A scene with a [setting] is measured in that alone. \
+Without a scene it renews the record of every standard scene (host/benches/trade), on the host and on the M4F.
 
-Interrupted, the same command goes on where it was. --shard 1/4 … 4/4 share the work among processes that see the same
+What is built runs on every x86-64; `cargo xtask wide run --release -- trade …` measures with AVX2, and the record says which.
+
+Interrupted, the same command goes on where it was. --shard 1/4 … 4/4 share the work among processes that see the same \
 folder; the same command without --shard then puts their parts together.";
 
 /// Arguments of `trade`.
@@ -79,6 +81,7 @@ impl Arguments {
                 !self.no_peers,
             )?,
         };
+        warn(&campaign.warnings());
         let bar = steps(0);
         let ended = campaign.run(self.shard, &wish, &mut |case| {
             bar.set_length(case.of as u64);

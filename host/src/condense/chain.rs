@@ -13,7 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::patterns::Pattern;
 use super::{Corner, Vertex};
+use crate::certify::ends::of_moved;
 use crate::problem::Problem;
+use crate::scene::Scene;
 
 /// What rounding may leave between two expressions for the same value, relative to the largest.
 const ROUNDING: f64 = 1e-9;
@@ -28,6 +30,8 @@ pub(super) struct Chain {
     pub dirichlet: BTreeMap<u32, Vec<f64>>,
     /// Where s lies above ψ for good.
     pub corners: Vec<Corner>,
+    /// By how much each pattern is moved at vertices where two expressions for one value differ by rounding.
+    pub moved: Vec<BTreeMap<u32, f64>>,
 }
 
 /// The unknowns of the contact edges at a vertex, with ψ of every pattern there.
@@ -39,6 +43,7 @@ impl Chain {
     /// # Errors
     /// A sentence why s cannot be fixed beforehand.
     pub fn new(
+        scene: &Scene,
         problem: &Problem,
         patterns: &[Pattern],
         edges: &[usize],
@@ -46,17 +51,35 @@ impl Chain {
     ) -> Result<Self, String> {
         let dirichlet = given(problem, patterns);
         let meetings = meetings(problem, patterns, edges);
-        let mut chain =
-            Self { contact: Vec::new(), gap: Vec::new(), dirichlet, corners: Vec::new() };
+        let mut chain = Self {
+            contact: Vec::new(),
+            gap: Vec::new(),
+            dirichlet,
+            corners: Vec::new(),
+            moved: vec![BTreeMap::new(); patterns.len()],
+        };
         for (&vertex, meeting) in &meetings {
             let psi = common_gap(problem, patterns, vertex, meeting)?;
+            for (j, moved) in chain.moved.iter_mut().enumerate() {
+                let off = meeting.iter().map(|(_, other)| (other[j] - psi[j]).abs());
+                moved.insert(vertex, off.fold(0.0, f64::max));
+            }
             match chain.dirichlet.get(&vertex) {
                 Some(given) => {
                     let excess = excess(patterns, given, &psi);
+                    for (j, moved) in chain.moved.iter_mut().enumerate() {
+                        let dropped = (given[j] - psi[j]) - excess[j];
+                        moved.entry(vertex).and_modify(|most| *most += dropped.abs());
+                    }
                     let edges = meeting.iter().filter(|_| excess.iter().any(|&part| part != 0.0));
                     let corners = edges.map(|&(edge, _)| Corner {
                         edge,
                         excess: excess.iter().map(|part| part / openings[edge]).collect(),
+                        energy: of_moved(
+                            scene,
+                            problem,
+                            &BTreeMap::from([(vertex, openings[edge])]),
+                        ),
                     });
                     chain.corners.extend(corners);
                 }

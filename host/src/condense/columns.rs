@@ -7,12 +7,12 @@ use super::patterns::Pattern;
 use crate::problem::{Loads, Problem};
 
 /// What each column is the field of: patterns without opening, unit openings without load, and a source
-/// that adds up to 1 where asked for.
+/// that adds up to 1 on these cells, where asked for.
 pub(super) fn columns(
     problem: &Problem,
     patterns: &[Pattern],
     edges: &[usize],
-    source: bool,
+    source: Option<&[bool]>,
 ) -> Vec<Given> {
     let counts = problem.topology.counts;
     let of_patterns = patterns
@@ -32,20 +32,23 @@ pub(super) fn columns(
         contact[opened] = 1.0;
         columns.push(Given { loads: silent.clone(), contact });
     }
-    if source {
+    if let Some(cells) = source {
         let contact = vec![0.0; counts.contact];
-        columns.push(Given { loads: uniform_source(problem, silent), contact });
+        columns.push(Given { loads: uniform_source(problem, cells, silent), contact });
     }
     columns
 }
 
-/// `silent` with a source that adds up to 1, the same all over the mesh.
-fn uniform_source(problem: &Problem, silent: Loads) -> Loads {
+/// `silent` with a source that adds up to 1, the same all over `cells`.
+fn uniform_source(problem: &Problem, cells: &[bool], silent: Loads) -> Loads {
     let mesh = &problem.mesh;
     let corner = |vertex: u32| mesh.vertices[vertex as usize];
-    let triangles: Vec<f64> =
-        mesh.triangles.iter().map(|cell| triangle_area(cell.map(corner))).collect();
-    let quads: Vec<f64> = mesh.quads.iter().map(|cell| quad_area(cell.map(corner))).collect();
+    let (of_triangles, of_quads) = cells.split_at(mesh.triangles.len());
+    let on = |area: f64, here: &bool| if *here { area } else { 0.0 };
+    let areas = mesh.triangles.iter().map(|cell| triangle_area(cell.map(corner)));
+    let triangles: Vec<f64> = areas.zip(of_triangles).map(|(area, here)| on(area, here)).collect();
+    let areas = mesh.quads.iter().map(|cell| quad_area(cell.map(corner)));
+    let quads: Vec<f64> = areas.zip(of_quads).map(|(area, here)| on(area, here)).collect();
     let whole: f64 = triangles.iter().chain(&quads).sum();
     let share = |areas: Vec<f64>| areas.into_iter().map(|area| area / whole).collect();
     Loads { triangles: share(triangles), quads: share(quads), ..silent }

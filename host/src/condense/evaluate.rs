@@ -5,8 +5,8 @@ use faer::MatRef;
 use super::{Condensate, Form, Measure};
 use crate::reference::{self, ReferenceError};
 
-/// An excess this far below 0 against the size of its terms is rounding.
-const ROUNDING: f64 = 1e-9;
+/// An excess this far below 0 against the size of its terms is rounding of its sum.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Condensate {
     /// x of the solution for the inputs `p` (m numbers, the first one 1): exactly 0 on active edges.
@@ -37,6 +37,11 @@ impl Condensate {
         rows.zip(self.load_of(p)).map(|(row, load)| dot(row, x) - load).collect()
     }
 
+    /// ∫_C (τ·n − q) of any x ≥ 0, within the law of contact.
+    pub fn force(&self, p: &[f64], x: &[f64]) -> f64 {
+        pressed(&self.multiplier, x, &self.residual(p, x))
+    }
+
     /// What belongs to the unknowns, in the order of the contact edges.
     pub fn by_edge(&self, x: &[f64]) -> Vec<f64> {
         let mut by_edge = vec![0.0; self.contact];
@@ -46,9 +51,14 @@ impl Condensate {
 
     /// The declared outputs of any x ≥ 0; `None` where there is no bound.
     pub fn outputs(&self, p: &[f64], x: &[f64]) -> Vec<Option<f64>> {
+        let residual = self.residual(p, x);
         let value = |measure: &Measure| match measure {
             Measure::Linear { of_inputs, of_contact } => {
                 Some(dot(of_inputs, p) + dot(of_contact, x))
+            }
+            Measure::Flux { of_inputs, of_contact, of_reaction } => {
+                let elsewhere = dot(of_inputs, p) + dot(of_contact, x);
+                Some(elsewhere + pressed(of_reaction, x, &residual))
             }
             Measure::Length { of_contact } => {
                 let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
@@ -59,12 +69,20 @@ impl Condensate {
         self.outputs.iter().map(value).collect()
     }
 
+    /// The guaranteed bound of ‖A^½∇_h(u − u_h)‖ for any x ≥ 0; `None` where there is none.
+    pub fn bound_of_u(&self, p: &[f64], x: &[f64]) -> Option<f64> {
+        let form = self.certificate.as_ref().ok()?;
+        let jump = form.norm(form.jump.as_ref().unwrap_or(&form.factor), p, x);
+        Some(self.bound(p, x)? + self.energy_unit * jump)
+    }
+
     /// The guaranteed bound of (p, x) for any x ≥ 0, in the unit of ‖A^½∇u‖; `None` where there is none.
     pub fn bound(&self, p: &[f64], x: &[f64]) -> Option<f64> {
         let form = self.certificate.as_ref().ok()?;
         let mut residual = self.residual(p, x);
         let slack = form.reach * form.mend(&self.opening, &mut residual, x)?;
-        let mut square = (form.residual(p, x) + slack).powi(2);
+        let gap = form.norm(&form.factor, p, x) + slack;
+        let (mut square, mut moved) = (gap.powi(2), 0.0);
         for corner in &form.corners {
             let excess = dot(&corner.excess, p);
             let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| (a * p).abs()).sum();
@@ -74,8 +92,10 @@ impl Condensate {
             if x[corner.edge] == 0.0 {
                 square += excess.max(0.0) * residual[corner.edge];
             }
+            moved += excess.min(0.0).abs() * corner.energy;
         }
         let oscillation: f64 = form.oscillation.iter().zip(p).map(|(osc, p)| osc * p.abs()).sum();
+        let oscillation = oscillation + moved;
         Some(self.energy_unit * (oscillation + (square + oscillation * oscillation).sqrt()))
     }
 }
@@ -92,13 +112,13 @@ impl Form {
         self.vertices.iter().map(correction).collect()
     }
 
-    /// |F(p, x, d)|
-    fn residual(&self, p: &[f64], x: &[f64]) -> f64 {
+    /// |F(p, x, d)| for one of the forms.
+    fn norm(&self, factor: &[f64], p: &[f64], x: &[f64]) -> f64 {
         let z: Vec<f64> = p.iter().chain(x).copied().chain(self.correction(x)).collect();
         let mut rows = vec![0.0; z.len()];
         let mut start = 0;
         for (j, z) in z.iter().enumerate() {
-            let column = &self.factor[start..=start + j];
+            let column = &factor[start..=start + j];
             rows.iter_mut().zip(column).for_each(|(row, entry)| *row += entry * z);
             start += j + 1;
         }
@@ -107,20 +127,20 @@ impl Form {
 
     /// Mends the residual r̂ and returns |δ|; `None` where what is left over has no way out.
     ///
-    /// What is mended must be 0 on inactive edges and ≥ 0 on active ones. Where contact alone holds the
-    /// part, the sum of all that was taken leaves through the edge that is pressed most.
+    /// What is mended must be 0 on inactive edges and ≥ 0 on active ones. Where contact alone holds a
+    /// part, the sum of all that was taken there leaves through its edge that is pressed most.
     pub(super) fn mend(&self, openings: &[f64], residual: &mut [f64], x: &[f64]) -> Option<f64> {
         let (mut square, mut surplus) = (0.0, 0.0);
-        for ((residual, &x), opening) in residual.iter_mut().zip(x).zip(openings) {
-            let delta = if x == 0.0 { residual.min(0.0) } else { *residual };
-            *residual -= delta;
-            square += delta * delta;
-            surplus += delta / opening;
+        let mut deltas = vec![0.0; residual.len()];
+        for ((residual, &x), delta) in residual.iter_mut().zip(x).zip(&mut deltas) {
+            *delta = if x == 0.0 { residual.min(0.0) } else { *residual };
+            *residual -= *delta;
+            square += *delta * *delta;
         }
-        if self.floating && square > 0.0 {
-            let edges = 0..residual.len();
+        self.floating.iter().for_each(|&edge| surplus += deltas[edge] / openings[edge]);
+        if self.floating.iter().any(|&edge| deltas[edge] != 0.0) {
             let force = |edge: usize| residual[edge] / openings[edge];
-            let touching = edges.filter(|&edge| x[edge] == 0.0);
+            let touching = self.floating.iter().copied().filter(|&edge| x[edge] == 0.0);
             let out = touching.max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
             let change = openings[out] * surplus;
             residual[out] += change;
@@ -131,6 +151,13 @@ impl Form {
         }
         Some(square.sqrt())
     }
+}
+
+/// Σ weights · r over the edges with x = 0 and r > 0.
+fn pressed(weights: &[f64], x: &[f64], residual: &[f64]) -> f64 {
+    let edges = weights.iter().zip(x).zip(residual);
+    let touching = edges.filter(|((_, x), _)| **x == 0.0);
+    touching.fold(0.0, |sum, ((weight, _), r)| sum + weight * r.max(0.0))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

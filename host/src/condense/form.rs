@@ -12,9 +12,8 @@ use super::factor::{energies, triangular};
 use super::functions::Functions;
 use super::patterns::Pattern;
 use super::reach::{Source, reach};
-use super::residual::{Block, blocks};
-use crate::certify::is_moderate;
-use crate::certify::robin::robin;
+use super::residual::{Block, blocks, jumps};
+use crate::certify::ends::of_moved;
 use crate::error::Result;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
@@ -33,9 +32,10 @@ pub(super) struct Ground<'g> {
     pub openings: &'g [f64],
     /// Ŝ
     pub matrix: &'g Mat<f64>,
-    /// The field of a source that adds up to 1, and its condensed load, where contact alone holds the
-    /// only part.
+    /// The field of a source that adds up to 1 on the one part that contact alone holds, and its condensed load.
     pub source: Option<(&'g Field, Vec<f64>)>,
+    /// The unknowns of that part.
+    pub floating: Vec<usize>,
 }
 
 /// s and τ in every column.
@@ -58,13 +58,13 @@ impl Ground<'_> {
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
-        let chain = match Chain::new(problem, patterns, self.edges, self.openings) {
+        let chain = match Chain::new(self.scene, problem, patterns, self.edges, self.openings) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
         let functions = Functions::of(problem);
         let blocks = blocks(self.scene, problem, patterns, &functions)?;
-        let fluxes = table(problem.ends.len(), self.fields);
+        let fluxes = table(problem.ends.len(), self.fields, |field| &field.flux);
         let mut s = self.boundary_values(&chain, &functions);
         let at_boundary = chain.fixed();
         let mut fixed = vec![false; functions.count()];
@@ -74,15 +74,22 @@ impl Ground<'_> {
         let Some(reach) = self.reach(&blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
-        let factor = triangular(&blocks, &s, &fluxes);
-        let packed = (0..s.columns).flat_map(|j| (0..=j).map(move |i| (i, j)));
+        let jump = jumps(self.scene, problem, patterns, &functions)?.map(|blocks| {
+            let means = table(problem.ends.len(), self.fields, |field| &field.u);
+            packed(&triangular(&blocks, &s, &means))
+        });
+        // As in `certify::Data`: for s, and for u_h beside it.
+        let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(self.scene, problem, moved));
+        let oscillation =
+            patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let form = Form {
-            factor: packed.map(|at| factor[at]).collect(),
+            factor: packed(&triangular(&blocks, &s, &fluxes)),
+            jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
             reach,
             corners: chain.corners,
-            oscillation: patterns.iter().map(|pattern| pattern.oscillation).collect(),
-            floating: self.source.is_some(),
+            oscillation,
+            floating: self.floating.clone(),
         };
         Ok(Ok((form, Admissibles { s, fluxes, functions })))
     }
@@ -90,18 +97,12 @@ impl Ground<'_> {
     /// Why these data allow for no bound.
     fn obstacle(&self) -> Result<Option<String>> {
         let counts = self.parts.counts;
-        if counts.contact > 0 && counts.contact + counts.held > 1 {
-            let reason =
-                "contact alone holds one part of several: no flux leads from there to another";
+        if counts.contact > 1 {
+            let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
             return Ok(Some(reason.to_owned()));
         }
-        if self.patterns.iter().any(|pattern| !pattern.ends.is_continuous(self.problem)) {
-            return Ok(Some("the Dirichlet value has a jump".to_owned()));
-        }
-        let transfer = robin(&self.patterns[0].scene, self.problem, 0.0)?;
-        let vanishes = transfer.iter().any(|edge| !is_moderate(edge));
-        Ok(vanishes
-            .then(|| "a transfer coefficient nearly vanishes on a part of an edge".to_owned()))
+        let reason = self.patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
+        Ok(reason.map(ToString::to_string))
     }
 
     /// s where it is fixed, in all columns: p, x, d.
@@ -128,19 +129,26 @@ impl Ground<'_> {
         let (mut columns, mut source) = (of_contact.to_vec(), None);
         if let Some((field, load)) = &self.source {
             columns.push((*field).clone());
-            source = Some(Source { openings: self.openings.to_vec(), load: load.clone() });
+            let mut inverse = vec![0.0; self.openings.len()];
+            self.floating.iter().for_each(|&at| inverse[at] = 1.0 / self.openings[at]);
+            source = Some(Source { inverse, load: load.clone() });
         }
-        let fluxes = table(self.problem.ends.len(), &columns);
+        let fluxes = table(self.problem.ends.len(), &columns, |field| &field.flux);
         reach(self.matrix, &energies(blocks, &fluxes), source.as_ref())
     }
 }
 
-/// The fluxes of fields, edge by edge.
-fn table(edges: usize, fields: &[Field]) -> Table {
+/// The upper triangle by columns.
+fn packed(factor: &Mat<f64>) -> Vec<f64> {
+    (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
+}
+
+/// What `of` gives of fields, edge by edge.
+fn table(edges: usize, fields: &[Field], of: impl Fn(&Field) -> &[f64]) -> Table {
     let mut table = Table::new(edges, fields.len());
     for (column, field) in fields.iter().enumerate() {
-        for (edge, flux) in field.flux.iter().enumerate() {
-            table.row_mut(edge)[column] = *flux;
+        for (edge, number) in of(field).iter().enumerate() {
+            table.row_mut(edge)[column] = *number;
         }
     }
     table

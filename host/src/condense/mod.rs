@@ -6,8 +6,9 @@
 //! ```text
 //!   v ≥ 0, r ≥ 0, v·r = 0:   x = v/d,  r̂ = r d/U² = Ŝx − B̂p,   d_i = U/√S_ii,
 //! ```
-//! where Ŝ has a unit diagonal and the energy unit U, a power of two, makes x and r̂ of order 1. Every
-//! output is linear in (p, x) but the contact length and the error bound.
+//! where Ŝ has a unit diagonal and the energy unit U, a power of two, makes x and r̂ of order 1. Outputs are
+//! linear in (p, x) but for the contact length, the error bound and what goes through contact edges: there
+//! ∫_E (τ·n − q) = max(r, 0) where v = 0, and 0 where v > 0.
 //!
 //! ```text
 //!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► Condensate
@@ -18,7 +19,7 @@
 //! ```text
 //!   gap² = (|F(p, x, d)| + reach |δ|)² + Σ_corners excess(p) r̂
 //! ```
-//! with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
+//! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
 
 mod best;
 mod chain;
@@ -95,6 +96,16 @@ pub enum Measure {
         /// n factors.
         of_contact: Vec<f64>,
     },
+    /// of_inputs·p + of_contact·x + Σ of_reaction max(r̂, 0) over the edges with x_i = 0: a force, and a flux
+    /// through contact edges.
+    Flux {
+        /// m factors, or none.
+        of_inputs: Vec<f64>,
+        /// n factors, or none.
+        of_contact: Vec<f64>,
+        /// n factors, 0 where the edge does not count.
+        of_reaction: Vec<f64>,
+    },
     /// The sum over the edges with x_i = 0.
     Length {
         /// |E|, or 0 where the edge does not count.
@@ -109,6 +120,8 @@ pub enum Measure {
 pub struct Form {
     /// F by columns, column j with its j + 1 entries: m columns of p, n of x, one of d a vertex.
     pub factor: Vec<f64>,
+    /// J by columns in the same way, ‖A^½∇_h(s − u_h)‖ = U |J(p, x, d)|; nothing where F is never less.
+    pub jump: Option<Vec<f64>>,
     /// The contact vertices that are not on D.
     pub vertices: Vec<Vertex>,
     /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U reach |δ|.
@@ -117,8 +130,8 @@ pub struct Form {
     pub corners: Vec<Corner>,
     /// osc_j of each input alone, over U.
     pub oscillation: Vec<f64>,
-    /// Contact alone holds the only part there is: mended amounts must leave through another edge.
-    pub floating: bool,
+    /// The unknowns of the one part that contact alone holds: what is mended there must leave through another edge of it.
+    pub floating: Vec<usize>,
 }
 
 /// A contact vertex: where e = s − ψ comes from there.
@@ -139,6 +152,8 @@ pub struct Corner {
     pub edge: usize,
     /// (u_D − ψ)/d at that end as m factors of p.
     pub excess: Vec<f64>,
+    /// What moving u_D there by d costs at most, in the unit of ‖A^½∇u‖ where that of U is 1.
+    pub energy: f64,
 }
 
 /// Numbers that the fields behind a condensed model may hold together: 1.6 GB.
@@ -184,8 +199,9 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
     if held_by_contact.iter().any(|part| part.len() == 1) {
         return Err(held_by_one(scene));
     }
-    let alone = parts.counts.contact == 1 && parts.counts.held == 0;
-    let mut fields = fields(scene, problem, &columns(problem, &patterns, &edges, alone))?;
+    let alone = held_alone(problem, &parts, &edges);
+    let mut fields =
+        fields(scene, problem, &columns(problem, &patterns, &edges, alone.as_deref()))?;
     let source = fields.split_off(m + n).pop();
     let opening = scaled(scene, problem, &edges, &mut fields[m..])?;
     let matrix = matrix(problem, &edges, &fields[m..], &opening);
@@ -198,7 +214,7 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
         multiplier: opening.iter().map(|d| 1.0 / d).collect(),
         load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads.contact_flux)).collect(),
         defaults: std::iter::once(1.0).chain(scene.inputs.iter().map(|i| i.default)).collect(),
-        outputs: measures(scene, problem, &edges, &patterns, &fields)?,
+        outputs: measures(scene, problem, &edges, &opening, &patterns, &fields)?,
         certificate: Err(String::new()),
         energy_unit: 1.0,
         held_by_contact,
@@ -214,6 +230,12 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
         openings: &opening,
         matrix: &matrix,
         source: source.as_ref().map(|field| (field, load(field, &vec![0.0; n]))),
+        floating: condensate
+            .held_by_contact
+            .first()
+            .filter(|_| source.is_some())
+            .cloned()
+            .unwrap_or_default(),
     };
     let (form, admissibles) = match ground.form()? {
         Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
@@ -233,6 +255,18 @@ fn examined(scene: &Scene, problem: &Problem) -> Result<Parts> {
                    solution has no level, and its loads would have to stay in balance";
     let hint = "give it a dirichlet or robin boundary to condense it";
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
+/// The cells of the one part that contact alone holds, where there is exactly one.
+fn held_alone(problem: &Problem, parts: &Parts, edges: &[usize]) -> Option<Vec<bool>> {
+    if parts.counts.contact != 1 {
+        return None;
+    }
+    let topology = problem.topology.edges().ok()?;
+    let free = problem.topology.counts.free;
+    let of_edge = edges.iter().map(|edge| parts.of_edge(&topology, free + edge));
+    let part = of_edge.into_iter().find(|&part| parts.support(part) == Support::Contact)?;
+    Some((0..problem.cells()).map(|cell| parts.of_cell(cell) == part).collect())
 }
 
 /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.

@@ -5,7 +5,7 @@
 //! scene of its own, so that loads, chords, deviations and oscillations come from where they always do.
 
 use crate::certify::ends::Ends;
-use crate::certify::oscillation::oscillation;
+use crate::certify::{Data, NoBound};
 use crate::error::Result;
 use crate::problem::{Loads, Problem};
 use crate::scene::Scene;
@@ -17,16 +17,19 @@ pub(super) struct Pattern {
     pub scene: Scene,
     pub loads: Loads,
     pub ends: Ends,
-    /// √Σ osc², see [`crate::certify::oscillation`].
+    /// √Σ osc², see [`crate::certify::oscillation`], and what is left out of ψ and u_D.
     pub oscillation: f64,
+    /// Why it allows for no bound.
+    pub no_bound: Option<NoBound>,
 }
 
 impl Pattern {
     fn new(scene: Scene, problem: &Problem) -> Result<Self> {
         let loads = Loads::at_time(&scene, problem, 0.0)?;
         let ends = Ends::at_time(&scene, problem, 0.0)?;
-        let squares = oscillation(&scene, problem, 0.0)?.into_iter().map(|osc| osc * osc);
-        Ok(Self { scene, loads, ends, oscillation: squares.sum::<f64>().sqrt() })
+        let data = Data::<f64>::new(&scene, problem)?;
+        let (oscillation, no_bound) = (data.oscillation(), data.no_bound().cloned());
+        Ok(Self { scene, loads, ends, oscillation, no_bound })
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! w_i is a flux that brings 1 in through contact edge i and out where the part is held: τ of the column
 //! Ŝ⁻¹e_i. Then |A^{−½} Σδ_i w_i| ≤ reach |δ| with reach² = λ_max(Ŵ), Ŵ_ij = ∫A⁻¹w_i·w_j + ∫_R …/h.
-//! Where contact alone holds the one part there is, Ŝ is singular on the constants; there w_i lets its 1 go
+//! Where contact alone holds one of the parts, Ŝ is singular on its constants; there w_i lets its 1 go
 //! through a source all over the part, and whoever mends sends the sum of all through one more edge.
 
 use faer::linalg::solvers::Solve;
@@ -10,8 +10,8 @@ use faer::{Mat, Side};
 
 /// What a part held by contact alone needs.
 pub(super) struct Source {
-    /// d_i
-    pub openings: Vec<f64>,
+    /// 1/d_i of the unknowns of that part, 0 of the others.
+    pub inverse: Vec<f64>,
     /// The condensed load B̂ of a source that adds up to 1.
     pub load: Vec<f64>,
 }
@@ -43,13 +43,13 @@ fn held(matrix: &Mat<f64>) -> Option<Mat<f64>> {
 }
 
 /// The columns (x, source) of the w_i: x solves Ŝx = e_i + Q_i B̂ with the source Q_i = −1/d_i that
-/// makes it solvable; adding the constants' projection picks one x and changes no flux.
-fn floating(matrix: &Mat<f64>, Source { openings, load }: &Source) -> Option<Mat<f64>> {
+/// makes it solvable, Q_i = 0 in parts that something else holds; adding the constants' projection picks one x and changes no flux.
+fn floating(matrix: &Mat<f64>, Source { inverse, load }: &Source) -> Option<Mat<f64>> {
     let n = matrix.nrows();
-    let square: f64 = openings.iter().map(|d| 1.0 / (d * d)).sum();
-    let constant: Vec<f64> = openings.iter().map(|d| 1.0 / (d * square.sqrt())).collect();
+    let square: f64 = inverse.iter().map(|c| c * c).sum();
+    let constant: Vec<f64> = inverse.iter().map(|c| c / square.sqrt()).collect();
     let shifted = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + constant[i] * constant[j]);
-    let given = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - load[i] / openings[j]);
+    let given = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - load[i] * inverse[j]);
     let x = shifted.llt(Side::Lower).ok()?.solve(given);
-    Some(Mat::from_fn(n + 1, n, |i, j| if i < n { x[(i, j)] } else { -1.0 / openings[j] }))
+    Some(Mat::from_fn(n + 1, n, |i, j| if i < n { x[(i, j)] } else { -inverse[j] }))
 }

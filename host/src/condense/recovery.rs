@@ -87,9 +87,10 @@ impl Condensate {
         if n == 0 {
             return Some(Vec::new());
         }
-        let constant =
-            |i: usize| if form.floating { self.opening[0] / self.opening[i] } else { 0.0 };
-        let matrix = Mat::from_fn(n, n, |i, j| self.matrix[n * i + j] + constant(i) * constant(j));
+        let mut constant = vec![0.0; n];
+        let first = form.floating.first().map_or(1.0, |&first| self.opening[first]);
+        form.floating.iter().for_each(|&i| constant[i] = first / self.opening[i]);
+        let matrix = Mat::from_fn(n, n, |i, j| self.matrix[n * i + j] + constant[i] * constant[j]);
         let change = Mat::from_fn(n, 1, |i, _| after[i] - before[i]);
         let change = matrix.llt(Side::Lower).ok()?.solve(change);
         Some(x.iter().enumerate().map(|(i, x)| x + change[(i, 0)]).collect())

@@ -3,7 +3,8 @@
 //! With A = LLᵀ at a quadrature point of weight w, |√w (Lᵀ∇s − L⁻¹τ)|² is its share of
 //! ‖A^½∇s − A^{−½}τ‖², and on a Robin edge |√(w|E|h) (s − u_ext) + √(w/(|E|h)) ∫_E τ·n|² that of
 //! ∫_R (τ·n + h(s − u_ext))²/h. Of a cell's many rows only their triangular factor matters, at most one
-//! row for each of its functions: three on triangles where A is constant, whatever the rule.
+//! row for each of its functions: three on triangles where A is constant, whatever the rule. With A^½∇u_h of means in the
+//! place of A^{−½}τ the same rows give ‖A^½∇_h(s − u_h)‖.
 
 use signorini_kernel::{Real, Tensor};
 
@@ -12,23 +13,25 @@ use super::patterns::Pattern;
 use super::points::{points, points_for};
 use crate::certify::cell::{Cell, Local};
 use crate::certify::conductivity::Conductivity;
+use crate::certify::curved::{POINTS, of_rough_sides};
 use crate::certify::deviation::Deviations;
 use crate::certify::robin::{RobinPoints, robin};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::Problem;
-use crate::quadrature::{DATA_POINTS, Point};
+use crate::quadrature::{DATA_POINTS, Point, gauss};
 use crate::scene::Scene;
 
-/// A remainder below this part of its column is the rounding of a dependent one.
-const DEPENDENT: f64 = 1e-12;
+/// A remainder below this part of its column is the rounding of a dependent one. A row more than needed does no harm: at
+/// each step |c|² = (q·c)² + |c − (q·c)q|² for any unit vector q.
+const DEPENDENT: f64 = 16.0 * f64::EPSILON;
 
 /// Rows of one cell or Robin edge: coefficients of the functions of s, then of the fluxes, then of p.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Block {
     /// Which functions of s, see [`Functions`].
     pub functions: Vec<u32>,
-    /// Which edges' fluxes, in the edges' directions.
+    /// Which edges' fluxes, in the edges' directions, or means.
     pub edges: Vec<u32>,
     /// Row after row.
     pub rows: Vec<Vec<f64>>,
@@ -44,9 +47,9 @@ pub(super) fn blocks(
     patterns: &[Pattern],
     functions: &Functions,
 ) -> Result<Vec<Block>> {
-    let deviations = patterns.iter().map(|p| Deviations::at_time(&p.scene, problem, 0.0));
-    let deviations = deviations.collect::<Result<Vec<_>>>()?;
-    let cells = (0..problem.cells()).map(|at| of_cell(scene, problem, at, functions, &deviations));
+    let deviations = deviations(problem, patterns)?;
+    let of_fluxes = |at| of_cell(scene, problem, at, functions, &deviations, Of::Fluxes);
+    let cells = (0..problem.cells()).map(of_fluxes);
     let mut blocks = cells.collect::<Result<Vec<_>>>()?;
     let transfer = patterns.iter().map(|pattern| robin(&pattern.scene, problem, 0.0));
     let transfer = transfer.collect::<Result<Vec<_>>>()?;
@@ -57,12 +60,48 @@ pub(super) fn blocks(
     Ok(blocks)
 }
 
+/// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
+/// constant A: σ_h = A∇u_h − f̄(x − x_T)/2 there, and the two parts are orthogonal to each other in every cell, so that
+/// A^½∇s − A^{−½}σ_h is never less. A lift of s in cells where f is not 0 may not be orthogonal to the second.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn jumps(
+    scene: &Scene,
+    problem: &Problem,
+    patterns: &[Pattern],
+    functions: &Functions,
+) -> Result<Option<Vec<Block>>> {
+    let deviations = deviations(problem, patterns)?;
+    let is_lifted = deviations.iter().any(|of| !of.found.is_empty());
+    let has_source = patterns.iter().any(|p| p.loads.triangles.iter().any(|&load| load != 0.0));
+    let is_constant = |at| Conductivity::of(scene, problem, at).is_constant();
+    let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
+    if is_plain && !(is_lifted && has_source) {
+        return Ok(None);
+    }
+    let of_means = |at| of_cell(scene, problem, at, functions, &deviations, Of::Means);
+    (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
+}
+
+fn deviations<'p>(problem: &Problem, patterns: &'p [Pattern]) -> Result<Vec<Deviations<'p>>> {
+    patterns.iter().map(|p| Deviations::at_time(&p.scene, problem, 0.0)).collect()
+}
+
+/// What is taken from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
+#[derive(Debug, Clone, Copy)]
+enum Of {
+    Fluxes,
+    Means,
+}
+
 fn of_cell(
     scene: &Scene,
     problem: &Problem,
     at: usize,
     functions: &Functions,
     deviations: &[Deviations],
+    of: Of,
 ) -> Result<Block> {
     let (mesh, topology) = (&problem.mesh, &problem.topology);
     let quad = at.checked_sub(mesh.triangles.len());
@@ -80,10 +119,12 @@ fn of_cell(
     let curved: Vec<usize> =
         (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
     let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
-    let fluxes = unit_fluxes(problem, at, edges);
-    let width = vertices.len() + bubbles.len() + edges.len() + deviations.len();
+    let fields = unit_fields(problem, at, edges);
+    let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
     let mut columns = vec![Vec::new(); width];
-    for (reference, weight) in points(&cell, points_for(&cell, &conductivity), &curved) {
+    let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
+    let smooth = || points(&cell, points_for(&cell, &conductivity), &curved);
+    for (reference, weight) in rough.unwrap_or_else(smooth) {
         let local = cell.local(reference);
         let root = Root::of(&conductivity.at(local.x), (weight * local.determinant).sqrt());
         let mut column = columns.iter_mut();
@@ -95,8 +136,13 @@ fn of_cell(
             push(root.gradient(local.sides[side].bubble().gradient));
         }
         let point = Point { x: local.x, reference, weight: 0.0 };
-        for field in &fluxes {
-            push(root.flux(field.sample(&point).flux).map(|part| -part));
+        for field in &fields {
+            let sample = field.sample(&point);
+            let taken = match of {
+                Of::Fluxes => root.flux(sample.flux),
+                Of::Means => root.gradient(sample.gradient),
+            };
+            push(taken.map(|part| -part));
         }
         for of_pattern in deviations {
             push(root.gradient(extension(&local, of_pattern, edges, &curved)?));
@@ -110,8 +156,8 @@ fn of_cell(
     })
 }
 
-/// τ for a unit flux along the direction of each edge.
-fn unit_fluxes(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
+/// For each edge the field of a unit flux along its direction and a unit mean over it.
+fn unit_fields(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
     let cell = Cell::of(problem, at);
     let outward = |side: usize| {
         let first = problem.topology.first_side(edges[side] as usize) == (at, side);
@@ -120,14 +166,19 @@ fn unit_fluxes(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
     let only = |side: usize, k: usize| if k == side { outward(side) } else { 0.0 };
     let unit = |side: usize| match cell {
         Cell::Triangle(corners) => {
-            CellField::Triangle(corners, [0.0; 3], std::array::from_fn(|k| only(side, k)))
+            let out = std::array::from_fn(|k| only(side, k));
+            CellField::Triangle(corners, mean(side), out)
         }
         Cell::Quad(corners) => {
             let out = std::array::from_fn(|k| only(side, k));
-            CellField::Quad(corners, [0.0; 4], out, problem.element)
+            CellField::Quad(corners, mean(side), out, problem.element)
         }
     };
     (0..edges.len()).map(unit).collect()
+}
+
+fn mean<const SIDES: usize>(side: usize) -> [f64; SIDES] {
+    std::array::from_fn(|k| if k == side { 1.0 } else { 0.0 })
 }
 
 /// ∇ of what a pattern's boundary data have above their chords, carried inside.

@@ -1,15 +1,37 @@
-//! The energy unit U: a power of two, so that scaling rounds nothing.
+//! The energy unit U: a power of two, so that scaling rounds nothing. Where the defaults of the inputs make next to
+//! nothing, what one unit of each input makes tells the size: a large input would overflow f32 otherwise.
 
 use super::{Condensate, Form, Measure};
+
+/// Answers at the defaults that are smaller than this part of what one input does are cancellation or 0.
+const NEAR: f64 = 1e-6;
 
 impl Condensate {
     /// Chooses U so that x and r̂ at the default inputs, or without contact the bound, are of order 1.
     pub(super) fn choose_unit(&mut self) {
-        let size = self.size(&self.defaults);
+        let (own, of_inputs) = (self.size(&self.defaults), self.size_of_inputs());
+        let size = if own >= NEAR * of_inputs { own } else { of_inputs };
         let exponent = size.log2().round();
         if exponent.is_finite() {
             self.rescale(exponent.exp2());
         }
+    }
+
+    /// The largest load of one input alone, by its default or, where that is 0, by 1: what the inputs stand for where
+    /// their defaults, or their sum, say nothing.
+    fn size_of_inputs(&self) -> f64 {
+        let loads = self.load.iter().zip(&self.defaults).map(|(load, &default)| {
+            let value = if default == 0.0 { 1.0 } else { default.abs() };
+            value * load.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+        });
+        let forms = self.certificate.iter().flat_map(|form| {
+            self.defaults.iter().enumerate().map(|(j, &default)| {
+                let value = if default == 0.0 { 1.0 } else { default.abs() };
+                let column = &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+                value * column.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+            })
+        });
+        loads.chain(forms).filter(|size| size.is_finite()).fold(0.0, f64::max)
     }
 
     fn size(&self, p: &[f64]) -> f64 {
@@ -27,9 +49,13 @@ impl Condensate {
         self.opening.iter_mut().chain(&mut self.multiplier).for_each(|number| *number *= unit);
         self.load.iter_mut().flatten().for_each(|number| *number /= unit);
         for measure in &mut self.outputs {
-            if let Measure::Linear { of_contact, .. } = measure {
-                of_contact.iter_mut().for_each(|factor| *factor *= unit);
-            }
+            let none = &mut Vec::new();
+            let (of_contact, of_reaction) = match measure {
+                Measure::Linear { of_contact, .. } => (of_contact, none),
+                Measure::Flux { of_contact, of_reaction, .. } => (of_contact, of_reaction),
+                Measure::Length { .. } | Measure::Bound => continue,
+            };
+            of_contact.iter_mut().chain(of_reaction).for_each(|factor| *factor *= unit);
         }
         if let Ok(form) = &mut self.certificate {
             form.rescale(unit, self.inputs);
@@ -40,9 +66,11 @@ impl Condensate {
 impl Form {
     /// Only what multiplies p changes: e and τ of the other columns are in the unit U already.
     fn rescale(&mut self, unit: f64, inputs: usize) {
-        let of_inputs = self.factor.iter_mut().take(inputs * (inputs + 1) / 2);
+        let of_inputs = inputs * (inputs + 1) / 2;
+        let of_s = self.factor.iter_mut().take(of_inputs);
+        let of_jump = self.jump.iter_mut().flat_map(|jump| jump.iter_mut().take(of_inputs));
         let of_corners = self.corners.iter_mut().flat_map(|corner| &mut corner.excess);
-        let all = of_inputs.chain(of_corners).chain(&mut self.oscillation);
+        let all = of_s.chain(of_jump).chain(of_corners).chain(&mut self.oscillation);
         all.for_each(|number| *number /= unit);
     }
 }

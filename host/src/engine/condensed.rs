@@ -1,20 +1,20 @@
 //! The condensed model.
 
-use signorini_kernel::condensed::Report;
-use signorini_kernel::condensed::method::Ended;
+use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::solver::Status;
 
-use super::{Answer, Engine};
+use super::{Answer, Engine, status};
 use crate::bake::choice::{Choice, Model};
 use crate::bake::condensed::{Baked, Controller};
-use crate::certify::ErrorBound;
+use crate::certify::{ErrorBound, NoBound};
 use crate::condense::{Condensate, Recovery, recoverable};
 use crate::error::{InputError, Result};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::ModelKind;
-use crate::solve::unfit;
+use crate::solve::{Ran, unfit};
+use crate::tick::held::ended_name;
 
 struct Condensed<'b, R: Scalar> {
     scene: &'b Scene,
@@ -23,6 +23,7 @@ struct Condensed<'b, R: Scalar> {
     baked: &'b Baked<R>,
     controller: Controller<'b, R>,
     inputs: Vec<R>,
+    outputs: Vec<R>,
     report: Option<Report<R>>,
 }
 
@@ -32,12 +33,22 @@ pub(super) fn with<R: Scalar, T>(
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let (condensate, recovery) = recoverable(scene, problem)?;
     let choice = Choice::<R>::new(scene, problem, Some(ModelKind::Condensed), false)?;
     let Model::Condensed(baked) = &choice.candidate().model else {
         let message = "setting.model: there is no condensed model of this scene";
         return Err(InputError::new(message).file(&scene.path).into());
     };
+    lend(scene, problem, baked, then)
+}
+
+/// Lends the engine of a baked model of `scene`.
+pub(super) fn lend<R: Scalar, T>(
+    scene: &Scene,
+    problem: &Problem,
+    baked: &Baked<R>,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let (condensate, recovery) = recoverable(scene, problem)?;
     then(&mut Condensed {
         scene,
         condensate: &condensate,
@@ -45,6 +56,7 @@ pub(super) fn with<R: Scalar, T>(
         baked,
         controller: Controller::new(baked),
         inputs: Vec::new(),
+        outputs: Vec::new(),
         report: None,
     })
 }
@@ -53,7 +65,9 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         self.inputs.clear();
         self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
-        let (_, report) = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let answer = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let (outputs, report) = answer;
+        self.outputs = outputs;
         self.report = Some(report);
         Ok(report.sweeps)
     }
@@ -74,20 +88,29 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
         for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
             *u = R::narrow(gap).wide();
         }
-        let pressed = flux.iter().skip(counts.free).zip(&problem.loads.contact_flux);
-        let certificate = self.report.as_ref().and_then(|report| report.certificate.as_ref());
+        let certificate = self.report.as_ref().and_then(|report| report.certificate());
         let certified = self.recovery.admissible(self.condensate, problem, &p, &x);
         Ok(Answer {
-            status: self.report.map_or(Status::OutOfSweeps, |report| match report.ended {
-                Ended::Exact | Ended::Converged => Status::Converged,
-                Ended::OutOfWork => Status::OutOfSweeps,
-            }),
+            status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
+            ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
+            ran: match self.report.map(|report| report.ended) {
+                _ if self.baked.contact == 0 => Ran::CondensedLinear,
+                Some(Ended::Exact) => Ran::CondensedExact,
+                _ => Ran::CondensedSweeps,
+            },
+            factored: None,
+            outputs: self.outputs.iter().map(|x| x.wide()).collect(),
             sweeps: self.report.map_or(0, |report| report.sweeps),
             omega: self.baked.sweeps.omega.wide(),
             residual: largest_violation(&self.condensate.residual(&p, &x), &x),
-            force: pressed.map(|(flux, q)| flux - q).sum(),
+            force: self.condensate.force(&p, &x),
             active,
             bound: certificate.map(ErrorBound::new),
+            no_bound: self.report.and_then(|report| {
+                let reason = || self.condensate.certificate.as_ref().err().cloned();
+                let data = || reason().map(NoBound::Condensed);
+                NoBound::of_verdict(&report.verdict, self.scene, problem, data)
+            }),
             certified: certified.filter(|_| certificate.is_some()).unwrap_or_default(),
             u,
             flux,

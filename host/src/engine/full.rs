@@ -2,22 +2,24 @@
 
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::solver::Status;
-use signorini_kernel::tick::{Ended, Report};
+use signorini_kernel::tick::Report;
 
-use super::{Answer, Engine};
+use super::{Answer, Engine, status};
 use crate::bake::full::{Baked, Controller};
-use crate::certify::{self, ErrorBound};
+use crate::certify::{self, Data, ErrorBound, NoBound};
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::unfit;
+use crate::solve::{Factored, Ran, unfit};
+use crate::tick::held::ended_name;
 
 struct Full<'b, R: Scalar, const WIDTH: usize> {
     scene: &'b Scene,
     baked: &'b Baked<R>,
     controller: Controller<'b, R, WIDTH>,
     inputs: Vec<R>,
+    outputs: Vec<R>,
     report: Option<Report<R>>,
 }
 
@@ -27,18 +29,26 @@ pub(super) fn with<R: Scalar, T>(
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let baked = Baked::<R>::new(scene, problem)?;
+    lend(scene, &Baked::<R>::new(scene, problem)?, then)
+}
+
+/// Lends the engine of a baked model of `scene`.
+pub(super) fn lend<R: Scalar, T>(
+    scene: &Scene,
+    baked: &Baked<R>,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
     if baked.has_quads() {
-        then(&mut Full::<R, QUADS>::new(scene, &baked))
+        then(&mut Full::<R, QUADS>::new(scene, baked))
     } else {
-        then(&mut Full::<R, TRIANGLES>::new(scene, &baked))
+        then(&mut Full::<R, TRIANGLES>::new(scene, baked))
     }
 }
 
 impl<'b, R: Scalar, const WIDTH: usize> Full<'b, R, WIDTH> {
     fn new(scene: &'b Scene, baked: &'b Baked<R>) -> Self {
         let controller = Controller::new(baked);
-        Self { scene, baked, controller, inputs: Vec::new(), report: None }
+        Self { scene, baked, controller, inputs: Vec::new(), outputs: Vec::new(), report: None }
     }
 }
 
@@ -46,7 +56,9 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         self.inputs.clear();
         self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
-        let (_, report) = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let answer = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let (outputs, report) = answer;
+        self.outputs = outputs;
         self.report = Some(report);
         Ok(report.sweeps)
     }
@@ -65,6 +77,12 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
         let counts = problem.topology.counts;
         let on_contact = self.controller.u().iter().skip(counts.free);
         let certificate = self.report.as_ref().and_then(|report| report.verdict.certificate());
+        let solved = self.baked.entries().zip(self.controller.solved());
+        let factored = solved.map(|(entries, solved)| Factored {
+            entries,
+            exchanges: solved.pivots,
+            rounds: solved.rounds,
+        });
         let certified = certify::Answer {
             vertices: wide(self.controller.vertices(), units.u),
             bubbles: match self.controller.bubbles() {
@@ -76,6 +94,10 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
         };
         Ok(Answer {
             status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
+            ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
+            ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
+            factored,
+            outputs: self.outputs.iter().map(|x| x.wide()).collect(),
             sweeps: self.report.map_or(0, |report| report.sweeps),
             omega: self.report.map_or(0.0, |report| report.omega.wide()),
             residual: self.report.map_or(f64::INFINITY, |report| report.residual.wide())
@@ -84,17 +106,17 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             force: self.report.map_or(0.0, |report| report.force.wide()),
             active: on_contact.zip(self.controller.lower()).map(|(u, lower)| u == lower).collect(),
             bound: certificate.map(ErrorBound::new),
+            no_bound: match &self.report {
+                Some(report) => {
+                    let data = Data::<f64>::new(self.scene, problem)?;
+                    let known = || data.no_bound().cloned();
+                    NoBound::of_verdict(&report.verdict, self.scene, problem, known)
+                }
+                None => None,
+            },
             certified: if certificate.is_some() { certified } else { certify::Answer::default() },
             u,
         })
-    }
-}
-
-fn status(ended: Ended) -> Status {
-    match ended {
-        Ended::Accurate | Ended::Settled => Status::Converged,
-        Ended::OutOfSweeps | Ended::OutOfTime => Status::OutOfSweeps,
-        Ended::NotFinite => Status::NotFinite,
     }
 }
 

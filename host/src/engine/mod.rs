@@ -5,27 +5,40 @@
 //!                                   ├─ full ────── bake::full::Controller ──────┼─► Answer
 //!                                   └─ single ──── one solve at a time ─────────┘
 //! ```
+//! [`baked`] lends the controller that `bake` would choose, whichever that is.
 
+mod baked;
 mod condensed;
 mod full;
 mod single;
 mod solution;
 
+pub use baked::baked;
 pub use solution::solve;
 
+use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Status;
 
-use crate::certify::{self, ErrorBound};
+use crate::certify::{self, ErrorBound, NoBound};
 use crate::error::{InputError, Result};
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
-use crate::setting::{ModelKind, Precision, Setting};
+use crate::setting::{MathKind, Method, ModelKind, Precision, Setting};
+use crate::solve::{Factored, Ran};
 
 /// What a tick left, in f64.
 #[derive(Debug, Clone)]
 pub struct Answer {
     /// How it ended.
     pub status: Status,
+    /// The same in the word of a tick's report.
+    pub ended: &'static str,
+    /// What solved it.
+    pub ran: Ran,
+    /// What a factor did, where one solved it.
+    pub factored: Option<Factored>,
+    /// The outputs of a controller, in the order of the scene, with its bits; of one solve at a time none.
+    pub outputs: Vec<f64>,
     /// Sweeps; 0 for the exact method.
     pub sweeps: u32,
     /// The relaxation factor; 0 where there is none.
@@ -36,12 +49,14 @@ pub struct Answer {
     pub u: Vec<f64>,
     /// ∫_E σ·n of each edge, along its direction.
     pub flux: Vec<f64>,
-    /// ∫_C (σ·n − q)
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
     pub force: f64,
     /// Which contact edges are active.
     pub active: Vec<bool>,
     /// The bound on its error, where there is one.
     pub bound: Option<ErrorBound>,
+    /// Why there is no bound.
+    pub no_bound: Option<NoBound>,
     /// What the bound is about; arrays are empty without one.
     pub certified: certify::Answer,
 }
@@ -52,6 +67,15 @@ impl Answer {
         let lengths = problem.lengths.iter().skip(problem.topology.counts.free);
         let active = self.active.iter().zip(lengths).filter(|(active, _)| **active);
         active.fold(0.0, |sum, (_, length)| sum + length)
+    }
+}
+
+/// The status of a tick that ended so.
+fn status(ended: Ended) -> Status {
+    match ended {
+        Ended::Exact | Ended::Accurate | Ended::Settled => Status::Converged,
+        Ended::OutOfSweeps | Ended::OutOfTime => Status::OutOfSweeps,
+        Ended::NotFinite => Status::NotFinite,
     }
 }
 
@@ -78,7 +102,7 @@ pub fn completed(scene: &Scene) -> Setting {
     let setting = scene.setting.unwrap_or_default();
     Setting {
         scalar: setting.scalar.or(Some(Precision::F64)),
-        model: setting.model.or(Some(ModelKind::Full)),
+        model: setting.model_kind().or(Some(ModelKind::Full)),
         ..setting
     }
 }
@@ -102,10 +126,22 @@ pub fn with<T>(
         Some(ModelKind::Condensed) if single => condensed::with::<f32, _>(scene, problem, then),
         Some(ModelKind::Condensed) => condensed::with::<f64, _>(scene, problem, then),
         _ if mixed && is_loose => Err(no_mixed(scene, "a domain that contact alone holds").into()),
+        _ if is_loose && setting.solver == Some(Method::Factor) => {
+            Err(not_loose(scene, "solver", "a factor").into())
+        }
+        _ if is_loose && setting.math == MathKind::Micromath => {
+            Err(not_loose(scene, "math", "micromath").into())
+        }
         _ if mixed || is_loose => single::with(scene, problem, then),
         _ if single => full::with::<f32, _>(scene, problem, then),
         _ => full::with::<f64, _>(scene, problem, then),
     }
+}
+
+/// A key of the full model that a domain held by contact alone, or by nothing, leaves no room for.
+fn not_loose(scene: &Scene, key: &str, what: &str) -> InputError {
+    let message = format!("setting.{key}: {what} is not for a domain that contact alone holds");
+    InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
 }
 
 fn no_mixed(scene: &Scene, what: &str) -> InputError {

@@ -9,13 +9,13 @@ use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
 use super::{Answer, Engine, completed};
-use crate::certify::{Certifier, Data, ErrorBound};
+use crate::certify::{Certifier, Data, ErrorBound, NoBound};
 use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::{Omega, Precision, Setting};
-use crate::solve::{Mixed, Options, ScalarKind, centre_floating, unfit};
+use crate::solve::{Mixed, Options, Ran, ScalarKind, centre_floating, status_name, unfit};
 
 type Refused<T> = std::result::Result<T, KernelError>;
 
@@ -198,7 +198,8 @@ impl<R: Scalar> Engine for Single<'_, R> {
         let (edges, cells) = (assembled.edges(), assembled.cells());
         flux::recover(edges, assembled.stiffness(), cells, &self.u, &[], &mut fluxes)
             .map_err(&unfit)?;
-        let force = contact::force(counts, &assembled.boundary().map_err(&unfit)?, &fluxes).wide();
+        let boundary = assembled.boundary().map_err(&unfit)?;
+        let force = contact::force(counts, &boundary, assembled.lower(), &self.u, &fluxes).wide();
         let touching = |at| contact::is_active(counts, assembled.lower(), &self.u, at);
         let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
         let certified = self.certifier.as_ref().filter(|_| self.certificate.is_some());
@@ -206,6 +207,10 @@ impl<R: Scalar> Engine for Single<'_, R> {
         let outcome = self.outcome.as_ref();
         let mut answer = Answer {
             status: outcome.map_or(Status::OutOfSweeps, |outcome| outcome.status),
+            ended: outcome.map_or("out-of-sweeps", |outcome| status_name(outcome.status)),
+            ran: Ran::Sweeps,
+            factored: None,
+            outputs: Vec::new(),
             sweeps: outcome.map_or(0, |outcome| outcome.sweeps),
             omega: outcome.map_or(0.0, |outcome| outcome.omega.wide()),
             residual: outcome.map_or(f64::MAX, |outcome| outcome.residual.scaled().wide()),
@@ -214,6 +219,13 @@ impl<R: Scalar> Engine for Single<'_, R> {
             force,
             active: (0..counts.contact).map(touching).collect(),
             bound: self.certificate.as_ref().map(ErrorBound::new),
+            no_bound: match (&self.certificate, &self.certifier) {
+                (Some(_), _) => None,
+                (None, Some((certifier, data))) => {
+                    certifier.no_bound(self.scene, problem, &self.parts, data)
+                }
+                (None, None) => Some(NoBound::NotAsked),
+            },
             certified: certified.unwrap_or_default(),
         };
         if self.parts.counts.floating > 0 {

@@ -38,15 +38,16 @@ pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
         Ok((prepared, start.elapsed().as_secs_f64(), engine.answer(problem)?))
     })?;
     let length = answer.length(problem);
-    let Answer { status, sweeps, omega, residual, u, flux, force, active, bound, certified } =
-        answer;
+    let Answer { status, ran, factored, sweeps, omega, residual, .. } = answer;
+    let Answer { u, flux, force, active, bound, no_bound, certified, .. } = answer;
     let single = completed(scene).scalar == Some(Precision::F32);
     Ok(Solution {
         scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
         status,
         sweeps,
         conjugate: 0,
-        factored: None,
+        ran,
+        factored,
         units: Units::default(),
         algebraic_residual: residual,
         omega,
@@ -56,6 +57,7 @@ pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
         contact_active: active.iter().filter(|active| **active).count(),
         parts,
         bound,
+        no_bound,
         certified,
         seconds: Seconds { assembly: prepared, solve: swept - prepared, ..Seconds::default() },
         u,

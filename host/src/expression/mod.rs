@@ -51,6 +51,16 @@ pub enum Variables {
     SpaceTime,
 }
 
+/// What expressions are made of, for help texts.
+pub fn vocabulary() -> String {
+    let functions = operation::FUNCTIONS.map(|(name, _)| name).join(", ");
+    format!(
+        "Expressions in scenes are made of + - * / ^, parentheses, numbers, pi, x, y, in loads, gaps and boundary values \
+         also t, and {functions}. As in mathematics -x^2 is -(x^2) and 2^3^2 is 2^9; min and max take two arguments or \
+         more, atan2 two, the others one."
+    )
+}
+
 /// Why a text is not an expression.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}")]
@@ -108,6 +118,16 @@ impl Expression {
         ];
         let Dual { value, gradient } = self.program.run(&Duals, at);
         (value, gradient)
+    }
+
+    /// The derivative along `direction`; what does not change along it contributes nothing, however steep it is across.
+    pub fn slope(&self, x: f64, y: f64, t: f64, [dx, dy]: [f64; 2]) -> f64 {
+        let at = [
+            Dual { value: x + 0.0, gradient: [dx, 0.0] },
+            Dual { value: y + 0.0, gradient: [dy, 0.0] },
+            Dual { value: t, gradient: [0.0, 0.0] },
+        ];
+        self.program.run(&Duals, at).gradient[0]
     }
 
     /// The value, if no variable occurs.

@@ -179,3 +179,37 @@ fn reference(posed: &Posed, scene: &Scene, problem: &Problem, needed: bool) -> R
     let error = error.transpose()?.map_or(f64::NAN, |errors| errors.energy);
     Ok(Reference { bound: of_bound, error, energy: solution.energy(problem) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extremes::grid::Grid;
+    use crate::extremes::posed::{Hold, Scales};
+    use crate::extremes::solution::{Shear, Solution as Exact};
+    use crate::mesh::structured::Cells;
+
+    /// On the stiff side u is small and its energy is not: u_D there counts by its energy.
+    #[test]
+    fn a_high_contrast_keeps_the_data_of_its_stiff_side() -> Result<()> {
+        for k in [1e9, 7e9, 1e10, 1e12] {
+            let posed = Posed {
+                solution: Exact::Jump(k),
+                shear: Shear::NONE,
+                grid: Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square },
+                scales: Scales::ONE,
+                sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
+                split: None,
+            };
+            let (scene, problem) = at_scale_one(&posed, posed.mesh())?;
+            let solution = solve_directly(&scene, &problem)?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let found = distance(&scene, exact, &problem, &solution.certified.admissible())?;
+            let total = solution.bound.expect("a bound").total;
+            println!("k = {k:e}: total {total:.4e}, combined {:.4e}", found.combined);
+            assert!(total >= found.combined, "k = {k:e}: {total} {found:?}");
+            // Rounding is half of it where the contrast is 1e12.
+            assert!(total <= 1.01 * found.combined || k > 1e10, "k = {k:e}: {total} {found:?}");
+        }
+        Ok(())
+    }
+}

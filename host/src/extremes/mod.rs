@@ -15,10 +15,12 @@ mod case;
 mod flush;
 mod grid;
 pub mod judge;
+pub mod kept;
 mod large;
 mod measure;
 mod plan;
 mod posed;
+pub mod random;
 pub mod record;
 pub mod section;
 mod solution;
@@ -31,6 +33,7 @@ use attempt::{Attempt, attempt};
 use case::Case;
 use flush::flushed;
 use judge::{Ended, judge};
+use kept::Kept;
 use measure::{Measured, measure, of_ticks};
 use record::{Record, Row, definitions};
 use watch::{Lost, watched};
@@ -66,19 +69,22 @@ impl Plan {
         self.0.is_empty()
     }
 
-    /// Runs them in two threads, the largest first; calls `done` after each.
+    /// Runs those that are not yet `kept` in two threads, the largest first; calls `done` after each.
     ///
     /// # Errors
-    /// No temporary folder for the scenes.
-    pub fn run(&self, done: impl Fn() + Sync) -> Result<Record> {
-        let start = Instant::now();
+    /// No temporary folder for the scenes; finished cases cannot be kept.
+    pub fn run(&self, kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
         let mut order: Vec<usize> = (0..self.0.len()).collect();
         order.sort_by_key(|&at| std::cmp::Reverse(self.0[at].posed.grid.n));
-        let rows = on_two_threads(&order, |&at| Ok((at, row(&self.0[at])?)), done)?;
+        let rows = on_two_threads(
+            &order,
+            |&at| Ok((at, kept.row(&self.0[at], || row(&self.0[at]))?)),
+            done,
+        )?;
         let mut rows: Vec<(usize, Row)> = rows;
         rows.sort_by_key(|&(at, _)| at);
         let cases = rows.into_iter().map(|(_, row)| row).collect();
-        Ok(Record { definitions: definitions(), seconds: start.elapsed().as_secs_f64(), cases })
+        Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
     }
 }
 

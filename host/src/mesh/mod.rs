@@ -2,6 +2,7 @@
 
 pub mod adapted;
 pub mod check;
+pub mod coincident;
 pub mod cut;
 pub mod gmsh;
 mod matching;

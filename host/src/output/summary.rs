@@ -4,28 +4,32 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::certify::ErrorBound;
+use crate::certify::{ErrorBound, NoBound};
 use crate::norms::Errors;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::scene::units::Units;
-use crate::solve::{Factored, ScalarKind, Seconds, Solution, SolverKind, status_name};
+use crate::solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, status_name};
 
 /// The object, keys in the order of the file.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
     title: String,
     scalar: ScalarKind,
+    /// What was asked for.
     solver: SolverKind,
+    /// What solved it in the end.
+    solver_used: Ran,
     status: &'static str,
     /// Edges not on the Dirichlet boundary.
     unknowns: usize,
     contact_edges: usize,
     contact_active: usize,
+    /// Those that a factor followed are not in the answer.
     sweeps: u32,
     /// Of these, iterations of conjugate gradients: projected SOR alone would not have ended.
     conjugate_iterations: u32,
-    /// The kernel's exact solver, which took over where projected SOR would not have ended; else null.
+    /// What the factor did, where one solved it; else null.
     factor: Option<Factored>,
     /// What 1 stood for in the solve: powers of two, 1 and 1 unless numbers were far from that.
     scales: Units,
@@ -37,11 +41,20 @@ pub struct Summary {
     contact_length: f64,
     /// Connected parts: held by Dirichlet or Robin edges, by contact alone, by nothing.
     parts: PartNames,
-    /// null where nothing can take the surplus of an iterate.
+    /// How wrong the answer can be in the energy norm: `total` for s and τ, `of_u` for the u of `edges.csv`; null where
+    /// there is no bound.
     error_bound: Option<ErrorBound>,
+    /// Why there is none.
+    error_bound_reason: Option<String>,
+    /// (‖A^½∇s‖² + ∫_R h s²)^½, where there is a bound.
+    energy_norm: Option<f64>,
+    /// `error_bound.total` over `energy_norm`; null where either is missing or the norm is 0.
+    relative_error_bound: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     errors: Option<Errors>,
     outputs: BTreeMap<String, Option<f64>>,
+    /// What may not be meant: a sentence each.
+    warnings: Vec<String>,
     seconds: Seconds,
 }
 
@@ -60,6 +73,7 @@ impl Summary {
         solver: SolverKind,
         solution: &Solution,
         errors: Option<Errors>,
+        energy_norm: Option<f64>,
         outputs: BTreeMap<String, Option<f64>>,
     ) -> Self {
         let counts = problem.topology.counts;
@@ -68,6 +82,7 @@ impl Summary {
             title: scene.title.clone(),
             scalar: solution.scalar,
             solver,
+            solver_used: solution.ran,
             status: status_name(solution.status),
             unknowns: counts.unknowns(),
             contact_edges: counts.contact,
@@ -88,8 +103,12 @@ impl Summary {
                 up_to_a_constant: parts.floating,
             },
             error_bound: solution.bound,
+            error_bound_reason: solution.no_bound.as_ref().map(NoBound::to_string),
+            energy_norm,
+            relative_error_bound: solution.relative_bound(energy_norm),
             errors,
             outputs,
+            warnings: problem.warnings.clone(),
             seconds: solution.seconds,
         }
     }

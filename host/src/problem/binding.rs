@@ -1,11 +1,11 @@
 //! Which names of the scene mean which cells and boundary edges of the mesh.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::{EdgeKind, Topology};
 use crate::error::{InputError, Result};
-use crate::mesh::Mesh;
-use crate::scene::{Located, Scene};
+use crate::mesh::{Curve, Mesh};
+use crate::scene::{Boundary, Located, Scene};
 
 /// The name that covers what no other name does.
 const DEFAULT: &str = "default";
@@ -16,7 +16,7 @@ pub struct Binding {
     /// The material of each cell, triangles first.
     pub materials: Vec<u32>,
     named: HashMap<[u32; 2], u32>,
-    /// Edges in two bound curves; wrong on the boundary, of no meaning inside.
+    /// Edges in two bound curves.
     twice: HashMap<[u32; 2], [u32; 2]>,
     default: Option<u32>,
 }
@@ -56,22 +56,53 @@ impl Binding {
 
     /// Refuses a boundary edge that lies in two curves with a condition.
     pub(super) fn check_once(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> Result<()> {
-        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let Some(&both) = self.twice.get(&key) else { return Ok(()) };
+        let Some(&both) = self.twice.get(&key(ends)) else { return Ok(()) };
         let [first, second] = both.map(|at| &scene.boundaries[at as usize].name);
-        let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
         let message = format!(
-            "the edge ({}, {})–({}, {}) lies in the physical curves {:?} and {:?}, which both have a \
-             condition",
-            a[0], a[1], b[0], b[1], second.value, first.value
+            "the edge {} lies in the physical curves {:?} and {:?}, which both have a condition",
+            place(mesh, ends),
+            second.value,
+            first.value
         );
         Err(scene.error(second, message).hint("keep one of the two").into())
     }
 
+    /// Refuses curves with a condition that have edges between two cells: nothing could act there. `boundary` are
+    /// the edges on the boundary.
+    pub(super) fn check_outside(
+        scene: &Scene,
+        mesh: &Mesh,
+        boundary: impl Iterator<Item = [u32; 2]>,
+    ) -> Result<()> {
+        let boundary: HashSet<_> = boundary.map(key).collect();
+        for Boundary { name, .. } in &scene.boundaries {
+            let named = |curve: &&Curve| name.value != DEFAULT && curve.name == name.value;
+            let Some(curve) = mesh.curves.iter().find(named) else { continue };
+            let mut inside = curve.edges.iter().filter(|&&edge| !boundary.contains(&key(edge)));
+            let Some(&first) = inside.next() else { continue };
+            let (count, all) = (1 + inside.count(), curve.edges.len());
+            let partly = if count < all { "partly " } else { "" };
+            let place = place(mesh, first);
+            let message = format!(
+                "the physical curve {:?} lies {partly}inside the domain, where no condition acts: {count} of its \
+                 {all} edges have cells on both sides, the first {place}",
+                curve.name
+            );
+            let hint = "cut the mesh open along the curve (Gmsh's Crack plugin makes boundary of it), or \
+                        remove the table";
+            return Err(scene.error(name, message).hint(hint).into());
+        }
+        Ok(())
+    }
+
+    /// Whether a table of the scene names a curve with this edge.
+    pub(super) fn is_named(&self, ends: [u32; 2]) -> bool {
+        self.named.contains_key(&key(ends))
+    }
+
     /// The boundary that an edge between two vertices belongs to.
     pub fn boundary(&self, ends: [u32; 2]) -> Option<usize> {
-        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        self.named.get(&key).copied().or(self.default).map(|at| at as usize)
+        self.named.get(&key(ends)).copied().or(self.default).map(|at| at as usize)
     }
 
     pub(super) fn kind(
@@ -89,21 +120,38 @@ impl Binding {
     }
 
     pub(super) fn unbound(&self, scene: &Scene, mesh: &Mesh, ends: [u32; 2]) -> InputError {
-        let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
-        let key = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let key = key(ends);
         let within = mesh.curves.iter().find(|curve| curve.edges.binary_search(&key).is_ok());
-        let place = match within {
+        let home = match within {
             Some(curve) => format!("physical curve {:?} of the mesh", curve.name),
             None => "a part of the boundary without a physical curve".to_owned(),
         };
-        let curve = within.map_or("default", |curve| &curve.name);
+        let curve = within.map_or(DEFAULT, |curve| &curve.name);
         InputError::new(format!(
-            "boundary.{curve}: missing; the boundary edge ({}, {})–({}, {}) lies in {place}, and no \
-             [boundary.…] covers it",
-            a[0], a[1], b[0], b[1]
+            "boundary.{curve}: missing; the boundary edge {} lies in {home}, and no [boundary.…] covers it",
+            place(mesh, ends)
         ))
         .file(&scene.path)
-        .hint(format!("add [boundary.{curve}], or [boundary.default] for all that is left"))
+        .hint(to_add("boundary", curve))
+    }
+}
+
+/// An edge as curves have it: the lower vertex first.
+fn key([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Where an edge lies.
+pub(super) fn place(mesh: &Mesh, ends: [u32; 2]) -> String {
+    let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
+    format!("({}, {})–({}, {})", a[0], a[1], b[0], b[1])
+}
+
+/// What is to be added for `name` in the tables of this kind.
+fn to_add(kind: &str, name: &str) -> String {
+    match name {
+        DEFAULT => format!("add [{kind}.default] for all that is left"),
+        name => format!("add [{kind}.{name}], or [{kind}.default] for all that is left"),
     }
 }
 
@@ -140,7 +188,7 @@ fn bind_materials(scene: &Scene, mesh: &Mesh) -> Result<Vec<u32>> {
         let name = home.map_or(DEFAULT, |surface| &surface.name);
         InputError::new(format!("material.{name}: missing; cell {cell} has no material"))
             .file(&scene.path)
-            .hint(format!("add [material.{name}], or [material.default] for all that is left"))
+            .hint(to_add("material", name))
     };
     let resolved = materials.iter().enumerate();
     resolved.map(|(cell, own)| own.or(default).ok_or_else(|| missing(cell).into())).collect()

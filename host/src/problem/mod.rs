@@ -12,7 +12,10 @@ mod integrals;
 mod loads;
 mod solvability;
 mod sum;
+#[cfg(test)]
+mod tests;
 mod unit_box;
+mod warnings;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
@@ -129,14 +132,16 @@ pub struct Problem {
     pub loads: Loads,
     /// The time t of the loads and of the exact solution.
     pub time: f64,
+    /// What was found and is no error, but may not be meant: a sentence each.
+    pub warnings: Vec<String>,
 }
 
 impl Problem {
     /// Binds `scene` to `mesh` and integrates its data at time t = 0.
     ///
     /// # Errors
-    /// Names that do not match, boundary edges without a condition, data that are not finite or
-    /// not admissible; each names the culprit.
+    /// Names that do not match, boundary edges without a condition, conditions inside the domain, data that are
+    /// not finite or not admissible; each names the culprit.
     pub fn new(scene: &Scene, mesh: Mesh) -> Result<Self> {
         let binding = Binding::new(scene, &mesh)?;
         let topology = number_edges(scene, &mesh, &binding)?;
@@ -145,11 +150,10 @@ impl Problem {
         let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
         let count = topology.counts.edges();
         let ends: Vec<_> = (0..count).map(|edge| edges.endpoints(&kernel_mesh, edge)).collect();
-        for (pair, &ends) in topology.half_edges.iter().zip(&ends) {
-            if pair[1] == u32::MAX {
-                binding.check_once(scene, &mesh, ends)?;
-            }
-        }
+        let outer = topology.half_edges.iter().zip(&ends).filter(|(pair, _)| pair[1] == u32::MAX);
+        let outer: Vec<_> = outer.map(|(_, &ends)| ends).collect();
+        outer.iter().try_for_each(|&ends| binding.check_once(scene, &mesh, ends))?;
+        Binding::check_outside(scene, &mesh, outer.iter().copied())?;
         let kinds: Vec<_> =
             (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge])).collect();
         let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
@@ -166,8 +170,10 @@ impl Problem {
             coefficients,
             loads: Loads::default(),
             time: 0.0,
+            warnings: Vec::new(),
         };
         problem.set_time(scene, 0.0)?;
+        problem.warnings = warnings::warnings(scene, &problem);
         Ok(problem)
     }
 
@@ -199,6 +205,14 @@ impl Problem {
     /// Coordinates of the ends of an edge.
     pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
         self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])
+    }
+
+    /// The vertices of cell `at`, triangles first.
+    pub fn vertices_of(&self, at: usize) -> &[u32] {
+        match self.mesh.triangles.get(at) {
+            Some(vertices) => vertices,
+            None => &self.mesh.quads[at - self.mesh.triangles.len()],
+        }
     }
 }
 

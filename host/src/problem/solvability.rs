@@ -61,34 +61,64 @@ impl Parts {
         self.cells[cell].root as usize
     }
 
+    /// One cell of each part, by which the part is numbered.
+    pub fn roots(&self) -> impl Iterator<Item = usize> {
+        (0..self.cells.len()).filter(|&cell| self.of_cell(cell) == cell)
+    }
+
     /// What holds a part.
     pub fn support(&self, part: usize) -> Support {
         self.cells[part].support
     }
 }
 
+/// The sentence for parts that nothing holds, if there are any and their loads balance.
+pub(super) fn floating(scene: &Scene, problem: &Problem) -> Option<String> {
+    let parts = Parts::examine(scene, problem).ok()?;
+    let first =
+        (0..problem.cells()).find(|&cell| parts.support(parts.of_cell(cell)) == Support::None)?;
+    let more = match parts.counts.floating {
+        0 | 1 => String::new(),
+        count => format!(", nor {} more", count - 1),
+    };
+    Some(format!(
+        "no Dirichlet, Robin or contact boundary holds {}{more}: u is determined up to a constant there",
+        near(problem, first)
+    ))
+}
+
+/// The part of a cell in words.
+fn near(problem: &Problem, cell: usize) -> String {
+    let mesh = &problem.mesh;
+    let vertex = match cell.checked_sub(mesh.triangles.len()) {
+        None => mesh.triangles[cell][0],
+        Some(quad) => mesh.quads[quad][0],
+    };
+    let [x, y] = mesh.vertices[vertex as usize];
+    format!("the connected part of the mesh around ({x}, {y})")
+}
+
 fn refused(scene: &Scene, problem: &Problem, error: signorini_kernel::Error) -> InputError {
     use signorini_kernel::Error as E;
-    let near = |cell: usize| {
-        let mesh = &problem.mesh;
-        let vertex = match cell.checked_sub(mesh.triangles.len()) {
-            None => mesh.triangles[cell][0],
-            Some(quad) => mesh.quads[quad][0],
-        };
-        let [x, y] = mesh.vertices[vertex as usize];
-        format!("the connected part of the mesh around ({x}, {y})")
-    };
+    let near = |cell| near(problem, cell);
+    let size = format!("{BALANCE:e} of the sum of their sizes, edge by edge");
     let (message, hint) = match error {
         E::NoSolution { cell } => (
             format!("no solution: nothing holds {} against its loads", near(cell)),
-            "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0 where there is contact, \
-             and 0 where there is none",
+            format!(
+                "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0 where there is contact, and 0 where \
+                 there is none (0: at most {size})"
+            ),
         ),
         E::NotUnique { cell } => (
-            format!("no unique solution: the loads on {} balance by themselves", near(cell)),
-            "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0, so that contact holds it",
+            format!(
+                "no unique solution: the loads on {} balance by themselves (their sum is at most {size})",
+                near(cell)
+            ),
+            "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0, so that contact holds it"
+                .to_owned(),
         ),
-        other => (other.to_string(), "see the numbers of the scene"),
+        other => (other.to_string(), "see the numbers of the scene".to_owned()),
     };
     InputError::new(format!("boundary: {message}")).file(&scene.path).hint(hint)
 }

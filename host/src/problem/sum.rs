@@ -1,17 +1,17 @@
 //! A field of the scene at one time: its own expression plus, for every `[input.…]` that refers to
 //! it, the input's value times its pattern.
 
-use signorini_kernel::Real;
-
 use super::Problem;
 use crate::error::Result;
 use crate::expression::Expression;
-use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, mean_on_edge, on_quad, on_triangle};
+use crate::quadrature::{bisected, mean_on_edge};
 use crate::scene::{Condition, Field, Input, Located, Scene};
 
 /// A field with its inputs: Σ weight · expression.
 pub(crate) struct Sum<'s> {
     scene: &'s Scene,
+    /// Whether its means are loads: fluxes and sources.
+    is_load: bool,
     base: &'s Located<Expression>,
     inputs: Vec<(f64, &'s Located<Expression>)>,
     time: f64,
@@ -31,12 +31,13 @@ impl<'s> Sum<'s> {
         };
         let inputs = scene.inputs.iter().filter(refers);
         let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
-        Self { scene, base, inputs, time }
+        let is_load = matches!(field, Field::Flux | Field::Source);
+        Self { scene, is_load, base, inputs, time }
     }
 
     /// An expression to which no input adds.
     pub(crate) fn alone(scene: &'s Scene, base: &'s Located<Expression>, time: f64) -> Self {
-        Self { scene, base, inputs: Vec::new(), time }
+        Self { scene, is_load: false, base, inputs: Vec::new(), time }
     }
 
     /// The load f.
@@ -94,29 +95,35 @@ impl<'s> Sum<'s> {
         })
     }
 
-    /// The mean over a segment, by the rule for edge data.
+    /// The derivative along `direction`. Across a line on which the field does not change, it may be infinite: √x on x = 0.
+    pub(crate) fn slope_at(&self, [x, y]: [f64; 2], direction: [f64; 2]) -> f64 {
+        let base = self.base.value.slope(x, y, self.time, direction);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum + weight * pattern.value.slope(x, y, self.time, direction)
+        })
+    }
+
+    /// The mean over a segment, by the rule for edge data; that of a load on parts of it where it is not smooth.
     pub(crate) fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
         if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
             return self.finite(constant, segment[0]);
         }
         let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
-        self.finite(mean_on_edge(segment, |x, y| self.at(x, y)), middle)
+        let mean = match self.is_load {
+            true => bisected::mean_on_edge(segment, &|x, y| self.at(x, y)),
+            false => mean_on_edge(segment, |x, y| self.at(x, y)),
+        };
+        self.finite(mean, middle)
     }
 
-    /// The integral over a triangle, by the rule for its data.
+    /// The integral over a triangle, by the rule for its data, on parts of it where they are not smooth.
     pub(crate) fn over_triangle(&self, corners: [[f64; 2]; 3]) -> Result<f64> {
-        let points = on_triangle(corners, f64::GAUSS[TRIANGLE_POINTS - 1]);
-        self.finite(self.integral(points), corners[0])
+        self.finite(bisected::over_triangle(corners, &|x, y| self.at(x, y)), corners[0])
     }
 
-    /// The integral over a quad, by the rule for its data.
+    /// The integral over a quad, in the same way.
     pub(crate) fn over_quad(&self, corners: [[f64; 2]; 4]) -> Result<f64> {
-        let points = on_quad(corners, f64::GAUSS[DATA_POINTS - 1]);
-        self.finite(self.integral(points), corners[0])
-    }
-
-    fn integral(&self, points: impl Iterator<Item = Point>) -> f64 {
-        points.fold(0.0, |sum, point| sum + point.weight * self.at(point.x[0], point.x[1]))
+        self.finite(bisected::over_quad(corners, &|x, y| self.at(x, y)), corners[0])
     }
 
     /// `value`, found near a point; an error at the field's place in the file if it is not finite.

@@ -74,6 +74,10 @@ impl Condensation {
         }
     }
 
+    pub fn entries(&self) -> usize {
+        self.cholesky.stored()
+    }
+
     pub fn schur(&self) -> MatRef<'_, f64> {
         self.schur.as_ref()
     }

@@ -59,6 +59,11 @@ impl Factor {
         Ok(Self { matrix, condensation, floating })
     }
 
+    /// Entries of its L, zeros within its dense blocks among them.
+    pub fn entries(&self) -> usize {
+        self.condensation.entries()
+    }
+
     /// The Schur complement S = K_CC − K_CF K_FF⁻¹ K_FC, n_c × n_c, both triangles.
     pub fn schur(&self) -> MatRef<'_, f64> {
         self.condensation.schur()

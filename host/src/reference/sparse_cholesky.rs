@@ -77,6 +77,11 @@ impl SparseCholesky {
         Ok(())
     }
 
+    /// How many numbers L is stored in.
+    pub fn stored(&self) -> usize {
+        self.values.len()
+    }
+
     /// The entries of L as (row, column, value) in the order of elimination: column by column, each
     /// from its diagonal down.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {

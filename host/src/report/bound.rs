@@ -9,9 +9,8 @@ use super::svg::escape;
 /// The caption of a panel's bound.
 pub fn bound(panel: &ScenePanel) -> String {
     let Some(bound) = &panel.bound else {
-        return "<p class=\"caption\">No bound: nothing but contact holds a part of the domain, and where \
-                it touches now cannot take up what is out of balance.</p>\n"
-            .to_owned();
+        let reason = panel.no_bound.as_deref().map_or_else(String::new, escape);
+        return format!("<p class=\"caption\">No error bound: {reason}</p>\n");
     };
     let mut html = String::from("<dl class=\"bound\">\n");
     let mut entry = |name: &str, value: f64, words: &str| {
@@ -19,8 +18,13 @@ pub fn bound(panel: &ScenePanel) -> String {
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>");
     };
     entry("total", bound.total, &total(panel, bound.total));
-    entry("gap", bound.gap, "from mesh and solver together");
-    entry("algebraic", bound.algebraic, "the part of the gap that more sweeps would remove");
+    entry(
+        "of u_h",
+        bound.of_u,
+        "guaranteed: the means over the edges, cell by cell, are no further off than this",
+    );
+    entry("gap", bound.gap, "of the total, from mesh and solver together");
+    entry("algebraic", bound.algebraic, "the part of the total that more sweeps would remove");
     entry("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means");
     entry("rounding", bound.rounding, "the most that the processor’s arithmetic can hide");
     html + "</dl>\n"
@@ -28,10 +32,11 @@ pub fn bound(panel: &ScenePanel) -> String {
 
 /// What the total means, as a part of the solution and beside the truth.
 fn total(panel: &ScenePanel, total: f64) -> String {
-    let mut words = "guaranteed: the answer is no further off than this".to_owned();
+    let mut words =
+        "guaranteed: the continuous s and the flux τ are no further off than this".to_owned();
     let part = 100.0 * total / panel.energy;
     if part.is_finite() {
-        let _ = write!(words, ", {} % of the solution", plain(part));
+        let _ = write!(words, ", {} % of the solution’s ‖A^½∇u‖", plain(part));
     }
     if let Some(error) = panel.error {
         let _ = write!(words, "; in truth it is {} off", plain(error));

@@ -165,6 +165,8 @@ pub struct ScenePanel {
     pub indicators: Vec<f64>,
     /// How wrong u and σ can be, where that is known.
     pub bound: Option<ErrorBound>,
+    /// Why there is none.
+    pub no_bound: Option<String>,
     /// How wrong they are, where that is known.
     pub error: Option<f64>,
     /// The energy norm of the solution, which makes sizes of both.

@@ -86,7 +86,7 @@ mod tests {
 
     /// Four triangles around the centre of a square, one of them the other way round.
     fn square(indicators: [f64; 4], gap: f64) -> ScenePanel {
-        let bound = ErrorBound { total: gap, gap, algebraic: 0.0, oscillation: 0.0, rounding: 0.0 };
+        let bound = ErrorBound { total: gap, of_u: gap, gap, ..Default::default() };
         ScenePanel {
             vertices: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]],
             triangles: vec![[0, 1, 4], [2, 1, 4], [2, 3, 4], [3, 0, 4]],

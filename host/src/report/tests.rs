@@ -60,6 +60,7 @@ fn panel(n: u32, mixed: bool) -> ScenePanel {
         cell_flux: cell_flux.collect(),
         indicators: (0..triangles.len() + quads.len()).map(|cell| 1e-4 * cell as f64).collect(),
         bound: Some(bound()),
+        no_bound: None,
         error: Some(0.19),
         energy: 2.0,
         contact: (0..2 * n).map(edge).collect(),
@@ -72,7 +73,14 @@ fn panel(n: u32, mixed: bool) -> ScenePanel {
 }
 
 fn bound() -> ErrorBound {
-    ErrorBound { total: 0.2, gap: 0.195, algebraic: 1e-9, oscillation: 0.005, rounding: 1e-12 }
+    ErrorBound {
+        total: 0.2,
+        of_u: 0.35,
+        gap: 0.195,
+        algebraic: 1e-9,
+        oscillation: 0.005,
+        rounding: 1e-12,
+    }
 }
 
 fn full(panel: ScenePanel) -> Report {
@@ -197,7 +205,7 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("Failed: 1 of 2 runs"));
     assert!(page.contains("<em>rate 2.00, expected 2</em>"));
     assert!(page.contains(">f32 &amp; &lt;fast&gt;</text>") && page.contains(">f64</text>"));
-    assert!(page.contains("10.0 % of the solution; in truth it is 0.190 off"));
+    assert!(page.contains("10.0 % of the solution’s ‖A^½∇u‖; in truth it is 0.190 off"));
 }
 
 #[test]

@@ -161,9 +161,9 @@ pub struct Input {
 /// What an output measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
-    /// ∫ σ·n over a boundary.
+    /// ∫ τ·n over a boundary: σ = A∇u, on contact edges within their law wherever the solver was stopped.
     Flux,
-    /// ∫ (σ·n − q) over a contact boundary, or over all of them.
+    /// ∫ (τ·n − q) ≥ 0 over a contact boundary, or over all of them.
     Force,
     /// The length of the active edges of a contact boundary, or of all of them.
     Length,

@@ -32,7 +32,12 @@ const SCALARS: [(&str, Precision); 3] =
 const MATHS: [(&str, MathKind); 2] = [("libm", MathKind::Libm), ("micromath", MathKind::Micromath)];
 const MODELS: [(&str, ModelKind); 2] =
     [("full", ModelKind::Full), ("condensed", ModelKind::Condensed)];
-const SOLVERS: [(&str, Method); 2] = [("sweeps", Method::Sweeps), ("factor", Method::Factor)];
+const SOLVERS: [(&str, Option<Method>); 4] = [
+    ("auto", None),
+    ("sweeps", Some(Method::Sweeps)),
+    ("factor", Some(Method::Factor)),
+    ("exact", Some(Method::Exact)),
+];
 const STARTS: [(&str, Start); 2] = [("cold", Start::Cold), ("warm", Start::Warm)];
 
 /// Six refinements make 4096 cells of one.
@@ -49,7 +54,7 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
         scalar: choice(table, "scalar", &SCALARS)?,
         math: choice(table, "math", &MATHS)?.unwrap_or(default.math),
         model: choice(table, "model", &MODELS)?,
-        solver: choice(table, "solver", &SOLVERS)?,
+        solver: choice(table, "solver", &SOLVERS)?.flatten(),
         start: choice(table, "start", &STARTS)?.unwrap_or(default.start),
         omega: read(table, "omega", omega)?.unwrap_or(default.omega),
         sweeps: read(table, "sweeps", |entry| entry.whole(1..=u32::MAX))?,
@@ -90,7 +95,8 @@ fn error(table: &Table, key: &str, message: &str) -> InputError {
 /// The first key that contradicts another one, why, and what to do.
 fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'static str)> {
     let Setting { scalar, math, model, start, omega, sweeps, share, certificate, .. } = *setting;
-    let condensed = model == Some(ModelKind::Condensed);
+    let exact = setting.solver == Some(Method::Exact);
+    let condensed = model == Some(ModelKind::Condensed) || (exact && model.is_none());
     let factored = setting.solver == Some(Method::Factor);
     let full_only = "remove it, or take model = \"full\"";
     let rules = [
@@ -113,10 +119,22 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
             "remove it, or write a number of sweeps",
         ),
         (
-            setting.solver.is_some() && condensed,
+            factored && condensed,
             "solver",
-            "the condensed model has solvers of its own",
-            full_only,
+            "a factor is for the full model",
+            "write solver = \"exact\", or take model = \"full\"",
+        ),
+        (
+            exact && !condensed,
+            "solver",
+            "the exact method is for the condensed model",
+            "write solver = \"factor\", or take model = \"condensed\"",
+        ),
+        (
+            sweeps.is_some() && exact,
+            "sweeps",
+            "the exact method takes no number of sweeps",
+            "remove it, or write solver = \"sweeps\"",
         ),
         (
             sweeps.is_some() && factored,
@@ -146,6 +164,12 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
             start == Start::Cold && condensed,
             "start",
             "the condensed model has no cold start",
+            full_only,
+        ),
+        (
+            math == MathKind::Micromath && condensed,
+            "math",
+            "the condensed model has no search for ω, the one that takes square roots of either kind",
             full_only,
         ),
         (

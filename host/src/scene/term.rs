@@ -54,15 +54,29 @@ pub(crate) fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Exp
 /// # Errors
 /// The first load that does.
 pub fn refuse_time(scene: &Scene) -> Result<()> {
-    let mut culprit = None;
-    each_load(&mut scene.clone(), |load| {
-        if load.value.uses_time() && culprit.is_none() {
-            culprit = Some(load.clone());
-        }
-    });
-    let Some(culprit) = culprit else { return Ok(()) };
+    let Some(culprit) = first_in_time(scene) else { return Ok(()) };
     let message = format!("{} depends on t, which firmware does not know", culprit.value);
     let hint =
         "declare an [input.…] with the part in x and y as its pattern, and set it every tick";
     Err(scene.error(&culprit, message).hint(hint).into())
+}
+
+/// The sentence for whoever takes a scene that changes with t at rest.
+pub fn at_rest_warning(scene: &Scene) -> Option<String> {
+    let load = first_in_time(scene)?;
+    let Located { key, value, .. } = load;
+    Some(format!(
+        "{key} = \"{value}\" depends on t: all data are those of t = 0 (`signorini tick` plays the scene over time)"
+    ))
+}
+
+/// The first load that depends on t.
+fn first_in_time(scene: &Scene) -> Option<Located<Expression>> {
+    let mut first = None;
+    each_load(&mut scene.clone(), |load| {
+        if load.value.uses_time() && first.is_none() {
+            first = Some(load.clone());
+        }
+    });
+    first
 }

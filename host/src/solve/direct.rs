@@ -6,13 +6,19 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::components::Support;
 use signorini_kernel::solver::{Outcome, Status};
 
-use super::{Clock, ScalarKind, Solution, Solved, conclude, unfit};
+use super::{Clock, Factored, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use crate::error::{InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
+use crate::progress::stage;
 use crate::reference::{self, Factor, ReferenceError};
 use crate::scene::Scene;
 
-pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Result<Solution> {
+pub(super) fn directly(
+    scene: &Scene,
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+) -> Result<Solution> {
     let unfit = unfit::<f64>(scene);
     let mut clock = Clock::start();
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
@@ -23,16 +29,22 @@ pub(super) fn directly(scene: &Scene, problem: &Problem, parts: &Parts) -> Resul
     };
     let mut u = assembled.start();
     let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
+    stage("a sparse Cholesky factor");
     let factor = Factor::new(&reduced.problem(system.lower())).map_err(failed)?;
     let found = factor.solve(&reduced.load, system.lower(), None).map_err(failed)?;
     u[..found.u.len()].copy_from_slice(&found.u);
     system.make_feasible(&mut u);
     let residual = system.residual(&u);
-    let sweeps = found.steps as u32;
-    let outcome = Outcome { status: Status::Converged, sweeps, conjugate: 0, residual, omega: 0.0 };
-    let scalar = ScalarKind::F64;
-    let factored = None;
-    let solved = Solved { outcome, factored, u, low: Vec::new(), scalar, assembly, clock };
+    // It always goes on until rounding ends it: that may be short of a tolerance.
+    let status = match options.tolerance {
+        Some(tolerance) if residual.scaled() > tolerance => Status::RoundingLimit,
+        _ => Status::Converged,
+    };
+    let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: 0.0 };
+    let (ran, scalar) = (Ran::Direct, ScalarKind::F64);
+    let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
+    let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
+    let solved = Solved { outcome, ran, factored, u, low: Vec::new(), scalar, assembly, clock };
     conclude(scene, problem, parts, &assembled, solved)
 }
 

@@ -9,6 +9,7 @@ use signorini_kernel::solver::{Outcome, Settings};
 use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Progress};
 
 use super::ldlt::{Exchanges, Ldlt};
+use crate::progress::stage;
 use crate::scalar::Scalar;
 
 /// What the factor did.
@@ -16,9 +17,9 @@ use crate::scalar::Scalar;
 pub struct Factored {
     /// Entries of L.
     pub entries: usize,
-    /// Contact edges that changed sides.
+    /// Contact edges that changed sides; of the direct solver, active-set steps.
     pub exchanges: u32,
-    /// Substitutions, corrections among them.
+    /// Substitutions, corrections among them; of the direct solver, passes of refinement.
     pub rounds: u32,
 }
 
@@ -34,6 +35,7 @@ pub(super) fn solve<R: Scalar>(
     u: &mut [R],
     low: &mut [R],
 ) -> Result<Option<(Outcome<R>, Factored)>, KernelError> {
+    stage("a sparse factor");
     let Some(mut ldlt) = Ldlt::new(system)? else { return Ok(None) };
     let (counts, entries) = (ldlt.counts, ldlt.values.len());
     let mut schur = std::mem::take(&mut ldlt.schur);
@@ -47,6 +49,7 @@ pub(super) fn solve<R: Scalar>(
     };
     let factor: Factor<R, u32> = ldlt.factor();
     let Some(mut direct) = Direct::new(factor, memory)? else { return Ok(None) };
+    stage(&format!("exchanges on {} contact edges, {entries} entries of a factor", counts.contact));
     let before = u.to_vec();
     let Some(progress) = direct.solve(system, boundary, settings, u, low)? else {
         u.copy_from_slice(&before);

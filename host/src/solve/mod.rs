@@ -1,22 +1,26 @@
 //! One contact problem solved: by the kernel in either scalar, or by the faer reference.
 
+mod auto;
 mod direct;
 mod factored;
 mod ldlt;
 mod mixed;
 mod options;
+mod ran;
 mod solution;
 #[cfg(test)]
 mod tests;
 mod tuned;
 mod units;
 
+pub(crate) use auto::prefers_factor;
 pub use factored::Factored;
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
+pub use ran::Ran;
 pub use solution::{Seconds, Solution, status_name};
 pub use tuned::{Trials, tuned_omega};
-pub(crate) use units::{choose as choose_units, in_units, times};
+pub(crate) use units::{choose as choose_units, choose_for_inputs, in_units, times};
 
 use std::time::Instant;
 
@@ -32,6 +36,7 @@ use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
 use crate::certify::{Certified, Data};
 use crate::error::{Error, InputError, Result};
 use crate::problem::{Assembled, Parts, Problem};
+use crate::progress::stage;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
@@ -57,12 +62,14 @@ pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
 fn solve_in_its_units(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
     let parts = Parts::examine(scene, problem)?;
     match (options.solver, options.scalar) {
+        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(scene, problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(scene, problem, &parts, options),
         (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
         (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(scene, problem, &parts, options),
-        (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
             Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
-                .hint("leave out --scalar, or use --solver kernel")
+                .hint("leave out --scalar, or use --solver auto")
                 .into())
         }
     }
@@ -108,13 +115,15 @@ fn by_kernel<R: Scalar>(
     };
     let found = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
     let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
-    let solved = Solved { outcome, factored, u, low, scalar, assembly, clock };
+    let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
+    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
     conclude(scene, problem, parts, &assembled, solved)
 }
 
 /// An iterate, and the time up to its assembly.
 struct Solved<R> {
     outcome: Outcome<R>,
+    ran: Ran,
     factored: Option<Factored>,
     u: Vec<R>,
     /// The low part of u, or nothing.
@@ -137,11 +146,12 @@ fn conclude<R: Scalar>(
     solved: Solved<R>,
 ) -> Result<Solution> {
     let unfit = unfit::<R>(scene);
-    let Solved { outcome, factored, u, low, scalar, assembly, mut clock } = solved;
+    let Solved { outcome, ran, factored, u, low, scalar, assembly, mut clock } = solved;
     if outcome.status == Status::NotFinite {
         return Err(overflow::<R>(scene));
     }
     let solve = clock.lap();
+    stage("fluxes and error bound");
     let fluxes = Fluxes::recover(assembled, &u, &low).map_err(&unfit)?;
     let flux = clock.lap();
     let data = Data::new(scene, problem)?;
@@ -150,7 +160,7 @@ fn conclude<R: Scalar>(
     let bound = certified.bound.map(|bound| bound.widened(hidden));
     let certified = Certified { bound, ..certified };
     let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
-    let found = Found { outcome, factored, u, fluxes, certified, seconds };
+    let found = Found { outcome, ran, factored, u, fluxes, certified, seconds };
     Ok(finish(problem, parts, assembled, found, scalar))
 }
 
@@ -169,6 +179,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     let sweep = |settings, u: &mut [R], low: &mut [R]| {
         sweep::<R, WIDTH>(system, boundary, edges, settings, options.rounds(), u, low)
     };
+    stage(&format!("at most {} sweeps", patience.max_sweeps));
     let swept = sweep(patience, u, low)?;
     let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
     if ended || swept.sweeps >= options.max_sweeps {
@@ -178,6 +189,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
     }
     let left = options.max_sweeps - swept.sweeps;
+    stage(&format!("at most {left} more sweeps, as no factor solves it"));
     let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
     found.sweeps = found.sweeps.saturating_add(swept.sweeps);
     Ok((found, None))
@@ -237,7 +249,8 @@ impl<R: Scalar> Fluxes<R> {
         let mut flux = vec![R::ZERO; u.len()];
         let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
         let found = flux::recover(edges, stiffness, cells, u, low, &mut flux)?;
-        let force = contact::force(edges.counts(), &assembled.boundary()?, &flux).wide();
+        let (boundary, lower) = (assembled.boundary()?, assembled.lower());
+        let force = contact::force(edges.counts(), &boundary, lower, u, &flux).wide();
         let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
         Ok(Self { flux, mismatch, force })
     }
@@ -245,6 +258,7 @@ impl<R: Scalar> Fluxes<R> {
 
 struct Found<R> {
     outcome: Outcome<R>,
+    ran: Ran,
     factored: Option<Factored>,
     u: Vec<R>,
     fluxes: Fluxes<R>,
@@ -259,7 +273,7 @@ fn finish<R: Scalar>(
     found: Found<R>,
     scalar: ScalarKind,
 ) -> Solution {
-    let Found { outcome, factored, u, fluxes, certified, seconds } = found;
+    let Found { outcome, ran, factored, u, fluxes, certified, seconds } = found;
     let counts = problem.topology.counts;
     let lower = assembled.lower();
     let active = (0..counts.contact).filter(|&at| contact::is_active(counts, lower, &u, at));
@@ -269,6 +283,7 @@ fn finish<R: Scalar>(
         status: outcome.status,
         sweeps: outcome.sweeps,
         conjugate: outcome.conjugate,
+        ran,
         factored,
         units: Units::default(),
         algebraic_residual: outcome.residual.scaled().wide(),
@@ -281,6 +296,7 @@ fn finish<R: Scalar>(
         contact_active: active.len(),
         parts: parts.counts,
         bound: certified.bound,
+        no_bound: certified.no_bound,
         certified: certified.answer,
         seconds,
     };

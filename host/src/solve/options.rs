@@ -31,7 +31,9 @@ impl ScalarKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverKind {
-    /// The kernel's projected SOR.
+    /// What one would choose for the size of the problem: sweeps on a small mesh, a factor on a large one.
+    Auto,
+    /// The kernel's projected SOR, and its factor where that does not end.
     Kernel,
     /// The host's active set on one sparse Cholesky factorisation (f64).
     Direct,
@@ -42,13 +44,13 @@ pub enum SolverKind {
 pub struct Options {
     /// Scalar type.
     pub scalar: ScalarKind,
-    /// Solver.
+    /// Solver; the default is the kernel, which is what a device has.
     pub solver: SolverKind,
     /// Bound on the scaled complementarity residual; `None`: the default of the scalar type.
     pub tolerance: Option<f64>,
     /// Whether to go on until rounding ends it, whatever the tolerance.
     pub to_the_floor: bool,
-    /// Most sweeps allowed.
+    /// Most sweeps allowed, where there are sweeps.
     pub max_sweeps: u32,
 }
 

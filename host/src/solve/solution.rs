@@ -8,8 +8,8 @@ use signorini_kernel::components::{PartCounts, Support};
 use signorini_kernel::geometry::{quad_area, triangle_area};
 use signorini_kernel::solver::Status;
 
-use super::{Factored, ScalarKind};
-use crate::certify::{Answer, ErrorBound};
+use super::{Factored, Ran, ScalarKind};
+use crate::certify::{Answer, ErrorBound, NoBound};
 use crate::field::CellField;
 use crate::problem::{Parts, Problem};
 use crate::scene::units::Units;
@@ -21,11 +21,13 @@ pub struct Solution {
     pub scalar: ScalarKind,
     /// How the solve ended.
     pub status: Status,
-    /// Sweeps, or active-set steps of the direct solver.
+    /// Sweeps; those before a factor took over are not in the answer.
     pub sweeps: u32,
     /// Iterations of conjugate gradients among them.
     pub conjugate: u32,
-    /// The exact solver that followed where sweeps did not get there.
+    /// What solved it in the end.
+    pub ran: Ran,
+    /// The factor, where one solved it.
     pub factored: Option<Factored>,
     /// The units in which it was solved; all numbers here are in the scene's.
     pub units: Units,
@@ -39,7 +41,8 @@ pub struct Solution {
     pub flux: Vec<f64>,
     /// Largest disagreement of the two sides, relative to the largest flux.
     pub mismatch: f64,
-    /// ∫_C (σ·n − q)
+    /// ∫_C (τ·n − q) ≥ 0: τ is [`Solution::flux`] within the law of contact, so that it is q where u > ψ and not
+    /// below q where u = ψ, wherever the solve was stopped.
     pub contact_force: f64,
     /// Σ|E| over active contact edges.
     pub contact_length: f64,
@@ -49,6 +52,8 @@ pub struct Solution {
     pub parts: PartCounts,
     /// How wrong it can be; `None` where there is no bound.
     pub bound: Option<ErrorBound>,
+    /// Why there is no bound.
+    pub no_bound: Option<NoBound>,
     /// The continuous function and the flux that the bound is about.
     pub certified: Answer,
     /// Wall-clock seconds.
@@ -95,6 +100,12 @@ impl Solution {
             (out + load.unwrap_or(&0.0)).abs()
         });
         defect.fold(0.0, f64::max) / self.largest_flux()
+    }
+
+    /// The bound as a part of the energy norm of what it is the bound of; `None` where either is missing, or 0.
+    pub fn relative_bound(&self, energy_norm: Option<f64>) -> Option<f64> {
+        let relative = self.bound?.total / energy_norm?;
+        relative.is_finite().then_some(relative)
     }
 
     /// ‖A^½∇_h u_h‖, where the solve has converged: its square is in each cell Σ_E u_E (∫_E σ·n + ∫f/m),

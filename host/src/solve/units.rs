@@ -39,6 +39,26 @@ pub(crate) fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
     Ok(if all { Units::default() } else { units })
 }
 
+/// Numbers at the defaults that are smaller than this part of what inputs make are cancellation or 0.
+const SILENT: f64 = 1e-6;
+
+/// The units of a module that answers for any inputs: those of its defaults, and where these make next to nothing those
+/// of 1 for each input whose default is 0. A large input would overflow the scalar otherwise.
+///
+/// # Errors
+/// As for [`choose`].
+pub(crate) fn choose_for_inputs(scene: &Scene, problem: &Problem) -> Result<Units> {
+    let (mut ones, mut with_inputs) = (scene.clone(), problem.clone());
+    let silent = ones.inputs.iter_mut().filter(|input| input.default == 0.0);
+    silent.for_each(|input| input.default = 1.0);
+    // Where 1 is not admissible, nothing is known of the inputs.
+    if ones == *scene || with_inputs.set_time(&ones, problem.time).is_err() {
+        return choose(scene, problem);
+    }
+    let [[own, _], [of_inputs, _]] = [sizes(problem), sizes(&with_inputs)];
+    if own >= SILENT * of_inputs { choose(scene, problem) } else { choose(&ones, &with_inputs) }
+}
+
 /// The size of u, and that of A: the geometric mean of its extremes. What is given outside of transfer edges
 /// counts by what it does, as a load: behind a weak one it may be huge.
 fn sizes(problem: &Problem) -> [f64; 2] {

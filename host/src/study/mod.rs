@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::checkout::root;
 use crate::error::{Error, InputError, Result};
 use crate::extremes::record as extremes;
 use crate::extremes::section::section as extremes_section;
@@ -43,9 +44,9 @@ struct Results<'r> {
 /// check holds.
 ///
 /// # Errors
-/// Scenes that cannot be read, files that cannot be written.
+/// No checkout; scenes that cannot be read, files that cannot be written.
 pub fn run() -> Result<u8> {
-    let root = root();
+    let root = &root()?;
     let scenes = scenes(&root.join("meshes"))?;
     let trades = records::read(&root.join(RECORD))?;
     let pushed = extremes::Record::read(&root.join(extremes::RECORD))?.unwrap_or_default();
@@ -107,11 +108,6 @@ pub fn run() -> Result<u8> {
     }
     say(format_args!("{} of {} checks hold", checks.len() - failed.len(), checks.len()));
     Ok(u8::from(!failed.is_empty()))
-}
-
-/// The checkout.
-pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
 /// The scene files below `folder`, in the order of their names.

@@ -26,6 +26,7 @@ pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case)
         cell_flux: cells.map(flux).collect(),
         indicators: solution.certified.indicators.clone(),
         bound: solution.bound,
+        no_bound: solution.no_bound.as_ref().map(ToString::to_string),
         error: case.f64.certified.error(),
         energy: case.energy,
         contact: walk(problem)

@@ -8,14 +8,15 @@ use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::search::{Place, Search};
-use crate::solve::{Options, solve};
+use crate::solve::{Options, SolverKind, solve};
 
 /// Means of u over the edges of `coarse`.
 ///
 /// # Errors
 /// As for [`solve`].
 pub fn solved(scene: &Scene, coarse: &Problem) -> Result<Vec<f64>> {
-    Ok(solve(scene, coarse, &Options::default())?.u)
+    let options = Options { solver: SolverKind::Auto, ..Options::default() };
+    Ok(solve(scene, coarse, &options)?.u)
 }
 
 /// For every edge of `fine` the sides of the coarse cell that its middle lies in.

@@ -12,13 +12,14 @@ use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::unfit;
+use crate::solve::{prefers_factor, unfit};
 
 /// Answers for the loads of a problem, tick after tick.
 pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
 
 /// Lends an engine to `play` for as long as it takes: its memory lives here. Its first tick starts from
-/// the solution on `coarse`, the same problem on a coarser mesh, where there is one.
+/// the solution on `coarse`, the same problem on a coarser mesh, where there is one; where there is none, on a
+/// large mesh and without a budget of sweeps, from that of a factor.
 ///
 /// # Errors
 /// Numbers that the scalar type cannot hold.
@@ -38,6 +39,10 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
         let means: Vec<R> = coarse::solved(scene, coarse)?.into_iter().map(R::narrow).collect();
         let origins = coarse::origins(problem, coarse)?;
         prolong(&origins, &means, &mut store.u).map_err(&unfit)?;
+    } else if budget.is_open() && prefers_factor(problem) {
+        // Cold sweeps on a large mesh would take longer than all ticks after them.
+        let means = coarse::solved(scene, problem)?.into_iter().map(R::narrow);
+        store.u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
     }
     let mut tick = store.tick(&certifier, &fixed).map_err(&unfit)?;
     let mut moving = fixed.clone();
@@ -129,8 +134,10 @@ fn answer<R: Scalar, const WIDTH: usize>(
     }
 }
 
-fn ended_name(ended: Ended) -> &'static str {
+/// The word for the end of a tick in `ticks.csv`.
+pub(crate) fn ended_name(ended: Ended) -> &'static str {
     match ended {
+        Ended::Exact => "exact",
         Ended::Accurate => "accurate",
         Ended::Settled => "settled",
         Ended::OutOfSweeps => "out-of-sweeps",

@@ -8,6 +8,7 @@
 //! every part, and otherwise a warm solve ([`player`]). Where the numbers of the first moment are far from 1 they play
 //! in other units, and all answers are in the scene's.
 
+pub mod baked;
 pub mod coarse;
 pub mod held;
 pub mod log;
@@ -60,7 +61,7 @@ pub struct Tick {
     pub status: &'static str,
     /// Sweeps spent.
     pub sweeps: u32,
-    /// ∫_C (σ·n − q)
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
     pub contact_force: Option<f64>,
     /// Σ|E| over the active contact edges.
     pub contact_length: Option<f64>,
@@ -104,6 +105,11 @@ pub struct Budget {
 }
 
 impl Budget {
+    /// Whether nobody has asked for a number of sweeps.
+    fn is_open(&self) -> bool {
+        self.sweeps == Options::default().max_sweeps
+    }
+
     fn settings<R: Scalar>(&self) -> Settings<R> {
         let options =
             Options { scalar: self.scalar, max_sweeps: self.sweeps, ..Options::default() };
@@ -116,7 +122,8 @@ impl Budget {
 }
 
 /// Solves `scene` at every moment; calls `done` after each. The first tick starts from the solution on
-/// `coarse`, the problem on a coarser mesh, where there is one.
+/// `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
+/// that of a factor.
 ///
 /// # Errors
 /// Data that are not admissible at some time, with that time; numbers that the scalar type cannot
@@ -202,7 +209,8 @@ fn through(
 fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tick> {
     let Answer { u, flux, .. } = &answer;
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
-    let reading = Reading { scalar, u, flux, bound: bound.map(|bound| bound.total) };
+    let units = Units::default();
+    let reading = Reading { scalar, u, flux, units, bound: bound.map(|bound| bound.total) };
     let finite = |value: f64| value.is_finite().then_some(value);
     let combined = match (&scene.exact, bound) {
         (Some(exact), Some(_)) => {

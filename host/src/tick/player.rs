@@ -38,7 +38,7 @@ pub struct Answer {
     pub u: Vec<f64>,
     /// ∫_E σ·n for each edge.
     pub flux: Vec<f64>,
-    /// ∫_C (σ·n − q)
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
     pub contact_force: f64,
     /// Σ|E| over the active contact edges.
     pub contact_length: f64,
@@ -111,12 +111,13 @@ impl<'p, R: Scalar> Player<'p, R> {
         let touching =
             (0..counts.contact).filter(|&at| contact::is_active(counts, assembled.lower(), u, at));
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
+        let force = contact::force(counts, &assembled.boundary()?, assembled.lower(), u, &fluxes);
         Ok(Answer {
             status: status_name(outcome.status),
             sweeps: outcome.sweeps,
             u: wide(u),
             flux: wide(&fluxes),
-            contact_force: contact::force(counts, &assembled.boundary()?, &fluxes).wide(),
+            contact_force: force.wide(),
             contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
             bound: None,
             certified: certify::Answer::default(),

@@ -1,12 +1,13 @@
 //! What a setting costs on a microcontroller: `cargo xtask firmware`, called once a point.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 use std::{env, fs};
 
 use serde_json::Value;
 
-use crate::error::{Error, InputError, Result};
+use crate::checkout::root;
+use crate::error::{Error, Result};
 
 /// An emulated board with all the memory one may want.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +70,7 @@ fn firmware(fragment: &Path, board: Board, out: &Path) -> Result<Output> {
     let absolute = |path: &Path| std::path::absolute(path).map_err(Error::io(path));
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     // There `xtask` is known.
-    command.current_dir(checkout()?).args(["xtask", "firmware"]).arg(absolute(fragment)?);
+    command.current_dir(root()?).args(["xtask", "firmware"]).arg(absolute(fragment)?);
     command.args(["--board", board.name(), "--out"]).arg(absolute(out)?);
     // This very program bakes: nothing is built for it once more.
     if let Ok(program) = env::current_exe()
@@ -78,16 +79,6 @@ fn firmware(fragment: &Path, board: Board, out: &Path) -> Result<Output> {
         command.env("SIGNORINI", program);
     }
     command.output().map_err(Error::io(Path::new("cargo")))
-}
-
-/// The folder that this program was built in.
-fn checkout() -> Result<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    if root.join("xtask/Cargo.toml").is_file() {
-        return Ok(root);
-    }
-    let message = "--target: m4f and m7 are measured in a checkout of the sources, which is gone";
-    Err(InputError::new(message).hint("clone them and build there, or take --target host").into())
 }
 
 /// Why there can be no image, where that is the reason of a failure.

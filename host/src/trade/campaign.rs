@@ -16,10 +16,11 @@ use super::shard::Shard;
 use super::study::{Progress, Study};
 use super::target::Target;
 use crate::baseline;
+use crate::checkout::root;
 use crate::error::{InputError, Result};
 use crate::output::atomic::write_atomically;
 use crate::scene::Scene;
-use crate::study::{root, scenes};
+use crate::study::scenes;
 
 /// Studies, and whether the study of sizes goes with them.
 #[derive(Debug)]
@@ -93,7 +94,7 @@ impl Campaign {
     /// # Errors
     /// No checkout.
     pub fn standard(target: Option<Target>, out: Option<&Path>, with_peers: bool) -> Result<Self> {
-        let root = root();
+        let root = root()?;
         let paths = scenes(&root.join("meshes"))?;
         let record = out.map_or_else(|| root.join(RECORD), Path::to_owned);
         let targets = target.map_or(vec![Target::Host, Target::M4f], |target| vec![target]);
@@ -106,6 +107,14 @@ impl Campaign {
         let on_host = studies.iter().any(|study| study.target == Target::Host);
         let sizes = (on_host && with_peers).then(|| record.join(SIZES));
         Ok(Self { studies, sizes })
+    }
+
+    /// What of its scenes may not be meant; where a scene is wrong, the run says so.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings: Vec<_> = self.studies.iter().flat_map(Study::warnings).collect();
+        // A scene is studied once for each target.
+        warnings.dedup();
+        warnings
     }
 
     /// Runs this process's cases. Under MPI each rank has its share, and the first puts the parts together.

@@ -59,13 +59,13 @@ pub(super) fn overflow(scene: &Scene) -> Error {
 }
 
 /// This very program: another build measures anew.
-pub(super) fn program() -> String {
+pub(crate) fn program() -> String {
     let bytes = std::env::current_exe().and_then(std::fs::read);
     let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));
     bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
 }
 
-pub(super) fn digest<T: std::hash::Hash + ?Sized>(of: &T) -> u64 {
+pub(crate) fn digest<T: std::hash::Hash + ?Sized>(of: &T) -> u64 {
     use std::hash::{DefaultHasher, Hasher};
     let mut hasher = DefaultHasher::new();
     of.hash(&mut hasher);

@@ -7,7 +7,7 @@ use super::record::{Point, Trade};
 
 /// Where each column stands in a point's JSON; its name is this path with `_` between the words. Columns
 /// are added at the end, so that readers by position go on working.
-const COLUMNS: [&str; 37] = [
+const COLUMNS: [&str; 38] = [
     "/name",
     "/scalar",
     "/math",
@@ -27,6 +27,7 @@ const COLUMNS: [&str; 37] = [
     "/error/force",
     "/error/length",
     "/bound",
+    "/bound_of_u",
     "/cycles",
     "/cycles_spread",
     "/cycles_per_unknown",

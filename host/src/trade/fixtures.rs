@@ -45,6 +45,7 @@ pub fn point(at: usize) -> Point {
             length: 0.05 * h,
         },
         bound: Some(1.7 * energy),
+        bound_of_u: Some(2.5 * energy),
         cycles,
         cycles_spread: 0.03,
         cycles_per_unknown: cycles / unknowns as f64,
@@ -73,6 +74,7 @@ pub fn trade(scene: &str, count: usize) -> Trade {
     Trade {
         scene: scene.to_owned(),
         title: format!("A {scene} <after> rain & snow"),
+        registers: "any x86-64".to_owned(),
         target: "host".to_owned(),
         truth: "against the mesh two levels finer".to_owned(),
         energy: 2.0,

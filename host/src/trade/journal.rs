@@ -152,7 +152,7 @@ fn tidy(file: &mut File, fingerprint: &str) -> io::Result<()> {
         .next()
         .is_some_and(|first| !first.is_empty() && text.contains(&b'\n') && parse(first).is_none());
     if foreign {
-        let message = "no journal of a trade study: name another folder, or remove it";
+        let message = "no journal of a study: name another folder, or remove it";
         return Err(io::Error::other(message));
     }
     if lines(&text, fingerprint).next().is_none() {

@@ -19,7 +19,13 @@ pub fn front(trade: &Trade) -> Listing {
     let marked = taken.and_then(|taken| points.iter().position(|point| point.name == taken.name));
     let mut header = texts(["setting", "unknowns", "sweeps"]);
     header.extend(cost_header(&trade.target));
-    header.extend(texts(["error %", "force %", "bound %", "bound/error"]));
+    header.extend(texts([
+        "error of u_h %",
+        "force %",
+        "error of s, τ %",
+        "bound of s, τ %",
+        "bound/error",
+    ]));
     Listing { header, rows: points.iter().map(|point| front_row(trade, point)).collect(), marked }
 }
 
@@ -51,6 +57,7 @@ fn front_row(trade: &Trade, point: &Point) -> Vec<String> {
     row.extend([
         percent(point.error.energy, trade.energy),
         percent(point.error.force, trade.force),
+        or_dash(point.error.combined, |error| percent(error, trade.energy)),
         or_dash(point.bound, |bound| percent(bound, trade.energy)),
         or_dash(ratio, plain),
     ]);

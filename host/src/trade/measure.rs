@@ -143,6 +143,9 @@ fn point(
         (Some(ModelKind::Condensed), None, _) if answer.status != Status::Converged => {
             "out of exchanges".to_owned()
         }
+        (Some(ModelKind::Condensed), ..) if setting.solver == Some(Method::Sweeps) => {
+            "sweeps to a tolerance".to_owned()
+        }
         (Some(ModelKind::Condensed), None, _) => "exact".to_owned(),
         _ if setting.solver == Some(Method::Factor) => "factor".to_owned(),
         (_, None, share) => format!("share {}", share.unwrap_or(crate::bake::full::SHARE)),
@@ -164,6 +167,7 @@ fn point(
         certificate: setting.certificate,
         error,
         bound: answer.bound.map(|bound| bound.total).filter(|bound| bound.is_finite()),
+        bound_of_u: answer.bound.map(|bound| bound.of_u).filter(|bound| bound.is_finite()),
         cycles: timing.cycles,
         cycles_spread: timing.spread,
         cycles_per_unknown: timing.cycles / unknowns.max(1) as f64,

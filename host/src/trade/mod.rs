@@ -8,7 +8,7 @@
 
 pub mod board;
 pub mod campaign;
-mod case;
+pub(crate) mod case;
 pub mod csv;
 mod digits;
 pub mod files;

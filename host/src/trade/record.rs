@@ -13,6 +13,9 @@ pub struct Trade {
     pub title: String,
     /// `host`, `m4f` or `m7`: whose cost decides.
     pub target: String,
+    /// The registers that this program was built for, where cycles were counted; empty in records that do not tell.
+    #[serde(default)]
+    pub registers: String,
     /// What errors are measured against, in words.
     pub truth: String,
     /// ‖A^½∇u‖ of the solution.
@@ -68,6 +71,9 @@ pub struct Point {
     pub error: PointError,
     /// `error_bound.total` of the same answer; none without certificate.
     pub bound: Option<f64>,
+    /// `error_bound.of_u`, which bounds `error.energy`; missing in records from before it was known.
+    #[serde(default)]
+    pub bound_of_u: Option<f64>,
     /// Cycles of a tick on this machine, the median.
     pub cycles: f64,
     /// (largest − smallest)/median of the repeats.
@@ -97,7 +103,7 @@ pub struct PointError {
     pub l2: f64,
     /// ‖σ − σ_h‖
     pub flux: f64,
-    /// |∫_C (σ·n − q) − ∫_C (σ_h·n − q)|
+    /// |∫_C (σ·n − q) − ∫_C (τ·n − q)|, τ the flux of the answer within the law of contact.
     pub force: f64,
     /// Difference of the lengths of the contact sets.
     pub length: f64,

@@ -42,11 +42,12 @@ fn named<'t>(trades: &'t [Trade], name: &str) -> Option<&'t Trade> {
     trades.iter().find(|trade| trade.scene == name)
 }
 
-const HEADER: [&str; 11] = [
+const HEADER: [&str; 12] = [
     "scene",
     "take on the host",
-    "error %",
-    "bound %",
+    "error of u_h %",
+    "error of s, τ %",
+    "bound of s, τ %",
     "cycles/unknown",
     "take on the M4F",
     "instructions",
@@ -74,10 +75,11 @@ fn taken(trade: Option<&Trade>) -> Option<(&Trade, &Point)> {
 }
 
 fn on_host(trade: Option<&Trade>) -> Vec<String> {
-    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 4] };
+    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 5] };
     vec![
         point.name.clone(),
         percent(point.error.energy, trade.energy),
+        or_dash(point.error.combined, |error| percent(error, trade.energy)),
         or_dash(point.bound, |bound| percent(bound, trade.energy)),
         plain(point.cycles_per_unknown),
     ]
@@ -143,9 +145,9 @@ mod tests {
         };
         let found = section(&records);
         let [levee, pit] = &found.summary.rows[..] else { panic!("{:?}", found.summary) };
-        assert_eq!((levee.len(), &*levee[0], &*levee[5]), (HEADER.len(), "levee", "–"));
-        assert_eq!((&*pit[9], &*pit[10]), ("24.0×", "150×"));
-        assert_ne!(pit[5], "–");
+        assert_eq!((levee.len(), &*levee[0], &*levee[6]), (HEADER.len(), "levee", "–"));
+        assert_eq!((&*pit[10], &*pit[11]), ("24.0×", "150×"));
+        assert_ne!(pit[6], "–");
         assert_eq!(found.scenes[1].studies.len(), 2);
         let page = html(&Report { tradeoff: Some(found), ..Report::default() });
         assert_eq!(page.matches("<details").count(), 2);

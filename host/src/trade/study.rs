@@ -15,12 +15,14 @@ use super::truth::Truth;
 use super::{fragment, math, measure};
 use crate::bake::face::Face;
 use crate::baseline;
+use crate::checkout::root;
+use crate::cycles::{NARROW, REGISTERS};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::adapted::adapted;
 use crate::problem::{Parts, Problem};
 use crate::scene::Scene;
-use crate::scene::term::refuse_time;
+use crate::scene::term::at_rest_warning;
 use crate::setting::{Precision, Setting};
 use crate::solve::tuned_omega;
 
@@ -37,7 +39,8 @@ pub struct Study {
     pub folder: PathBuf,
     /// Whether other solvers and micromath are studied too.
     pub with_peers: bool,
-    uses_time: bool,
+    /// What is left out where the scene depends on t.
+    at_rest: Option<String>,
 }
 
 /// What of a study is known.
@@ -56,15 +59,28 @@ impl Study {
     /// Opens the scene at `path`.
     ///
     /// # Errors
-    /// A scene that cannot be read.
+    /// A scene that cannot be read; a board, and no checkout with its images.
     pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
+        if target.board().is_some() {
+            // A board without the sources is no reason to leave a setting out, but all of them.
+            root()?;
+        }
         let read = Scene::read(path)?;
-        let uses_time = refuse_time(&read).is_err();
+        let at_rest = at_rest_warning(&read);
         let mut scene = read.at_rest();
         // What a scene declares of its device is no limit here.
         scene.target = scene.target.filter(|_| target != Target::Host);
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { scene, name, target, folder, with_peers, uses_time })
+        Ok(Self { scene, name, target, folder, with_peers, at_rest })
+    }
+
+    /// What of the scene may not be meant; none where it is wrong.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let problem =
+            Meshes::new(&self.scene).and_then(|meshes| Problem::new(&self.scene, meshes.own));
+        let warnings = problem.map(|problem| problem.warnings).unwrap_or_default();
+        let named = |warning| format!("{}: {warning}", self.name);
+        warnings.into_iter().chain(self.at_rest.clone()).map(named).collect()
     }
 
     /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
@@ -143,6 +159,13 @@ impl Study {
         self.unfinished().join("fragments")
     }
 
+    /// The fragment of a point, and the folder for what its board says: of processes that share a study none reads what
+    /// another has measured.
+    fn fragment(&self, name: &str) -> (PathBuf, PathBuf) {
+        let out = self.fragments().join(format!("{:016x}", digest(name)));
+        (out.with_extension("toml"), out)
+    }
+
     /// A scene with a setting of its own is measured in that alone.
     fn is_alone(&self) -> bool {
         self.scene.setting.is_some()
@@ -171,7 +194,7 @@ impl Study {
             other_cells,
             finest: finest(problem),
             has_inputs: !self.scene.inputs.is_empty(),
-            uses_time: self.uses_time,
+            uses_time: self.at_rest.is_some(),
             is_loose,
             unknowns: problem.topology.counts.unknowns(),
             tuned,
@@ -243,10 +266,9 @@ impl Study {
         let mut point =
             measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
         if let Some(board) = self.target.board() {
-            let folder = self.fragments();
-            let file = folder.join(format!("{:016x}.toml", digest(point.name.as_str())));
+            let (file, out) = self.fragment(&point.name);
             fragment::write(&file, &scene, setting, &point.name)?;
-            match board::measure(&file, board, &folder)? {
+            match board::measure(&file, board, &out)? {
                 Measured::Runs(footprint) => {
                     point.instructions = Some(footprint.instructions);
                     point.ram_bytes = Some(footprint.ram);
@@ -263,7 +285,7 @@ impl Study {
         mut skipped: Vec<Skipped>,
         facts: Facts,
         cases: Vec<Case>,
-        (baselines, notes): (Vec<Baseline>, Vec<String>),
+        (baselines, mut notes): (Vec<Baseline>, Vec<String>),
         math: Vec<FunctionCost>,
         wish: &Wish,
     ) -> Trade {
@@ -279,10 +301,12 @@ impl Study {
             }
         }
         mark(&mut points);
+        notes.extend(NARROW.filter(|_| self.target == Target::Host).map(str::to_owned));
         let mut trade = Trade {
             scene: self.name.clone(),
             title: self.scene.title.clone(),
             target: self.target.to_string(),
+            registers: REGISTERS.to_owned(),
             truth: facts.words,
             energy: facts.energy,
             force: facts.force,
@@ -297,5 +321,19 @@ impl Study {
         };
         trade.recommendation = recommend(&trade, wish);
         trade
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_of_a_board_has_files_of_its_own() {
+        let file = root().unwrap().join("meshes/scenes/levee.toml");
+        let study = Study::open(&file, Target::M4f, "out/levee".into(), false).unwrap();
+        let ((one, of_one), (other, of_other)) = (study.fragment("one"), study.fragment("other"));
+        assert!(one != other && of_one != of_other && one != of_one);
+        assert!([one, of_one].iter().all(|path| path.starts_with("out/levee/unfinished-m4f")));
     }
 }

@@ -1,28 +1,12 @@
 //! What the boundary adds to the bound: contact, transfer laws, curved data.
 
+use super::extension::{extension, jump, of_means, of_s};
 use super::parts::Parts;
 use super::{Continuous, Given, Ground};
 use crate::edges::Side;
 use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
-
-/// An edge on which ψ or u_D differs from the chord w of its end values by more than rounding.
-///
-/// In the edge's cell s gets the extension v = (1 − η) w(t), with t along the edge and η away from it:
-/// 0 on all other sides. Its integrals hold for this w and grow with it, `energy` with its square.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Curved<R, I> {
-    /// The edge, on C or D.
-    pub edge: I,
-    /// ∫₀¹ w dt
-    pub mean: R,
-    /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v' for an earlier curved edge of the same cell.
-    pub energy: R,
-    /// ∫_T A∇v·∇N for the (bi)linear function N of each vertex of the cell and then, on quads, for the
-    /// bubble of each side.
-    pub coupling: [R; 8],
-}
 
 /// Adds it all to the sums and to the indicators of the cells.
 pub(super) fn add<R: Real, I: Index>(
@@ -36,7 +20,7 @@ pub(super) fn add<R: Real, I: Index>(
 ) {
     let edges = &ground.edges;
     let counts = edges.counts();
-    let mut take = |edge: usize, term: R, terms: R| {
+    let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
         parts.gap.add(term);
         parts.direct += R::from_count(8) * R::EPSILON * terms;
         let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
@@ -49,7 +33,7 @@ pub(super) fn add<R: Real, I: Index>(
         let edge = counts.free + at;
         let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
         let excess = R::TWO * excess(ground, s, edge, gap);
-        take(edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
+        take(parts, edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
@@ -64,7 +48,7 @@ pub(super) fn add<R: Real, I: Index>(
             Some(points) => transfer.at_points(points),
             None => transfer.constant(law.coefficient, law.ambient),
         };
-        take(edge, term, R::ZERO);
+        take(parts, edge, term, R::ZERO);
         moved += transfer.moved(law.coefficient, law.ambient);
         if law.coefficient > R::ZERO {
             let of_u = law.ambient - law.coefficient * read(u, edge);
@@ -72,12 +56,15 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
+    parts.ripple += moved + ripple(ground, given, s);
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
-        let (term, terms) = extension(ground, given, s, tau, curved);
-        take(curved.edge.at(), term, terms);
+        let edge = curved.edge.at();
+        let in_cell = of_s(ground, given, s, edge);
+        let (term, terms) = extension(&in_cell, tau, curved);
+        take(parts, edge, term, terms);
+        jump(&in_cell, of_means(ground, u, edge).as_ref(), curved, parts);
     }
-    parts.ripple += moved + ripple(ground, given);
 }
 
 fn ends<R: Real, I: Index>(ground: &Ground<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
@@ -148,53 +135,24 @@ impl<R: Real> Transfer<R> {
     }
 }
 
-/// The extension's energy and twice its product with A∇s − τ:
-/// ```text
-///   ∫_T ∇v·τ = w̄ (τ_E + κ∫f),      κ = 2/3 on triangles, 1/2 on quads.
-/// ```
-/// Returns the term and the size of what it was summed from.
-fn extension<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
-    s: Continuous<R>,
-    tau: &[R],
-    curved: &Curved<R, I>,
-) -> (R, R) {
-    let (edges, loads) = (&ground.edges, given.loads);
-    let with_s = |vertices: &[R], bubbles: &[R]| {
-        let base = read(vertices, 0);
-        let differences = vertices.iter().map(|&value| value - base);
-        let all = differences.chain(bubbles.iter().copied()).zip(curved.coupling);
-        all.fold((R::ZERO, R::ZERO), |(sum, terms), (value, coupling)| {
-            (sum + value * coupling, terms + (value * coupling).magnitude())
-        })
-    };
-    let ((product, terms), source) = match edges.first_side(curved.edge.at()) {
-        Side::Triangle(at, _) => {
-            let corners = s.at(&read(ground.mesh.triangles(), at));
-            (with_s(&corners, &[]), R::TWO * R::THIRD * read(loads.triangles, at))
-        }
-        Side::Quad(at, _) => {
-            let corners = s.at(&read(ground.mesh.quads(), at));
-            let bubbles = s.on(&read(edges.of_quads(), at));
-            (with_s(&corners, &bubbles), R::HALF * read(loads.quads, at))
-        }
-    };
-    let flux = curved.mean * (read(tau, curved.edge.at()) + source);
-    let size = R::TWO * (terms + flux.magnitude()) + curved.energy.magnitude();
-    (R::TWO * (product - flux) + curved.energy, size)
-}
-
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
-/// ripple's energy in the cells along the boundary is at most 4Σ|K| for each square.
-fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>) -> R {
+/// ripple's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
+/// rounding may do, s does as well, and ψ moves by what is missing.
+fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>, s: Continuous<R>) -> R {
     let (edges, k) = (&ground.edges, ground.stiffness);
     let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
     let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
+    // More is no rounding, and there is no bound: it must not end a tick as if all but rounding were done.
+    let slack = given.ends.slack();
     pairs.fold(R::ZERO, |sum, (at, pair)| {
         let value = pair[0].magnitude().or_larger(pair[1].magnitude());
-        let moved = R::TWO * R::EPSILON * value;
-        let of_cell = match edges.first_side(edges.counts().free + at) {
+        let (edge, mut moved) = (edges.counts().free + at, R::TWO * R::EPSILON * value);
+        if features::CONTACT && at < given.ends.gap.len() {
+            let [a, b] = ends(ground, s, edge);
+            let missing = (pair[0] - a).or_larger(pair[1] - b).or_larger(R::ZERO);
+            moved += if missing <= slack { missing } else { R::ZERO };
+        }
+        let of_cell = match edges.first_side(edge) {
             Side::Triangle(cell, _) => size(&read(k.triangles, cell)),
             Side::Quad(cell, _) => size(&read(k.quads, cell)),
         };

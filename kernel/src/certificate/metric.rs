@@ -39,6 +39,15 @@ impl<'a, R: Real> Metric<'a, R> {
         }
         self.at_points.get(*self.place.get(cell)? as usize)
     }
+
+    /// The bend of a quad, counted among the quads; 0 where u_h is parametric on it.
+    pub(super) fn bend(&self, quad: usize) -> [R; 2] {
+        if features::BENT {
+            self.bends.get(quad).copied().unwrap_or_default()
+        } else {
+            [R::ZERO; 2]
+        }
+    }
 }
 
 /// B of a parallelogram with constant A, from its element matrix:

@@ -11,8 +11,12 @@ pub(super) struct Share<R> {
     pub gap: R,
     /// ‖A^{−½}(τ − σ_h)‖²
     pub algebraic: R,
+    /// ‖A^½∇(s − u_h)‖²
+    pub nonconforming: R,
     /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
     pub doubt: R,
+    /// The same of `nonconforming`.
+    pub doubt_of_u: R,
     /// (∫f)² + Στ², the terms of the balance.
     pub terms: R,
 }
@@ -22,11 +26,17 @@ pub(super) struct Share<R> {
 pub(super) struct Parts<R> {
     pub gap: Sum<R>,
     pub algebraic: R,
+    pub nonconforming: R,
+    /// ‖A^½∇v‖² of what s has above the chords of its boundary data, on bent quads.
+    pub lifted: R,
     pub doubt: R,
+    pub doubt_of_u: R,
     /// The square of what storing the data has done.
     pub ripple: R,
     /// What rounding can have done to `gap` itself.
     pub direct: R,
+    /// The same of `nonconforming`.
+    pub direct_of_u: R,
     pub terms: R,
 }
 
@@ -35,7 +45,9 @@ impl<R: Real> Parts<R> {
     pub fn add(&mut self, share: Share<R>) {
         self.gap.add(share.gap);
         self.algebraic += share.algebraic;
+        self.nonconforming += share.nonconforming;
         self.doubt += share.doubt;
+        self.doubt_of_u += share.doubt_of_u;
         self.terms += share.terms;
     }
 
@@ -54,15 +66,22 @@ impl<R: Real> Parts<R> {
         let rounding =
             doubt + reach * unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
         let both = root(gap * gap + oscillation * oscillation);
+        // √(gap²) underflows before gap does.
+        let total = oscillation + both.or_larger(gap) + rounding;
+        let algebraic = root(self.algebraic);
+        let jump = root(self.nonconforming.or_larger(R::ZERO) + self.direct_of_u);
+        // A plain sum over the cells loses half an ε of itself in each, its root half of that.
+        let summed = times(16) + R::QUARTER * times(cells as u32);
+        let doubt_of_u = times(4) * root(self.doubt_of_u) + summed * jump + lost;
         let certificate = Certificate {
             gap,
-            algebraic: root(self.algebraic),
+            algebraic,
             oscillation,
             rounding,
-            // √(gap²) underflows before gap does.
-            total: oscillation + both.or_larger(gap) + rounding,
+            total,
+            of_u: total + jump + root(self.lifted) + doubt_of_u,
         };
-        let known = certificate.total.finite() && certificate.algebraic.finite();
+        let known = certificate.of_u.finite() && algebraic.finite();
         if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
     }
 }

@@ -11,6 +11,7 @@
 use super::metric::{POINTS, inverse_form, of_parallelogram};
 use super::parts::Share;
 use crate::cells::Quad;
+use crate::element::nonparametric;
 use crate::element::rannacher_turek::product;
 use crate::index::Index;
 use crate::real::Real;
@@ -21,6 +22,13 @@ use crate::tensor::Tensor;
 pub(super) struct Values<R> {
     pub corners: [R; 4],
     pub bubbles: [R; 4],
+}
+
+/// u_h on a quad: means over the sides, and the bend where it is nonparametric.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Means<R> {
+    pub means: [R; 4],
+    pub bend: [R; 2],
 }
 
 /// `tau`: outward fluxes through the sides; `u`: means over them.
@@ -53,10 +61,23 @@ pub(super) fn share<R: Real, I: Index>(
     let terms = squares(tau, load);
     let softness = spread / (b.xx * b.yy - b.xy * b.xy);
     let algebraic = flux_energy(b, difference(cell, tau, u, load));
+    let (of_u, curvature) = means_modes(u);
+    let nonconforming = form(b, minus(constant, of_u))
+        + twelfth * form(b, minus(along_x, [curvature, R::ZERO]))
+        + twelfth * form(b, minus(along_y, [R::ZERO, -curvature]))
+        + mixed
+        + arches;
     // Rounding of K moves B by ε·spread, which relative to B is up to ε times this.
     let condition = spread * softness;
     let moved = moved(condition, large + gap);
-    Share { gap, algebraic, doubt: condition * large + softness * terms + moved, terms }
+    Share {
+        gap,
+        algebraic,
+        nonconforming,
+        doubt: condition * large + softness * terms + moved,
+        doubt_of_u: condition * (large + nonconforming) + moved,
+        terms,
+    }
 }
 
 /// ‖A^{−½}·‖² of the Raviart–Thomas field with these outward fluxes.
@@ -69,7 +90,8 @@ pub(super) fn energy<R: Real, I: Index>(
         None => flux_energy(of_parallelogram(&cell.k), out),
         Some(points) => {
             let s = Values { corners: [R::ZERO; 4], bubbles: [R::ZERO; 4] };
-            share_at_points(points, s, cell.sides_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
+            let u = Means { means: [R::ZERO; 4], bend: [R::ZERO; 2] };
+            share_at_points(points, s, u, cell.sides_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
         }
     }
 }
@@ -99,6 +121,11 @@ fn modes<R: Real>(s: Values<R>) -> [[R; 2]; 4] {
         [twist, -four * (d1 + d3)],
         [e, c],
     ]
+}
+
+/// ∇̂u_h on a parallelogram: its constant part and what x̂ has along X; ŷ has the opposite along Y.
+fn means_modes<R: Real>([u0, u1, u2, u3]: [R; 4]) -> ([R; 2], R) {
+    ([u1 - u3, u2 - u0], R::THREE * ((u1 - u0) + (u3 - u2)))
 }
 
 /// τ̂: its constant part, what X has in x̂ and what Y has in ŷ.
@@ -147,12 +174,14 @@ fn sensitivity<R: Real>(b: Tensor<R>) -> R {
 pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],
     s: Values<R>,
+    u: Means<R>,
     tau: [R; 4],
     difference: [R; 4],
     load: R,
 ) -> Share<R> {
     let terms = squares(tau, load);
     let (mut gap, mut algebraic, mut doubt) = (R::ZERO, R::ZERO, R::ZERO);
+    let (mut nonconforming, mut doubt_of_u) = (R::ZERO, R::ZERO);
     let mut tensors = points.iter();
     for &[y, weight_y] in R::GAUSS[POINTS - 1] {
         for &[x, weight_x] in R::GAUSS[POINTS - 1] {
@@ -164,12 +193,19 @@ pub(super) fn share_at_points<R: Real>(
             gap += weight * square;
             algebraic += weight * inverse_form(b, raviart_thomas(difference, [x, y]));
             let large = terms + flow[0] * flow[0] + flow[1] * flow[1];
-            doubt += weight * large * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
+            let softness = weight * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
+            doubt += softness * large;
             let energy = (slope[0] * flow[0] + slope[1] * flow[1]).magnitude();
             doubt += weight * moved(sensitivity(b), energy + square);
+            let of_u = nonparametric::reference_gradient(u.bend, [x, y], u.means);
+            let jump = form(b, minus(slope, of_u));
+            let own = apply(b, of_u);
+            nonconforming += weight * jump;
+            doubt_of_u += softness * (large + own[0] * own[0] + own[1] * own[1]);
+            doubt_of_u += weight * moved(sensitivity(b), energy + jump);
         }
     }
-    Share { gap, algebraic, doubt, terms }
+    Share { gap, algebraic, nonconforming, doubt, doubt_of_u, terms }
 }
 
 /// ∇̂ŝ

@@ -1,6 +1,10 @@
 //! How much energy it takes to bring a surplus from a cell to its root.
+//!
+//! What leaves through a transfer edge counts there too: 1 through an edge with ∫h = H adds ∫(1/|E|)²/h, 1/H where h is
+//! constant.
 
 use super::{Metric, quad, triangle};
+use crate::boundary::Boundary;
 use crate::cells::{Cells, Either};
 use crate::edges::Edges;
 use crate::error::{Array, Error, same_length};
@@ -17,11 +21,17 @@ pub fn reach<R: Real, I: Index>(
     edges: &Edges<I>,
     cells: &Cells<R, I>,
     metric: Metric<R>,
+    boundary: &Boundary<R, I>,
     forest: &Forest<I>,
     way: &mut [R],
 ) -> Result<R, Error> {
     same_length(Array::Scratch, way.len(), edges.cells())?;
     passing(edges, cells, metric, forest, way);
+    for law in boundary.robin() {
+        let half = read(edges.half_edges(), law.edge.at())[0];
+        let root = edges.cell_of(half.at()).filter(|&cell| forest.parent(cell) == half.at());
+        root.into_iter().for_each(|cell| write(way, cell, R::ONE / law.coefficient));
+    }
     // From the roots these costs add up.
     for (number, parent) in forest.from_roots() {
         if let Some((_, next)) = edges.beyond(parent) {

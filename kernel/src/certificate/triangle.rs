@@ -5,7 +5,8 @@
 //! ```text
 //!   ‖A^½∇s − A^{−½}τ‖² = −[K₁₂D₀² + K₂₀D₁² + K₀₁D₂² + (K₀₁ + K₁₂ + K₂₀)/2 (∫f/3)²] / (4 det A),
 //! ```
-//! the last term for the linear part of τ. Elsewhere the integral is taken at points.
+//! the last term for the linear part of τ. Elsewhere the integral is taken at points. s − u_h is linear, so that
+//! ‖A^½∇(s − u_h)‖² is the same form in the fluxes of A∇s less those of A∇u_h, whether A is constant or not.
 
 use super::metric::{POINTS, inverse_form};
 use super::parts::Share;
@@ -32,12 +33,15 @@ pub(super) fn share<R: Real, I: Index>(
     let gap = [t01 - t20 - tau_middle[0], t12 - t01 - tau_middle[1], t20 - t12 - tau_middle[2]];
     let own = product(k, &u);
     let algebraic = [tau_middle[0] - own[0], tau_middle[1] - own[1], tau_middle[2] - own[2]];
+    let jump = [gap[0] + algebraic[0], gap[1] + algebraic[1], gap[2] + algebraic[2]];
     let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
     let terms = squares(tau, load);
     Share {
         gap: cell.compliance * (form(k, gap) - linear),
         algebraic: cell.compliance * form(k, algebraic),
+        nonconforming: cell.compliance * form(k, jump),
         doubt: cell.doubt * sum_of_squares(flows, terms),
+        doubt_of_u: cell.doubt * sum_of_squares(flows, of_means(k, u)),
         terms,
     }
 }
@@ -52,6 +56,13 @@ fn flows<R: Real>(k: &[R; 3], [s0, s1, s2]: [R; 3]) -> [R; 3] {
 #[inline(always)]
 fn form<R: Real>(&[k01, k12, k20]: &[R; 3], [d0, d1, d2]: [R; 3]) -> R {
     -(k12 * d0 * d0 + k20 * d1 * d1 + k01 * d2 * d2)
+}
+
+/// The squares of K_ij (mean of u on j − mean of u on i).
+#[inline(always)]
+fn of_means<R: Real>(k: &[R; 3], [u0, u1, u2]: [R; 3]) -> R {
+    let (t01, t12, t20) = (k[0] * (u1 - u0), k[1] * (u2 - u1), k[2] * (u0 - u2));
+    t01 * t01 + t12 * t12 + t20 * t20
 }
 
 #[inline(always)]
@@ -76,24 +87,28 @@ pub(super) fn energy<R: Real, I: Index>(
         None => share(cell, none, out, none, load).gap,
         Some(points) => {
             let (k, out) = (cell.stiffness_in_mesh(), cell.sides_in_mesh(out));
-            share_at_points(points, &k, none, out, none, load).gap
+            share_at_points(points, (&k, cell.compliance), none, out, none, load).gap
         }
     }
 }
 
 /// The same by quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η; everything in the order of
-/// the mesh.
+/// the mesh, the element matrix with the compliance of the mean of A.
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],
-    k: &[R; 3],
+    (k, mean): (&[R; 3], R),
     s: [R; 3],
     tau: [R; 3],
     u: [R; 3],
     load: R,
 ) -> Share<R> {
     let third = load * R::THIRD;
-    let own = product(k, &u).map(|flow| flow - third);
+    let flows = flows(k, s);
+    let own = product(k, &u);
+    let [t01, t12, t20] = flows;
+    let jump = [t01 - t20 - own[0], t12 - t01 - own[1], t20 - t12 - own[2]];
+    let own = own.map(|flow| flow - third);
     let difference = [tau[0] - own[0], tau[1] - own[1], tau[2] - own[2]];
     let gradient = [s[1] - s[0], s[2] - s[0]];
     let (mut gap, mut algebraic, mut compliance) = (R::ZERO, R::ZERO, R::ZERO);
@@ -115,8 +130,10 @@ pub(super) fn share_at_points<R: Real>(
     }
     let terms = squares(tau, load);
     let size = k.iter().fold(R::ZERO, |sum, entry| sum + entry.magnitude());
-    let doubt = compliance * size * sum_of_squares(flows(k, s), terms);
-    Share { gap, algebraic, doubt, terms }
+    let doubt = compliance * size * sum_of_squares(flows, terms);
+    let doubt_of_u = compliance * size * sum_of_squares(flows, of_means(k, u));
+    let nonconforming = mean * form(k, jump);
+    Share { gap, algebraic, nonconforming, doubt, doubt_of_u, terms }
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.

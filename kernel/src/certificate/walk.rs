@@ -1,7 +1,7 @@
 //! The walk over the packed cells: each is balanced and then gives its share of the bound.
 
 use super::parts::{Parts, Share};
-use super::quad::{self, Values};
+use super::quad::{self, Means, Values};
 use super::{Continuous, Given, Ground, Metric, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
 use crate::features;
@@ -35,7 +35,7 @@ pub(super) fn over_cells<R: Real, I: Index>(
             Either::Quad(cell) => {
                 let number = cell.number.at().wrapping_sub(cells.triangles.len());
                 let load = read(given.loads.quads, number);
-                (cell.number, of_quad_cell(ground.metric, cell, s, u, load, tau))
+                (cell.number, of_quad_cell(ground.metric, (cell, number), s, u, load, tau))
             }
         };
         let Some(share) = share else { break };
@@ -84,14 +84,14 @@ fn of_triangle_cell<R: Real, I: Index>(
         Some(points) => {
             let (k, s) = (cell.stiffness_in_mesh(), cell.vertices_in_mesh(s));
             let [out, u] = [out, u].map(|packed| cell.sides_in_mesh(packed));
-            triangle::share_at_points(points, &k, s, out, u, load)
+            triangle::share_at_points(points, (&k, cell.compliance), s, out, u, load)
         }
     })
 }
 
 fn of_quad_cell<R: Real, I: Index>(
     metric: Metric<R>,
-    cell: &Quad<R, I>,
+    (cell, number): (&Quad<R, I>, usize),
     s: Continuous<R>,
     u: &[R],
     load: R,
@@ -108,8 +108,9 @@ fn of_quad_cell<R: Real, I: Index>(
         Some(points) => {
             let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
             let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
-            let out = cell.sides_in_mesh(out);
-            quad::share_at_points(points, Values { corners, bubbles }, out, difference, load)
+            let [out, means] = [out, u].map(|packed| cell.sides_in_mesh(packed));
+            let u = Means { means, bend: metric.bend(number) };
+            quad::share_at_points(points, Values { corners, bubbles }, u, out, difference, load)
         }
     })
 }

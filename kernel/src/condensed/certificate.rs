@@ -14,16 +14,19 @@
 //! ```text
 //!   ‖A^{−½} Σ δ_i w_i‖ ≤ U · reach · ‖δ‖
 //! ```
-//! is added to the first part. Then τ·n = q or s = ψ all along C, but where a Dirichlet value above ψ
+//! is added to the first part. The function of the edge means, u_h, is off by ‖A^½∇_h(s − u_h)‖ more, which is a form
+//! of the same numbers: [`Certificate::of_u`].
+//!
+//! Mended so, τ·n = q or s = ψ all along C, but where a Dirichlet value above ψ
 //! ends a touching edge.
 //!
 //! Rounding: p and x are exact by definition. F, S and B were rounded once, and products with them
 //! are off by a few ε of their terms; so are the sums over edges and inputs that are left, the oscillation
 //! among them. All of it is in [`Certificate::rounding`].
 
-use super::factor::Factor;
+use super::factor::{Factor, Norm};
 use super::outputs::dot;
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Verdict};
 use crate::error::{Array, Error, same_length};
 use crate::index::read;
 use crate::real::Real;
@@ -37,6 +40,14 @@ pub struct Vertex<R> {
     pub weights: [R; 2],
     /// Its own contact edges; an end of the contact has one, named twice.
     pub beside: [u16; 2],
+}
+
+impl<R: Real> Vertex<R> {
+    /// The two terms of e.
+    fn terms(&self, x: &[R]) -> [R; 2] {
+        let [a, b] = self.edges.map(|edge| read(x, usize::from(edge)));
+        [self.weights[0] * a, self.weights[1] * b]
+    }
 }
 
 /// A contact edge that ends at a Dirichlet value above ψ.
@@ -53,14 +64,17 @@ pub struct Corner<'a, R> {
 pub struct Form<'a, R> {
     /// F
     pub factor: Factor<'a, R>,
+    /// J with ‖A^½∇_h(s − u_h)‖ = U ‖J (p, x, d)‖; nothing where ‖F (p, x, d)‖ is never less: on triangles with
+    /// constant A, where A∇u_h is the constant part of the flux.
+    pub jump: Option<Factor<'a, R>>,
     /// Contact vertices, in the order of d.
     pub vertices: &'a [Vertex<R>],
     /// Corners.
     pub corners: &'a [Corner<'a, R>],
     /// √λ_max of the energies of the mending fluxes w_i.
     pub reach: R,
-    /// For a domain that contact alone holds: the physical flux of a unit of r_i on each contact edge. What is
-    /// mended then leaves through the edge that is pressed most. Empty elsewhere.
+    /// Where contact alone holds one part of the domain: the physical flux of a unit of r_i on each contact edge of it,
+    /// 0 on the others. What is mended then leaves through its edge that is pressed most. Empty elsewhere.
     pub floating: &'a [R],
     /// The oscillation of each input's pattern, in the unit of energy.
     pub oscillation: &'a [R],
@@ -84,7 +98,7 @@ pub struct Answer<'a, R> {
 }
 
 impl<R: Real> Form<'_, R> {
-    /// Bounds the error; `None` where there is no bound: numbers that overflow, a Dirichlet value below the
+    /// Bounds the error; where there is no bound it says why: numbers that overflow, a Dirichlet value below the
     /// gap, a floating domain that is pressed nowhere.
     ///
     /// `z` and `sum` are scratch, one number for each column of F.
@@ -96,24 +110,24 @@ impl<R: Real> Form<'_, R> {
         answer: &Answer<R>,
         z: &mut [R],
         sum: &mut [R],
-    ) -> Result<Option<Certificate<R>>, Error> {
+    ) -> Result<Verdict<R>, Error> {
         let Answer { inputs, x, residual } = *answer;
         same_length(Array::Load, self.oscillation.len(), inputs.len())?;
         same_length(Array::Load, self.largest_load.len(), inputs.len())?;
         same_length(Array::Contact, residual.len(), x.len())?;
         let columns = inputs.len() + x.len() + self.vertices.len();
         same_length(Array::Scratch, z.len(), columns)?;
-        let nudged = self.lay_out(inputs, x, z);
-        let norm = self.factor.norm(z, sum)?;
+        self.lay_out(inputs, x, z);
+        let norm = self.norm(&self.factor, x, z, sum)?;
         let doubt = self.doubt(inputs, x);
-        let Some(mended) = self.mend(x, residual, doubt) else { return Ok(None) };
-        let Some(corner) = self.corners(answer, doubt)? else { return Ok(None) };
+        let Some(mended) = self.mend(x, residual, doubt) else { return Ok(Verdict::Unpressed) };
+        let Some(corner) = self.corners(answer, doubt)? else { return Ok(Verdict::BelowGap) };
         // Everything in the unit of energy, until the end: squares stay within the scalar's range.
         let algebraic = self.reach * mended.known;
         let first = norm.value + algebraic;
         let gap = (first * first + corner).rounded_sqrt().or_larger(first);
         let all = R::from_count(x.len() as u32).rounded_sqrt();
-        let hidden = norm.rounding + nudged + self.reach * (all * doubt + mended.hidden);
+        let hidden = norm.rounding + self.reach * (all * doubt + mended.hidden);
         let sizes = self.oscillation.iter().zip(inputs);
         let oscillation = sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
         // Sums of so many terms at most, none of which is negative.
@@ -121,30 +135,48 @@ impl<R: Real> Form<'_, R> {
         let rounding = hidden + terms * R::HALF * R::EPSILON * (gap + oscillation);
         let both = (gap * gap + oscillation * oscillation).rounded_sqrt().or_larger(gap);
         let total = oscillation + both + rounding;
-        let [gap, algebraic, oscillation, rounding, total] =
-            [gap, algebraic, oscillation, rounding, total].map(|part| self.unit * part);
+        let jump = match &self.jump {
+            Some(factor) => self.norm(factor, x, z, sum)?,
+            None => norm,
+        };
+        let of_u = total + (jump.value + jump.rounding) * (R::ONE + R::TWO * R::EPSILON);
+        let [gap, algebraic, oscillation, rounding, total, of_u] =
+            [gap, algebraic, oscillation, rounding, total, of_u].map(|part| self.unit * part);
         // Next to underflow products are off by more than a part of themselves.
-        let (rounding, total) = (rounding + R::TINY, total + R::TINY);
-        let certificate = Certificate { gap, algebraic, oscillation, rounding, total };
-        Ok((total.finite() && algebraic.finite()).then_some(certificate))
+        let [rounding, total, of_u] = [rounding, total, of_u].map(|part| part + R::TINY);
+        let certificate = Certificate { gap, algebraic, oscillation, rounding, total, of_u };
+        let known = of_u.finite() && algebraic.finite();
+        Ok(if known { Verdict::Certified(certificate) } else { Verdict::NotFinite })
     }
 
-    /// `z` = (p, x, d). Returns what the rounding of e = E x + d can do to ‖Fz‖.
-    fn lay_out(&self, inputs: &[R], x: &[R], z: &mut [R]) -> R {
+    /// The norm of a form, with what the rounding of e = E x + d can do to it.
+    fn norm(&self, factor: &Factor<R>, x: &[R], z: &[R], sum: &mut [R]) -> Result<Norm<R>, Error> {
+        let norm = factor.norm(z, sum)?;
+        Ok(Norm { rounding: norm.rounding + self.nudged(factor, x), ..norm })
+    }
+
+    /// `z` = (p, x, d)
+    fn lay_out(&self, inputs: &[R], x: &[R], z: &mut [R]) {
         let given = inputs.iter().chain(x);
         z.iter_mut().zip(given).for_each(|(z, &given)| *z = given);
-        let first = inputs.len() + x.len();
-        let (corrections, norms) = (z.iter_mut().skip(first), self.factor.norms.iter().skip(first));
-        let mut nudged = R::ZERO;
-        for ((d, &norm), vertex) in corrections.zip(norms).zip(self.vertices) {
-            let [a, b] = vertex.edges.map(|edge| read(x, usize::from(edge)));
-            let (left, right) = (vertex.weights[0] * a, vertex.weights[1] * b);
+        let corrections = z.iter_mut().skip(inputs.len() + x.len());
+        for (d, vertex) in corrections.zip(self.vertices) {
+            let [left, right] = vertex.terms(x);
             let opening = left + right;
             let touches = vertex.beside.iter().any(|&edge| read(x, usize::from(edge)) == R::ZERO);
             *d = if touches || opening < R::ZERO { -opening } else { R::ZERO };
-            nudged += (left.magnitude() + right.magnitude()) * norm;
         }
-        R::TWO * R::EPSILON * nudged
+    }
+
+    /// What the rounding of e = E x + d can do to the norm of a form.
+    fn nudged(&self, factor: &Factor<R>, x: &[R]) -> R {
+        let first = factor.norms.len().saturating_sub(self.vertices.len());
+        let columns = factor.norms.iter().skip(first).zip(self.vertices);
+        let sum = columns.fold(R::ZERO, |sum, (&norm, vertex)| {
+            let [left, right] = vertex.terms(x);
+            sum + (left.magnitude() + right.magnitude()) * norm
+        });
+        R::TWO * R::EPSILON * sum
     }
 
     /// By how much an entry of r can be off.

@@ -9,21 +9,13 @@
 use super::Iterate;
 use super::blocks::Blocks;
 use super::pivoting::{self, Found, settle};
+use super::sizes;
 use super::sor;
 use super::tableau::{Start, Tableau};
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::limits::Deadline;
 use crate::real::Real;
-
-/// What ended a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// The solution, but for rounding.
-    Exact,
-    /// Complementarity holds to the tolerance.
-    Converged,
-    /// The work allowed is used up: x is feasible, and its bound says how good it is.
-    OutOfWork,
-}
+use crate::report::Ended;
 
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,12 +33,26 @@ pub trait Method<R: Real> {
     /// From `iterate.x`, as far as the method is allowed to go.
     ///
     /// # Errors
-    /// Arrays of the wrong length.
+    /// Loads whose answer may overflow, arrays of the wrong length: x and the method are what they were then.
     fn solve(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
+    ) -> Result<Progress, Error> {
+        self.solve_until(matrix, load, iterate, &mut Deadline::never())
+    }
+
+    /// The same until a deadline: x is feasible whenever that is.
+    ///
+    /// # Errors
+    /// As for [`Method::solve`].
+    fn solve_until<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
     ) -> Result<Progress, Error>;
 }
 
@@ -55,7 +61,13 @@ pub trait Method<R: Real> {
 pub struct Linear;
 
 impl<R: Real> Method<R> for Linear {
-    fn solve(&mut self, matrix: &Blocks<R>, _: &[R], _: Iterate<R>) -> Result<Progress, Error> {
+    fn solve_until<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        _: &[R],
+        _: Iterate<R>,
+        _: &mut Deadline<F>,
+    ) -> Result<Progress, Error> {
         same_length(Array::Contact, matrix.order(), 0)?;
         Ok(Progress { ended: Ended::Exact, pivots: 0, sweeps: 0 })
     }
@@ -66,35 +78,73 @@ impl<R: Real> Method<R> for Linear {
 pub struct Sweeps<R> {
     /// ω, inside (0, 2).
     pub omega: R,
-    /// The Σ|min(x_i, ω r_i)| that is small enough, relative to ‖x‖ or ‖b‖, the larger.
+    /// The Σ|min(x_i, ω r_i)| that is small enough, relative to ‖x‖ or ‖b‖, the larger. Where it is less, it is
+    /// at most 2⁻¹⁰ ‖b‖ besides: next to a huge x nothing else would tell that x is none.
     pub tolerance: R,
     /// Most sweeps of a solve.
     pub most: u32,
 }
 
 impl<R: Real> Method<R> for Sweeps<R> {
-    fn solve(
+    fn solve_until<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
     ) -> Result<Progress, Error> {
         if !(self.omega > R::ZERO && self.omega < R::TWO) {
             return Err(Error::Relaxation);
         }
-        let mut progress = Progress { ended: Ended::OutOfWork, pivots: 0, sweeps: 0 };
+        let own = sizes::of_load(load)?;
+        same_length(Array::Scratch, iterate.scratch.len(), iterate.x.len())?;
+        copy(iterate.x, iterate.scratch);
+        if sizes::is_absurd(sizes::norm(iterate.x), own) {
+            // What a load of another size, or one without a solution, has left: sweeps would never come back.
+            iterate.x.fill(R::ZERO);
+        }
+        let progress = self.sweep_on(matrix, load, own, iterate.x, deadline)?;
+        settle(matrix, load, iterate.x, iterate.residual, iterate.open)?;
+        if let Err(error) = all_finite(Array::Unknowns, iterate.x) {
+            copy(iterate.scratch, iterate.x);
+            return Err(error);
+        }
+        Ok(progress)
+    }
+}
+
+impl<R: Real> Sweeps<R> {
+    /// Sweeps until x is good enough, or their number or the time is used up; `own` is ‖b‖.
+    fn sweep_on<F: FnMut() -> u32>(
+        &self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        own: R,
+        x: &mut [R],
+        deadline: &mut Deadline<F>,
+    ) -> Result<Progress, Error> {
+        let sane = self.tolerance.or_larger(R::ONE / R::from_count(1024)) * own;
+        let mut progress = Progress { ended: Ended::OutOfSweeps, pivots: 0, sweeps: 0 };
         while progress.sweeps < self.most {
-            let defect = sor::sweep(matrix, load, self.omega, iterate.x)?;
+            if !deadline.allows_a_sweep() {
+                progress.ended = Ended::OutOfTime;
+                break;
+            }
+            let defect = sor::sweep(matrix, load, self.omega, x)?;
             progress.sweeps += 1;
-            let size = pivoting::square(iterate.x).or_larger(pivoting::square(load)).rounded_sqrt();
-            if defect <= self.tolerance * size {
-                progress.ended = Ended::Converged;
+            let size = sizes::norm(x);
+            let small = self.tolerance * size.or_larger(own);
+            if defect <= small && defect <= sane && !sizes::is_absurd(size, own) {
+                progress.ended = Ended::Settled;
                 break;
             }
         }
-        settle(matrix, load, iterate.x, iterate.residual, iterate.open)?;
         Ok(progress)
     }
+}
+
+fn copy<R: Real>(from: &[R], to: &mut [R]) {
+    to.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
 }
 
 /// Principal pivoting, and sweeps where it does not get to the end.
@@ -111,20 +161,30 @@ pub struct Pivots<'a, R> {
 }
 
 impl<R: Real> Method<R> for Pivots<'_, R> {
-    fn solve(
+    fn solve_until<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
         iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
     ) -> Result<Progress, Error> {
         let mut iterate = iterate;
         let lent = iterate.lend();
+        let most = self.most;
+        let may_exchange = |pivots| pivots < most && deadline.allows_a_sweep();
         let (found, pivots) =
-            pivoting::find(matrix, load, &mut self.tableau, &self.start, self.most, lent)?;
+            pivoting::find(matrix, load, &mut self.tableau, &self.start, may_exchange, lent)?;
         if found == Found::Exact {
             return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
         }
-        let rest = self.sweeps.solve(matrix, load, iterate)?;
-        Ok(Progress { pivots, ..rest })
+        match self.sweeps.solve_until(matrix, load, iterate.lend(), deadline) {
+            Ok(rest) => Ok(Progress { pivots, ..rest }),
+            Err(error) => {
+                // No matrix that is positive definite comes here; any other begins anew.
+                self.tableau.reset(&self.start)?;
+                iterate.x.fill(R::ZERO);
+                Err(error)
+            }
+        }
     }
 }

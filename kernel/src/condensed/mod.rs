@@ -5,7 +5,7 @@
 //! v = u_C − ψ ≥ 0, scaled so that the diagonal is 1 and the unit of energy is U,
 //! ```text
 //!   x_i = v_i / d_i,  d_i = U / √K_ii        x ≥ 0,  r = S x − B p ≥ 0,  xᵀr = 0
-//!   outputs  y = Y_p p + Y_x x               bound   U ‖F (p, x, d)‖ + …
+//!   outputs  y = Y_p p + Y_x x + Y_r r⁺      bound   U ‖F (p, x, d)‖ + …
 //! ```
 //! K the Schur complement on the contact edges and S = K_ij / √(K_ii K_jj). p_0 = 1 stands for what does not
 //! change. The mesh may be as fine as accuracy wants: the target never sees it.
@@ -23,16 +23,19 @@ pub mod factor;
 pub mod method;
 pub mod outputs;
 pub mod pivoting;
+pub(crate) mod sizes;
 pub mod sor;
 pub mod storage;
 pub mod tableau;
 
-use crate::certificate::Certificate;
+use crate::certificate::Verdict;
 use crate::error::{Array, Error, all_finite, same_length};
+use crate::limits::Deadline;
 use crate::real::Real;
+use crate::report::Report;
 use blocks::{Block, Blocks};
 use certificate::{Answer, Form};
-use method::{Ended, Method};
+use method::{Method, Progress};
 use outputs::Measure;
 use tableau::Start;
 
@@ -53,6 +56,8 @@ pub struct Condensed<'a, R> {
     pub outputs: &'a [Measure<'a, R>],
     /// What bounds the error; absent where there is no bound, or nobody asks for it.
     pub certificate: Option<Form<'a, R>>,
+    /// Whether the data allow for a bound: where they do and it is absent, nobody asks for it.
+    pub has_bound: bool,
 }
 
 /// Memory of a condensed model (borrowed).
@@ -88,21 +93,6 @@ impl<R> Iterate<'_, R> {
     }
 }
 
-/// What a tick says beside its outputs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Report<R> {
-    /// What ended it.
-    pub ended: Ended,
-    /// Exchanges of the exact method.
-    pub pivots: u32,
-    /// Sweeps.
-    pub sweeps: u32,
-    /// Edges that touch.
-    pub active: u32,
-    /// How wrong the answer can be, where that is known.
-    pub certificate: Option<Certificate<R>>,
-}
-
 impl<R: Real> Condensed<'_, R> {
     /// S
     ///
@@ -115,31 +105,47 @@ impl<R: Real> Condensed<'_, R> {
     /// Solves for the inputs p, p_0 = 1 among them, from the last x, and bounds the error.
     ///
     /// # Errors
-    /// Inputs that are not finite, or loads that overflow: x is what it was then. Arrays of the wrong length.
+    /// Inputs that are not finite, or so large that the answer or an output may overflow; arrays of the wrong
+    /// length. In any case the last answer stays: x and the method are what they were, bit for bit.
     pub fn tick<M: Method<R>>(
         &self,
         inputs: &[R],
         method: &mut M,
         memory: &mut Memory<R>,
     ) -> Result<Report<R>, Error> {
+        self.tick_until(inputs, method, &mut Deadline::never(), memory)
+    }
+
+    /// The same until a deadline.
+    ///
+    /// # Errors
+    /// As for [`Condensed::tick`].
+    pub fn tick_until<M: Method<R>, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        method: &mut M,
+        deadline: &mut Deadline<F>,
+        memory: &mut Memory<R>,
+    ) -> Result<Report<R>, Error> {
         all_finite(Array::Load, inputs)?;
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
-        all_finite(Array::Load, memory.load)?;
-        let progress = method.solve(&matrix, memory.load, memory.iterate.lend())?;
+        self.hold(inputs, memory.load)?;
+        let progress = method.solve_until(&matrix, memory.load, memory.iterate.lend(), deadline)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
         let answer = Answer { inputs, x, residual };
-        let certificate = match &self.certificate {
+        let verdict = match &self.certificate {
             Some(form) => form.certify(&answer, memory.combination, memory.sum)?,
-            None => None,
+            None if self.has_bound => Verdict::NotAsked,
+            None => Verdict::Unavailable,
         };
         let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
-        let method::Progress { ended, pivots, sweeps } = progress;
-        Ok(Report { ended, pivots, sweeps, active, certificate })
+        let Progress { ended, pivots, sweeps } = progress;
+        Ok(Report { ended, exchanges: pivots, sweeps, active, verdict })
     }
 
-    /// Output `number` of the last tick, `x` being that of its memory.
+    /// Output `number` of the last tick, `iterate` being that of its memory.
     ///
     /// # Errors
     /// Arrays of the wrong length; no such output; a value that overflows.
@@ -147,14 +153,15 @@ impl<R: Real> Condensed<'_, R> {
         &self,
         number: usize,
         inputs: &[R],
-        x: &[R],
+        iterate: &Iterate<R>,
         report: &Report<R>,
     ) -> Result<R, Error> {
         let stray = Error::OutOfRange { of: Array::Scratch, at: number };
         let measure = self.outputs.get(number).ok_or(stray)?;
-        let value = measure.value(inputs, self.unpadded(x), report.certificate.as_ref())?;
+        let (x, residual) = (self.unpadded(iterate.x), self.unpadded(iterate.residual));
+        let value = measure.value(inputs, x, residual, report.certificate())?;
         match measure {
-            Measure::Linear { .. } if !value.finite() => {
+            Measure::Linear { .. } | Measure::Flux { .. } if !value.finite() => {
                 Err(Error::NotFinite { of: Array::Fluxes, at: number })
             }
             _ => Ok(value),
@@ -163,6 +170,34 @@ impl<R: Real> Condensed<'_, R> {
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {
         vector.get(..self.contact).unwrap_or(vector)
+    }
+
+    /// `Ok` where neither the answer to this load nor an output can overflow: what openings add is at most Σ|Y_x| times
+    /// the largest x, and r is at most n times that. Without contact an output refuses by itself, and leaves nothing
+    /// behind.
+    fn hold(&self, inputs: &[R], load: &[R]) -> Result<(), Error> {
+        if self.contact == 0 {
+            return Ok(());
+        }
+        let room = sizes::room(sizes::of_load(load)?);
+        let count = R::from_count(load.len() as u32 + 1);
+        let size = |y: &[R]| y.iter().fold(R::ZERO, |sum, y| sum + y.magnitude());
+        for (at, measure) in self.outputs.iter().enumerate() {
+            let (of_inputs, of_contact, of_reaction): (_, _, &[R]) = match *measure {
+                Measure::Linear { of_inputs, of_contact } => (of_inputs, of_contact, &[]),
+                Measure::Flux { of_inputs, of_contact, of_reaction } => {
+                    (of_inputs, of_contact, of_reaction)
+                }
+                Measure::Length { .. } | Measure::Bound => continue,
+            };
+            let given = of_inputs.iter().zip(inputs);
+            let given = given.fold(R::ZERO, |sum, (&y, &p)| sum + (y * p).magnitude());
+            let most = (size(of_contact) + size(of_reaction) * count) * room;
+            if !(given + most).finite() {
+                return Err(Error::NotFinite { of: Array::Fluxes, at });
+            }
+        }
+        Ok(())
     }
 
     /// `load` = B p

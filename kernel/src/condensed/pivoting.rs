@@ -14,6 +14,7 @@
 
 use super::Iterate;
 use super::blocks::{Blocks, SIDE, groups, multiply_add};
+use super::sizes;
 use super::tableau::{Start, Tableau};
 use crate::error::Error;
 use crate::real::Real;
@@ -21,8 +22,11 @@ use crate::real::Real;
 /// How many times the limit may be left after a correction.
 const WORN: u32 = 32;
 
-/// An answer may be larger than the load by 1/(this many ε).
-const ABSURD: u32 = 64;
+/// Thresholds are drawn anew where the answer has shrunk by more than this since they were.
+const SHRUNK: u32 = 64;
+
+/// What is unbalanced in a solution is less than the load by this factor at least, whatever rounding allows.
+const SANE: u32 = 16;
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,43 +40,49 @@ pub enum Found {
     Worn,
 }
 
-/// Finds x ≥ 0 with w = Sx − b ≥ 0 and xᵀw = 0 by at most `cap` exchanges; returns how many it took.
+/// Finds x ≥ 0 with w = Sx − b ≥ 0 and xᵀw = 0 as long as `may_exchange` after so
+/// many exchanges; returns how many it took.
 ///
 /// # Errors
-/// Arrays of the wrong length.
+/// Arrays of the wrong length, loads whose answer may overflow: nothing is changed then.
 pub fn find<R: Real>(
     matrix: &Blocks<R>,
     load: &[R],
     tableau: &mut Tableau<R>,
     start: &Start<R>,
-    cap: u32,
+    may_exchange: impl FnMut(u32) -> bool,
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
     let Iterate { x, residual, scratch: answer, open } = iterate;
-    let own = square(load).rounded_sqrt();
+    let own = sizes::of_load(load)?;
     tableau.answer(load, answer)?;
-    let mut size = (square(load) + square(answer)).rounded_sqrt();
-    if !(R::from_count(ABSURD) * R::EPSILON * size <= own) {
+    let mut size = sizes::norm_of_both(load, answer);
+    if sizes::is_absurd(size, own) {
         // No matrix that this scalar holds has such an answer: loads without a solution have led here.
         tableau.reset(start)?;
         tableau.answer(load, answer)?;
-        size = (square(load) + square(answer)).rounded_sqrt();
+        size = sizes::norm_of_both(load, answer);
     }
-    let (mut found, pivots) = search(tableau, cap, R::TWO * R::EPSILON * size, answer)?;
+    let (mut found, pivots, now) = exchange_all(load, tableau, may_exchange, &mut size, answer)?;
     tableau.finish();
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
         let limit = R::from_count(32) * R::EPSILON * size;
-        let before = unbalanced(residual, x);
-        if !(before <= limit) {
+        let sane = own / R::from_count(SANE);
+        let before = sizes::unbalanced(residual, x);
+        if !(before <= limit && before <= sane) {
             correct(tableau, residual, answer, x)?;
             settle(matrix, load, x, residual, open)?;
             // What is left now may be the floor of this matrix; much more is a tableau gone wrong.
-            let after = unbalanced(residual, x);
-            if !(after <= R::from_count(WORN) * limit || after <= R::QUARTER * before) {
+            let after = sizes::unbalanced(residual, x);
+            let is_floor = after <= R::from_count(WORN) * limit || after <= R::QUARTER * before;
+            if !(is_floor && after <= sane) {
                 found = Found::Worn;
             }
+        }
+        if sizes::is_absurd(now, own) {
+            found = Found::Worn;
         }
     }
     if found == Found::OutOfPivots && pivots as usize >= x.len() {
@@ -85,10 +95,32 @@ pub fn find<R: Real>(
     Ok((found, pivots))
 }
 
+/// Exchanges with thresholds for answers of this `size`; returns the size of the last one too.
+fn exchange_all<R: Real>(
+    load: &[R],
+    tableau: &mut Tableau<R>,
+    mut may_exchange: impl FnMut(u32) -> bool,
+    size: &mut R,
+    answer: &mut [R],
+) -> Result<(Found, u32, R), Error> {
+    let mut pivots = 0;
+    loop {
+        let noise = R::TWO * R::EPSILON * *size;
+        let (found, more) = search(tableau, |more| may_exchange(pivots + more), noise, answer)?;
+        pivots += more;
+        let now = sizes::norm_of_both(load, answer);
+        // A first answer that was far too large hides what is wrong with the last one.
+        if found != Found::Exact || !(R::from_count(SHRUNK) * now < *size) {
+            return Ok((found, pivots, now));
+        }
+        *size = now;
+    }
+}
+
 /// Exchanges until nothing is wrong by more than `noise`, which rounding may be.
 fn search<R: Real>(
     tableau: &mut Tableau<R>,
-    cap: u32,
+    mut may_exchange: impl FnMut(u32) -> bool,
     noise: R,
     z: &mut [R],
 ) -> Result<(Found, u32), Error> {
@@ -99,7 +131,7 @@ fn search<R: Real>(
         let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
             return Ok((Found::Exact, pivots));
         };
-        if pivots >= cap {
+        if !may_exchange(pivots) {
             return Ok((Found::OutOfPivots, pivots));
         }
         if !tableau.exchange(at, z)? {
@@ -152,32 +184,6 @@ fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
 /// By how much an unknown is on the wrong side, below 0 where it is on the right one.
 fn excess<R: Real>(z: R, within: bool) -> R {
     if within { z } else { -z }
-}
-
-/// Σ x_i², padded
-pub(crate) fn square<R: Real>(x: &[R]) -> R {
-    let mut sums = [R::ZERO; SIDE];
-    for group in groups(x) {
-        sums.iter_mut().zip(group).for_each(|(sum, &x)| *sum += x * x);
-    }
-    total(sums)
-}
-
-/// The root of the sum of r_i² over the edges that are open, or should be.
-fn unbalanced<R: Real>(residual: &[R], x: &[R]) -> R {
-    let mut sums = [R::ZERO; SIDE];
-    for (group, x) in groups(residual).iter().zip(groups(x)) {
-        for ((sum, &r), &x) in sums.iter_mut().zip(group).zip(x) {
-            let wrong = if x > R::ZERO { r } else { r.or_smaller(R::ZERO) };
-            *sum += wrong * wrong;
-        }
-    }
-    total(sums).rounded_sqrt()
-}
-
-/// The sum of eight numbers.
-fn total<R: Real>([a, b, c, d, e, f, g, h]: [R; SIDE]) -> R {
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 /// x of the answer (−x_I, w_A), not below 0.

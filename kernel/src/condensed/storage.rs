@@ -44,6 +44,11 @@ impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
         }
         Memory { iterate: Iterate { x, residual, scratch, open }, load, combination, sum }
     }
+
+    /// Back to [`Storage::new`]: the next tick takes the model's x over again.
+    pub fn reset(&mut self) {
+        self.has_begun = false;
+    }
 }
 
 impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
@@ -91,6 +96,11 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
             self.is_built = true;
         }
         Ok(Pivots { tableau, start: model.start, most, sweeps })
+    }
+
+    /// Back to [`TableauStorage::new`]: the next tick takes the model's tableau over again.
+    pub fn reset(&mut self) {
+        self.is_built = false;
     }
 }
 

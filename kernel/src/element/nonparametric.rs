@@ -108,6 +108,24 @@ fn bubble<R: Real>([w1, w2]: [R; 2], [x, y]: [R; 2]) -> R {
     square * (x * x - y * y) + linear - R::QUARTER * eighth * (w1 * w1 - w2 * w2)
 }
 
+/// The derivatives of Σ_i means_i φ_i by x̂ and ŷ, at reference coordinates in \[0, 1\]², on a quad with this bend;
+/// with the bend 0 they are those of the parametric element, on any quad.
+pub fn reference_gradient<R: Real>(
+    bend @ [w1, w2]: [R; 2],
+    reference: [R; 2],
+    [u0, u1, u2, u3]: [R; 4],
+) -> [R; 2] {
+    let ([x, y], [hat_x, hat_y]) = (affine(bend, reference), reference.map(|z| z - R::HALF));
+    let curved = (u1 - u0) + (u3 - u2);
+    let by_x = (u1 - u3) + curved * (R::THREE * x + R::QUARTER * w2);
+    let by_y = (u2 - u0) - curved * (R::THREE * y + R::QUARTER * w1);
+    // X = X̂ + w₁X̂Ŷ and Y = Ŷ + w₂X̂Ŷ.
+    [
+        by_x * (R::ONE + w1 * hat_y) + by_y * (w2 * hat_y),
+        by_x * (w1 * hat_x) + by_y * (R::ONE + w2 * hat_x),
+    ]
+}
+
 /// K_T without its diagonal, \[01, 02, 03, 12, 13, 23\], by Gauss–Legendre quadrature with
 /// `rule`.len()² points; `tensor(p)` is A at point p, numbered row by row with x̂ running fastest.
 pub fn stiffness<R: Real>(

@@ -1,6 +1,8 @@
 //! Outputs: numbers read off an answer.
 
 use super::pattern::Share;
+use crate::contact;
+use crate::edges::EdgeCounts;
 use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
@@ -9,9 +11,9 @@ use crate::tick::{Data, Report, Tick};
 /// What an output measures (borrowed).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Functional<'a, R, I> {
-    /// ∫τ·n over these edges.
+    /// ∫τ·n over these edges, within the law of contact on those that are in contact.
     Flux(&'a [I]),
-    /// ∫(τ·n − q) over these contact edges, counted from the first one.
+    /// ∫(τ·n − q) ≥ 0 over these contact edges, counted from the first one; τ within the law of contact.
     Force(&'a [I]),
     /// The length of those of these contact edges that are active, with the length of each.
     Length(&'a [Share<R, I>]),
@@ -32,13 +34,23 @@ impl<R: Real, I: Index> Functional<'_, R, I> {
     pub(super) fn of<const WIDTH: usize>(&self, answer: &Answer<R, I, WIDTH>) -> R {
         let Answer { tick, data, report } = answer;
         let (u, tau, lower) = (tick.u(), tick.tau(), data.lower);
-        let free = tick.counts().free;
+        let EdgeCounts { free, contact, .. } = tick.counts();
+        let given = |at: usize| data.given.boundary.contact_flux(at);
+        // Without a certificate τ is the flux (15) still.
+        let pressed = |at: usize| {
+            let (u, tau) = (read(u, free + at), read(tau, free + at));
+            contact::within_law(u, read(lower, at), tau, given(at))
+        };
         match *self {
-            Self::Flux(edges) => edges.iter().fold(R::ZERO, |sum, e| sum + read(tau, e.at())),
-            Self::Force(edges) if features::CONTACT => edges.iter().fold(R::ZERO, |sum, at| {
-                let given = data.given.boundary.contact_flux(at.at());
-                sum + (read(tau, free + at.at()) - given)
+            Self::Flux(edges) => edges.iter().fold(R::ZERO, |sum, edge| {
+                sum + match edge.at().checked_sub(free) {
+                    Some(at) if features::CONTACT && at < contact => pressed(at),
+                    _ => read(tau, edge.at()),
+                }
             }),
+            Self::Force(edges) if features::CONTACT => {
+                edges.iter().fold(R::ZERO, |sum, at| sum + (pressed(at.at()) - given(at.at())))
+            }
             Self::Length(shares) if features::CONTACT => sum(shares, |at, length| {
                 let touches = read(u, free + at) == read(lower, at);
                 if touches { length } else { R::ZERO }

@@ -67,12 +67,13 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
 impl<R: Real, I: Index> Full<'_, R, I> {
     /// Answers for these inputs, one value a pattern: fills in `outputs` and says how wrong they can be.
     ///
-    /// Where there is no bound the report's verdict is [`Verdict::NotFinite`] and an output that is the bound
-    /// is infinite: for data that never allow for one, and where u_D lies below ψ where they meet, so that no u
-    /// has both.
+    /// Where there is no bound an output that is the bound is infinite, and the report's verdict says why:
+    /// [`Verdict::Unavailable`] for data that never allow for one, [`Verdict::BelowGap`] where u_D lies below ψ where
+    /// they meet.
     ///
     /// # Errors
-    /// Inputs that are not finite or make data that are not: the last answer stays. Arrays of the wrong length.
+    /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]); arrays of the
+    /// wrong length. The last answer stays then, bit for bit, and `outputs` are as they were.
     pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
@@ -174,24 +175,28 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
         same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
         all_finite(Array::Inputs, inputs)?;
-        let Memory { tick: mut of_tick, data: mut of_data, progress } = memory;
+        let Memory { tick: of_tick, data: mut of_data, progress } = memory;
         of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
         let data = of_data.view(&self.base, &self.ground.edges, oscillation)?;
-        let mut known = *progress;
-        if !known.has_begun() {
-            self.start(data.lower, &mut of_tick);
-            known = Progress::new(self.relaxation)?;
-        }
+        let known = match progress.has_begun() {
+            true => *progress,
+            false => Progress::new(self.relaxation)?,
+        };
         let mut tick = Tick::resume(self.ground, of_tick, known)?;
-        let report = advance(&mut tick.begin(data)?)?;
+        let size = tick.admit(&data)?;
+        if !progress.has_begun() {
+            self.start(data.lower, tick.memory());
+        }
+        let report = advance(&mut tick.enter(data, size))?;
         *progress = tick.progress();
         let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
         let answer = functional::Answer { tick: &tick, data: &data, report: &report };
         let mut known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
-            known &= output.magnitude() >= R::ZERO;
+            // Without a bound its output is infinite, and nothing else is.
+            known &= output.finite() || *functional == Functional::Bound;
         }
         Ok(if known { report } else { Report { ended: Ended::NotFinite, ..report } })
     }
@@ -200,8 +205,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     fn allowed(&self, verdict: Verdict<R>, ends: &VertexData<R>) -> Verdict<R> {
         match verdict {
             Verdict::NotAsked => verdict,
-            _ if self.has_bound && self.meet(ends) => verdict,
-            _ => Verdict::NotFinite,
+            _ if !self.has_bound => Verdict::Unavailable,
+            _ if !self.meet(ends) => Verdict::BelowGap,
+            _ => verdict,
         }
     }
 
@@ -211,9 +217,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
             return true;
         }
         let (gap, given) = (ends.gap.as_flattened(), ends.given.as_flattened());
-        let values = gap.iter().chain(given);
-        let size = values.fold(R::ZERO, |most, value| most.or_larger(value.magnitude()));
-        let slack = R::from_count(64) * R::EPSILON * size;
+        let slack = ends.slack();
         let below = |&[at, place]: &[I; 2]| read(gap, at.at()) - read(given, place.at());
         self.corners.iter().all(|corner| below(corner) <= slack)
     }

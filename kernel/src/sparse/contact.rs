@@ -15,6 +15,7 @@ use super::factor::Factor;
 use crate::condensed::Iterate;
 use crate::condensed::blocks::{Block, Blocks, multiply_add, padded};
 use crate::condensed::pivoting::{self, Found};
+use crate::condensed::sizes;
 use crate::condensed::tableau::{Start, Tableau};
 use crate::error::{Array, Error, same_length};
 use crate::features;
@@ -23,6 +24,16 @@ use crate::real::Real;
 
 /// Rounds at most, exchanges and corrections together.
 const ROUNDS: u32 = 16;
+
+/// A start that is so many times as far from the answer as that is large leaves its rounding errors in the choice of
+/// edges that touch: it is made once more, from where it has led.
+const FAR: u32 = 16;
+
+/// Rounds within which that may be.
+const AGAIN: u32 = 6;
+
+/// A row may be off by this many ε of its terms in a solution.
+pub(crate) const SLACK: u32 = 64;
 
 /// Where defects come from.
 pub(crate) trait Defect<R: Real, I: Index> {
@@ -67,12 +78,20 @@ pub struct Solved<R> {
     pub rounds: u32,
     /// The last correction that was made, relative to u; infinite where none made it better.
     pub change: R,
+    /// The first step, relative to u.
+    pub first: R,
 }
 
 impl<R: Real> Solved<R> {
     /// Whether rounding leaves three digits of u at least.
     pub fn has_digits(&self) -> bool {
         R::from_count(1024) * self.change <= R::ONE
+    }
+
+    /// Whether corrections have shrunk as only those by a factor of this very matrix do. From a start next to the
+    /// answer they may be too small to tell: who needs to know then measures what is left.
+    pub fn contracts(&self) -> bool {
+        self.first <= R::from_count(FAR) && R::from_count(64) * self.change <= self.first
     }
 }
 
@@ -118,6 +137,14 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         self.tableau.reset(&self.factored.start)
     }
 
+    /// Forgets the openings of the last solve where they are larger than `most`.
+    pub(crate) fn forget_beyond(&mut self, most: R) {
+        let mut openings = self.iterate.x.iter().zip(self.factored.scale);
+        if openings.any(|(&x, &scale)| !((x * scale).magnitude() <= most)) {
+            self.iterate.x.fill(R::ZERO);
+        }
+    }
+
     /// What the last solve did; `None` where it found nothing.
     pub fn solved(&self) -> Option<Solved<R>> {
         self.solved
@@ -151,6 +178,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         self.open(lower, u);
         low.fill(R::ZERO);
         let (mut pivots, mut rounds, mut last) = (0, 0, None);
+        let mut first = R::ZERO;
         // Where exchanges find nothing to exchange, what looks wrong is rounding.
         let mut settled = false;
         while rounds < ROUNDS {
@@ -162,9 +190,16 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
                 settled = exchanges == 0 && last.is_some();
                 pivots += exchanges;
                 factor.substitute(places);
+                let step = largest(places);
                 self.add(places, counts.free, u, low);
                 // The openings are in u already.
                 low.iter_mut().skip(counts.free).for_each(|rest| *rest = R::ZERO);
+                if last.is_none() {
+                    first = step / largest(u);
+                    if first > R::from_count(FAR) && rounds < AGAIN {
+                        continue;
+                    }
+                }
                 last = Some(R::ONE / R::ZERO);
                 continue;
             }
@@ -182,7 +217,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
             }
         }
         lift(lower, counts.free, u, low);
-        self.solved = last.map(|change| Solved { pivots, rounds, change });
+        self.solved = last.map(|change| Solved { pivots, rounds, change, first });
         Ok(self.solved)
     }
 
@@ -206,7 +241,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
 
     /// Whether an edge that touches is pulled off the gap, by more than rounding.
     fn is_wrong(&self) -> bool {
-        let size = pivoting::square(self.iterate.x).rounded_sqrt();
+        let size = sizes::norm(self.iterate.x);
         let noise = R::from_count(64) * R::EPSILON * size;
         let edges = self.load.iter().zip(self.iterate.x.iter());
         edges.into_iter().any(|(&b, &x)| x == R::ZERO && b > noise)
@@ -233,11 +268,14 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         multiply_add(&matrix, x, open, self.load)?;
         let cap = (4 * counts.contact + 16) as u32;
         let iterate = Iterate { x, residual, scratch, open };
-        let (found, pivots) =
-            pivoting::find(&matrix, self.load, &mut self.tableau, &start, cap, iterate)?;
-        if found != Found::Exact {
-            return Ok(None);
-        }
+        let search =
+            pivoting::find(&matrix, self.load, &mut self.tableau, &start, |at| at < cap, iterate);
+        let pivots = match search {
+            Ok((Found::Exact, pivots)) => pivots,
+            // What overflows has no answer either.
+            Ok(_) | Err(Error::NotFinite { .. }) => return Ok(None),
+            Err(error) => return Err(error),
+        };
         let values = self.iterate.x.iter().zip(scale).zip(lower);
         let contact = u.iter_mut().skip(counts.free).zip(values);
         for ((u, ((&x, &scale), &lower)), place) in contact.zip(counts.free..) {

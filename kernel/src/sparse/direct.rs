@@ -1,6 +1,6 @@
 //! The exact solver on a matrix that was factored here: S is scaled in place, defects come from its rows.
 
-use super::contact::{Defect, Exact, Factored, Memory, Solved};
+use super::contact::{Defect, Exact, Factored, Memory, SLACK, Solved};
 use super::factor::Factor;
 use crate::boundary::Boundary;
 use crate::condensed::blocks::{Block, Blocks, SIDE, count};
@@ -89,17 +89,25 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
             return Ok(None);
         };
         let residual = system.residual(u);
-        if !(residual.largest.finite() && residual.range.finite()) {
+        let Residual { largest, range, load, rounding, .. } = &residual;
+        if [largest, range, load, rounding].iter().any(|size| !size.finite()) {
             return Ok(None);
         }
         let status = match settings.is_met(&residual, R::ONE) {
             true => Status::Converged,
-            false if solved.has_digits() => Status::RoundingLimit,
+            false if solved.has_digits() && is_solution(&solved, &residual) => {
+                Status::RoundingLimit
+            }
             false => Status::Stalled,
         };
         let Solved { pivots, rounds, .. } = solved;
         Ok(Some(Progress { status, residual, pivots, rounds }))
     }
+}
+
+/// Whether nothing but rounding is left, as far as a factor can tell that may be another matrix's.
+fn is_solution<R: Real>(solved: &Solved<R>, residual: &Residual<R>) -> bool {
+    solved.contracts() || residual.largest <= R::from_count(SLACK) * residual.rounding
 }
 
 /// Defects from the rows of K.

@@ -28,6 +28,7 @@ pub mod elimination;
 pub mod factor;
 
 pub use cells::Balance;
+pub(crate) use contact::SLACK;
 pub use contact::{Exact, Factored, Memory, Solved};
 pub use direct::{Direct, DirectMemory, Progress};
 pub use elimination::Pattern;

@@ -6,8 +6,8 @@
 //!    └──── the next tick starts from this one's iterate and active set
 //! ```
 //! Mesh, A and forest stay ([`Ground`]); loads, gaps and Dirichlet values change with every tick, and
-//! nothing is built anew but the rows. Data that are not finite are refused before anything changes:
-//! the last answer and its report stay.
+//! nothing is built anew but the rows. Data that are not finite, or so large that their answer may overflow, are
+//! refused before anything changes: the last answer and its report stay.
 //!
 //! Sweeps alternate with certificates. How many sweeps lie between them follows from the algebraic
 //! part: two certificates tell how fast it falls, and the next is due when it should be small enough,
@@ -18,12 +18,15 @@
 //! follows the active set, and shifts of the whole part ([`crate::solver`]).
 
 mod factored;
+mod range;
 mod report;
 mod resume;
 mod running;
 mod uncertified;
 
-pub use report::{Deadline, Ended, Limits, Report};
+pub use crate::limits::{Deadline, Limits};
+pub use crate::report::Ended;
+pub use report::Report;
 pub use resume::Progress;
 pub use running::Running;
 
@@ -93,23 +96,45 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     }
 
     /// Takes the data of a tick. Where an edge was in contact it starts on the new gap, and everything
-    /// else where it was, lifted onto the gap where needed.
+    /// else where it was, lifted onto the gap where needed; an iterate that is larger than the data by more than
+    /// 2¹⁰/ε starts with zeros.
     ///
     /// # Errors
-    /// Arrays of the wrong length and numbers that are not finite: nothing is changed then.
+    /// Arrays of the wrong length, numbers that are not finite or within 1/ε² of the largest one, where the answer
+    /// may overflow (ψ, u_D, b and b_i/K_ii): the last answer stays then, bit for bit.
     pub fn begin<'t>(
         &'t mut self,
         data: Data<'t, R, I>,
     ) -> Result<Running<'t, 'a, R, I, WIDTH>, Error> {
-        check(&data, &self.ground)?;
+        let size = self.admit(&data)?;
+        Ok(self.enter(data, size))
+    }
+
+    /// Lays out load and rows, which no answer is in, and returns the size of the data in the unit of u.
+    pub(crate) fn admit(&mut self, data: &Data<R, I>) -> Result<R, Error> {
+        check(data, &self.ground)?;
         let (edges, given) = (&self.ground.edges, &data.given);
         let memory = &mut self.memory;
         assembly::load(edges, given.loads, &given.boundary, memory.load)?;
+        let (stiffness, omega) = (self.ground.stiffness, self.search.omega);
+        memory.rows.gather(edges, stiffness, &given.boundary, memory.load, omega)?;
+        range::size(data, memory)
+    }
+
+    /// Begins with data that have been admitted.
+    pub(crate) fn enter<'t>(
+        &'t mut self,
+        data: Data<'t, R, I>,
+        size: R,
+    ) -> Running<'t, 'a, R, I, WIDTH> {
         self.search.disturb();
-        let stiffness = self.ground.stiffness;
-        memory.rows.gather(edges, stiffness, &given.boundary, memory.load, self.search.omega)?;
-        memory.carry_over(edges.counts(), &data);
-        Ok(Running::new(self, data))
+        self.memory.carry_over(self.ground.edges.counts(), &data, size);
+        Running::new(self, data, size)
+    }
+
+    /// The memory, for a start.
+    pub(crate) fn memory(&mut self) -> &mut Memory<'a, R, I, WIDTH> {
+        &mut self.memory
     }
 
     /// Means of u over the edges, as the last [`Running::advance`] left them.
@@ -139,7 +164,8 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 }
 
 impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
-    fn carry_over(&mut self, counts: EdgeCounts, data: &Data<R, I>) {
+    fn carry_over(&mut self, counts: EdgeCounts, data: &Data<R, I>, size: R) {
+        self.forget_another_size(counts.unknowns(), size);
         let given = self.u.iter_mut().skip(counts.unknowns());
         given.zip(data.dirichlet).for_each(|(u, &value)| *u = value);
         // An overflow of the last tick: start anew.

@@ -9,6 +9,7 @@ use crate::index::Index;
 use crate::math::{Libm, Math};
 use crate::psor;
 use crate::real::Real;
+use crate::relaxation::Search;
 
 /// Sweeps before the first certificate of a tick, and at least between two.
 pub(super) const FEWEST: u32 = 4;
@@ -18,6 +19,10 @@ pub(super) const FEWEST: u32 = 4;
 pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
     pub(super) tick: &'t mut Tick<'a, R, I, WIDTH>,
     pub(super) data: Data<'t, R, I>,
+    /// That of the data in the unit of u.
+    pub(super) size: R,
+    /// ω as it was: what overflows teaches nothing.
+    search: Search<R>,
     pub(super) sweeps: u32,
     /// Sweeps at the last measurement of the defect.
     measured: u32,
@@ -29,10 +34,12 @@ pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
 }
 
 impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH> {
-    pub(super) fn new(tick: &'t mut Tick<'a, R, I, WIDTH>, data: Data<'t, R, I>) -> Self {
+    pub(super) fn new(tick: &'t mut Tick<'a, R, I, WIDTH>, data: Data<'t, R, I>, size: R) -> Self {
         Self {
+            search: tick.search,
             tick,
             data,
+            size,
             sweeps: 0,
             measured: 0,
             next_certificate: FEWEST,
@@ -212,22 +219,21 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let Tick { memory, search, report, .. } = &mut *self.tick;
         let lower = self.data.lower;
         let (active, changes) = contact_state(counts, lower, memory.u, memory.active);
-        for (at, was) in memory.active.iter_mut().enumerate() {
-            *was = contact::is_active(counts, lower, memory.u, at);
+        let force = contact::force(counts, &self.data.given.boundary, lower, memory.u, memory.tau);
+        // u may be finite where its fluxes are not, and the law of contact may hide one.
+        let fluxes = memory.tau.iter().skip(counts.free).take(counts.contact);
+        let known = residual.finite() && force.finite() && fluxes.into_iter().all(|x| x.finite());
+        let ended = if known { ended } else { Ended::NotFinite };
+        if ended == Ended::NotFinite {
+            *search = self.search;
+        } else {
+            for (at, was) in memory.active.iter_mut().enumerate() {
+                *was = contact::is_active(counts, lower, memory.u, at);
+            }
         }
-        let force = contact::force(counts, &self.data.given.boundary, memory.tau);
-        // u may be finite where its fluxes are not.
-        let known = residual.finite() && force.finite();
-        let found = Report {
-            ended: if known { ended } else { Ended::NotFinite },
-            sweeps: self.sweeps,
-            residual,
-            active,
-            changes,
-            force,
-            verdict,
-            omega: search.omega,
-        };
+        let (omega, verdict) = (search.omega, verdict.as_parts());
+        let sweeps = self.sweeps;
+        let found = Report { ended, sweeps, residual, active, changes, force, verdict, omega };
         *report = Some(found);
         Ok(found)
     }
@@ -238,9 +244,7 @@ pub(super) fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option
         Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
         Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),
         // Without a bound there may still be a solution.
-        Verdict::Certified(_) | Verdict::Pulled { .. } | Verdict::NotFinite | Verdict::NotAsked => {
-            None
-        }
+        _ => None,
     }
 }
 

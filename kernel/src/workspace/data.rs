@@ -29,29 +29,37 @@ impl<
     /// Sets all boundary data anew; the iterate stays. An edge keeps its block: contact edges stay
     /// contact and Dirichlet edges stay Dirichlet.
     ///
+    /// `condition` is asked twice for every boundary edge, and must say the same: once before anything changes.
+    ///
     /// # Errors
-    /// An edge without a condition or with one of another block, numbers that are not admissible;
-    /// the data are then half set, and another call must set them.
+    /// An edge without a condition or with one of another block, numbers that are not admissible: the data stay as
+    /// they were.
     pub fn set_conditions(
         &mut self,
         mesh: &Mesh<R, I>,
         mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
     ) -> Result<(), Error> {
+        let mut records = [(Array::Neumann, 0), (Array::Robin, 0), (Array::Contact, 0)];
+        for at in 0..self.counts.edges() {
+            let kind = match self.asked(mesh, at, &mut condition)? {
+                Some((_, Condition::Neumann { .. })) => 0,
+                Some((_, Condition::Robin { .. })) => 1,
+                Some((_, Condition::Contact { .. })) => 2,
+                Some((_, Condition::Dirichlet { .. })) | None => continue,
+            };
+            if let Some((of, needed)) = records.get_mut(kind) {
+                *needed += 1;
+                if *needed > B {
+                    return Err(Error::Capacity { of: *of, needed: *needed, limit: B });
+                }
+            }
+        }
         self.neumann.clear();
         self.robin.clear();
         self.contact_flux.clear();
         self.gap.clear();
         for at in 0..self.counts.edges() {
-            if read(&self.half_edges, at)[1] == I::NONE {
-                let edges = self.edges()?;
-                let ends = edges.endpoints(mesh, at);
-                let length = edges.length::<R, Libm>(mesh, at);
-                let named = ends.map(|vertex| vertex.at() as u32);
-                let found = condition(&BoundaryEdge::new(mesh, ends));
-                let found = found.ok_or(Error::NoCondition(named))?;
-                if self.counts.block(at) != found.block() {
-                    return Err(Error::ConditionChanged(named));
-                }
+            if let Some((length, found)) = self.asked(mesh, at, &mut condition)? {
                 self.set_condition(at, length, found)?;
             }
         }
@@ -61,6 +69,41 @@ impl<
         let stiffness = Stiffness { triangles: &self.triangles, quads: &self.quads };
         assembly::values(&edges, stiffness, &boundary, &self.row_ptr, values)?;
         self.fill_load()
+    }
+
+    /// Length and condition of an edge, where it is one of the boundary.
+    fn asked(
+        &self,
+        mesh: &Mesh<R, I>,
+        at: usize,
+        condition: &mut impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
+    ) -> Result<Option<(R, Condition<R>)>, Error> {
+        if read(&self.half_edges, at)[1] != I::NONE {
+            return Ok(None);
+        }
+        let edges = self.edges()?;
+        let ends = edges.endpoints(mesh, at);
+        let length = edges.length::<R, Libm>(mesh, at);
+        let named = ends.map(|vertex| vertex.at() as u32);
+        let found = condition(&BoundaryEdge::new(mesh, ends)).ok_or(Error::NoCondition(named))?;
+        if self.counts.block(at) != found.block() {
+            return Err(Error::ConditionChanged(named));
+        }
+        let (of, numbers) = match found {
+            Condition::Neumann { flux } => (Array::Neumann, [flux * length; 2]),
+            Condition::Robin { coefficient, .. } if coefficient < R::ZERO => {
+                return Err(Error::NegativeRobin { edge: at });
+            }
+            Condition::Robin { coefficient, ambient } => {
+                (Array::Robin, [coefficient * length, coefficient * length * ambient])
+            }
+            Condition::Contact { gap, flux } => (Array::Contact, [gap, flux * length]),
+            Condition::Dirichlet { value } => (Array::Dirichlet, [value; 2]),
+        };
+        match numbers.iter().all(|number| number.finite()) {
+            true => Ok(Some((length, found))),
+            false => Err(Error::NotFinite { of, at }),
+        }
     }
 
     fn set_condition(&mut self, at: usize, length: R, found: Condition<R>) -> Result<(), Error> {

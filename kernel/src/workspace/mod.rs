@@ -14,7 +14,7 @@ use crate::boundary::{Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
 use crate::csr::Csr;
 use crate::edges::{EdgeCounts, Edges};
-use crate::error::{Array, Error, all_finite};
+use crate::error::{Array, Error, all_moderate};
 use crate::index::Index;
 use crate::math::Math;
 use crate::mesh::Mesh;
@@ -187,17 +187,28 @@ impl<
     /// iterate is feasible and usable also where sweeps ran out.
     ///
     /// # Errors
-    /// Data that are not finite, a relaxation factor outside (0, 2).
+    /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
+    /// b_i/K_ii); a relaxation factor outside (0, 2). The last answer stays then, bit for bit.
     pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
-        all_finite(Array::Unknowns, &self.u)?;
         // Borrowed apart, since moving an array out of the workspace would pass through the stack.
         let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
         let edges = Edges::new(of_triangles, of_quads, half_edges, *counts)?;
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
         let system = System::new(matrix, &self.load, &self.gap, *counts)?.with_shifts(shifts)?;
+        let (unknowns, dirichlet) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
+        all_moderate(Array::Load, self.load.iter().copied())?;
+        let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
+        all_moderate(Array::Load, steps)?;
+        all_moderate(Array::LowerBounds, self.gap.iter().copied())?;
+        all_moderate(Array::Dirichlet, dirichlet.iter().copied())?;
+        let mut solver = Solver::<R>::new(settings)?;
+        if unknowns.iter().any(|u| !u.finite()) {
+            // An overflow of the last solve: start anew.
+            unknowns.fill(R::ZERO);
+        }
         let mut rows = Rows::new(&edges, &mut self.rows)?;
-        let outcome = Solver::<R>::new(settings)?.run(&system, &mut rows, u)?;
+        let outcome = solver.run(&system, &mut rows, u)?;
         let stiffness = Stiffness { triangles: &self.triangles, quads: &self.quads };
         let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
         flux::recover(&edges, stiffness, cells, u, &[], flux)?;
@@ -222,10 +233,14 @@ impl<
         &self.flux
     }
 
-    /// ∫_C (σ·n − q)
+    /// ∫_C (τ·n − q) ≥ 0: the sum of λ, within the law of contact wherever the solve was stopped
+    /// ([`contact::force`]).
     pub fn contact_force(&self) -> R {
-        let fluxes = self.flux.iter().skip(self.counts.free).zip(&self.contact_flux);
-        fluxes.fold(R::ZERO, |sum, (&flux, &given)| sum + (flux - given))
+        let on_contact = self.u.iter().zip(&self.flux).skip(self.counts.free);
+        let given = self.gap.iter().zip(&self.contact_flux);
+        on_contact.zip(given).fold(R::ZERO, |sum, ((&u, &flux), (&lower, &given))| {
+            sum + (contact::within_law(u, lower, flux, given) - given)
+        })
     }
 
     /// Σ|E| over the active contact edges, lengths by the square root of `M`.

@@ -93,7 +93,7 @@ impl Foundation {
         let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
         let metric = Metric { at_points: points, place, bends: &[] };
         let mut way = vec![0.0; edges.cells()];
-        self.reach = certificate::reach(&edges, &cells, metric, &forest, &mut way)?;
+        self.reach = certificate::reach(&edges, &cells, metric, &boundary, &forest, &mut way)?;
         Ok(())
     }
 

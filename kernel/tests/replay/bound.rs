@@ -75,7 +75,8 @@ impl<R: Scalar> Ways<R> {
             ways.points.push(at_points(arrays, at));
         }
         let metric = Metric { at_points: &ways.points, place: &ways.place, bends: &[] };
-        ways.reach = reach(&edges, &cells, metric, &forest, &mut vec![R::ZERO; edges.cells()])?;
+        ways.reach =
+            reach(&edges, &cells, metric, &boundary, &forest, &mut vec![R::ZERO; edges.cells()])?;
         Ok(ways)
     }
 

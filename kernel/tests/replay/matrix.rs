@@ -103,7 +103,7 @@ fn of_width<R: Scalar, const WIDTH: usize>(
 
 fn fluxes<R: Scalar>(arrays: &Arrays<R>, u: &[R], journal: &mut Journal) -> Result<(), Error> {
     let (mesh, edges, boundary) = (arrays.mesh()?, arrays.edges()?, arrays.boundary()?);
-    let (k, loads) = (arrays.stiffness(), arrays.cell_loads());
+    let (k, loads, lower) = (arrays.stiffness(), arrays.cell_loads(), &arrays.lower);
     let mut triangles = vec![[R::ZERO; 3]; arrays.triangles.len()];
     let mut quads = vec![[R::ZERO; 4]; arrays.quads.len()];
     flux::of_triangles(&edges, k, loads.triangles, u, &mut triangles)?;
@@ -112,13 +112,12 @@ fn fluxes<R: Scalar>(arrays: &Arrays<R>, u: &[R], journal: &mut Journal) -> Resu
     let mut of_edges = vec![R::ZERO; u.len()];
     journal.line("recovered", flux::recover(&edges, k, loads, u, &[], &mut of_edges)?);
     journal.digest("flux", &of_edges);
-    journal.line("force", contact::force(arrays.counts, &boundary, &of_edges));
+    journal.line("force", contact::force(arrays.counts, &boundary, lower, u, &of_edges));
     let low: Vec<_> = u.iter().map(|&u| u * R::EPSILON).collect();
     journal.line("recovered", flux::recover(&edges, k, loads, u, &low, &mut of_edges)?);
     journal.digest("flux with the low part", &of_edges);
-    let of_cells = contact::force_of_cells(&edges, &boundary, &triangles, &quads);
+    let of_cells = contact::force_of_cells(&edges, &boundary, lower, u, &triangles, &quads);
     journal.line("force of cells", of_cells);
-    let lower = &arrays.lower;
     journal.line("length", contact::length::<R, u16, Libm>(&mesh, &edges, lower, u));
     Ok(())
 }

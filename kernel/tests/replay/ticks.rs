@@ -59,13 +59,17 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             .collect();
         reports?.into_iter().for_each(|report| tell(&tick, report, journal));
     }
-    // Squares overflow, and then the numbers themselves.
+    // Squares overflow, and then the numbers themselves might.
     let large = R::of(3.5) / R::TINY;
     for part in [large.rounded_sqrt() * R::of(64.0), large] {
         let input = Input::new(arrays, R::ZERO, part);
-        let mut running = tick.begin(input.data(arrays)?)?;
-        let report = running.advance(limits(60, 1e-2), &mut Deadline::never())?;
-        tell(&tick, report, journal);
+        match tick.begin(input.data(arrays)?) {
+            Ok(mut running) => {
+                let report = running.advance(limits(60, 1e-2), &mut Deadline::never())?;
+                tell(&tick, report, journal);
+            }
+            Err(error) => journal.line("refused", error),
+        }
     }
     Ok(())
 }

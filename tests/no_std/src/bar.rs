@@ -116,7 +116,8 @@ fn measure<R: Real, I: Index>(
     let boundary = Boundary::new(edges, &[], &[], &[])?;
     let mut fluxes = [R::ZERO; EDGES];
     flux::recover(edges, stiffness, loads, u, low, &mut fluxes)?;
-    let length = contact::length::<R, I, Libm>(mesh, edges, &[-R::ONE; CONTACT], u);
-    let force = contact::force(edges.counts(), &boundary, &fluxes);
+    let gap = [-R::ONE; CONTACT];
+    let length = contact::length::<R, I, Libm>(mesh, edges, &gap, u);
+    let force = contact::force(edges.counts(), &boundary, &gap, u, &fluxes);
     Ok(if length == R::TWO { force } else { R::ZERO / R::ZERO })
 }

@@ -106,7 +106,14 @@ impl<R: Bits> Foundation<R> {
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
         let metric = Metric { at_points: points, place: at, bends: &[] };
-        *reach = certificate::reach(edges, &packed, metric, &forest, &mut vec![R::ZERO; cells])?;
+        *reach = certificate::reach(
+            edges,
+            &packed,
+            metric,
+            boundary,
+            &forest,
+            &mut vec![R::ZERO; cells],
+        )?;
         Ok(foundation)
     }
 
@@ -205,15 +212,16 @@ pub fn judged<R: Bits>(
         Verdict::Pulled { edge } => {
             assert_eq!(ground.edges.counts().block(edge), Block::Contact);
         }
-        Verdict::NotFinite | Verdict::NotAsked => {}
+        _ => {}
     }
     Ok(())
 }
 
 /// All finite, and none negative.
 pub fn is_bound<R: Bits>(found: &Certificate<R>) {
-    let Certificate { gap, algebraic, oscillation, rounding, total } = *found;
-    let parts = [gap, algebraic, oscillation, rounding, total];
+    let Certificate { gap, algebraic, oscillation, rounding, total, of_u } = *found;
+    let parts = [gap, algebraic, oscillation, rounding, total, of_u];
     assert!(parts.iter().all(|part| part.finite()), "{found:?}");
-    assert!(parts.iter().all(|part| *part >= R::ZERO) && total >= gap, "{found:?}");
+    assert!(parts.iter().all(|part| *part >= R::ZERO), "{found:?}");
+    assert!(gap <= total && total <= of_u, "{found:?}");
 }

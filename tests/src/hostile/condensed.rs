@@ -13,10 +13,12 @@ use signorini_kernel::condensed::method::{Linear, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
+use signorini_kernel::report::{Ended, Report};
 
 use super::bytes::{Bits, Bytes};
 use super::certified::is_bound;
 use super::scenes;
+use crate::tolerances::AFTER_EXTREMES;
 
 /// Contact edges, at most.
 const MOST: usize = 18;
@@ -61,8 +63,10 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let (entries, norms) = (bytes.reals::<R>(columns * (columns + 1) / 2), bytes.reals(columns));
     let (floating, oscillation) = (bytes.reals(n), bytes.reals(m));
     let largest_load = bytes.reals(m);
+    let factor = Factor { columns: &entries, norms: &norms };
     let form = Form {
-        factor: Factor { columns: &entries, norms: &norms },
+        factor,
+        jump: (m > 1).then_some(factor),
         vertices: &vertices,
         corners: &corners[..bytes.below(2)],
         reach: bytes.real(),
@@ -91,6 +95,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
         load: &load,
         outputs: &outputs,
         certificate,
+        has_bound: true,
     };
     ticked(bytes, &model, columns, m)
 }
@@ -128,7 +133,7 @@ fn ticked<R: Bits>(
         };
         let Ok(report) = report else { continue };
         for number in 0..4 {
-            if let Ok(value) = model.output(number, &p, &x, &report) {
+            if let Ok(value) = model.output(number, &p, &memory.iterate, &report) {
                 assert!(!value.wide().is_nan(), "output {number}: {value:?} {report:?}");
             }
         }
@@ -136,29 +141,71 @@ fn ticked<R: Bits>(
     Ok(())
 }
 
-/// A scene's controller, tick after tick, with inputs of any bits.
+/// A scene's controller, tick after tick, with inputs of any bits; a second one is never asked for what the first
+/// refuses, and a third begins anew for every ordinary tick.
 pub fn controlled<R: Bits + Kept>(bytes: &mut Bytes) {
     let all = R::baked();
     let baked = &all[bytes.below(all.len())];
-    let mut controller = Controller::new(baked);
+    let (mut controller, mut spared) = (Controller::new(baked), Controller::new(baked));
     for _ in 0..1 + bytes.below(6) {
-        let before = controller.x().to_vec();
+        let before = bits(controller.x());
         let inputs = bytes.reals::<R>(scenes::INPUTS);
         match controller.tick(&inputs) {
-            Ok((values, report)) => {
-                let [values @ .., bound] = &values[..] else { continue };
-                let said = || format!("{inputs:?} {values:?} {bound:?} {report:?}");
-                assert!(values.iter().all(|value| value.finite()), "{}", said());
-                assert!(*bound >= R::ZERO, "{}", said());
-                assert!(controller.x().iter().all(|x| *x >= R::ZERO), "{}", said());
-                report.certificate.iter().for_each(|found| is_bound(found));
+            Ok(answer) => {
+                answered(&inputs, &answer, controller.x());
+                let other = spared.tick(&inputs).expect("the same answer");
+                assert_eq!(bits(&answer.0), bits(&other.0), "{inputs:?} after what was refused");
             }
-            Err(_) if inputs.iter().any(|input| !input.finite()) => {
-                assert_eq!(controller.x(), before, "a refused tick has moved x");
-            }
-            Err(_) => {}
+            Err(_) => assert_eq!(bits(controller.x()), before, "a refused tick has moved x"),
+        }
+        if bytes.flag() {
+            ordinary(bytes, baked, &mut controller, &mut spared);
         }
     }
+}
+
+/// Outputs, and the report beside them.
+type Answer<R> = (Vec<R>, Report<R>);
+
+fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
+    numbers.iter().map(|x| x.wide().to_bits()).collect()
+}
+
+fn answered<R: Bits>(inputs: &[R], (values, report): &Answer<R>, x: &[R]) {
+    let [values @ .., bound] = &values[..] else { return };
+    let said = || format!("{inputs:?} {values:?} {bound:?} {report:?}");
+    assert!(values.iter().all(|value| value.finite()), "{}", said());
+    assert!(*bound >= R::ZERO, "{}", said());
+    assert!(x.iter().all(|x| *x >= R::ZERO && x.finite()), "{}", said());
+    report.certificate().iter().for_each(|found| is_bound(found));
+}
+
+/// Inputs of ordinary size: what is called the solution is the one that a cold start finds, whatever came before.
+fn ordinary<R: Bits>(
+    bytes: &mut Bytes,
+    baked: &Baked<R>,
+    controller: &mut Controller<R>,
+    spared: &mut Controller<R>,
+) {
+    let inputs: Vec<R> =
+        (0..scenes::INPUTS).map(|_| R::narrow(f64::from(bytes.byte() as i8) / 16.0)).collect();
+    let answer = controller.tick(&inputs).expect("an ordinary tick");
+    let other = spared.tick(&inputs).expect("an ordinary tick");
+    assert_eq!(bits(&answer.0), bits(&other.0), "{inputs:?}");
+    answered(&inputs, &answer, controller.x());
+    let work = Work { pivots: baked.work.pivots.map(|_| 100), sweeps: 10_000 };
+    let generous = baked.clone().with_work(work);
+    let mut cold = Controller::new(&generous);
+    let (_, expected) = cold.tick(&inputs).expect("an ordinary tick");
+    if [answer.1.ended, expected.ended].contains(&Ended::OutOfSweeps) {
+        return;
+    }
+    let size = cold.x().iter().fold(R::ONE, |most, x| most.or_larger(*x));
+    let off = controller.x().iter().zip(cold.x());
+    let off = off.fold(R::ZERO, |most, (&x, &cold)| most.or_larger((x - cold).magnitude()));
+    let (off, size) = (off.wide(), size.wide());
+    let said = format!("{inputs:?}: {:?} after {:?}", answer.1, expected);
+    AFTER_EXTREMES.check(&said, off / size * f64::EPSILON / R::EPSILON.wide());
 }
 
 /// Scalars with models that are baked once.

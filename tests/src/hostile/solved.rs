@@ -50,6 +50,7 @@ fn judged(scene: &Scene, problem: &Problem, solution: &Solution) {
     let single = [solution.contact_force, solution.contact_length, solution.algebraic_residual];
     let said = || format!("{:?} {single:?} {:?}", solution.status, solution.bound);
     assert!(numbers.chain(&single).all(|x| x.is_finite()), "{}", said());
+    assert!(solution.contact_force >= 0.0, "a pull: {}", said());
     let free = problem.topology.counts.free;
     for at in 0..problem.topology.counts.contact {
         assert!(solution.u[free + at] >= solution.gap(problem, at), "below the gap: {}", said());
@@ -74,6 +75,7 @@ fn sane(tick: &Tick) {
     let numbers = [tick.contact_force, tick.contact_length, tick.combined].into_iter();
     let numbers = numbers.chain(tick.outputs.iter().copied());
     assert!(numbers.flatten().all(|x| x.is_finite()), "{tick:?}");
+    assert!(tick.contact_force.is_none_or(|force| force >= 0.0), "{tick:?}");
     assert!(tick.bound.is_none_or(|bound| bound.total >= 0.0), "{tick:?}");
 }
 

@@ -15,6 +15,7 @@ use super::certified::{Conditions, Foundation, Loads, is_bound};
 use super::condensed::{self, Kept};
 use super::plate::Plate;
 use super::scenes;
+use crate::tolerances::AFTER_EXTREMES;
 
 /// The first byte chooses the loop and the scalar; the rest is what it is told.
 pub fn tick(data: &[u8]) {
@@ -64,11 +65,12 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     for _ in 0..1 + bytes.below(4) {
         let conditions = renewed(bytes, &first);
         let loads = Loads::new(bytes, &edges, conditions);
-        let bits = |u: &[R]| u.iter().map(|u| u.wide().to_bits()).collect::<Vec<_>>();
-        let before = bits(tick.u());
+        let state = |tick: &Tick<R, u16, QUADS>| [tick.u(), tick.tau(), tick.vertices()].map(bits);
+        let before = (state(&tick), tick.report().copied());
         let Ok(data) = loads.data(&edges) else { continue };
         let Ok(mut running) = tick.begin(data) else {
-            assert_eq!(bits(tick.u()), before, "refused data have changed u");
+            assert_eq!(state(&tick), before.0, "refused data have left a trace");
+            assert!(format!("{:?}", tick.report()) == format!("{:?}", before.1.as_ref()));
             continue;
         };
         for _ in 0..1 + bytes.below(2) {
@@ -114,7 +116,7 @@ fn answered<R: Bits>(report: &Report<R>) {
         return;
     }
     assert!(report.residual.finite() && report.residual >= R::ZERO, "{report:?}");
-    assert!(report.force.finite(), "{report:?}");
+    assert!(report.force.finite() && report.force >= R::ZERO, "{report:?}");
     assert!(report.omega > R::ZERO && report.omega < R::TWO, "{report:?}");
     if let Some(found) = report.verdict.certificate() {
         is_bound(found);
@@ -128,13 +130,22 @@ fn driven<R: Bits + Driven>(bytes: &mut Bytes) {
     if baked.has_quads() { on::<R, QUADS>(bytes, baked) } else { on::<R, TRIANGLES>(bytes, baked) }
 }
 
+/// A second controller is never asked for what the first refuses; in the end an ordinary tick follows.
 fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
     let mut controller = Controller::<R, WIDTH>::new(baked);
+    let mut spared = Controller::<R, WIDTH>::new(baked);
     for _ in 0..1 + bytes.below(4) {
         let inputs = bytes.reals::<R>(scenes::INPUTS);
         let limits = limits(bytes);
-        let Ok((values, report)) = controller.tick_within(&inputs, limits) else { continue };
+        let state = |of: &Controller<R, WIDTH>| [bits(of.u()), bits(of.tau()), bits(of.vertices())];
+        let before = state(&controller);
+        let Ok((values, report)) = controller.tick_within(&inputs, limits) else {
+            assert_eq!(state(&controller), before, "{inputs:?}: a refused tick has left a trace");
+            continue;
+        };
         answered(&report);
+        let (other, _) = spared.tick_within(&inputs, limits).expect("the same answer");
+        assert_eq!(bits(&values), bits(&other), "{inputs:?} after what was refused");
         if report.ended == Ended::NotFinite {
             continue;
         }
@@ -146,6 +157,34 @@ fn on<R: Bits, const WIDTH: usize>(bytes: &mut Bytes, baked: &Baked<R>) {
         let on_contact = u.iter().skip(free).zip(lower);
         assert!(on_contact.into_iter().all(|(u, lower)| u >= lower), "{}", said());
     }
+    ordinary(bytes, baked, &mut controller);
+}
+
+fn bits<R: Bits>(numbers: &[R]) -> Vec<u64> {
+    numbers.iter().map(|x| x.wide().to_bits()).collect()
+}
+
+/// Inputs of ordinary size: the answer is that of a cold start, whatever came before.
+fn ordinary<R: Bits, const WIDTH: usize>(
+    bytes: &mut Bytes,
+    baked: &Baked<R>,
+    controller: &mut Controller<R, WIDTH>,
+) {
+    let inputs: Vec<R> =
+        (0..scenes::INPUTS).map(|_| R::narrow(f64::from(bytes.byte() as i8) / 16.0)).collect();
+    let limits = Limits { error: R::ZERO, share: R::EPSILON, sweeps: 10_000 };
+    let mut cold = Controller::<R, WIDTH>::new(baked);
+    let (_, expected) = cold.tick_within(&inputs, limits).expect("an ordinary tick");
+    let (_, report) = controller.tick_within(&inputs, limits).expect("an ordinary tick");
+    answered(&report);
+    let said = format!("{inputs:?}: {report:?} instead of {expected:?}");
+    let is_settled = |ended| matches!(ended, Ended::Settled | Ended::Exact);
+    assert!(is_settled(report.ended) && is_settled(expected.ended), "{said}");
+    let size = cold.u().iter().fold(R::ONE, |most, u| most.or_larger(u.magnitude()));
+    let off = controller.u().iter().zip(cold.u());
+    let off = off.fold(R::ZERO, |most, (&u, &cold)| most.or_larger((u - cold).magnitude()));
+    let epsilons = f64::EPSILON / R::EPSILON.wide();
+    AFTER_EXTREMES.check(&said, off.wide() / size.wide() * epsilons);
 }
 
 /// Scalars with full models that are baked once.
@@ -156,12 +195,21 @@ pub trait Driven: Sized + 'static {
         Self: signorini_host::scalar::Scalar;
 }
 
+/// Sweeps or a factor, with a bound and without.
+const WAYS: [&str; 4] = [
+    "[setting]\nmodel = \"full\"\nsolver = \"sweeps\"\n",
+    "[setting]\nmodel = \"full\"\nsolver = \"sweeps\"\ncertificate = false\n",
+    "[setting]\nmodel = \"full\"\nsolver = \"factor\"\n",
+    "[setting]\nmodel = \"full\"\nsolver = \"factor\"\ncertificate = false\n",
+];
+
 fn bake<R: Bits>() -> Vec<Baked<R>> {
     let baked = |text: &str| {
-        let (scene, mesh) = scenes::of(text)?;
-        Baked::new(&scene, &Problem::new(&scene, mesh).ok()?).ok()
+        let (scene, mesh) = scenes::of(text).expect("a sound scene");
+        Baked::new(&scene, &Problem::new(&scene, mesh)?)
     };
-    scenes::TEXTS.iter().map(|text| baked(text).expect("a sound scene")).collect()
+    let texts = scenes::TEXTS.iter().flat_map(|text| WAYS.map(|way| format!("{text}{way}")));
+    texts.map(|text| baked(&text).expect("a model")).collect()
 }
 
 impl Driven for f64 {

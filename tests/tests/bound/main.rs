@@ -7,6 +7,7 @@ mod catalogue;
 mod invariance;
 mod mesh;
 mod nonparametric;
+mod of_u;
 mod property;
 mod run;
 mod supports;

@@ -1,10 +1,12 @@
 //! On random scenes with an exact solution, stopped at any time.
 
 use signorini_host::solve::ScalarKind;
+use signorini_kernel::element::QuadElement;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{
     BOUND_ROUNDING, BOUND_ROUNDING_NARROW, GUARANTEE, GUARANTEE_SMOOTH, IDENTITY, IDENTITY_SMOOTH,
+    LIFTED,
 };
 use signorini_tests::written::{Case, Side, Smooth, Units, Written};
 
@@ -113,6 +115,13 @@ pub fn check(Trial { what, smooth, run }: &Trial) {
         ScalarKind::F32 => BOUND_ROUNDING_NARROW,
     };
     rounding.check(what, bound.rounding / bound.total);
+    guarantee.check(what, (1.0 - bound.of_u / found.energy).max(0.0));
+    let added = bound.of_u - bound.total;
+    LIFTED.check(what, (1.0 - added / found.nonconformity).max(0.0));
+    // On bent quads the norm of a lift is added to that of the rest.
+    let most = if run.problem.element == QuadElement::Nonparametric { 3.0 } else { 1.0 };
+    let rest = (added - 4.0 * bound.rounding).max(0.0);
+    LIFTED.check(what, (rest / found.nonconformity - most).max(0.0));
     let both = (bound.gap.powi(2) + bound.oscillation.powi(2)).sqrt();
     assert!(bound.total >= bound.oscillation + both, "{what}: {bound:?}");
 }

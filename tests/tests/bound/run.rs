@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use signorini_host::certify::ErrorBound;
+use signorini_host::certify::energy_norm::nonconformity;
 use signorini_host::mesh::Mesh;
 use signorini_host::norms::{Errors, errors, of_solution};
 use signorini_host::problem::Problem;
@@ -24,6 +25,8 @@ pub struct Certified {
     pub identity: f64,
     /// ‖A^½∇_h(u − u_h)‖
     pub energy: f64,
+    /// ‖A^½∇_h(s − u_h)‖
+    pub nonconformity: f64,
 }
 
 /// In `scalar`, after at most `sweeps` sweeps.
@@ -47,7 +50,10 @@ impl Run {
         let bound = self.solution.bound?;
         let found = of_solution(&self.scene, &self.problem, &self.solution).expect("finite");
         let Errors { combined, identity, energy, .. } = found.expect("an exact solution");
-        Some(Certified { bound, combined: combined?, identity: identity?, energy })
+        let s = self.solution.certified.admissible();
+        let nonconformity = nonconformity(&self.scene, &self.problem, &s, &self.solution.u);
+        let nonconformity = nonconformity.expect("finite");
+        Some(Certified { bound, combined: combined?, identity: identity?, energy, nonconformity })
     }
 
     /// ‖A^½∇_h(u − u_h)‖ alone, in half of the time.

@@ -100,7 +100,7 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let solution = solve(&scene, &problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
     let summary =
-        Summary::new(&scene, &problem, SolverKind::Kernel, &solution, None, BTreeMap::new());
+        Summary::new(&scene, &problem, SolverKind::Kernel, &solution, None, None, BTreeMap::new());
     serde_json::from_str(&summary.json()).expect("valid JSON")
 }
 

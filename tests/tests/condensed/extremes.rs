@@ -4,7 +4,7 @@ use signorini_host::bake::condensed::{Baked, Controller, Work};
 use signorini_host::mesh::structured::Cells;
 use signorini_host::mesh::{Curve, Mesh};
 use signorini_host::scalar::Scalar;
-use signorini_kernel::condensed::method::Ended;
+use signorini_kernel::report::Ended;
 use signorini_tests::random::Random;
 
 use crate::mesh::regular;
@@ -109,7 +109,7 @@ fn any_number_of_edges<R: Scalar>() {
                 let what = format!("{contact} {work:?} {lift} {tilt}");
                 let p = [lift, tilt].map(R::narrow);
                 let (outputs, report) = controller.tick(&p).expect("a tick");
-                assert!(no_nan(&outputs) && report.certificate.is_some(), "{what}: {outputs:?}");
+                assert!(no_nan(&outputs) && report.certificate().is_some(), "{what}: {outputs:?}");
                 if work == EXACT {
                     assert_eq!(report.ended, Ended::Exact, "{what}");
                     let touching = report.active as usize;
@@ -181,7 +181,7 @@ fn ten_thousand_ticks() {
         let (found, report) = narrow.tick(&[lift, tilt]).expect("a tick");
         let (expected, _) = wide.tick(&[f64::from(lift), f64::from(tilt)]).expect("a tick");
         unfinished += u32::from(report.ended != Ended::Exact);
-        pivots += report.pivots;
+        pivots += report.exchanges;
         let size = f64::from(lift.abs() + tilt.abs());
         let off = (0..2).map(|at| (f64::from(found[at]) - expected[at]).abs() / size);
         let place = &mut worst[tick as usize / 1000];
@@ -205,19 +205,22 @@ fn pulled_off<R: Scalar>() {
                     controller.tick(&[R::narrow(push), R::narrow(tilt)]).expect("a tick");
                 assert!(no_nan(&outputs), "{work:?} {round} {push}: {outputs:?} {report:?}");
                 // Off, there is no solution to be near to.
-                assert!(push >= 0.0 || report.certificate.is_none(), "{work:?} {push}: {report:?}");
+                assert!(
+                    push >= 0.0 || report.certificate().is_none(),
+                    "{work:?} {push}: {report:?}"
+                );
                 without += u32::from(push < 0.0);
                 if work == EXACT && round == 0 {
                     println!(
                         "{push} {tilt}: {:?} {} {} {outputs:?}",
-                        report.ended, report.pivots, report.sweeps
+                        report.ended, report.exchanges, report.sweeps
                     );
                 }
             }
         }
         if work == EXACT {
             let (outputs, report) = controller.tick(&[R::ONE, R::ZERO]).expect("a tick");
-            assert!(report.certificate.is_some(), "{report:?} {outputs:?}");
+            assert!(report.certificate().is_some(), "{report:?} {outputs:?}");
         }
     }
     assert!(without > 0);

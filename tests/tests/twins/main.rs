@@ -162,7 +162,7 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     };
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(&edges, k, loads, &u, &low, &mut fluxes).expect("lengths");
-    let force = contact::force(counts, &boundary, &fluxes).wide();
+    let force = contact::force(counts, &boundary, &data.gap, &u, &fluxes).wide();
     let on_boundary = (0..counts.edges()).filter(|&at| edges.half_edges()[at][1] == I::NONE);
     Answer {
         converged,

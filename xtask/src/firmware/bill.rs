@@ -62,7 +62,7 @@ impl Bill {
             ram: ram + stack,
             flash: code + data,
             stack,
-            features: programs.features.clone(),
+            features: programs.features().to_vec(),
         })
     }
 
@@ -116,6 +116,11 @@ impl Bill {
             (None, Some(tick)) => Err(format!("{tick} has no answer")),
             (None, None) => Ok(()),
         }
+    }
+
+    /// Bytes of RAM and of flash, and instructions of a tick in the median.
+    pub fn takes(&self) -> [u64; 3] {
+        [self.ram, self.flash, self.median]
     }
 
     /// `Ok` where a tick takes at most so many instructions in the median. They are counted one by one: the same

@@ -9,6 +9,7 @@ mod bill;
 mod footprint;
 mod options;
 mod programs;
+mod stated;
 mod ticks;
 
 use std::fs;
@@ -23,6 +24,7 @@ use bill::Bill;
 pub use footprint::Footprint;
 use options::{HELP, Options};
 use programs::Programs;
+use stated::Stated;
 
 /// The verb.
 pub fn run(words: &[&str]) -> ExitCode {
@@ -62,6 +64,9 @@ const TESTED: [(&str, &str, Option<u64>); 7] = [
     ("tests/firmware/scenes/levee-96.toml", "--condensed", Some(120_000)),
 ];
 
+/// Scenes whose `--explain` is compared with the image: quads, triangles and outputs, the mesh itself.
+const EXPLAINED: [&str; 3] = ["slab", "levee", "strip-swept"];
+
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
 pub fn check(steps: &mut Steps) {
     for (scene, model, most) in TESTED {
@@ -69,10 +74,15 @@ pub fn check(steps: &mut Steps) {
         let name = format!("{} {}", recipe.scene_name(), model.trim_start_matches('-'));
         steps.check(&format!("{name}, baked, on the M4F-192K, bit for bit"), || {
             let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
+            let stated = match EXPLAINED.contains(&recipe.scene_name().as_str()) {
+                true => Some(Stated::of(&recipe)?),
+                false => None,
+            };
             let bill = measure(&Options { recipe, board: "m4-192k", out });
             let bill = bill.map_err(|failure| failure.why)?;
             bill.verdict()?;
-            bill.within(most)
+            bill.within(most)?;
+            stated.map_or(Ok(()), |stated| stated.compare(bill.takes()))
         });
     }
 }

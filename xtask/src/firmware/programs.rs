@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 
 use super::Options;
-use crate::baked::Failure;
+use crate::baked::{Baked, Failure};
 use crate::board::Board;
 use crate::toolchain::output;
 
@@ -13,10 +13,10 @@ use crate::toolchain::output;
 #[derive(Debug)]
 pub struct Programs {
     board: Board,
+    /// As long as it is there nobody else replaces the two.
+    baked: Baked,
     image: PathBuf,
     desk: PathBuf,
-    /// Features of the kernel that both are built with.
-    pub features: Vec<String>,
 }
 
 impl Programs {
@@ -32,7 +32,7 @@ impl Programs {
         });
         let image =
             image.map_err(|why| format!("{why}: no image for {}, see above", options.board))?;
-        Ok(Self { board, image, desk: desk?, features: baked.features })
+        Ok(Self { board, baked, image, desk: desk? })
     }
 
     /// What the board prints.
@@ -44,6 +44,11 @@ impl Programs {
     pub fn on_desk(&self) -> Result<String, String> {
         // It says why a tick has no answer.
         output(Command::new(&self.desk).stderr(Stdio::inherit()))
+    }
+
+    /// Features of the kernel that both are built with.
+    pub fn features(&self) -> &[String] {
+        &self.baked.features
     }
 
     /// The image.

@@ -5,7 +5,7 @@ use crate::bake::budget::Shortfall;
 use crate::bake::costs::Footprint;
 use crate::error::InputError;
 use crate::scalar::Scalar;
-use crate::scene::Scene;
+use crate::scene::{Quantity, Scene};
 
 /// That nothing fits: the candidate that misses by least, and what would fit.
 pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -> InputError {
@@ -13,18 +13,26 @@ pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -
         let factors = candidate.shortfalls.iter().map(|short| short.needed / short.declared);
         factors.fold(1.0, f64::max)
     };
-    let complete = candidates.iter().filter(|candidate| candidate.lacks.is_none());
+    let complete = candidates.iter().filter(|candidate| !candidate.lacks_bound);
     let least = complete.min_by(|a, b| factor(a).total_cmp(&factor(b)));
     let Some(candidate) = least else { return InputError::new("no model").file(&scene.path) };
     let message: Vec<String> = candidate.shortfalls.iter().map(Shortfall::to_string).collect();
     let message =
         format!("{}: the smallest model ({}) does not fit", message.join("; "), candidate.name);
-    let without = candidates.iter().find(|candidate| candidate.fits());
-    let hint = match without.and_then(|candidate| candidate.lacks.as_ref()) {
-        Some(output) => format!("without output.{output} it would fit; or {}", nearest(candidate)),
-        None => nearest(candidate),
+    // What fits now and was no choice lacks its bound, or has none.
+    let hint = match candidates.iter().any(Candidate::fits) {
+        true => format!("{}; or {}", without_bound(scene), nearest(candidate)),
+        false => nearest(candidate),
     };
     InputError::new(message).file(&scene.path).hint(hint)
+}
+
+/// That the bound is what does not fit.
+fn without_bound(scene: &Scene) -> String {
+    let output = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);
+    let output =
+        output.map_or(String::new(), |output| format!("output.{} and ", output.name.value));
+    format!("without {output}its error bound (certificate = false in [setting]) it would fit")
 }
 
 /// How many times a mesh is too large, from how needs grow: those of the code alone do not.
@@ -64,7 +72,7 @@ fn nearest<R: Scalar>(candidate: &Candidate<R>) -> String {
         }
         // Bytes grow like the number of unknowns, instructions like its power 1.5.
         Model::Full(baked) => {
-            let factor = growth(candidate, &Footprint::measured(", on "));
+            let factor = growth(candidate, &Footprint::measured(baked.code()));
             let mesh = match factor < baked.unknowns() as f64 {
                 true => format!("a mesh with about {factor:.1} times fewer unknowns would fit"),
                 false => hopeless.to_owned(),

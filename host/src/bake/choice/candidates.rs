@@ -1,19 +1,23 @@
 //! The variants of the condensed model, each with what it takes.
 
-use super::work::{allowed, fixed, within};
+use signorini_kernel::condensed::blocks::padded;
+
+use super::work::{allowed, entries, fixed, within};
 use super::{Candidate, Model};
 use crate::bake::budget::{Budget, Needs};
 use crate::bake::costs::Costs;
+use crate::bake::dense::{Done, Price};
 use crate::bake::setting::checked;
 use crate::bake::{condensed, trial};
 use crate::condense::Condensate;
 use crate::error::{InputError, Result};
 use crate::scalar::Scalar;
-use crate::scene::{Quantity, Scene};
-use crate::setting::Setting;
+use crate::scene::Scene;
+use crate::setting::{Method, Setting};
 use crate::solve::unfit;
 
-/// The variants of the condensed model: with the bound first, and of two the one that takes less time.
+/// The variants of the condensed model: with the bound first, and of two the one that takes less time. Those that leave
+/// out a bound that is asked for are no choice.
 pub(super) fn of_condensed<R: Scalar>(
     scene: &Scene,
     condensate: &Condensate,
@@ -31,13 +35,19 @@ pub(super) fn of_condensed<R: Scalar>(
     for &certified in variants {
         let mut pair = Vec::new();
         // Without contact there is nothing to solve.
-        let sweeps_alone = condensate.contact == 0 || setting.sweeps.is_some();
-        let methods = if sweeps_alone { &[false][..] } else { &[true, false] };
+        let methods = match setting.solver {
+            _ if condensate.contact == 0 || setting.sweeps.is_some() => &[false][..],
+            Some(Method::Sweeps) => &[false],
+            Some(Method::Exact) => &[true],
+            _ => &[true, false],
+        };
         for &exact in methods {
             let mut candidate =
                 condensed_as(scene, condensate, budget, &setting, [exact, certified])?;
-            candidate.lacks = bound_of(scene).filter(|_| !certified);
-            candidate.infinite = bound_of(scene).filter(|_| !has_bound);
+            candidate.lacks_bound = setting.certificate && !certified;
+            if setting.certificate {
+                candidate.unbounded = condensate.certificate.as_ref().err().cloned();
+            }
             pair.push(candidate);
         }
         // Sweeps come back from loads without a solution by small steps, where contact alone holds a part.
@@ -69,14 +79,8 @@ fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &Condensate) -> Result<
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
-/// The name of an output that is the error bound.
-pub(super) fn bound_of(scene: &Scene) -> Option<String> {
-    let bound = scene.outputs.iter().find(|output| output.quantity == Quantity::Bound);
-    bound.map(|output| output.name.value.clone())
-}
-
 pub(super) fn time(needs: &Needs) -> f64 {
-    needs.instructions.unwrap_or(f64::INFINITY)
+    needs.instructions().unwrap_or(f64::INFINITY)
 }
 
 fn condensed_as<R: Scalar>(
@@ -90,18 +94,20 @@ fn condensed_as<R: Scalar>(
     let all = allowed(setting, condensate.contact, exact);
     let baked = condensed::Baked::<R>::new(condensate, all, certified).map_err(unfit)?;
     let baked = baked.with_setting(setting);
-    let trial = trial::of_condensed(&baked, &condensate.defaults[1..]);
     let costs = Costs::measured();
+    let price = Price {
+        order: padded(condensate.contact),
+        entries: entries(condensate),
+        vertices: baked.vertices(),
+        exact,
+        certified: baked.without_bound().is_none(),
+    };
+    let price = |done: &Done| price.of::<R>(&costs, done);
+    let (trial, instructions) = trial::of_condensed(&baked, &condensate.defaults[1..], price);
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
     let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
     let work = within::<R>(&costs, condensate.contact, all, trial, time);
     let baked = baked.with_work(work);
-    let step = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
-    let pivots = f64::from(trial.pivots[0]);
-    let sweeps = f64::from(trial.sweeps[0]);
-    let instructions = fixed.zip(step("exchange")).zip(step("sweep"));
-    let instructions =
-        instructions.map(|((fixed, pivot), sweep)| fixed + pivots * pivot + sweeps * sweep);
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(", condensed", sizes, instructions);
     let solver = match (condensate.contact, exact) {
@@ -116,7 +122,7 @@ fn condensed_as<R: Scalar>(
         model: Model::Condensed(Box::new(baked)),
         needs,
         trial,
-        lacks: None,
-        infinite: None,
+        lacks_bound: false,
+        unbounded: None,
     })
 }

@@ -1,6 +1,6 @@
 //! The full model, swept and by a factor, each with what it takes.
 
-use super::candidates::{bound_of, time};
+use super::candidates::time;
 use super::{Candidate, Model};
 use crate::bake::budget::{Budget, Needs};
 use crate::bake::costs::Costs;
@@ -43,21 +43,22 @@ fn candidate<R: Scalar>(
     baked: full::Baked<R>,
 ) -> Candidate<R> {
     let sizes = full::sizes(&baked);
-    let memory = Needs::with_code(", on ", sizes, None);
+    let memory = Needs::with_code(baked.code(), sizes, [None; 2]);
     let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
     // A model that has no room is not tried.
     let trial = match budget.shortfalls(&memory).is_empty() {
         true => trial::of_full(&baked, &defaults),
         false => Trial::default(),
     };
-    let instructions = Tick { costs: Costs::measured(), problem, baked: &baked, trial }.count();
-    let needs = Needs { instructions, ..memory };
+    let tick = Tick { costs: Costs::measured(), problem, baked: &baked, trial };
+    let needs = Needs { ticks: [0, 1].map(|of| tick.count(of)), ..memory };
     let solver = if baked.entries().is_some() { ", by a factor" } else { "" };
     let bound = if baked.is_certified() { "" } else { ", no error bound" };
     Candidate {
         name: format!("full{solver}{bound}"),
-        lacks: None,
-        infinite: bound_of(scene).filter(|_| !baked.has_bound()),
+        lacks_bound: false,
+        // Where the bound is left out, nobody asks for it.
+        unbounded: (baked.is_certified() && !baked.has_bound()).then(|| NO_BOUND.to_owned()),
         model: Model::Full(Box::new(baked)),
         shortfalls: budget.shortfalls(&needs),
         needs,
@@ -65,7 +66,10 @@ fn candidate<R: Scalar>(
     }
 }
 
-/// The median tick of a trial.
+/// Why a full model can have no bound.
+const NO_BOUND: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
+
+/// Ticks of a trial: the median one has number 0, the longest 1.
 struct Tick<'a, R: Scalar> {
     costs: Costs,
     problem: &'a Problem,
@@ -74,26 +78,38 @@ struct Tick<'a, R: Scalar> {
 }
 
 impl<R: Scalar> Tick<'_, R> {
-    /// Instructions: load and rows, the solve, and what comes last; nothing where there was no tick.
-    fn count(&self) -> Option<f64> {
-        let Trial { sweeps: [sweeps, _], rounds: [rounds, _], .. } = self.trial;
+    /// Instructions: load and rows, the solve with its looks at residual and bound, and what comes last; nothing where
+    /// there was no tick.
+    fn count(&self, of: usize) -> Option<f64> {
+        let Trial { sweeps, rounds, looks, .. } = self.trial;
+        let (sweeps, rounds) = (sweeps[of], rounds[of]);
         if sweeps + rounds == 0 {
             return None;
         }
-        let last = if self.baked.is_certified() { "certificate" } else { "flux by edges" };
-        let solve = self.unknowns() * f64::from(sweeps) * self.of("sweep")?
-            + if rounds > 0 { self.exact()? } else { 0.0 };
-        let rows = self.unknowns() * self.of("rows from cells")?;
-        Some(rows + solve + self.cells() * (self.of("load")? + self.of(last)?))
+        let [certificates, measurements] = looks.map(|look| f64::from(look[of]));
+        let last = match self.baked.is_certified() {
+            true => certificates * self.of_cells("certificate")?,
+            false => self.of_cells("flux by edges")?,
+        };
+        let swept = match sweeps {
+            0 => 0.0,
+            _ => {
+                f64::from(sweeps) * self.of_unknowns("sweep", self.width())?
+                    + measurements * self.of_unknowns("residual", self.width())?
+            }
+        };
+        let solve = swept + if rounds > 0 { self.exact(of)? } else { 0.0 };
+        let rows = self.of_unknowns("rows from cells", self.quads())?;
+        Some(rows + solve + self.of_cells("load")? + last)
     }
 
     /// Defects and substitutions, exchanges, and products with tableau and S.
-    fn exact(&self) -> Option<f64> {
-        let Trial { pivots: [pivots, _], rounds: [rounds, _], .. } = self.trial;
+    fn exact(&self, of: usize) -> Option<f64> {
+        let (pivots, rounds) = (self.trial.pivots[of], self.trial.rounds[of]);
         let entries = self.baked.entries()? as f64;
-        let round = self.cells() * self.of("defect")?
-            + self.unknowns() * self.of("substitution, columns")?
-            + entries * self.of("substitution, entries")?;
+        let round = self.of_cells("defect")?
+            + self.of_unknowns("substitution, columns", self.width())?
+            + entries * self.costs.of_mesh::<R>("triangles", "substitution, entries")?;
         let contact = self.problem.topology.counts.contact;
         let dense = |stage: &str| self.costs.of_dense::<R>(stage, contact);
         let first = dense("exact, no edge changes")? + dense("sweep")?;
@@ -101,16 +117,31 @@ impl<R: Scalar> Tick<'_, R> {
         Some(f64::from(rounds) * (round + dense("answer")?) + first + exchanges)
     }
 
-    fn of(&self, stage: &str) -> Option<f64> {
-        let cells = if self.baked.has_quads() { "quads" } else { "triangles" };
-        self.costs.of_mesh::<R>(cells, stage)
+    /// A stage on all cells, each kind at its own price.
+    fn of_cells(&self, stage: &str) -> Option<f64> {
+        let mesh = &self.problem.mesh;
+        let kinds = [("triangles", mesh.triangles.len()), ("quads", mesh.quads.len())];
+        let cost =
+            |(kind, number)| self.costs.of_mesh::<R>(kind, stage).map(|each| each * number as f64);
+        kinds.into_iter().filter(|(_, number)| *number > 0).map(cost).sum()
     }
 
-    fn unknowns(&self) -> f64 {
-        self.problem.topology.counts.unknowns() as f64
+    /// A stage on all unknowns, of which `quads` is the part that costs what it does on quads.
+    fn of_unknowns(&self, stage: &str, quads: f64) -> Option<f64> {
+        let [triangle, quad] = ["triangles", "quads"].map(|of| self.costs.of_mesh::<R>(of, stage));
+        let each = (1.0 - quads) * triangle? + quads * quad?;
+        Some(each * self.problem.topology.counts.unknowns() as f64)
     }
 
-    fn cells(&self) -> f64 {
-        self.problem.cells() as f64
+    /// Rows have room for the neighbours in quads as soon as there is one.
+    fn width(&self) -> f64 {
+        if self.baked.has_quads() { 1.0 } else { 0.0 }
+    }
+
+    /// The part of the sides of cells that are a quad's.
+    fn quads(&self) -> f64 {
+        let mesh = &self.problem.mesh;
+        let (triangles, quads) = (3.0 * mesh.triangles.len() as f64, 4.0 * mesh.quads.len() as f64);
+        quads / (triangles + quads).max(1.0)
     }
 }

@@ -1,12 +1,14 @@
 //! Which model: the smallest that represents the scene exactly and fits the device.
 //!
 //! ```text
-//!   condensed, exact method │ condensed, sweeps alone │ both without the bound │ full │ full, by a factor
+//!   condensed, exact method │ condensed, sweeps alone │ full │ full, by a factor
 //!   ── each with its needs (bytes from its arrays, instructions from counted parts and a trial) ──►
 //!   the first that fits what `[target]` declares
 //! ```
-//! Of two that differ in their solver the quicker one comes first. Without the bound a model comes last of its kind, and only where no output asks for it. A scene of which one
-//! model has no bound at all gets one that has, if there is any, where an output asks for it.
+//! Of two that differ in their solver the quicker one comes first. Every model has its error bound, unless
+//! `certificate = false` in `[setting]` leaves it out: condensed models without it are worked out to say what that would
+//! save, and are no choice. A scene of which one model has no bound at all gets one that has; where none has, or none
+//! that is asked for, [`Choice::unbounded`] says why.
 
 mod advice;
 mod candidates;
@@ -23,7 +25,7 @@ use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::ModelKind;
-use crate::solve::choose_units;
+use crate::solve::choose_for_inputs;
 use advice::too_large;
 use candidates::of_condensed;
 use meshes::of_full;
@@ -55,10 +57,10 @@ pub struct Candidate<R: Scalar> {
     pub trial: Trial,
     /// What of the device it goes beyond.
     pub shortfalls: Vec<Shortfall>,
-    /// An output that it cannot give: it is no choice then, but may be one without that output.
-    pub lacks: Option<String>,
-    /// An output that stays infinite, as this model of the scene has no bound: the last choice.
-    pub infinite: Option<String>,
+    /// Whether it lacks the bound that is asked for: it is no choice then, but may be one without.
+    pub lacks_bound: bool,
+    /// Why this model of the scene can have no bound, where one is asked for: the last choice.
+    pub unbounded: Option<String>,
 }
 
 impl<R: Scalar> Candidate<R> {
@@ -68,11 +70,11 @@ impl<R: Scalar> Candidate<R> {
     }
 
     fn may_be_chosen(&self) -> bool {
-        self.fits() && self.lacks.is_none()
+        self.fits() && !self.lacks_bound
     }
 
     fn has_all(&self) -> bool {
-        self.may_be_chosen() && self.infinite.is_none()
+        self.may_be_chosen() && self.unbounded.is_none()
     }
 }
 
@@ -105,13 +107,15 @@ impl<R: Scalar> Choice<R> {
         let budget = Budget::of(scene);
         let setting = scene.setting.unwrap_or_default();
         let forced = forced.or(setting.model_kind());
-        if let (Some(ModelKind::Condensed), Some(key)) = (forced, setting.of_full_alone()) {
-            return Err(for_full_alone(scene, key).into());
+        if let Some((model, key)) =
+            forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
+        {
+            return Err(foreign(scene, model, key).into());
         }
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
         let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
-        let units = choose_units(scene, problem)?;
+        let units = choose_for_inputs(scene, problem)?;
         refuse_answers::<R>(scene, &units)?;
         refuse_lengths::<R>(scene, problem)?;
         // Condensation is in the scene's units, in f64.
@@ -135,7 +139,8 @@ impl<R: Scalar> Choice<R> {
         if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
             match of_full(scene, problem, &budget, &mut excluded) {
                 Ok(mut found) => {
-                    // Its sweeps depend on the inputs: who asks for it is warned, not refused.
+                    // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
+                    // the time, not refused.
                     for candidate in found.iter_mut().filter(|_| forced.is_some()) {
                         candidate.shortfalls.retain(|short| short.key != "target.tick");
                     }
@@ -156,10 +161,21 @@ impl<R: Scalar> Choice<R> {
             }
             _ => first,
         };
-        match complete.or_else(|| candidates.iter().position(Candidate::may_be_chosen)) {
+        // Without a bound only where no model has one: what is asked for and does not fit is not left out.
+        let is_bounded = |of: &Candidate<R>| of.unbounded.is_none() && !of.lacks_bound;
+        let last = || match candidates.iter().any(is_bounded) {
+            true => None,
+            false => candidates.iter().position(Candidate::may_be_chosen),
+        };
+        match complete.or_else(last) {
             Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
             None => Err(too_large(scene, &candidates).into()),
         }
+    }
+
+    /// Why the model chosen has no bound, where one is asked for.
+    pub fn unbounded(&self) -> Option<&str> {
+        self.candidate().unbounded.as_deref()
     }
 
     /// The model chosen.
@@ -168,9 +184,13 @@ impl<R: Scalar> Choice<R> {
     }
 }
 
-/// The error that a key of the setting does not go with the condensed model that the command asks for.
-fn for_full_alone(scene: &Scene, key: &str) -> InputError {
-    InputError::new(format!("setting.{key}: means nothing to the condensed model"))
+/// The error that a key of the setting does not go with the model that the command asks for.
+fn foreign(scene: &Scene, model: ModelKind, key: &str) -> InputError {
+    let model = match model {
+        ModelKind::Full => "full",
+        ModelKind::Condensed => "condensed",
+    };
+    InputError::new(format!("setting.{key}: means nothing to the {model} model"))
         .file(&scene.path)
-        .hint("remove it, or do not ask for the condensed model")
+        .hint(format!("remove it, or do not ask for the {model} model"))
 }

@@ -26,17 +26,21 @@ pub(super) fn fixed<R: Scalar>(
     exact: bool,
     certified: bool,
 ) -> Option<f64> {
-    let Condensate { contact, inputs, outputs, .. } = condensate;
-    let of = |stage: &str| costs.of_dense::<R>(stage, *contact);
-    let (n, m) = (padded(*contact) as f64, *inputs as f64);
-    let entries = n * m + outputs.len() as f64 * (n + m);
+    let of = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
     let (sweep, product) = (of("sweep")?, of("product, half of x zero")?);
     let solve = if exact { of("exact, no edge changes")? + 2.0 * (sweep - product) } else { sweep };
     let bound = match certified && condensate.certificate.is_ok() {
         true => 2.0 * of("norm of the bound, half of x zero")?,
         false => 0.0,
     };
-    Some(AN_ENTRY * entries + solve + bound)
+    Some(AN_ENTRY * entries(condensate) as f64 + solve + bound)
+}
+
+/// Entries of loads and outputs.
+pub(super) fn entries(condensate: &Condensate) -> usize {
+    let Condensate { contact, inputs, outputs, .. } = condensate;
+    let n = padded(*contact);
+    n * inputs + outputs.len() * (n + inputs)
 }
 
 /// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number.

@@ -47,6 +47,8 @@ pub struct Baked<R: Scalar> {
     pub sweeps: Sweeps<R>,
     /// Whether every tick starts anew, from the answer to the scene's own inputs.
     pub cold: bool,
+    /// Whether the data allow for a bound, even if it is left out.
+    pub has_bound: bool,
     pub(super) matrix: Vec<Block<R>>,
     pub(super) start: Start<R>,
     pub(super) load: Vec<R>,
@@ -58,15 +60,23 @@ pub struct Baked<R: Scalar> {
 #[derive(Debug, Clone)]
 pub(super) enum Output<R> {
     Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
+    Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
     Length { of_contact: Vec<R> },
     Bound,
+}
+
+/// A quadratic form: its triangular factor by columns, and the norms of the columns.
+#[derive(Debug, Clone)]
+pub(super) struct Columns<R> {
+    pub columns: Vec<R>,
+    pub norms: Vec<R>,
 }
 
 /// The certificate's arrays.
 #[derive(Debug, Clone)]
 pub(super) struct Bound<R> {
-    pub columns: Vec<R>,
-    pub norms: Vec<R>,
+    pub factor: Columns<R>,
+    pub jump: Option<Columns<R>>,
     pub vertices: Vec<Vertex<R>>,
     pub corners: Vec<(u16, Vec<R>)>,
     pub reach: R,
@@ -86,7 +96,7 @@ impl<R: Scalar> Baked<R> {
         let n = condensate.contact;
         let bound = match &condensate.certificate {
             Err(reason) => Err(reason.clone()),
-            Ok(_) if !certified => Err("left out".to_owned()),
+            Ok(_) if !certified => Err("certificate = false leaves it out".to_owned()),
             Ok(form) => Ok(Bound::new(condensate, form)),
         };
         let order = f64::from(u32::try_from(n.max(1)).unwrap_or(u32::MAX));
@@ -98,6 +108,7 @@ impl<R: Scalar> Baked<R> {
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             cold: false,
+            has_bound: condensate.certificate.is_ok(),
             matrix: matrix(condensate),
             start: Start::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
@@ -140,7 +151,12 @@ impl<R: Scalar> Baked<R> {
 
     /// Columns of F.
     pub(super) fn columns(&self) -> usize {
-        self.bound.as_ref().map_or(0, |bound| bound.norms.len())
+        self.bound.as_ref().map_or(0, |bound| bound.factor.norms.len())
+    }
+
+    /// Contact vertices of the certificate.
+    pub(crate) fn vertices(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| bound.vertices.len())
     }
 
     /// Why there is no certificate, if so.
@@ -165,6 +181,7 @@ impl<R: Scalar> Baked<R> {
             load,
             outputs: &outputs,
             certificate,
+            has_bound: self.has_bound,
         })
     }
 
@@ -175,13 +192,14 @@ impl<R: Scalar> Baked<R> {
         };
         finite(Array::Load, &self.load)?;
         for output in &self.outputs {
-            if let Output::Linear { of_inputs, of_contact } = output {
-                finite(Array::Fluxes, of_inputs)?;
-                finite(Array::Fluxes, of_contact)?;
+            for numbers in output.arrays() {
+                finite(Array::Fluxes, numbers)?;
             }
         }
         let Ok(bound) = &self.bound else { return Ok(()) };
-        finite(Array::MatrixValues, &bound.columns)?;
+        for form in std::iter::once(&bound.factor).chain(&bound.jump) {
+            finite(Array::MatrixValues, &form.columns)?;
+        }
         finite(Array::Coefficients, &[bound.unit, bound.reach, R::ONE / bound.unit])
     }
 }
@@ -192,6 +210,11 @@ impl<R: Scalar> Output<R> {
             condense::Measure::Linear { of_inputs, of_contact } => {
                 Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
             }
+            condense::Measure::Flux { of_inputs, of_contact, of_reaction } => Self::Flux {
+                of_inputs: narrow(of_inputs),
+                of_contact: narrow(of_contact),
+                of_reaction: narrow(of_reaction),
+            },
             condense::Measure::Length { of_contact } => {
                 Self::Length { of_contact: narrow(of_contact) }
             }
@@ -199,41 +222,74 @@ impl<R: Scalar> Output<R> {
         }
     }
 
+    /// What it holds in flash.
+    pub fn arrays(&self) -> [&[R]; 3] {
+        match self {
+            Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                [of_inputs, of_contact, of_reaction]
+            }
+            Self::Length { of_contact } => [&[], of_contact, &[]],
+            Self::Bound => [&[]; 3],
+        }
+    }
+
     fn measure(&self) -> Measure<'_, R> {
         match self {
             Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                Measure::Flux { of_inputs, of_contact, of_reaction }
+            }
             Self::Length { of_contact } => Measure::Length { of_contact },
             Self::Bound => Measure::Bound,
         }
     }
 }
 
+impl<R: Scalar> Columns<R> {
+    fn new(factor: &[f64], order: usize) -> Self {
+        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
+        let least = |j: usize| R::TINY.wide() * f64::from(j as u32 + 1).sqrt();
+        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)))).collect();
+        Self { columns: narrow(factor), norms }
+    }
+
+    fn view(&self) -> Factor<'_, R> {
+        Factor { columns: &self.columns, norms: &self.norms }
+    }
+}
+
 impl<R: Scalar> Bound<R> {
     fn new(condensate: &Condensate, form: &condense::Form) -> Self {
         let n = condensate.contact;
-        let orders = 0..condensate.inputs + n + form.vertices.len();
-        let column = |j: usize| &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
+        let order = condensate.inputs + n + form.vertices.len();
         let least = R::TINY.wide();
-        let least_norm = |j: usize| least * f64::from(j as u32 + 1).sqrt();
-        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-        let norm = |j: usize| size(j).max(least_norm(j));
         let rows = condensate.matrix.chunks(n.max(1));
         let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
         let largest =
             |column: &Vec<f64>| column.iter().fold(least, |most: f64, b| most.max(b.abs()));
         // Only their ratios matter.
         let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
-        let floating = condensate.multiplier.iter().map(|multiplier| multiplier / most);
-        let floating: Vec<f64> = if form.floating { floating.collect() } else { Vec::new() };
+        let mut floating = vec![0.0; if form.floating.is_empty() { 0 } else { n }];
+        form.floating.iter().for_each(|&at| floating[at] = condensate.multiplier[at] / most);
+        // The kernel takes u_D that rounding of its sum has put below ψ: by how much is weighed here, input by input.
+        let slack = f64::from(condensate.inputs as u32 + 8) * R::EPSILON.wide();
+        let of_corners = |j: usize| {
+            let moved = form.corners.iter().map(|corner| corner.excess[j].abs() * corner.energy);
+            slack * moved.sum::<f64>()
+        };
+        let oscillation = form.oscillation.iter().enumerate();
+        let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
         Self {
-            columns: narrow(&form.factor),
-            norms: orders.map(norm).map(R::narrow).collect(),
+            factor: Columns::new(&form.factor, order),
+            jump: form.jump.as_ref().map(|jump| Columns::new(jump, order)),
             vertices: form.vertices.iter().map(vertex).collect(),
             corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
             reach: R::narrow(form.reach),
             floating: narrow(&floating),
-            oscillation: narrow(&form.oscillation),
+            oscillation: narrow(&oscillation),
             row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
             largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
             unit: R::narrow(condensate.energy_unit),
@@ -242,7 +298,8 @@ impl<R: Scalar> Bound<R> {
 
     fn form<'a>(&'a self, corners: &'a [Corner<'a, R>]) -> Form<'a, R> {
         Form {
-            factor: Factor { columns: &self.columns, norms: &self.norms },
+            factor: self.factor.view(),
+            jump: self.jump.as_ref().map(Columns::view),
             vertices: &self.vertices,
             corners,
             reach: self.reach,

@@ -4,9 +4,11 @@ use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::method::{Linear, Pivots};
 use signorini_kernel::condensed::tableau::Tableau;
-use signorini_kernel::condensed::{Iterate, Memory, Report};
+use signorini_kernel::condensed::{Iterate, Memory};
+use signorini_kernel::report::Report;
 
 use super::arrays::{Baked, Solver};
+use super::visited::Visited;
 use crate::scalar::Scalar;
 
 /// The controller of a condensed scene.
@@ -50,7 +52,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
     /// Answers for these values of the inputs: every output in order, and the report.
     ///
     /// # Errors
-    /// Inputs that are not finite.
+    /// Inputs that are not finite, or so large that the answer or an output may overflow: the last answer stays.
     pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
         let baked = self.baked;
         if baked.cold {
@@ -83,9 +85,14 @@ impl<'b, R: Scalar> Controller<'b, R> {
                 }
             };
             let outputs = (0..baked.outputs.len())
-                .map(|number| model.output(number, &inputs, memory.iterate.x, &report));
+                .map(|number| model.output(number, &inputs, &memory.iterate, &report));
             Ok((outputs.collect::<Result<_, _>>()?, report))
         })
+    }
+
+    /// What the last tick looked at.
+    pub fn visited(&self) -> Visited {
+        Visited::new(&self.open, &self.combination)
     }
 
     /// The scaled openings of the last tick.

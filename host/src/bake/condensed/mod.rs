@@ -16,9 +16,11 @@ mod start;
 mod statics;
 #[cfg(test)]
 mod tests;
+mod visited;
 
 pub use arrays::{Baked, Work};
 pub use controller::Controller;
 pub use header::header;
 pub use sizes::sizes;
 pub use source::source;
+pub use visited::Visited;

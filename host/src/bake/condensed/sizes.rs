@@ -2,7 +2,7 @@
 
 use signorini_kernel::condensed::blocks::{count, padded};
 
-use super::arrays::{Baked, Solver};
+use super::arrays::{Baked, Columns, Output, Solver};
 use crate::bake::full::Sizes;
 use crate::scalar::Scalar;
 
@@ -39,7 +39,10 @@ impl<R: Scalar> Baked<R> {
                 tableau,
                 match exact {
                     true => "a tableau, and the one it begins with".to_owned(),
-                    false => "sweeps take less time, or its memory is not there".to_owned(),
+                    false if self.contact == 0 => "no contact edges".to_owned(),
+                    false => {
+                        "see the models above: what it takes, and why it is not chosen".to_owned()
+                    }
                 },
             ),
             ("inputs", self.inputs > 1, self.inputs * n * scalar, {
@@ -50,7 +53,7 @@ impl<R: Scalar> Baked<R> {
                 self.bound.is_ok(),
                 bound,
                 match &self.bound {
-                    Ok(bound) => format!("a factor of {} columns", bound.norms.len()),
+                    Ok(bound) => format!("a factor of {} columns", bound.factor.norms.len()),
                     Err(reason) => reason.clone(),
                 },
             ),
@@ -76,10 +79,12 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         Solver::Exchanges(_) => (BLOCK * count(baked.contact) + 2 * n) * scalar + n,
         _ => 0,
     };
-    let outputs = baked.outputs.len() * (baked.inputs + baked.contact);
+    let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();
     let bound = baked.bound.as_ref().map_or(0, |bound| {
         let corners: usize = bound.corners.iter().map(|(_, excess)| excess.len() + 1).sum();
-        let numbers = bound.columns.len() + columns + corners + bound.floating.len();
+        let form = |form: &Columns<R>| form.columns.len() + form.norms.len();
+        let forms = form(&bound.factor) + bound.jump.as_ref().map_or(0, form);
+        let numbers = forms + corners + bound.floating.len();
         (numbers + 2 * baked.inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar)
     });
     Sizes {

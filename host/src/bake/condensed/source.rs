@@ -7,6 +7,7 @@ use signorini_kernel::condensed::blocks::{count, padded};
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::data;
+use crate::bake::controller::{self, Parts};
 use crate::bake::face::{About, Face};
 use crate::scalar::Scalar;
 
@@ -25,8 +26,7 @@ pub fn source<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let report = "signorini_kernel::condensed::Report<Scalar>";
-    let about = About { model: "condensed", text: &about, features: &[], report };
+    let about = About { model: "condensed", text: &about, features: &[] };
     let mut text = face.source::<R>(&about);
     text += &imports(baked);
     text += &constants(baked);
@@ -42,9 +42,10 @@ fn imports<R: Scalar>(baked: &Baked<R>) -> String {
     };
     format!(
         "
-use signorini_kernel::Error;
 use signorini_kernel::condensed::method::{method};
 use signorini_kernel::condensed::{storage};
+use signorini_kernel::limits::{{Deadline, Limits}};
+use signorini_kernel::{{Error, Report}};
 "
     )
 }
@@ -83,22 +84,66 @@ pub const PIVOTS: u32 = {most};
         text,
         "/// Projected SOR: {purpose}.
 pub const SWEEPS: Sweeps<Scalar> =
-    Sweeps {{ omega: {:?}, tolerance: {:?}, most: {} }};
+    Sweeps {{ omega: {:?}, tolerance: {:?}, most: LIMITS.sweeps }};
 ",
-        sweeps.omega, sweeps.tolerance, sweeps.most
+        sweeps.omega, sweeps.tolerance
     );
     text
 }
 
 fn controller<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
-    let (method, is_exact) = match baked.solver() {
-        Solver::Linear => ("let mut method = Linear;", false),
-        Solver::Sweeps => ("let mut method = SWEEPS;", false),
+    let solver = baked.solver();
+    let is_exact = matches!(solver, Solver::Exchanges(_));
+    let only = |text: &'static str| if is_exact { text } else { "" };
+    let ends = match solver {
+        Solver::Linear => "with the solution, for nothing is in contact",
+        Solver::Sweeps => "with complementarity, or after so many sweeps",
         Solver::Exchanges(_) => {
-            ("let mut method = self.tableau.method(&data::SYSTEM, PIVOTS, SWEEPS)?;", true)
+            "with the solution; where [`PIVOTS`] do not suffice, after so many sweeps"
         }
     };
-    let only = |text: &'static str| if is_exact { text } else { "" };
+    let sweeps = if solver == Solver::Linear { 0 } else { baked.sweeps.most };
+    let text = controller::controller(&Parts {
+        fields: &format!(
+            "    storage: Storage<Scalar, PADDED, COLUMNS>,\n{}",
+            only("    tableau: TableauStorage<Scalar, PADDED, BLOCKS>,\n")
+        ),
+        values: &format!(
+            "            storage: Storage::new(),\n{}",
+            only("            tableau: TableauStorage::new(),\n")
+        ),
+        first: "begins with the answer to the scene's own inputs",
+        from: match baked.cold {
+            true => "from the answer to the scene's own inputs",
+            false => "from where the last tick ended",
+        },
+        ends,
+        limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
+        is_limited: solver != Solver::Linear,
+        tick: &tick(face, baked),
+        reset: &format!(
+            "        self.storage.reset();\n{}",
+            only("        self.tableau.reset();\n")
+        ),
+    });
+    text + "\npub use data::SYSTEM;\n"
+}
+
+/// The body of a tick.
+fn tick<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+    const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
+    let method = match baked.solver() {
+        Solver::Linear => "Linear".to_owned(),
+        Solver::Sweeps => SWEEPS.to_owned(),
+        Solver::Exchanges(_) => {
+            format!(
+                "{{
+            let sweeps = {SWEEPS};
+            self.tableau.method(&data::SYSTEM, PIVOTS, sweeps)?
+        }}"
+            )
+        }
+    };
     let names: Vec<_> = face.inputs().collect();
     let given: Vec<_> = std::iter::once("1.0").chain(names.iter().copied()).collect();
     let pattern = match names.is_empty() {
@@ -108,54 +153,16 @@ fn controller<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
     let outputs = face.outputs().enumerate();
     let outputs: Vec<_> = outputs.map(|(at, name)| format!("{name}: output({at})?")).collect();
     format!(
-        "
-/// All memory of the scene; can initialise a `static`.
-#[derive(Debug)]
-pub struct Controller {{
-    storage: Storage<Scalar, PADDED, COLUMNS>,
-{}}}
-
-impl Controller {{
-    /// Before the first tick, which begins with the answer to the scene's own inputs.
-    pub const fn new() -> Self {{
-        Self {{
-            storage: Storage::new(),
-{}        }}
-    }}
-
-    /// Answers for these inputs, from {}.
-    ///
-    /// # Errors
-    /// Inputs that are not finite; the last answer stays.
-    pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {{
-{}        {pattern}
+        "{}        {pattern}
         let inputs = [{}];
-        {method}
+        let mut method = {method};
         let mut memory = self.storage.memory(&data::SYSTEM);
-        let report = data::SYSTEM.tick(&inputs, &mut method, &mut memory)?;
-        let x = memory.iterate.x;
-        let output = |number| data::SYSTEM.output(number, &inputs, x, &report);
+        let report = data::SYSTEM.tick_until(&inputs, &mut method, deadline, &mut memory)?;
+        let output = |number| data::SYSTEM.output(number, &inputs, &memory.iterate, &report);
         let outputs = Outputs {{ {} }};
         Ok(Answer {{ outputs, report }})
-    }}
-}}
-
-impl Default for Controller {{
-    fn default() -> Self {{
-        Self::new()
-    }}
-}}
-
-pub use data::SYSTEM;
 ",
-        only("    tableau: TableauStorage<Scalar, PADDED, BLOCKS>,\n"),
-        only("            tableau: TableauStorage::new(),\n"),
-        if baked.cold {
-            "the answer to the scene's own inputs"
-        } else {
-            "where the last tick ended"
-        },
-        if baked.cold { "        *self = Self::new();\n" } else { "" },
+        if baked.cold { "        self.reset();\n" } else { "" },
         given.join(", "),
         outputs.join(", "),
     )

@@ -71,11 +71,13 @@ mod data {{
         load: &LOAD,
         outputs: &[{}],
         certificate: {certificate},
+        has_bound: {},
     }};
 }}
 ",
         names.iter().map(|name| format!("\n            {name},")).collect::<String>()
             + "\n        ",
+        baked.has_bound,
     )
 }
 
@@ -105,6 +107,23 @@ fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> Strin
                 "Measure::Linear {{ of_inputs: &{name}_OF_INPUTS, of_contact: &{name}_OF_CONTACT }}"
             )
         }
+        Output::Flux { of_inputs, of_contact, of_reaction } => {
+            let mut some = |of: &str, doc: &str, factors: &[R]| {
+                if factors.is_empty() {
+                    return "&[]".to_owned();
+                }
+                let name = format!("{name}_{of}");
+                numbers(text, &name, doc, factors);
+                format!("&{name}")
+            };
+            let of_inputs = some("OF_INPUTS", "By the inputs.", of_inputs);
+            let of_contact = some("OF_CONTACT", "By the openings.", of_contact);
+            let of_reaction = some("OF_REACTION", "By the reactions.", of_reaction);
+            format!(
+                "Measure::Flux {{ of_inputs: {of_inputs}, of_contact: {of_contact}, \
+                 of_reaction: {of_reaction} }}"
+            )
+        }
         Output::Length { of_contact } => {
             numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
             format!("Measure::Length {{ of_contact: &{name}_OF_CONTACT }}")
@@ -114,8 +133,16 @@ fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> Strin
 }
 
 fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
-    numbers(text, "FACTOR", "F by columns: inputs, openings, corrections.", &bound.columns);
-    numbers(text, "NORMS", "The norms of its columns.", &bound.norms);
+    numbers(text, "FACTOR", "F by columns: inputs, openings, corrections.", &bound.factor.columns);
+    numbers(text, "NORMS", "The norms of its columns.", &bound.factor.norms);
+    let jump = match &bound.jump {
+        None => "None",
+        Some(jump) => {
+            numbers(text, "JUMP", "J by columns: what u_h is off from s.", &jump.columns);
+            numbers(text, "JUMP_NORMS", "The norms of its columns.", &jump.norms);
+            "Some(Factor { columns: &JUMP, norms: &JUMP_NORMS })"
+        }
+    };
     let vertices = &bound.vertices;
     put(text, "VERTICES", "Contact vertices.", "Vertex<Scalar>", {
         (vertices.len(), array(vertices, 4))
@@ -138,6 +165,7 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
     format!(
         "Some(Form {{
             factor: Factor {{ columns: &FACTOR, norms: &NORMS }},
+            jump: {jump},
             vertices: &VERTICES,
             corners: &[{}],
             reach: {:?},

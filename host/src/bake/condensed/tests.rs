@@ -2,7 +2,7 @@
 
 use super::{Baked, Controller, Work, source};
 use crate::bake::choice::{Choice, Model};
-use crate::bake::compiled::printed;
+use crate::bake::compiled::{FIRMWARE, printed};
 use crate::bake::face::Face;
 use crate::certify::fixtures::on_grid;
 use crate::condense::condense;
@@ -191,6 +191,23 @@ fn with_a_setting() -> Result<()> {
         });
         assert_eq!(first, again);
         assert!(work != SWEEPS || other.1.sweeps == 6);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_firmware_need_not_know_the_model() -> Result<()> {
+    // An exact tick in which no edge changes sides needs no time for exchanges.
+    let linear = Work { pivots: None, sweeps: 0 };
+    for (text, work, ended) in
+        [(NAMES, PIVOTS, "Exact"), (NAMES, SWEEPS, "OutOfTime"), (LINEAR, linear, "Exact")]
+    {
+        let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+        let condensate = condense(&scene, &problem)?;
+        let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
+        let text = source(&Face::new(&scene, &problem), &baked) + FIRMWARE;
+        let expected = format!("true [true, true, true] {ended} true\n");
+        assert_eq!(printed(&text), expected, "{work:?}");
     }
     Ok(())
 }

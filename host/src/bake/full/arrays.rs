@@ -21,7 +21,7 @@ use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
 use crate::certify::Certifier;
 use crate::error::{InputError, Result};
-use crate::functional::{Functional, Linear, basis_at, functionals};
+use crate::functional::{Functional, basis_at, functionals};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
@@ -272,9 +272,9 @@ fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> Output<R> {
         weights.iter().map(share).collect()
     };
     match functional {
-        Functional::Linear(Linear::Flux(edges)) => Output::Flux(all(edges, 0)),
-        Functional::Linear(Linear::Force(edges)) => Output::Force(all(edges, free)),
-        Functional::Linear(Linear::Probe(cell, point)) => {
+        Functional::Flux(edges) => Output::Flux(all(edges, 0)),
+        Functional::Force(edges) => Output::Force(all(edges, free)),
+        Functional::Probe(cell, point) => {
             Output::Probe(shares(&basis_at(problem, *cell, point), 0))
         }
         Functional::Length(lengths) => Output::Length(shares(lengths, free)),

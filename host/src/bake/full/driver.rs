@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
+use signorini_kernel::limits::Limits;
+
 use super::arrays::{Baked, How};
 use super::items::Item;
 use super::rescaling::Rescaling;
 use super::source::imports;
+use crate::bake::controller::{self, Parts};
 use crate::scalar::Scalar;
 
 /// What the controller may name, with its place in the kernel.
@@ -23,10 +26,10 @@ const NAMES: &[(&str, &str)] = &[
     ("Certificate", "certificate::Certificate"),
     ("Verdict", "certificate::Verdict"),
     ("Exact", "sparse::Exact"),
-    ("Deadline", "tick::Deadline"),
-    ("Limits", "tick::Limits"),
+    ("Deadline", "limits::Deadline"),
+    ("Limits", "limits::Limits"),
     ("Progress", "tick::Progress"),
-    ("Report", "tick::Report"),
+    ("Report", "Report"),
 ];
 
 /// The struct with its memory, and what it does.
@@ -41,66 +44,36 @@ pub(super) fn controller<R: Scalar>(
 
 fn body<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> String {
     let how = &baked.how;
-    let mut text = format!(
-        "
-/// When a tick ends: {}.
-pub const LIMITS: Limits<Scalar> =
-    Limits {{ error: {:?}, share: {:?}, sweeps: {} }};
+    let (mut members, mut values) = (String::new(), String::new());
+    for Item { name, doc, of, value, .. } in fields {
+        let _ = writeln!(members, "    /// {doc}\n    {name}: {of},");
+        let _ = writeln!(values, "            {name}: {value},");
+    }
+    let Limits { error, share, sweeps } = how.limits;
+    let text = controller::controller(&Parts {
+        fields: &members,
+        values: &values,
+        first: "starts cold",
+        from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
+        ends: ends(baked),
+        limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
+        is_limited: true,
+        tick: &tick(fields, baked, rescaling),
+        reset: "        self.progress = Progress::NONE;\n",
+    });
+    text + &rescaling.items
+}
 
-/// All memory of the scene; can initialise a `static`.
-#[derive(Debug)]
-pub struct Controller {{
-",
-        ends(baked),
-        how.limits.error,
-        how.limits.share,
-        how.limits.sweeps
-    );
-    for Item { name, doc, of, .. } in fields {
-        let _ = writeln!(text, "    /// {doc}\n    {name}: {of},");
-    }
-    text += "}
-
-impl Controller {
-    /// Before the first tick, which starts cold.
-    pub const fn new() -> Self {
-        Self {
-";
-    for Item { name, value, .. } in fields {
-        let _ = writeln!(text, "            {name}: {value},");
-    }
-    text += "        }
-    }
-
-";
-    let _ = writeln!(text, "    /// Answers for these inputs, {}.", from(how));
-    text += "    ///
-    /// # Errors
-    /// Inputs that are not finite, or whose loads are not; the last answer stays.
-    pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {
-        self.tick_within(inputs, LIMITS, &mut Deadline::never())
-    }
-
-    /// The same with limits of the caller's and until a deadline.
-    ///
-    /// # Errors
-    /// As for [`Controller::tick`].
-    pub fn tick_within<F: FnMut() -> u32>(
-        &mut self,
-        inputs: Inputs,
-        limits: Limits<Scalar>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<Answer, Error> {
-";
-    if how.cold {
-        text += "        self.progress = Progress::NONE;\n";
-    }
+/// The body of a tick.
+fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> String {
+    let mut text = if baked.how.cold { "        self.reset();\n" } else { "" }.to_owned();
     text += &rescaling.before;
     let has = |field: &str| fields.iter().any(|item| item.name == field);
     let place = |field: &str| {
         if has(field) { format!("&mut self.{field}") } else { "&mut []".to_owned() }
     };
-    if baked.factored.is_some() {
+    let is_factored = baked.factored.is_some();
+    if is_factored {
         text += &exact(&place);
     }
     text += "        let memory = Memory {
@@ -128,19 +101,17 @@ impl Controller {
         text,
         "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory,{} &mut outputs)?;",
         call(baked),
-        if baked.factored.is_some() { " &mut exact," } else { "" }
+        if is_factored { " &mut exact," } else { "" }
     );
+    text += if is_factored {
+        "        let exchanges = exact.solved().map_or(0, |solved| solved.pivots);
+        let report = Report { exchanges, ..report.into() };
+"
+    } else {
+        "        let report = Report::from(report);\n"
+    };
     text += &rescaling.after;
-    text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })
-    }
-}
-
-impl Default for Controller {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-" + &rescaling.items
+    text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })\n"
 }
 
 /// The exact solver with its memory.
@@ -185,11 +156,6 @@ fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
             "once sweeps have brought the algebraic part of the error bound down to this share of it"
         }
     }
-}
-
-/// Where a tick starts.
-fn from<R: Scalar>(how: &How<R>) -> &'static str {
-    if how.cold { "from a cold start" } else { "from where the last tick ended" }
 }
 
 /// The kernel's tick.

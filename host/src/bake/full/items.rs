@@ -236,6 +236,11 @@ impl<R: Scalar> Baked<R> {
         varying
     }
 
+    /// What the record of `cargo xtask size` calls scenes with the code of this one.
+    pub(crate) fn code(&self) -> &'static str {
+        if self.factored.is_some() { ", by a factor" } else { ", on " }
+    }
+
     /// Room in a packed row.
     pub(super) fn width(&self) -> usize {
         if self.of_quads.is_empty() { TRIANGLES } else { QUADS }

@@ -48,11 +48,7 @@ fn after<R: Scalar>(scale: &Scale<R>, outputs: &[Output<R>]) -> String {
 fn items<R: Scalar>(scale: &Scale<R>) -> String {
     format!(
         "
-/// What 1 stands for in `data`: this many units of u.
-const U_UNIT: Scalar = {:?};
-/// The same for fluxes and loads.
-const FLUX_UNIT: Scalar = {:?};
-/// The same for energy norms.
+/// What 1 stands for in `data`, of energy norms.
 const ENERGY_UNIT: Scalar = {:?};
 
 fn in_units_of_the_scene(report: Report<Scalar>) -> Report<Scalar> {{
@@ -63,11 +59,11 @@ fn in_units_of_the_scene(report: Report<Scalar>) -> Report<Scalar> {{
             oscillation: of.oscillation * ENERGY_UNIT,
             rounding: of.rounding * ENERGY_UNIT,
             total: no_less_than_normal(of.total * ENERGY_UNIT),
+            of_u: no_less_than_normal(of.of_u * ENERGY_UNIT),
         }}),
         other => other,
     }};
-    let (residual, force) = (report.residual * U_UNIT, report.force * FLUX_UNIT);
-    Report {{ residual, force, verdict, ..report }}
+    Report {{ verdict, ..report }}
 }}
 
 /// Next to underflow a product is less than it should be.
@@ -75,6 +71,6 @@ fn no_less_than_normal(total: Scalar) -> Scalar {{
     if total < Scalar::MIN_POSITIVE {{ Scalar::MIN_POSITIVE }} else {{ total }}
 }}
 ",
-        scale.u, scale.flux, scale.energy
+        scale.energy
     )
 }

@@ -20,7 +20,7 @@ use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
-use crate::solve::{choose_units, in_units};
+use crate::solve::{choose_for_inputs, in_units};
 
 /// What 1 stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ impl<R: Scalar> Baked<R> {
     /// answers that the scalar type cannot hold.
     pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
         let face = Face::new(scene, problem);
-        let units = choose_units(scene, problem)?;
+        let units = choose_for_inputs(scene, problem)?;
         if units == Units::default() {
             return Self::in_its_units(scene, problem, face);
         }
@@ -106,6 +106,7 @@ impl<R: Scalar> Scale<R> {
                 rounding: of.rounding * self.energy,
                 // Next to underflow a product is less than it should be.
                 total: (of.total * self.energy).or_larger(R::TINY),
+                of_u: (of.of_u * self.energy).or_larger(R::TINY),
             }),
             other => other,
         };

@@ -27,12 +27,15 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
         baked.of_triangles.len(),
         baked.of_quads.len(),
         if baked.factored.is_some() { ", solved by a factor" } else { "" },
-        if baked.how.certified { "" } else { ", without its error bound (left out)" },
+        if baked.how.certified {
+            ""
+        } else {
+            ", without an error bound (certificate = false leaves it out)"
+        },
         sizes.ram,
         sizes.flash
     );
-    let report = "signorini_kernel::tick::Report<Scalar>";
-    let about = About { model: "full", text: &about, features: &features, report };
+    let about = About { model: "full", text: &about, features: &features };
     let mut text = baked.face.source::<R>(&about);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);

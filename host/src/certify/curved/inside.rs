@@ -20,17 +20,47 @@ pub(crate) fn points(
     rule: &[[f64; 2]],
 ) -> Result<Vec<Point>> {
     let cell = Cell::of(problem, at);
-    let mut sides = Vec::new();
-    for (side, deviation) in deviations.of_cell(problem, at).into_iter().enumerate() {
-        if let Some(deviation) = deviation {
-            sides.push((side, Panels::along(deviation)?));
+    let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
+        return Ok(cell.points(rule));
+    };
+    let point = |(reference, weight)| {
+        let local = cell.local(reference);
+        Point { x: local.x, reference, weight: weight * local.determinant }
+    };
+    Ok(found.into_iter().map(point).collect())
+}
+
+/// Reference coordinates, and weights that lack the area element.
+pub(crate) type ReferencePoints = Vec<([f64; 3], f64)>;
+
+/// Reference points with weights that lack the area element, on cell `at`; `None` where smooth data's points will do
+/// for `all` data on its sides.
+///
+/// # Errors
+/// Data that are not finite.
+pub(crate) fn of_rough_sides(
+    problem: &Problem,
+    at: usize,
+    all: &[Deviations],
+    rule: &[[f64; 2]],
+) -> Result<Option<ReferencePoints>> {
+    let cell = Cell::of(problem, at);
+    let mut sides: Vec<(usize, Panels)> = Vec::new();
+    for deviations in all {
+        for (side, deviation) in deviations.of_cell(problem, at).into_iter().enumerate() {
+            let Some(deviation) = deviation else { continue };
+            let panels = Panels::along(deviation)?;
+            match sides.iter_mut().find(|(other, _)| *other == side) {
+                Some((_, known)) => *known = known.clone().with(&panels.ends),
+                None => sides.push((side, panels)),
+            }
         }
     }
     // The roughest first: the third side of a triangle has no panels of its own.
     sides.sort_by_key(|(_, panels)| std::cmp::Reverse(panels.ends.len()));
-    let found = match (&cell, &sides[..]) {
+    Ok(Some(match (&cell, &sides[..]) {
         (_, sides) if sides.iter().all(|(_, panels)| panels.is_regular()) => {
-            return Ok(cell.points(rule));
+            return Ok(None);
         }
         (Cell::Triangle(_), [(one, panels), (other, others), ..]) => {
             between_rays([*one, *other], [panels, others])
@@ -39,12 +69,7 @@ pub(crate) fn points(
             sides.iter().flat_map(|(side, panels)| on_side(&cell, *side, panels, rule)).collect()
         }
         (Cell::Quad(_), sides) => of_square(sides.iter().map(|(side, panels)| (*side, panels))),
-    };
-    let point = |(reference, weight)| {
-        let local = cell.local(reference);
-        Point { x: local.x, reference, weight: weight * local.determinant }
-    };
-    Ok(found.into_iter().map(point).collect())
+    }))
 }
 
 /// The panels of one side of a triangle times `rule` away from it, collapsed at the apex.

@@ -10,13 +10,17 @@
 
 mod cross;
 mod inside;
+mod missed;
 mod panels;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
+
 use super::cell::{Cell, Local};
 use super::conductivity::{Conductivity, product};
 use super::deviation::{Deviation, Deviations};
+use super::energy::{CellEnergy, Sample};
 use crate::error::Result;
 use crate::problem::Problem;
 use crate::quadrature::gauss;
@@ -24,8 +28,9 @@ use crate::scene::Scene;
 use panels::Panels;
 
 pub(crate) use cross::half_triangle;
-pub(crate) use inside::points;
+pub(crate) use inside::{of_rough_sides, points};
 pub(crate) use panels::PANELS;
+pub use panels::Rough;
 
 /// Gauss points a panel, and away from the edge.
 pub(crate) const POINTS: usize = 8;
@@ -44,8 +49,10 @@ pub struct Curved {
     /// 0 to 3 the bilinear functions of the vertices, 4 to 7 the bubbles 4t(1 − t)(1 − η) of the
     /// sides. The rest is 0.
     pub coupling: [f64; 8],
-    /// Whether w jumps: no function of finite energy is w on the edge, and these numbers mean nothing.
-    pub jump: bool,
+    /// Where no function of finite energy is w on the edge: these numbers mean nothing then.
+    pub rough: Option<Rough>,
+    /// ‖A^½∇·‖ of what the points on the edge miss of v.
+    pub missed: f64,
 }
 
 /// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
@@ -53,12 +60,41 @@ pub struct Curved {
 /// # Errors
 /// Data that are not finite or not differentiable at a quadrature point.
 pub fn curved(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<Curved>> {
-    let deviations = Deviations::at_time(scene, problem, time)?.0;
+    Ok(bends(scene, problem, time)?.records)
+}
+
+/// The records, and what they leave out.
+#[derive(Debug, Clone)]
+pub(crate) struct Bends {
+    /// See [`curved`].
+    pub(crate) records: Vec<Curved>,
+    /// ‖A^½∇·‖ of what edges without a record and points of the others leave out of Σv: to be added to the bound.
+    pub(crate) left_out: f64,
+}
+
+/// The same with what is left out.
+///
+/// # Errors
+/// As for [`curved`].
+pub(crate) fn bends(scene: &Scene, problem: &Problem, time: f64) -> Result<Bends> {
+    let deviations = Deviations::at_time(scene, problem, time)?;
+    let (records, dropped) = (records(scene, problem, &deviations.found)?, deviations.dropped);
+    let mut of_cells = BTreeMap::new();
+    for record in &records {
+        let (at, _) = problem.topology.first_side(record.edge as usize);
+        *of_cells.entry(at).or_insert(0.0) += record.missed;
+    }
+    let missed = of_cells.values().fold(0.0_f64, |sum, missed| sum.hypot(*missed));
+    Ok(Bends { records, left_out: dropped + missed })
+}
+
+fn records(scene: &Scene, problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
     let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
     let mut records = Vec::with_capacity(deviations.len());
-    for deviation in &deviations {
+    for deviation in deviations {
         let extension = Extension::new(scene, problem, deviation)?;
         let mut record = extension.integrate()?;
+        record.missed = extension.missed(scene, problem)?;
         // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
         for earlier in extensions.iter().filter(|other| other.at == extension.at) {
             record.energy += 2.0 * extension.cross(earlier)?;
@@ -96,8 +132,9 @@ impl<'d, 's> Extension<'d, 's> {
 
     /// The record, cross terms still missing.
     fn integrate(&self) -> Result<Curved> {
-        let (edge, jump) = (self.deviation.edge as u32, self.panels.jump);
-        let mut record = Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], jump };
+        let (edge, rough) = (self.deviation.edge as u32, self.panels.rough);
+        let mut record =
+            Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], rough, missed: 0.0 };
         let away = self.rule_away();
         for [t, weight] in self.panels.rule() {
             let [w, slope] = self.deviation.at(t)?;
@@ -110,6 +147,16 @@ impl<'d, 's> Extension<'d, 's> {
             }
         }
         Ok(record)
+    }
+
+    /// ‖A^½∇·‖ of what the panels' points leave out.
+    fn missed(&self, scene: &Scene, problem: &Problem) -> Result<f64> {
+        let energy = CellEnergy::of(scene, problem, self.at);
+        let found = energy.of_extension(self.side, &self.panels.missed(self.deviation)?);
+        // Near a singular place w′ is nearly all of ∇v.
+        let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };
+        let slope = energy.of_extension(self.side, &[unit(0.0), unit(1.0)]);
+        Ok(found + slope * self.panels.beyond.sqrt())
     }
 
     /// The rule in η: on triangles ∇v does not depend on it, so that with constant A one point for

@@ -2,12 +2,13 @@
 //!
 //! A panel is fine enough where its points find in w′ by how much w rises,
 //! ```text
-//!   |∫ₐᵇ w′ dt − (w(b) − w(a))| ≤ 10⁻⁶ (∫₀¹ w′² dt)^½,
+//!   |∫ₐᵇ w′ dt − (w(b) − w(a))| ≤ 10⁻⁹ (∫₀¹ w′² dt)^½,
 //! ```
 //! on all of it and on both of its halves: what they miss of a kink or of a layer, however thin it is, is missing
 //! in the integral. Other panels are bisected, level by level.
 
 use super::POINTS;
+use super::missed::beyond;
 use crate::certify::deviation::Deviation;
 use crate::error::Result;
 use crate::quadrature::gauss;
@@ -19,22 +20,33 @@ const LEVELS: u32 = 24;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
 /// What may be missing of a rise.
-const MISSING: f64 = 1e-6;
+const MISSING: f64 = 1e-9;
+
+/// What forbids a function of finite energy to follow w, and the place along the edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rough {
+    /// w jumps.
+    Jump(f64),
+    /// ∫w′² is infinite there.
+    Steep(f64),
+}
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panels {
     /// The ends of the panels, ascending from 0 to 1.
     pub(super) ends: Vec<f64>,
-    /// Whether w rises on a panel by more than its energy allows for: no function of finite energy does.
-    pub(super) jump: bool,
+    /// Where w is rougher than any function of finite energy.
+    pub(super) rough: Option<Rough>,
+    /// ∫w′² nearer to singular places than all panels.
+    pub(super) beyond: f64,
 }
 
 impl Panels {
     /// The panels that smooth data have.
     pub(super) fn regular() -> Self {
         let ends = (0..=PANELS).map(|end| f64::from(end) / f64::from(PANELS)).collect();
-        Self { ends, jump: false }
+        Self { ends, rough: None, beyond: 0.0 }
     }
 
     /// As fine as w needs.
@@ -66,8 +78,14 @@ impl Panels {
             open = open.iter().flat_map(halves).collect();
         }
         ends.sort_by(f64::total_cmp);
-        let mut found = Self { ends, jump: false };
-        found.jump = rise.jumps(&open, &found.rule())?;
+        let mut found = Self { ends, rough: None, beyond: 0.0 };
+        match beyond(deviation, &open)? {
+            Ok(energy) => found.beyond = energy,
+            Err(steep) => found.rough = Some(steep),
+        }
+        if found.rough.is_none() {
+            found.rough = rise.jumps(&open, &found.rule())?.map(Rough::Jump);
+        }
         Ok(found)
     }
 
@@ -135,16 +153,16 @@ impl Rise<'_, '_> {
     }
 
     /// Whether what is missing on a panel would need more than the energy found by `rule` on all of them.
-    fn jumps(&self, panels: &[[f64; 2]], rule: &[[f64; 2]]) -> Result<bool> {
+    fn jumps(&self, panels: &[[f64; 2]], rule: &[[f64; 2]]) -> Result<Option<f64>> {
         let mut energy = 0.0;
         for &[t, weight] in rule {
             energy += weight * self.deviation.at(t)?[1].powi(2);
         }
         for &panel in panels {
             if self.missing(panel)?.powi(2) > (panel[1] - panel[0]) * energy {
-                return Ok(true);
+                return Ok(Some(middle(&panel)));
             }
         }
-        Ok(false)
+        Ok(None)
     }
 }

@@ -11,6 +11,7 @@
 mod build;
 mod cells;
 mod cursor;
+mod foreign;
 mod format22;
 mod format41;
 mod groups;
@@ -59,6 +60,9 @@ fn load(path: &Path) -> Parsed<Vec<u8>> {
 /// # Errors
 /// As for [`read`], without the name of a file.
 pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
+    if let Some(error) = foreign::refused(bytes) {
+        return Err(error.into());
+    }
     let mut cursor = Cursor::new(bytes);
     let mut raw = Raw::default();
     let mut format = None;

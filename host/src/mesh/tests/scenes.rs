@@ -20,8 +20,11 @@ fn every_standard_scene_takes_every_setting_of_the_mesh() {
         {
             scene.setting = Some(Setting { cells, refine, ..Setting::default() });
             let mesh = of_scene(&scene).expect("a mesh");
-            if let Err(error) = Problem::new(&scene, mesh) {
-                panic!("{}, {cells:?}, refined {refine} times: {error}", path.display());
+            match Problem::new(&scene, mesh) {
+                Ok(problem) => assert_eq!(problem.warnings, [""; 0], "{}", path.display()),
+                Err(error) => {
+                    panic!("{}, {cells:?}, refined {refine} times: {error}", path.display())
+                }
             }
         }
         count += 1;

@@ -44,6 +44,19 @@ fn every_key_is_read_and_what_is_left_out_is_the_default() {
 }
 
 #[test]
+fn a_solver_asks_for_its_model() {
+    let read = |lines| setting(lines).map(|setting| (setting.solver, setting.model_kind()));
+    let (full, condensed) = (Some(ModelKind::Full), Some(ModelKind::Condensed));
+    assert_eq!(read("solver = 'auto'"), Some((None, None)));
+    assert_eq!(read("solver = 'auto'\nmodel = 'condensed'"), Some((None, condensed)));
+    assert_eq!(read("solver = 'sweeps'"), Some((Some(Method::Sweeps), full)));
+    assert_eq!(read("solver = 'factor'"), Some((Some(Method::Factor), full)));
+    assert_eq!(read("solver = 'exact'"), Some((Some(Method::Exact), condensed)));
+    let sweeps = "solver = 'sweeps'\nmodel = 'condensed'";
+    assert_eq!(read(sweeps), Some((Some(Method::Sweeps), condensed)));
+}
+
+#[test]
 fn what_is_written_is_read_again() {
     let condensed = Setting { model: Some(ModelKind::Condensed), ..Setting::default() };
     for written in [
@@ -54,6 +67,8 @@ fn what_is_written_is_read_again() {
         Setting { element: QuadElement::Nonparametric, ..Setting::default() },
         Setting { refine: 6, cells: Some(CellKind::Triangles), ..Setting::default() },
         Setting { solver: Some(Method::Factor), ..Setting::default() },
+        Setting { solver: Some(Method::Exact), ..condensed },
+        Setting { solver: Some(Method::Sweeps), ..condensed },
         Setting { omega: Omega::Fixed(1.93), start: Start::Cold, ..Setting::default() },
     ] {
         let text = toml::to_string(&written).expect("a text");
@@ -79,11 +94,25 @@ const WRONG: &[(&str, &str)] = &[
     ("scalar = 'f16'", "6: setting.scalar: `f16` is not one of: f32, f64, f32+f64"),
     ("math = 'std'", "6: setting.math: `std` is not one of: libm, micromath"),
     ("model = 'half'", "6: setting.model: `half` is not one of: full, condensed"),
-    ("solver = 'direct'", "6: setting.solver: `direct` is not one of: sweeps, factor"),
+    ("solver = 'direct'", "6: setting.solver: `direct` is not one of: auto, sweeps, factor, exact"),
+    ("model = 'condensed'\nsolver = 'factor'", "7: setting.solver: a factor is for the full model"),
     (
-        "model = 'condensed'\nsolver = 'factor'",
-        "7: setting.solver: the condensed model has solvers of its own",
+        "model = 'full'\nsolver = 'exact'",
+        "7: setting.solver: the exact method is for the condensed model",
     ),
+    (
+        "solver = 'exact'\nsweeps = 9",
+        "7: setting.sweeps: the exact method takes no number of sweeps",
+    ),
+    (
+        "solver = 'exact'\nshare = 0.1",
+        "7: setting.share: the condensed model has no share to stop at",
+    ),
+    (
+        "solver = 'exact'\nomega = 1.5",
+        "7: setting.omega: the condensed model has its own relaxation factor",
+    ),
+    ("solver = 'exact'\nstart = 'cold'", "7: setting.start: the condensed model has no cold start"),
     ("solver = 'factor'\nsweeps = 9", "7: setting.sweeps: a factor takes no sweeps"),
     (
         "solver = 'factor'\nshare = 0.1",

@@ -20,7 +20,7 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::solver::{Outcome, Settings};
 
-use super::{Clock, Options, ScalarKind, Solution, Solved, conclude, unfit};
+use super::{Clock, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use crate::error::Result;
 use crate::problem::{Assembled, Loads, Parts, Problem};
 use crate::scene::Scene;
@@ -117,7 +117,7 @@ pub fn mixed(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
     let mut u = mixed.wide.start();
     let Corrected { outcome, .. } = mixed.run(options.settings(), &mut u).map_err(&unfit)?;
     let (low, scalar) = (Vec::new(), options.scalar);
-    let factored = None;
-    let solved = Solved { outcome, factored, u, low, scalar, assembly, clock };
+    let (ran, factored) = (Ran::Sweeps, None);
+    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
     conclude(scene, problem, &parts, &mixed.wide, solved)
 }

@@ -1,5 +1,6 @@
 //! Mixed precision and tuned relaxation on the standard scenes; hard problems.
 
+mod auto;
 mod hard;
 
 use std::path::{Path, PathBuf};

@@ -33,6 +33,7 @@ fn point(value: f64) -> Point {
         certificate: true,
         error: PointError { energy: value, combined: None, l2: -value, ..PointError::default() },
         bound: Some(value),
+        bound_of_u: None,
         cycles: value,
         cycles_spread: 0.1,
         cycles_per_unknown: 1.0,

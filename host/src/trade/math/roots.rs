@@ -100,9 +100,10 @@ fn cold<M: Math<f32>, const WIDTH: usize>(
     let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
     flux::recover(edges, stiffness, cells, &u, &[], &mut flux)?;
     let length = contact::length::<_, _, Libm>(&assembled.mesh()?, edges, assembled.lower(), &u);
+    let boundary = assembled.boundary()?;
     let state = State {
         u: u.iter().copied().map(f64::from).collect(),
-        force: contact::force(edges.counts(), &assembled.boundary()?, &flux).into(),
+        force: contact::force(edges.counts(), &boundary, assembled.lower(), &u, &flux).into(),
         length: length.into(),
     };
     Ok(Cold { u, state, sweeps: outcome.sweeps, status: outcome.status, calls })

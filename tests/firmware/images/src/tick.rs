@@ -80,7 +80,7 @@ impl<
         }
         let (triangles, quads) = (&self.of_triangles, &self.of_quads);
         Ok(if CONTACT {
-            contact::force_of_cells(&edges, &boundary, triangles, quads)
+            contact::force_of_cells(&edges, &boundary, model.gap, u, triangles, quads)
         } else {
             R::ZERO
         })

@@ -78,7 +78,7 @@ fn run(journal: &mut Journal) -> Result<(), Error> {
     // 1 / (4 det A)
     let cells = pack(&mesh, &edges, stiffness, &[], &[0.25; CELLS], &forest, buffers)?;
     let metric = Metric::default();
-    let reach = reach(&edges, &cells, metric, &forest, &mut [0.0; CELLS])?;
+    let reach = reach(&edges, &cells, metric, &boundary, &forest, &mut [0.0; CELLS])?;
     played(&Ground { mesh, edges, stiffness, cells, metric, reach }, journal)
 }
 

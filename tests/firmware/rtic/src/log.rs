@@ -67,7 +67,7 @@ impl Log {
         self.ticks += 1;
         self.sweeps += answer.sweeps;
         match answer.ended {
-            Ended::Settled => self.settled += 1,
+            Ended::Exact | Ended::Settled => self.settled += 1,
             Ended::OutOfTime => self.cut += 1,
             Ended::OutOfSweeps => self.spent += 1,
             Ended::Accurate => self.accurate += 1,

@@ -98,7 +98,8 @@ pub fn build(memory: &'static mut Memory) -> Result<Built, Error> {
     let buffers = CellBuffers { triangles, quads: &mut [], of_vertices, of_edges };
     let cells = pack(&mesh, &edges, stiffness, &[], &COMPLIANCE, &forest, buffers)?;
     let metric = Metric::default();
-    let reach = reach(&edges, &cells, metric, &forest, way)?;
+    let boundary = Boundary::<f32, u16>::new(&edges, &[], &[], &[])?;
+    let reach = reach(&edges, &cells, metric, &boundary, &forest, way)?;
     let ground = Ground { mesh, edges, stiffness, cells, metric, reach };
     Ok((ground, tick.lend(&edges)?))
 }

@@ -1,10 +1,8 @@
-//! What the reports of the kernel's models hold, as lines of a journal.
+//! What the report of a controller holds, as lines of a journal.
 
 use signorini_board::journal::{Bits, Journal};
 use signorini_kernel::certificate::{Certificate, Verdict};
-use signorini_kernel::condensed;
-use signorini_kernel::condensed::method;
-use signorini_kernel::tick::{Ended, Report};
+use signorini_kernel::report::{Ended, Report};
 
 /// A report whose figures can be told.
 pub trait Figures {
@@ -14,20 +12,17 @@ pub trait Figures {
 
 impl<R: Bits> Figures for Report<R> {
     fn tell(&self, journal: &mut Journal) {
-        let ended = match self.ended {
+        journal.text(match self.ended {
+            Ended::Exact => "exact",
             Ended::Accurate => "accurate",
             Ended::Settled => "settled",
             Ended::OutOfSweeps => "out of sweeps",
             Ended::OutOfTime => "out of time",
             Ended::NotFinite => "not finite",
-        };
-        journal.text(ended);
+        });
+        journal.count("exchanges", self.exchanges);
         journal.count("sweeps", self.sweeps);
         journal.count("active", self.active);
-        journal.count("changes", self.changes);
-        journal.scalar("residual", self.residual);
-        journal.scalar("force", self.force);
-        journal.scalar("omega", self.omega);
         self.verdict.tell(journal);
     }
 }
@@ -37,6 +32,9 @@ impl<R: Bits> Figures for Verdict<R> {
         match self {
             Self::Certified(certificate) => certificate.tell(journal),
             Self::Pulled { edge } => journal.count("pulled", *edge as u32),
+            Self::Unpressed => journal.text("no bound: unpressed"),
+            Self::BelowGap => journal.text("no bound: below the gap"),
+            Self::Unavailable => journal.text("no bound: unavailable"),
             Self::NotFinite => journal.text("no bound: not finite"),
             Self::NotAsked => journal.text("no bound: not asked"),
         }
@@ -50,22 +48,6 @@ impl<R: Bits> Figures for Certificate<R> {
         journal.scalar("oscillation", self.oscillation);
         journal.scalar("rounding", self.rounding);
         journal.scalar("total", self.total);
-    }
-}
-
-impl<R: Bits> Figures for condensed::Report<R> {
-    fn tell(&self, journal: &mut Journal) {
-        journal.text(match self.ended {
-            method::Ended::Exact => "exact",
-            method::Ended::Converged => "converged",
-            method::Ended::OutOfWork => "out of work",
-        });
-        journal.count("pivots", self.pivots);
-        journal.count("sweeps", self.sweeps);
-        journal.count("active", self.active);
-        match &self.certificate {
-            Some(certificate) => certificate.tell(journal),
-            None => journal.text("no bound"),
-        }
+        journal.scalar("of u", self.of_u);
     }
 }

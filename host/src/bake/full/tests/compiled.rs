@@ -4,13 +4,13 @@ use signorini_kernel::rows;
 
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
-use crate::bake::compiled::printed;
+use crate::bake::compiled::{FIRMWARE, printed};
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::setting::{MathKind, Omega, Setting, Start};
+use crate::setting::{MathKind, Method, Omega, Setting, Start};
 
 /// Prints the outputs of a cold and a warm tick as bits.
 const MAIN: &str = "
@@ -79,4 +79,15 @@ fn with_a_setting() -> Result<()> {
     };
     let (of_plain, problem) = scene(unbounded(), Cells::Mixed, plain)?;
     same_bits_of::<f32, { rows::QUADS }>(&of_plain, &problem, |x| x.to_bits().into())
+}
+
+#[test]
+fn a_firmware_need_not_know_the_model() -> Result<()> {
+    let factored = Setting { solver: Some(Method::Factor), ..Setting::default() };
+    for setting in [Setting::default(), factored] {
+        let (scene, problem) = scene(BENT, Cells::Mixed, setting)?;
+        let text = source(&Baked::<f32>::new(&scene, &problem)?) + FIRMWARE;
+        assert_eq!(printed(&text), "true [true, true, true] OutOfTime true\n", "{setting:?}");
+    }
+    Ok(())
 }

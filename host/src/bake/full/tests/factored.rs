@@ -82,10 +82,7 @@ fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) 
         let (outputs, report) = controller.tick(&[R::narrow(lift)]).expect("a tick");
         let solved = controller.solved().expect("a factor");
         let what = format!("{} {lift}: {solved:?} {report:?}", R::NAME);
-        assert!(
-            report.ended == Ended::Settled && report.sweeps == 0 && solved.rounds <= 8,
-            "{what}"
-        );
+        assert!(report.ended == Ended::Exact && report.sweeps == 0 && solved.rounds <= 8, "{what}");
         let expected = reference(scene, problem, lift)?;
         let size = expected.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
         let pairs = controller.u().iter().zip(&expected.u);
@@ -221,18 +218,16 @@ fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
 
 #[test]
 fn bake_takes_the_one_that_costs_less() -> Result<()> {
-    // On a coarse grid a few sweeps are enough.
     let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
-    for ((scene, problem), is_factored) in [(coarse, false), (super::standard("strip.toml")?, true)]
-    {
+    for (scene, problem) in [coarse, super::standard("strip.toml")?] {
         let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Full), false)?;
-        let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions).collect();
+        let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
         let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
         assert!(
             first <= second && choice.candidates.iter().all(|of| of.trial.settled),
             "{costs:?}"
         );
-        assert_eq!(entries(choice.candidate()).is_some(), is_factored, "{costs:?}");
+        assert!(entries(choice.candidate()).is_some(), "{costs:?}");
     }
     Ok(())
 }

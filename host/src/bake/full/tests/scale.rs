@@ -106,7 +106,8 @@ fn the_text_has_the_same_units() -> Result<()> {
     let limits = Limits { error: 1e-20, ..baked.limits() };
     let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
-    let expected = controller.tick_within(&inputs, limits).expect("a tick");
+    let (outputs, report) = controller.tick_within(&inputs, limits).expect("a tick");
+    let expected = (outputs, signorini_kernel::Report::from(report));
     let main = format!(
         "
 fn main() {{
@@ -197,4 +198,22 @@ fn inputs_that_the_scalar_loses_are_refused() -> Result<()> {
     refused(&huge, "input.level: f32 cannot hold")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-41*y^2\""), "input.inflow.pattern: beside the other")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-60*y^2\""), "input.inflow.pattern: beside the other")
+}
+
+/// Defaults that make nothing tell no units: those of the inputs keep a large one in range.
+#[test]
+fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
+    let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1e-9\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
+                value = \"0\"\n[boundary.contact]\nkind = \"contact\"\n[input.heat]\nof = \"source\"\nfield = \"f\"\n\
+                pattern = \"1e9*x\"\n[output.bound]\nkind = \"bound\"\n";
+    let (scene, problem) = fixtures::on_grid(text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<f32>::new(&scene, &problem)?;
+    for heat in [1.0_f32, 1e6, -1e6, 1e10] {
+        let mut controller = Controller::<f32, { rows::TRIANGLES }>::new(&baked);
+        let (_, report) = controller.tick_within(&[heat], to_the_end()).expect("a tick");
+        let certificate = report.verdict.certificate();
+        let total = certificate.unwrap_or_else(|| panic!("no bound of {heat}: {report:?}")).total;
+        assert!(total.is_finite() && total > 0.0, "{heat}: {total}");
+    }
+    Ok(())
 }

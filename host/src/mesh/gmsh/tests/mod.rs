@@ -2,6 +2,7 @@
 
 mod encode;
 mod hostile;
+mod inside;
 mod real;
 mod rejected;
 mod valid;

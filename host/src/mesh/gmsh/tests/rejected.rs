@@ -212,3 +212,36 @@ fn what_is_no_file() {
         assert!(refused.to_string().starts_with(&path.display().to_string()));
     }
 }
+
+/// What people take for a mesh, and a part of what they read.
+#[rustfmt::skip]
+const OTHERS: &[(&[u8], &str)] = &[
+    (b"$NOD\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$ENDNOD\n$ELM\n1\n1 2 0 1 3 1 2 3\n$ENDELM\n", "a Gmsh mesh of format 1"),
+    (b"<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">", "a VTK file"),
+    (b"<VTKFile type=\"UnstructuredGrid\">", "a VTK file"),
+    (b"<?xml version=\"1.0\"?>\n<X3D>", "an XML file"),
+    (b"# vtk DataFile Version 3.0\n", "a VTK file"),
+    (b"solid part\n facet normal 0 0 1\n", "an STL surface"),
+    (&[0; 84], "an STL surface"),
+    (b"// a plate\nh = 0.1;\nPoint(1) = {0, 0, 0, h};\n", "a Gmsh geometry"),
+    (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MED"),
+    (b"\x1f\x8b\x08\x00", "compressed by gzip"),
+    (b"PK\x03\x04", "a ZIP archive"),
+    (b"MeshVersionFormatted 2\n", "a Medit mesh"),
+    (b"*Heading\n Gmsh\n*NODE\n", "an Abaqus mesh"),
+    (b"$ Created by Gmsh\nGRID,1\n", "a Nastran mesh"),
+    (b"title = \"bar\"\nmesh = \"bar.msh\"\n\n[material.default]\n", "a scene"),
+];
+
+#[test]
+fn other_files_are_named_as_what_they_are() {
+    for (bytes, what) in OTHERS {
+        let message = error(bytes);
+        assert!(message.starts_with(&format!("the file is {what}")), "{message}");
+        assert!(message.ends_with("expected a Gmsh mesh (MSH 2.2 or 4.1)"), "{message}");
+    }
+    // A comment of Gmsh's may speak of anything.
+    let text = String::from_utf8(model().v22(Coding::Ascii)).unwrap();
+    let comment = format!("$Comments\nPoint(1) = {{}};\n$EndComments\n{text}");
+    assert!(super::super::parse(comment.as_bytes()).is_ok());
+}

@@ -46,7 +46,8 @@ pub(super) fn scene<R: Bits, M: Math<R>>(
     journal.digest("flux", fluxes.iter().copied());
     journal.scalar("mismatch", found.mismatch);
     journal.scalar("largest flux", found.largest);
-    journal.scalar("contact force", contact::force(model.counts, &boundary, fluxes));
+    let force = contact::force(model.counts, &boundary, model.gap, u, fluxes);
+    journal.scalar("contact force", force);
     journal.scalar("contact length", length * model.unit);
     Ok(())
 }

@@ -1,0 +1,113 @@
+//! What a run of random scenes found, as `random.json` holds it: counts, the largest ratios, all that is broken.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::row::Row;
+use crate::extremes::judge::Outcome;
+
+/// A run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Record {
+    /// Its seed.
+    pub seed: u64,
+    /// How many scenes it drew.
+    pub cases: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// How many cases ended in which way.
+    pub outcomes: BTreeMap<String, usize>,
+    /// The same by what was drawn.
+    pub classes: BTreeMap<String, BTreeMap<String, usize>>,
+    /// The largest ratios and the cases that they belong to.
+    pub worst: BTreeMap<String, Worst>,
+    /// Everything that is wrong.
+    pub violations: Vec<Violation>,
+}
+
+/// The largest of a ratio.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    /// The ratio.
+    pub ratio: f64,
+    /// Which case it is of.
+    pub case: u32,
+}
+
+/// A promise that was broken: `signorini extremes --random 1 --seed SEED --case CASE` shows it again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Violation {
+    /// The case.
+    pub case: u32,
+    /// What was drawn.
+    pub class: String,
+    /// What is broken.
+    pub what: String,
+    /// With its numbers.
+    pub words: String,
+}
+
+impl Record {
+    /// Sums up `rows`.
+    pub fn new(seed: u64, seconds: f64, rows: &[Row]) -> Self {
+        let mut record = Self { seed, cases: rows.len(), seconds, ..Self::default() };
+        for row in rows {
+            record.add(row);
+        }
+        record
+    }
+
+    fn add(&mut self, row: &Row) {
+        let outcome = row.outcome.name().to_owned();
+        *self.outcomes.entry(outcome.clone()).or_default() += 1;
+        for class in row.classes() {
+            *self.classes.entry(class).or_default().entry(outcome.clone()).or_default() += 1;
+        }
+        for (name, ratio) in row.ratios() {
+            let worst = Worst { ratio, case: row.case };
+            let known = self.worst.entry(name.to_owned()).or_insert(worst);
+            if ratio > known.ratio {
+                *known = worst;
+            }
+        }
+        let class = row.classes().join(", ");
+        let violation = |what: &str, words: &str| Violation {
+            case: row.case,
+            class: class.clone(),
+            what: what.to_owned(),
+            words: words.to_owned(),
+        };
+        let broken = row.broken.iter().map(|of| violation(of.what, &of.words));
+        self.violations.extend(broken);
+        if row.broken.is_empty() && row.outcome == Outcome::Wrong {
+            self.violations.push(violation("outcome", &row.note));
+        }
+    }
+
+    /// How many cases are wrong, or break a promise.
+    pub fn broken(&self) -> usize {
+        self.violations.len()
+    }
+
+    /// The text of `random.json`.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// What the terminal shows.
+    pub fn text(&self) -> String {
+        let counts = Outcome::ALL.map(|outcome| {
+            let name = outcome.name();
+            format!("{} {name}", self.outcomes.get(name).copied().unwrap_or(0))
+        });
+        let mut lines = vec![format!("{} random scenes: {}", self.cases, counts.join(", "))];
+        for (name, worst) in &self.worst {
+            lines.push(format!("  largest {name}: {:.6} (case {})", worst.ratio, worst.case));
+        }
+        for Violation { case, class, what, words } in &self.violations {
+            lines.push(format!("  broken, case {case} ({class}): {what}: {words}"));
+        }
+        lines.join("\n")
+    }
+}

@@ -1,0 +1,163 @@
+//! Loads on edges and cells: by the rule for their data, and on halves or quarters where a smaller rule disagrees.
+//!
+//! What the rule misses of a load's mean is out of balance in the discrete problem, and no bound of the oscillation, which
+//! has no mean, sees it; a part that is held weakly moves by what is missed over what holds it. A kink or a jump inside is
+//! cut off level by level; smooth data are integrated by the rule alone, with its bits.
+
+use std::cell::Cell;
+
+use signorini_kernel::Real;
+
+use super::{DATA_POINTS, Point, TRIANGLE_POINTS, on_panels, on_quad, on_triangle};
+
+/// Two rules that differ by less than this part of ∫|f| agree.
+const AGREE: f64 = 1e-9;
+/// Most bisections of an edge, and of a cell. A jump that comes to lie beside the end of a part is not cut off further:
+/// 4e−3 of that part may be missed.
+const LEVELS: [u32; 2] = [40, 5];
+/// Points a direction of the other rule, less than the rule's: with an odd number in one of both, no jump lies in the
+/// middle of either.
+const FEWER: usize = 1;
+/// Panels of the other rule on an edge: a jump nearer to an end than its first point is not seen.
+const LOOKS: u32 = 7;
+
+/// Most cuts of an edge or a cell: data that are rough everywhere, or nothing but rounding, end there.
+const MOST: u32 = 120;
+
+type Function<'f> = &'f dyn Fn(f64, f64) -> f64;
+
+/// The mean of `f` over the segment from `a` to `b`.
+pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
+    let rules = |&[a, b]: &[[f64; 2]; 2]| {
+        let at = |t: f64| [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let mean = |rule: &[[f64; 2]]| {
+            rule.iter().fold([0.0; 2], |[sum, size], &[t, weight]| {
+                let [x, y] = at(t);
+                let value = weight * f(x, y);
+                [sum + value, size + value.abs()]
+            })
+        };
+        let rule = f64::GAUSS[DATA_POINTS - 1];
+        [mean(rule), mean(&on_panels(LOOKS, f64::GAUSS[DATA_POINTS - FEWER - 1]))]
+    };
+    let halves = |&[a, b]: &[[f64; 2]; 2]| {
+        let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
+        [[a, middle], [middle, b]]
+    };
+    // Means over halves, whose sum counts twice.
+    over(segment, LEVELS[0], 0.5, &rules, &halves)
+}
+
+/// ∫f over a triangle.
+pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
+    let rules = |corners: &[[f64; 2]; 3]| {
+        [TRIANGLE_POINTS, TRIANGLE_POINTS - FEWER]
+            .map(|points| integral(f, on_triangle(*corners, f64::GAUSS[points - 1])))
+    };
+    let quarters = |&[a, b, c]: &[[f64; 2]; 3]| {
+        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]
+    };
+    over(corners, LEVELS[1], 1.0, &rules, &quarters)
+}
+
+/// ∫f over a quad; its quarters, in the bilinear coordinates, are quads again.
+pub fn over_quad(corners: [[f64; 2]; 4], f: Function) -> f64 {
+    let rules = |corners: &[[f64; 2]; 4]| {
+        [DATA_POINTS, DATA_POINTS - FEWER]
+            .map(|points| integral(f, on_quad(*corners, f64::GAUSS[points - 1])))
+    };
+    let quarters = |&[a, b, c, d]: &[[f64; 2]; 4]| {
+        let [ab, bc, cd, da] = [middle(a, b), middle(b, c), middle(c, d), middle(d, a)];
+        let centre = middle(ab, cd);
+        [[a, ab, centre, da], [ab, b, bc, centre], [centre, bc, c, cd], [da, centre, cd, d]]
+    };
+    over(corners, LEVELS[1], 1.0, &rules, &quarters)
+}
+
+fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+}
+
+/// ∫f and ∫|f|.
+fn integral(f: Function, points: impl Iterator<Item = Point>) -> [f64; 2] {
+    points.fold([0.0; 2], |[sum, size], point| {
+        let value = point.weight * f(point.x[0], point.x[1]);
+        [sum + value, size + value.abs()]
+    })
+}
+
+/// The sum over parts, times `share` at each level; `rules` gives integral and size by both rules.
+fn over<C: Copy, const PARTS: usize>(
+    cell: C,
+    levels: u32,
+    share: f64,
+    rules: &dyn Fn(&C) -> [[f64; 2]; 2],
+    parts: &dyn Fn(&C) -> [C; PARTS],
+) -> f64 {
+    let [[value, size], [other, _]] = rules(&cell);
+    let tolerance = AGREE * size;
+    if (value - other).abs() <= tolerance || !value.is_finite() {
+        return value;
+    }
+    cut(&cell, levels, share, tolerance, rules, parts, &Cell::new(MOST))
+}
+
+/// The tolerance is halved from level to level, as fast as the part of a cell beside a line through it grows in number.
+fn cut<C: Copy, const PARTS: usize>(
+    cell: &C,
+    levels: u32,
+    share: f64,
+    tolerance: f64,
+    rules: &dyn Fn(&C) -> [[f64; 2]; 2],
+    parts: &dyn Fn(&C) -> [C; PARTS],
+    left: &Cell<u32>,
+) -> f64 {
+    left.set(left.get().saturating_sub(1));
+    let sum = parts(cell).iter().fold(0.0, |sum, part| {
+        let [[value, _], [other, _]] = rules(part);
+        let agrees = (value - other).abs() <= tolerance;
+        let is_last = levels <= 1 || left.get() == 0;
+        let value = match agrees || is_last || !value.is_finite() {
+            true => value,
+            false => cut(part, levels - 1, share, 0.5 * tolerance / share, rules, parts, left),
+        };
+        sum + value
+    });
+    share * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+
+    #[test]
+    fn kinks_and_jumps_are_cut_off() {
+        let (edge, a) = ([[0.0, 0.0], [1.0, 0.0]], 0.3711);
+        let jump = mean_on_edge(edge, &|x, _| if x > a { 1.0 } else { 0.0 });
+        // It lies 1.6e−3 of a part of 1/256 beside its end.
+        assert!((jump - (1.0 - a)).abs() < 1e-5, "{jump}");
+        let kink = mean_on_edge(edge, &|x, _| (x - a).abs());
+        assert!((kink - 0.5 * (a * a + (1.0 - a).powi(2))).abs() < 1e-9, "{kink}");
+        let over_square = over_quad(SQUARE, &|x, _| (x - a).abs());
+        assert!((over_square - 0.5 * (a * a + (2.0 - a).powi(2))).abs() < 1e-4, "{over_square}");
+        let halves = [[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]], [[0.0, 0.0], [2.0, 1.0], [0.0, 1.0]]];
+        let of_halves: f64 =
+            halves.map(|half| over_triangle(half, &|x, _| (x - a).abs())).iter().sum();
+        assert!((of_halves - over_square).abs() < 1e-4, "{of_halves} {over_square}");
+    }
+
+    #[test]
+    fn smooth_data_keep_the_bits_of_the_rule() {
+        let f = |x: f64, y: f64| 1.0 + x * y - x.powi(3);
+        let points = on_quad(SQUARE, f64::GAUSS[DATA_POINTS - 1]);
+        assert_eq!(over_quad(SQUARE, &f), integral(&f, points)[0]);
+    }
+
+    #[test]
+    fn what_is_not_finite_stays_so() {
+        assert!(!over_quad(SQUARE, &|x, _| 1.0 / (x - x)).is_finite());
+    }
+}

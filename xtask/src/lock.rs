@@ -1,0 +1,48 @@
+//! Commands that run at the same time and would use the same files take turns.
+
+use std::fs::{self, File, TryLockError};
+use std::path::Path;
+
+/// Waits until no other holder of the lock file `path` is left; it is free again when what is returned is dropped, or when
+/// this process ends, however that happens. Where a file system has no locks, nobody waits.
+pub fn hold(path: &Path) -> Result<File, String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", path.display());
+    fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
+    let file = File::options().create(true).append(true).open(path).map_err(failed)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        eprintln!("waiting for another command that uses {}", path.display());
+        file.lock().map_err(failed)?;
+    }
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+    use std::thread;
+    use std::time::Duration;
+
+    #[test]
+    fn who_comes_second_waits() {
+        let path = std::env::temp_dir().join(format!("xtask-lock-{}/a.lock", std::process::id()));
+        let order = Mutex::new(Vec::new());
+        let say = |what| order.lock().unwrap().push(what);
+        thread::scope(|scope| {
+            let first = hold(&path).unwrap();
+            let second = scope.spawn(|| {
+                let _held = hold(&path).unwrap();
+                say("second");
+            });
+            thread::sleep(Duration::from_millis(50));
+            say("first");
+            drop(first);
+            second.join().unwrap();
+        });
+        assert_eq!(*order.lock().unwrap(), ["first", "second"]);
+        // Another file is nobody's business.
+        let other = path.with_file_name("b.lock");
+        let (_one, _two) = (hold(&path).unwrap(), hold(&other).unwrap());
+        fs::remove_dir_all(path.parent().unwrap()).unwrap();
+    }
+}

@@ -1,0 +1,52 @@
+//! What README's first command builds runs on every x86-64: a scene is solved on an emulated one without AVX.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::cargo::{cargo, root, run as run_cargo, target_dir};
+use crate::setup::install_packages;
+use crate::steps::Steps;
+use crate::toolchain::output;
+
+const EMULATOR: &str = "qemu-x86_64";
+/// Of 2008, with SSE 4.2; AVX came with the next one.
+const PROCESSOR: &str = "Nehalem";
+const SCENE: &str = "meshes/catalogue/h-mixed.toml";
+/// The kernel's sweeps and the direct solver, whose products find the widest registers as they run.
+const SOLVERS: [&str; 2] = ["kernel", "direct"];
+
+/// The steps; none on other processors.
+pub fn run(steps: &mut Steps) {
+    if !cfg!(target_arch = "x86_64") {
+        return;
+    }
+    steps.check("a solve on an x86-64 without AVX", || {
+        ensure()?;
+        // As the tests before have built it: whatever RUSTFLAGS says is what they were built with, too.
+        let mut build = cargo(&["build", "--quiet", "--workspace", "--locked"]);
+        build.env("CARGO_TARGET_DIR", target_dir(""));
+        run_cargo(build)?;
+        let program = target_dir("").join("debug/signorini");
+        SOLVERS.iter().try_for_each(|solver| solve(&program, solver))
+    });
+}
+
+fn solve(program: &Path, solver: &str) -> Result<(), String> {
+    let mut command = Command::new(EMULATOR);
+    command.args(["-cpu", PROCESSOR]).arg(program).args(["solve", SCENE, "--solver", solver]);
+    command.arg("--out").arg(target_dir("oldest").join(solver)).current_dir(root());
+    let ended = command.output().map_err(|error| format!("{EMULATOR}: {error}"))?;
+    if ended.status.success() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&ended.stderr);
+    Err(format!("--solver {solver} on a {PROCESSOR}: {}: {}", ended.status, said.trim()))
+}
+
+/// `Ok` where the emulator is there, installed just now where need be and possible.
+fn ensure() -> Result<(), String> {
+    let answers = || output(Command::new(EMULATOR).arg("--version")).map(drop);
+    let Err(why) = answers() else { return Ok(()) };
+    install_packages(&["qemu-user"]).map_err(|remedy| format!("{why}; {remedy}"))?;
+    answers()
+}
