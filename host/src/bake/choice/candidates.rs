@@ -100,7 +100,7 @@ fn condensed_as<R: Scalar>(
         entries: entries(condensate),
         vertices: baked.vertices(),
         exact,
-        certified: baked.without_bound().is_none(),
+        forms: baked.forms(),
     };
     let price = |done: &Done| price.of::<R>(&costs, done);
     let (trial, instructions) = trial::of_condensed(&baked, &condensate.defaults[1..], price);

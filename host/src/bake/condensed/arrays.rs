@@ -164,6 +164,11 @@ impl<R: Scalar> Baked<R> {
         self.bound.as_ref().err().map(String::as_str)
     }
 
+    /// How many forms the bound has: none, that of s, and that of u_h where it is another.
+    pub fn forms(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()))
+    }
+
     /// Lends the model, as the generated module has it.
     pub fn with_model<T>(&self, then: impl FnOnce(&Condensed<R>) -> T) -> T {
         let outputs: Vec<_> = self.outputs.iter().map(Output::measure).collect();
