@@ -7,8 +7,9 @@ use signorini_kernel::Tensor;
 
 use crate::certify::cell::{Cell, Jet};
 use crate::certify::conductivity::{Conductivity, apply, dot, product};
-use crate::certify::exact::{Distance, distance, minus};
+use crate::certify::exact::{Distance, distance};
 use crate::certify::sampled::{Sampled, Solution};
+use crate::certify::weighed::minus;
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 use crate::field::{CellField, Sample};
@@ -142,7 +143,7 @@ impl Errors {
 
     /// With the distance of S and τ.
     #[must_use]
-    pub fn with(self, Distance { combined, identity }: Distance) -> Self {
+    pub fn with(self, Distance { combined, identity, .. }: Distance) -> Self {
         Self { combined: Some(combined), identity: Some(identity), ..self }
     }
 

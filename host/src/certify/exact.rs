@@ -11,15 +11,15 @@
 
 use std::iter::repeat;
 
-use signorini_kernel::Tensor;
 use signorini_kernel::geometry::scaled_normal;
 
 use super::admissible::Admissible;
 use super::cell::{Cell, Jet};
-use super::conductivity::{Conductivity, apply, dot, inverse, product};
+use super::conductivity::{Conductivity, apply, dot};
 use super::curved;
 use super::deviation::Deviations;
 use super::sampled::{Lifted, Sampled, Solution};
+use super::weighed::{FEW, Weighed, in_cell, on_robin, plus, size_in_cell, twice};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::norms::{POINTS, exact_at};
@@ -37,6 +37,8 @@ pub struct Distance {
     pub combined: f64,
     /// What the bound is, up to quadrature: bound = identity.
     pub identity: f64,
+    /// How far the squares of both may be off, since data and exact solution are evaluated in f64.
+    pub rounding: f64,
 }
 
 /// Integrates the distances at the time of the problem, with 16×16 points a cell and 64 an edge, more where ψ or u_D has a
@@ -50,10 +52,24 @@ pub fn distance(
     problem: &Problem,
     admissible: &Admissible,
 ) -> Result<Distance> {
+    distance_on(1, scene, exact, problem, admissible)
+}
+
+/// The same with `panels`×`panels` times the points, where kinks and layers of the exact solution lie inside cells.
+///
+/// # Errors
+/// As for [`distance`].
+pub fn distance_on(
+    panels: u32,
+    scene: &Scene,
+    exact: &Exact,
+    problem: &Problem,
+    admissible: &Admissible,
+) -> Result<Distance> {
     let deviations = &Deviations::at_time(scene, problem, problem.time)?;
     let (u, lift) =
         (&Solution { scene, exact, time: problem.time }, &Lifted { problem, deviations });
-    Study { scene, exact, problem, admissible, deviations, u, lift }.distance()
+    Study { scene, exact, problem, admissible, deviations, u, lift, panels }.distance()
 }
 
 /// What a distance is integrated from.
@@ -68,6 +84,8 @@ pub(crate) struct Study<'a, U, L> {
     pub(crate) u: &'a U,
     /// What `deviations` add to S there.
     pub(crate) lift: &'a L,
+    /// Parts of a cell in each direction, each with a rule of its own.
+    pub(crate) panels: u32,
 }
 
 /// What is known at a point of a cell.
@@ -81,6 +99,8 @@ struct CellPoint {
     s: f64,
     /// |A^½(∇u − ∇S)|² + |A^{−½}(σ − τ)|²
     square: f64,
+    /// What the rounding of that is a part of.
+    size: f64,
 }
 
 /// What is known at a point of a boundary edge.
@@ -100,37 +120,44 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     /// Both distances.
     pub(crate) fn distance(&self) -> Result<Distance> {
         let problem = self.problem;
-        let (mut combined, mut rest) = (0.0, 0.0);
+        let (mut combined, mut rest) = ([0.0; 2], [0.0; 2]);
         let f = Sum::source(self.scene, problem.time);
-        let rule = gauss(POINTS);
+        let rule = on_panels(self.panels, &gauss(POINTS));
         for at in 0..problem.cells() {
             let (cell, load) = (Cell::of(problem, at), problem.loads.of_cell(at));
             self.visit(at, &rule, |point| {
-                combined += point.weight * point.square;
-                let missing = f.at(point.x[0], point.x[1]) - cell.spread(load, point.determinant);
-                rest += 2.0 * point.weight * (point.s - point.u) * missing;
+                let w = point.weight;
+                combined = plus(combined, [w * point.square, w * point.size]);
+                let means = cell.spread(load, point.determinant);
+                let missing = [f.at(point.x[0], point.x[1]), means];
+                rest = plus(rest, twice(w, [point.s, point.u], missing));
             })?;
         }
         for (edge, kind) in problem.kinds.iter().enumerate() {
             match kind {
-                EdgeKind::Contact => rest += self.contact(edge)?,
-                EdgeKind::Neumann => rest += self.neumann(edge)?,
-                EdgeKind::Robin => combined += self.robin(edge)?,
+                EdgeKind::Contact => rest = plus(rest, self.contact(edge)?),
+                EdgeKind::Neumann => rest = plus(rest, self.neumann(edge)?),
+                EdgeKind::Robin => combined = plus(combined, self.robin(edge)?),
                 EdgeKind::Interior | EdgeKind::Dirichlet => {}
             }
         }
-        Ok(Distance { combined: combined.sqrt(), identity: (combined + rest).max(0.0).sqrt() })
+        let [identity, size] = plus(combined, rest);
+        Ok(Distance {
+            combined: combined[0].sqrt(),
+            identity: identity.max(0.0).sqrt(),
+            rounding: FEW * size,
+        })
     }
 
     /// [`Distance::combined`] alone.
     pub(crate) fn combined(&self) -> Result<f64> {
-        let (mut square, rule) = (0.0, gauss(POINTS));
+        let (mut square, rule) = (0.0, on_panels(self.panels, &gauss(POINTS)));
         for at in 0..self.problem.cells() {
             self.visit(at, &rule, |point| square += point.weight * point.square)?;
         }
         for (edge, kind) in self.problem.kinds.iter().enumerate() {
             if *kind == EdgeKind::Robin {
-                square += self.robin(edge)?;
+                square += self.robin(edge)?[0];
             }
         }
         Ok(square.sqrt())
@@ -162,57 +189,68 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
                 u: u.value,
                 s: s.value,
                 square: in_cell(&a, u.gradient, s.gradient, tau),
+                size: size_in_cell(&a, u.gradient, s.gradient, tau),
             });
         }
         Ok(())
     }
 
     /// 2∫[(σ·n − q)(S − ψ) + (τ·n − q̄)(u − ψ) + (S − u)(q − q̄)] over an edge of C.
-    fn contact(&self, edge: usize) -> Result<f64> {
+    fn contact(&self, edge: usize) -> Result<Weighed> {
         let (Some(q), Some(gap)) = (self.data(edge, Field::Flux), self.data(edge, Field::Gap))
         else {
-            return Ok(0.0);
+            return Ok([0.0; 2]);
         };
         let mean = q.mean(self.problem.segment(edge))?;
         let term = |point: EdgePoint| {
             let [x, y] = point.x;
             let (q, psi) = (q.finite(q.at(x, y), point.x)?, gap.finite(gap.at(x, y), point.x)?);
+            let EdgePoint { weight, u, s, sigma, tau, .. } = point;
             let contact =
-                (point.sigma - q) * (point.s - psi) + (point.tau - mean) * (point.u - psi);
-            Ok(2.0 * point.weight * (contact + (point.s - point.u) * (q - mean)))
+                plus(twice(weight, [sigma, q], [s, psi]), twice(weight, [tau, mean], [u, psi]));
+            Ok(plus(contact, twice(weight, [s, u], [q, mean])))
         };
-        self.edge_points(edge)?.into_iter().map(term).sum()
+        self.on_edge(edge, term)
     }
 
     /// 2∫(S − u)(g − ḡ) over an edge of N.
-    fn neumann(&self, edge: usize) -> Result<f64> {
+    fn neumann(&self, edge: usize) -> Result<Weighed> {
         let Some(g) = self.data(edge, Field::Flux).filter(|g| g.constant().is_none()) else {
-            return Ok(0.0);
+            return Ok([0.0; 2]);
         };
         let mean = g.mean(self.problem.segment(edge))?;
         let term = |point: EdgePoint| {
-            let missing = g.finite(g.at(point.x[0], point.x[1]), point.x)? - mean;
-            Ok(2.0 * point.weight * (point.s - point.u) * missing)
+            let own = g.finite(g.at(point.x[0], point.x[1]), point.x)?;
+            Ok(twice(point.weight, [point.s, point.u], [own, mean]))
         };
-        self.edge_points(edge)?.into_iter().map(term).sum()
+        self.on_edge(edge, term)
     }
 
     /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R.
-    fn robin(&self, edge: usize) -> Result<f64> {
+    fn robin(&self, edge: usize) -> Result<Weighed> {
         let problem = self.problem;
         let boundary = problem.binding.boundary(problem.ends[edge]);
         let boundary = boundary.map(|boundary| &self.scene.boundaries[boundary].condition);
-        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
+        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok([0.0; 2]) };
         let coefficient = Sum::alone(self.scene, coefficient, problem.time);
         let term = |point: EdgePoint| {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
-            Ok(point.weight * on_robin(h, point.u - point.s, point.sigma - point.tau))
+            let EdgePoint { weight, u, s, sigma, tau, .. } = point;
+            let square = weight * on_robin(h, u - s, sigma - tau);
+            let [_, size] = twice(weight, [u, s], [u, s]);
+            let [_, of_flux] = twice(weight, [sigma, tau], [sigma, tau]);
+            Ok([square, h * size + if h > 0.0 { of_flux / h } else { 0.0 }])
         };
-        self.edge_points(edge)?.into_iter().map(term).sum()
+        self.on_edge(edge, term)
     }
 
     fn data(&self, edge: usize, field: Field) -> Option<Sum<'_>> {
         Sum::on_edge(self.scene, self.problem, edge, field, self.problem.time)
+    }
+
+    fn on_edge(&self, edge: usize, term: impl Fn(EdgePoint) -> Result<Weighed>) -> Result<Weighed> {
+        let points = self.edge_points(edge)?.into_iter();
+        points.map(term).try_fold([0.0; 2], |sum, term| Ok(plus(sum, term?)))
     }
 
     fn edge_points(&self, edge: usize) -> Result<Vec<EdgePoint>> {
@@ -234,22 +272,6 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
                 tau: self.admissible.tau[edge] / length,
             })
         };
-        on_panels(PANELS, &gauss(8)).into_iter().map(point).collect()
+        on_panels(self.panels * PANELS, &gauss(8)).into_iter().map(point).collect()
     }
-}
-
-/// |A^½(∇u − ∇S)|² + |A^{−½}(A∇u − τ)|² at a point.
-pub(crate) fn in_cell(a: &Tensor<f64>, u: [f64; 2], s: [f64; 2], tau: [f64; 2]) -> f64 {
-    let (error, flux_error) = (minus(u, s), minus(apply(a, u), tau));
-    product(a, error, error) + product(&inverse(a), flux_error, flux_error)
-}
-
-/// h(u − S)² + ((σ − τ)·n)²/h at a point of the Robin boundary.
-pub(crate) fn on_robin(h: f64, error: f64, flux_error: f64) -> f64 {
-    let square = h * error * error;
-    if h > 0.0 { square + flux_error * flux_error / h } else { square }
-}
-
-pub(crate) fn minus(v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
-    [v[0] - w[0], v[1] - w[1]]
 }

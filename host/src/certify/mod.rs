@@ -29,14 +29,15 @@ pub mod exact;
 pub(crate) mod fixtures;
 #[cfg(test)]
 mod identity;
-mod metric;
+pub(crate) mod metric;
 mod no_bound;
 pub mod oscillation;
 pub mod robin;
 #[cfg(test)]
 mod rounding;
 pub(crate) mod sampled;
-mod ways;
+pub(crate) mod ways;
+pub(crate) mod weighed;
 
 pub use bound::{Certified, ErrorBound};
 pub use certifier::{Answer, Certifier};

@@ -78,6 +78,11 @@ impl<R: Scalar> Ways<R> {
         Ok(())
     }
 
+    /// What it takes to bring 1 from the farthest cell to its root.
+    pub fn reach(&self) -> R {
+        self.reach
+    }
+
     /// The kernel's view of it.
     ///
     /// # Errors

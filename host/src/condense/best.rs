@@ -56,6 +56,24 @@ impl Block {
         add(sum, 1.0, of_inputs);
     }
 
+    /// Σ |terms| of that.
+    pub fn sizes(&self, row: &[f64], s: &Table, fluxes: &Table, sum: &mut [f64]) {
+        sum.fill(0.0);
+        let (of_functions, rest) = row.split_at(self.functions.len());
+        let (of_fluxes, of_inputs) = rest.split_at(self.edges.len());
+        let functions = self
+            .functions
+            .iter()
+            .zip(of_functions)
+            .map(|(&at, factor)| (s.row(at as usize), factor));
+        let fluxes =
+            self.edges.iter().zip(of_fluxes).map(|(&at, factor)| (fluxes.row(at as usize), factor));
+        for (columns, factor) in functions.chain(fluxes) {
+            sum.iter_mut().zip(columns).for_each(|(sum, entry)| *sum += (factor * entry).abs());
+        }
+        sum.iter_mut().zip(of_inputs).for_each(|(sum, entry)| *sum += entry.abs());
+    }
+
     /// The part of the fluxes alone.
     pub fn of_fluxes(&self, row: &[f64], fluxes: &Table, sum: &mut [f64]) {
         sum.fill(0.0);

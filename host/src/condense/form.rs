@@ -84,6 +84,7 @@ impl Ground<'_> {
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let form = Form {
             factor: packed(&triangular(&blocks, &s, &fluxes)),
+            lost: self.lost(&blocks, &s, &fluxes, reach)?,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
             reach,

@@ -36,6 +36,7 @@ mod points;
 mod reach;
 mod recovery;
 mod residual;
+mod rounding;
 #[cfg(test)]
 mod tests;
 mod unit;
@@ -120,6 +121,8 @@ pub enum Measure {
 pub struct Form {
     /// F by columns, column j with its j + 1 entries: m columns of p, n of x, one of d a vertex.
     pub factor: Vec<f64>,
+    /// What rounding in f64 may hide of each column of F and J, those of d included.
+    pub lost: Vec<f64>,
     /// J by columns in the same way, ‖A^½∇_h(s − u_h)‖ = U |J(p, x, d)|; nothing where F is never less.
     pub jump: Option<Vec<f64>>,
     /// The contact vertices that are not on D.

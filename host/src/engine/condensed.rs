@@ -86,7 +86,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
         // A sum of columns meets the gap but for rounding; whoever asks for contact compares the two.
         let contact = u[counts.free..].iter_mut().zip(&problem.loads.gap).zip(&active);
         for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
-            *u = R::narrow(gap).wide();
+            *u = gap;
         }
         let certificate = self.report.as_ref().and_then(|report| report.certificate());
         let certified = self.recovery.admissible(self.condensate, problem, &p, &x);

@@ -7,7 +7,7 @@ use crate::certify::admissible::Admissible;
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::Conductivity;
 use crate::certify::deviation::{Deviations, Lift};
-use crate::certify::exact::in_cell;
+use crate::certify::weighed::in_cell;
 use crate::error::Result;
 use crate::field::CellField;
 use crate::norms::{POINTS, exact_at};

@@ -15,7 +15,7 @@ const TOGETHER: usize = 4;
 pub struct Factor<'a, R> {
     /// The columns, one after the other; column j has j + 1 entries.
     pub columns: &'a [R],
-    /// ‖F_j‖ of every column.
+    /// ‖F_j‖ of every column, and over 2ε what may be wrong of it beyond the rounding of its entries.
     pub norms: &'a [R],
 }
 

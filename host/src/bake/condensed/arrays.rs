@@ -252,12 +252,14 @@ impl<R: Scalar> Output<R> {
 }
 
 impl<R: Scalar> Columns<R> {
-    fn new(factor: &[f64], order: usize) -> Self {
+    /// The norms are what ε is multiplied by: what the host's own rounding may hide of a column is counted in them.
+    fn new(factor: &[f64], lost: &[f64], order: usize) -> Self {
         let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
         let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
         let least = |j: usize| R::TINY.wide() * f64::from(j as u32 + 1).sqrt();
-        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)))).collect();
+        let hidden = |j: usize| lost[j] / (2.0 * R::EPSILON.wide());
+        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)) + hidden(j))).collect();
         Self { columns: narrow(factor), norms }
     }
 
@@ -288,8 +290,8 @@ impl<R: Scalar> Bound<R> {
         let oscillation = form.oscillation.iter().enumerate();
         let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
         Self {
-            factor: Columns::new(&form.factor, order),
-            jump: form.jump.as_ref().map(|jump| Columns::new(jump, order)),
+            factor: Columns::new(&form.factor, &form.lost, order),
+            jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
             vertices: form.vertices.iter().map(vertex).collect(),
             corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
             reach: R::narrow(form.reach),

@@ -113,6 +113,8 @@ struct Extension<'d, 's> {
     cell: Cell,
     conductivity: Conductivity<'s>,
     panels: Panels,
+    /// What is added to w and w′ at all points.
+    mended: [f64; 2],
 }
 
 impl<'d, 's> Extension<'d, 's> {
@@ -120,13 +122,20 @@ impl<'d, 's> Extension<'d, 's> {
         let (at, side) = problem.topology.first_side(deviation.edge);
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
         let panels = Panels::along(deviation)?;
-        Ok(Self { deviation, at, side, cell, conductivity, panels })
+        let mended = mended(deviation, &panels)?;
+        Ok(Self { deviation, at, side, cell, conductivity, panels, mended })
+    }
+
+    /// w and w′ at t.
+    fn sample(&self, t: f64) -> Result<[f64; 2]> {
+        let [w, slope] = self.deviation.at(t)?;
+        Ok([w + self.mended[0], slope + self.mended[1]])
     }
 
     /// ∇v at a point of its cell.
     fn gradient(&self, local: &Local) -> Result<[f64; 2]> {
         let side = &local.sides[self.side];
-        let [w, slope] = self.deviation.at(side.t)?;
+        let [w, slope] = self.sample(side.t)?;
         Ok(side.extension(w, slope).gradient)
     }
 
@@ -137,7 +146,7 @@ impl<'d, 's> Extension<'d, 's> {
             Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], rough, missed: 0.0 };
         let away = self.rule_away();
         for [t, weight] in self.panels.rule() {
-            let [w, slope] = self.deviation.at(t)?;
+            let [w, slope] = self.sample(t)?;
             record.mean += weight * w;
             for &[eta, weight_away] in &away {
                 let local = self.cell.local(self.cell.side_point(self.side, t, eta));
@@ -202,4 +211,20 @@ impl<'d, 's> Extension<'d, 's> {
         }
         Ok(sum)
     }
+}
+
+/// What makes samples of w and w′ those of one function but for rounding: ∫w′ = 0, for w is 0 at both ends, and
+/// ∫w = −∫t w′. Both are small differences of data, each rounded on its own, and their products with the fluxes of s and τ
+/// nearly cancel. Nothing where more than rounding is amiss.
+fn mended(deviation: &Deviation, panels: &Panels) -> Result<[f64; 2]> {
+    let (mut mean, mut rise, mut lever) = (0.0, 0.0, 0.0);
+    for [t, weight] in panels.rule() {
+        let [w, slope] = deviation.at(t)?;
+        mean += weight * w;
+        rise += weight * slope;
+        lever += weight * t * slope;
+    }
+    let change = [0.5 * rise - lever - mean, -rise];
+    let most = deviation.rounding();
+    Ok(if change.iter().all(|change| change.abs() <= most) { change } else { [0.0; 2] })
 }

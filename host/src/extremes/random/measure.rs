@@ -10,12 +10,13 @@ use super::attempt::{Answer, Attempt};
 use super::case::{Case, Truth};
 use super::nested::{Apart, Side, apart};
 use crate::certify::ErrorBound;
-use crate::certify::exact::distance;
+use crate::certify::exact::{Distance, distance_on};
 use crate::certify::robin::missed;
 use crate::error::Result;
 use crate::mesh::refine::refined;
 use crate::norms::errors;
 use crate::problem::Problem;
+use crate::quadrature::{gauss, on_panels};
 use crate::scene::Scene;
 use crate::scene::units::Units;
 use crate::solve::{Options, Solution, SolverKind, choose_units, in_units, solve};
@@ -31,8 +32,9 @@ pub struct Measured {
     pub combined: f64,
     /// That of u_h.
     pub of_u: f64,
-    /// What the bound is up to quadrature, where the exact solution is known.
-    pub identity: Option<f64>,
+    /// What the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
+    /// known.
+    pub identity: Option<[f64; 2]>,
     /// The bound of the truth: 0 where it is exact.
     pub total: f64,
     /// How far `combined` and `of_u` may be off, where they seem above their bounds.
@@ -43,13 +45,27 @@ pub struct Measured {
     pub best: Option<f64>,
 }
 
+impl Measured {
+    /// The errors, less what they may be off.
+    pub fn least(&self) -> [f64; 2] {
+        [self.combined - self.uncertain[0], self.of_u - self.uncertain[1]].map(|of| of.max(0.0))
+    }
+}
+
 /// Unknowns of a finer solve: mostly, and at most.
 const UNKNOWNS: [usize; 2] = [12_000, 200_000];
 /// Most refinements of a finer solve.
 const LEVELS: u32 = 3;
-/// Points a direction of a cell of the finer mesh, and those that tell how far they are enough.
-const POINTS: [usize; 2] = [4, 7];
+/// Panels, and points on each, in a direction of a cell of the finer mesh: more and more while an error seems above its
+/// bounds.
+const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
+/// Points a direction for the energy of one answer.
+const POINTS: usize = 7;
+/// Panels a direction of a cell beside an exact solution, where one does not seem enough.
+const PANELS: u32 = 4;
 
+/// |gap/identity − 1| up to which the integrals of the exact solution are trusted.
+pub const IDENTITY: f64 = 2e-3;
 /// Part of the gap up to which what 8 points miss of u_ext leaves the identity as it is.
 const RESOLVED: f64 = 1e-4;
 
@@ -94,7 +110,7 @@ impl Held<'_> {
     fn by_exact(&self) -> Result<Measured> {
         let (scene, problem) = (self.scene, self.problem);
         let own = self.side();
-        let within = apart(scene, &own, &own, 0, POINTS[1])?;
+        let within = apart(scene, &own, &own, 0, &gauss(POINTS))?;
         let mut found = Measured {
             bound: Some(self.bound),
             of_u_bound: self.bound.of_u,
@@ -104,14 +120,27 @@ impl Held<'_> {
             ..Measured::default()
         };
         if let Some(exact) = &scene.exact {
-            let distance = distance(scene, exact, problem, &own.admissible)?;
+            let by = |panels| distance_on(panels, scene, exact, problem, &own.admissible);
+            let mut distance = by(1)?;
+            // Kinks and layers inside cells take more points.
+            if self.is_off(&distance) {
+                distance = by(PANELS)?;
+            }
             found.combined = distance.combined;
+            found.of_u = errors(scene, exact, problem, own.u, &self.answer.flux)?.energy;
+            let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
+            found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
             let known = self.missed()? <= RESOLVED * self.bound.gap;
-            found.identity = known.then_some(distance.identity);
-            found.of_u = errors(scene, exact, problem, own.u, &self.answer.flux)?.energy;
+            found.identity = known.then_some([distance.identity, distance.rounding]);
         }
         Ok(found)
+    }
+
+    /// Whether the integrals seem to contradict the bound.
+    fn is_off(&self, found: &Distance) -> bool {
+        let of_gap = (self.bound.gap / found.identity - 1.0).abs();
+        found.combined > self.bound.total || of_gap > 0.1 * IDENTITY
     }
 
     /// What 8 points of the edges of R miss.
@@ -137,18 +166,22 @@ impl Held<'_> {
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
         let fine = Side { problem: &finer, admissible: certified.admissible(), u };
-        let by = |points| apart(scene, &own, &fine, levels, points);
-        let found = by(POINTS[0])?;
-        let of_u_bound = self.bound.of_u;
-        let is_above =
-            found.combined > self.bound.total + its.total || found.of_u > of_u_bound + its.total;
-        let uncertain = match is_above {
-            true => difference(&found, &by(POINTS[1])?),
-            false => [0.0; 2],
-        };
+        let most = [self.bound.total + its.total, self.bound.of_u + its.total];
+        let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
+        let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
+        for (panels, points) in RULES {
+            let rule = on_panels(panels, &gauss(points));
+            let next = apart(scene, &own, &fine, levels, &rule)?;
+            uncertain = difference(&found, &next);
+            found = next;
+            if !is_above(&found) {
+                uncertain = [0.0; 2];
+                break;
+            }
+        }
         Ok(Some(Measured {
             bound: Some(self.bound),
-            of_u_bound,
+            of_u_bound: self.bound.of_u,
             combined: found.combined,
             of_u: found.of_u,
             identity: None,

@@ -7,7 +7,7 @@ use crate::certify::admissible::{Admissible, Chordal};
 use crate::certify::cell::{Cell, Jet};
 use crate::certify::conductivity::{Conductivity, inverse, product};
 use crate::certify::deviation::{Deviations, Lift};
-use crate::certify::exact::{minus, on_robin};
+use crate::certify::weighed::{minus, on_robin};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::{EdgeKind, Problem, Sum};
@@ -57,8 +57,8 @@ struct OnCell<'a> {
     u: CellField,
 }
 
-/// The distance between `coarse` and `fine`, which has `levels` refinements more, by `points`×`points` Gauss points a cell
-/// of the finer mesh.
+/// The distance between `coarse` and `fine`, which has `levels` refinements more, by `rule` in both directions
+/// of a cell of the finer mesh.
 ///
 /// # Errors
 /// Data that are not finite at a point.
@@ -67,7 +67,7 @@ pub fn apart(
     coarse: &Side,
     fine: &Side,
     levels: u32,
-    points: usize,
+    rule: &[[f64; 2]],
 ) -> Result<Apart> {
     let (coarse, fine) = (Part::new(scene, coarse)?, Part::new(scene, fine)?);
     let study = Study { scene, coarse, fine, levels };
@@ -82,7 +82,7 @@ pub fn apart(
             Some((known, of)) if known == parent => of,
             _ => study.coarse.on_cell(parent),
         };
-        study.add_cell(at, &own, &of_parent, points, &mut squares)?;
+        study.add_cell(at, &own, &of_parent, rule, &mut squares)?;
         last = Some((parent, of_parent));
     }
     for edge in 0..fine.problem.kinds.len() {
@@ -157,11 +157,11 @@ impl Study<'_> {
         at: usize,
         own: &OnCell,
         parent: &OnCell,
-        points: usize,
+        rule: &[[f64; 2]],
         squares: &mut Apart,
     ) -> Result<()> {
         let conductivity = Conductivity::of(self.scene, self.fine.side.problem, at);
-        for point in own.cell.points(&gauss(points)) {
+        for point in own.cell.points(rule) {
             let there = Point { reference: self.in_parent(at, point.reference), ..point };
             let (s, of_parent) = (own.s(point.reference)?.gradient, parent.s(there.reference)?);
             let (tau, other) = (own.tau.sample(&point).flux, parent.tau.sample(&there).flux);

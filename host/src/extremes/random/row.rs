@@ -36,7 +36,7 @@ pub struct Row {
     pub status: Option<&'static str>,
     /// Sweeps spent.
     pub sweeps: Option<u32>,
-    /// The true distance of s and τ over the bounds.
+    /// The true distance of s and τ over the bounds; as far as it is known where it seems above them.
     pub error_over_bound: Option<f64>,
     /// That of u_h over its bounds.
     pub of_u_over_bound: Option<f64>,
@@ -112,15 +112,17 @@ impl Row {
         let counts = case.effort.scalar == ScalarKind::F64;
         let identity = |of: &Measured| {
             let (bound, identity) = (of.bound?, of.identity?);
-            let found = (bound.gap / identity - 1.0).abs();
+            let [identity, rounding] = identity;
+            let off = (bound.gap - identity).abs() - rounding / (bound.gap + identity);
+            let found = off.max(0.0) / identity;
             (counts && bound.gap > 100.0 * bound.rounding && found.is_finite()).then_some(found)
         };
         Self {
             unknowns: Some(attempt.problem.topology.counts.unknowns()),
             status: Some(attempt.answer.status),
             sweeps: Some(attempt.answer.sweeps),
-            error_over_bound: measured.and_then(|of| over(of.combined, total(of) + of.total)),
-            of_u_over_bound: measured.and_then(|of| over(of.of_u, of.of_u_bound + of.total)),
+            error_over_bound: measured.and_then(|of| over(of.least()[0], total(of) + of.total)),
+            of_u_over_bound: measured.and_then(|of| over(of.least()[1], of.of_u_bound + of.total)),
             identity_off: measured.and_then(identity),
             relative_bound: measured.and_then(|of| over(total(of), of.energy)),
             ..self

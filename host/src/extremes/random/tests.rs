@@ -9,6 +9,7 @@ use crate::certify::exact::distance;
 use crate::mesh::refine::refined;
 use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
+use crate::quadrature::gauss;
 use crate::scene::Scene;
 use crate::solve::{Options, Solution, SolverKind, solve};
 
@@ -52,7 +53,7 @@ fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
     let of = Side { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
     let its = Side { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
-    (apart(scene, &of, &its, levels, 4).unwrap().combined, bounds)
+    (apart(scene, &of, &its, levels, &gauss(4)).unwrap().combined, bounds)
 }
 
 /// The finer answer is nearly the truth: its distance is nearly the error, and never above both bounds.
@@ -81,7 +82,7 @@ fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
     let own = solved(&scene, &problem);
     let side = || Side { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
-    assert!(apart(&scene, &side(), &side(), 0, 4).unwrap().combined < 1e-12);
+    assert!(apart(&scene, &side(), &side(), 0, &gauss(4)).unwrap().combined < 1e-12);
     let found = residual(&problem, &own.u).unwrap();
     assert!(found.scaled < 1e-12 && found.rounding < 1e-13, "{found:?}");
     let mut wrong = own.u.clone();

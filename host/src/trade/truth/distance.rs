@@ -10,7 +10,7 @@ use crate::certify::admissible::{Admissible, OnCell};
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{apply, dot, product};
 use crate::certify::deviation::Deviations;
-use crate::certify::exact::{in_cell, minus, on_robin};
+use crate::certify::weighed::{in_cell, minus, on_robin};
 use crate::error::Result;
 use crate::field::CellField;
 use crate::problem::Problem;

@@ -165,8 +165,9 @@ fn exactly(
     let tables = recent.of(scene, exact, problem, deviations)?;
     let (u, lift) = (&tables.u, &tables.lift);
     let errors = norms::of_fields(scene, problem, u, answer.u, answer.flux)?;
-    let combined =
-        |admissible| Study { scene, exact, problem, admissible, deviations, u, lift }.combined();
+    let combined = |admissible| {
+        Study { scene, exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
+    };
     Ok(PointError {
         energy: errors.energy,
         combined: answer.certified.as_ref().map(combined).transpose()?,

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use super::reference::{Inside, points};
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{dot, product};
-use crate::certify::exact::minus;
+use crate::certify::weighed::minus;
 use crate::problem::Problem;
 
 /// The centroids of a thin part's patches lie on a line and fix no slope: below this part of the
