@@ -41,9 +41,9 @@ pub fn outputs(
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
     }
-    let Solution { scalar, u, flux, units, bound, .. } = solution;
+    let Solution { scalar, ran, u, flux, units, bound, .. } = solution;
     let bound = bound.map(|bound| bound.total);
-    let reading = Reading { scalar: *scalar, u, flux, units: *units, bound };
+    let reading = Reading { scalar: ran.scalar_of_u(*scalar), u, flux, units: *units, bound };
     let values = declared(scene, problem, reading)?;
     let names = scene.outputs.iter().map(|output| output.name.value.clone());
     Ok(names.zip(values).collect())

@@ -2,7 +2,7 @@
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{Ground, reach};
+use signorini_kernel::certificate::{Ground, Reach, reach};
 use signorini_kernel::equilibrium::is_root;
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 
@@ -20,7 +20,7 @@ pub struct Ways<R> {
     quads: Vec<Quad<R, u32>>,
     of_vertices: Vec<R>,
     of_edges: Vec<R>,
-    reach: R,
+    reach: Reach<R>,
 }
 
 impl<R: Scalar> Ways<R> {
@@ -35,7 +35,7 @@ impl<R: Scalar> Ways<R> {
             quads: vec![Quad::EMPTY; mesh.quads.len()],
             of_vertices: vec![R::ZERO; mesh.vertices.len()],
             of_edges: vec![R::ZERO; problem.topology.counts.edges()],
-            reach: R::ZERO,
+            reach: Reach::default(),
         }
     }
 
@@ -80,7 +80,7 @@ impl<R: Scalar> Ways<R> {
 
     /// What it takes to bring 1 from the farthest cell to its root.
     pub fn reach(&self) -> R {
-        self.reach
+        self.reach.largest
     }
 
     /// The kernel's view of it.

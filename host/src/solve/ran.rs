@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{Factored, Solution, status_name};
+use super::{Factored, ScalarKind, Solution, status_name};
 
 /// Which method the answer comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +22,14 @@ pub enum Ran {
 }
 
 impl Ran {
+    /// What u on the whole mesh is in, of a solve in `scalar`: f64 where it was recovered from a condensed answer.
+    pub fn scalar_of_u(self, scalar: ScalarKind) -> ScalarKind {
+        match self {
+            Self::CondensedExact | Self::CondensedSweeps | Self::CondensedLinear => ScalarKind::F64,
+            Self::Sweeps | Self::Factor | Self::Direct => scalar,
+        }
+    }
+
     /// `solver_used` in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {

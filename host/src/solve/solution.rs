@@ -127,9 +127,10 @@ impl Solution {
         squares.sum::<f64>().max(0.0).sqrt()
     }
 
-    /// Mean of ψ over contact edge `at` in the scalar of the solve, so that u_E = ψ_E can be asked.
+    /// Mean of ψ over contact edge `at` in the scalar of u, so that u_E = ψ_E can be asked.
     pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
-        self.scalar.round(problem.loads.gap[at] / self.units.u) * self.units.u
+        let scalar = self.ran.scalar_of_u(self.scalar);
+        scalar.round(problem.loads.gap[at] / self.units.u) * self.units.u
     }
 
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).

@@ -22,7 +22,8 @@
 //! The bound is a statement about numbers that were computed, so it must hold for those:
 //! * s and τ are *defined* by the floating-point numbers at vertices and on edges.
 //! * The walk leaves ∇·τ + f = ρ/|T| with |ρ| of a few ε times the terms of a cell. Sending each ρ
-//!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Ground::reach`] Σ|ρ|.
+//!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Reach::largest`] Σ|ρ|, and by [`Reach::weighed`] times a
+//!   sum in which each ρ counts as its cell conducts; the smaller of both is added.
 //! * The small difference A∇s − τ is formed from large terms: its error, at most 2 ε times their sum,
 //!   goes through the same quadratic form, and the root of the sum is added.
 //! * Data are rounded once when they are stored: a boundary value moves by ε|u_D|, and the energy of
@@ -45,7 +46,7 @@ mod walk;
 
 pub use extension::Curved;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
-pub use reach::reach;
+pub use reach::{Reach, reach};
 
 use crate::assembly::CellLoads;
 use crate::averages;
@@ -73,8 +74,8 @@ pub struct Ground<'a, R, I> {
     pub cells: Cells<'a, R, I>,
     /// A in reference coordinates where it varies inside a cell, and the bends of quads.
     pub metric: Metric<'a, R>,
-    /// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell to its root: [`reach`].
-    pub reach: R,
+    /// What it takes to bring surplus from the cells to their roots: [`reach`].
+    pub reach: Reach<R>,
 }
 
 /// Loads and boundary data of one tick (borrowed).

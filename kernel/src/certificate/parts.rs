@@ -1,5 +1,6 @@
 //! The sums over the mesh that a certificate is drawn from.
 
+use super::reach::Reach;
 use super::sum::Sum;
 use super::{Certificate, Verdict};
 use crate::real::Real;
@@ -52,19 +53,20 @@ impl<R: Real> Parts<R> {
     }
 
     /// `cells`: how many there are.
-    pub fn conclude(&self, cells: usize, reach: R, oscillation: R) -> Verdict<R> {
+    pub fn conclude(&self, cells: usize, reach: Reach<R>, oscillation: R) -> Verdict<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
         // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
         let doubt = times(4) * root(self.doubt);
         // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
-        let unbalanced = times(2) * root(R::from_count(cells as u32) * self.terms);
+        let all = |squares: R| times(2) * root(R::from_count(cells as u32) * squares);
+        let plainly = reach.largest * all(self.terms);
+        let unbalanced = plainly.or_smaller(reach.weighed * all(self.doubt));
         let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
         // Squares below the smallest normal number are lost, some in every cell.
-        let lost = (R::ONE + reach) * root(R::from_count(16 * cells as u32) * R::TINY);
-        let rounding =
-            doubt + reach * unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
+        let lost = (R::ONE + reach.largest) * root(R::from_count(16 * cells as u32) * R::TINY);
+        let rounding = doubt + unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
         let total = oscillation + both.or_larger(gap) + rounding;

@@ -96,6 +96,18 @@ pub(super) fn energy<R: Real, I: Index>(
     }
 }
 
+/// What a square of the balance counts in the doubt, at least: about 1/A.
+pub(super) fn softness<R: Real, I: Index>(
+    cell: &Quad<R, I>,
+    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+) -> R {
+    let of = |b: Tensor<R>| (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
+    let Some(points) = points else { return of(of_parallelogram(&cell.k)) };
+    let rows = R::GAUSS[POINTS - 1].iter();
+    let weights = rows.flat_map(|y| R::GAUSS[POINTS - 1].iter().map(move |x| x[1] * y[1]));
+    points.iter().zip(weights).fold(R::ZERO, |sum, (&b, weight)| sum + weight * of(b))
+}
+
 /// τ − σ_h through the sides.
 pub(super) fn difference<R: Real, I: Index>(
     cell: &Quad<R, I>,

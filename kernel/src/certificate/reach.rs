@@ -12,8 +12,21 @@ use crate::forest::Forest;
 use crate::index::{Index, read, write};
 use crate::real::Real;
 
-/// The largest ‖A^{−½}·‖ of a flux that brings 1 from a cell along the forest to its root;
-/// `way` is scratch with one entry a cell.
+/// What surplus in the cells costs. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
+/// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
+/// ```text
+///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the doubt, about 1/A.
+/// ```
+/// Where conductivities jump, the second knows that large fluxes stand beside small w_T.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reach<R> {
+    /// max w_T
+    pub largest: R,
+    /// max w_T/√d_T
+    pub weighed: R,
+}
+
+/// The [`Reach`] of a forest; `way` is scratch with one entry a cell.
 ///
 /// # Errors
 /// A scratch of the wrong length.
@@ -24,7 +37,7 @@ pub fn reach<R: Real, I: Index>(
     boundary: &Boundary<R, I>,
     forest: &Forest<I>,
     way: &mut [R],
-) -> Result<R, Error> {
+) -> Result<Reach<R>, Error> {
     same_length(Array::Scratch, way.len(), edges.cells())?;
     passing(edges, cells, metric, forest, way);
     for law in boundary.robin() {
@@ -39,16 +52,25 @@ pub fn reach<R: Real, I: Index>(
             write(way, number, sum);
         }
     }
-    let mut farthest = R::ZERO;
+    let [mut largest, mut weighed] = [R::ZERO; 2];
     for cell in cells.from_leaves() {
-        let (number, last) = match cell {
-            Either::Triangle(cell) => (cell.number, 2),
-            Either::Quad(cell) => (cell.number, 3),
+        let (number, last, softness) = match cell {
+            Either::Triangle(cell) => {
+                let points = metric.varying(cell.number.at());
+                (cell.number, 2, triangle::softness(cell, points))
+            }
+            Either::Quad(cell) => {
+                let points = metric.varying(cell.number.at());
+                (cell.number, 3, quad::softness(cell, points))
+            }
         };
         let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
-        farthest = farthest.or_larger(read(way, number.at()) + energy(metric, cell, out));
+        let whole = read(way, number.at()) + energy(metric, cell, out);
+        largest = largest.or_larger(whole);
+        let quotient = whole / softness;
+        weighed = weighed.or_larger(if quotient.finite() { quotient } else { R::ONE / R::ZERO });
     }
-    Ok(farthest.rounded_sqrt())
+    Ok(Reach { largest: largest.rounded_sqrt(), weighed: weighed.rounded_sqrt() })
 }
 
 /// Fills in for every cell what it costs to pass the next one on its way: 1 comes in through the side

@@ -92,7 +92,22 @@ pub(super) fn energy<R: Real, I: Index>(
     }
 }
 
-/// The same by quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η; everything in the order of
+/// What a square of the balance counts in the doubt: about 1/A.
+pub(super) fn softness<R: Real, I: Index>(
+    cell: &Triangle<R, I>,
+    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+) -> R {
+    match points {
+        None => cell.doubt,
+        Some(points) => {
+            let (k, none) = (cell.stiffness_in_mesh(), [R::ZERO; 3]);
+            let unit = [R::ONE, R::ZERO, R::ZERO];
+            share_at_points(points, (&k, cell.compliance), none, unit, none, R::ZERO).doubt
+        }
+    }
+}
+
+/// The share by quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η; everything in the order of
 /// the mesh, the element matrix with the compliance of the mean of A.
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(

@@ -4,7 +4,7 @@ use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{
-    Buffers, Curved, Given, Ground, Metric, certify, of_quad, of_triangle, reach,
+    Buffers, Curved, Given, Ground, Metric, Reach, certify, of_quad, of_triangle, reach,
 };
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::edges::Block;
@@ -30,7 +30,7 @@ pub struct Ways<R> {
     of_edges: Vec<R>,
     points: Vec<[Tensor<R>; 64]>,
     place: Vec<u32>,
-    reach: R,
+    reach: Reach<R>,
 }
 
 impl<R: Scalar> Ways<R> {
@@ -49,7 +49,7 @@ impl<R: Scalar> Ways<R> {
             of_edges: vec![R::ONE; edges.counts().edges()],
             points: Vec::new(),
             place: vec![u32::MAX; if every > 0 { cells } else { 0 }],
-            reach: R::ZERO,
+            reach: Reach::default(),
         };
         let alpha: Vec<_> = arrays.tensors.iter().map(|a| (a.xx + a.yy) * R::HALF).collect();
         let determinant = |a: &Tensor<R>| R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
@@ -143,7 +143,8 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         journal.digest("forest", (&ways.order, &ways.parent, &ways.places));
         journal.digest("cells", (&ways.triangles, &ways.quads));
         journal.digest("weights", (&ways.of_vertices, &ways.of_edges));
-        journal.line("reach", ways.reach);
+        journal.line("reach", ways.reach.largest);
+        journal.line("weighed", ways.reach.weighed);
         let given = Given {
             loads: arrays.cell_loads(),
             boundary: arrays.boundary()?,

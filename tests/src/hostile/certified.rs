@@ -59,7 +59,7 @@ pub struct Foundation<R> {
     triangles: Vec<Triangle<R, u16>>,
     quads: Vec<Quad<R, u16>>,
     weights: [Vec<R>; 2],
-    reach: R,
+    reach: certificate::Reach<R>,
 }
 
 impl<R: Bits> Foundation<R> {
@@ -83,7 +83,7 @@ impl<R: Bits> Foundation<R> {
             triangles: vec![Triangle::EMPTY; t],
             quads: vec![Quad::EMPTY; q],
             weights: [vec![R::ZERO; mesh.vertices().len()], vec![R::ZERO; edges.counts().edges()]],
-            reach: R::ZERO,
+            reach: certificate::Reach::default(),
             stiffness,
         };
         if wild && bytes.flag() {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use signorini_kernel::cells::{Cells, Quad, Triangle};
-use signorini_kernel::certificate::{Ground, Metric, POINTS};
+use signorini_kernel::certificate::{Ground, Metric, POINTS, Reach};
 use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::full::Share;
 use signorini_kernel::mesh::Mesh;
@@ -50,7 +50,7 @@ pub struct Baked<R: Scalar> {
     pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
     pub(super) metric_place: Vec<u32>,
     pub(super) bends: Vec<[R; 2]>,
-    pub(super) reach: R,
+    pub(super) reach: Reach<R>,
     pub(super) data: Data<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) corners: Vec<[u32; 2]>,
