@@ -1,4 +1,4 @@
-//! What the README says of the extremes, of fuzzing and of mutants is what their committed records hold.
+//! What the page on robustness says of the extremes, of fuzzing and of mutants is what their committed records hold.
 
 use std::path::Path;
 
@@ -10,12 +10,12 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(root.join(path)).expect(path)
 }
 
-/// Every phrase stands in the README, wherever its lines break.
-fn readme_says(phrases: &[String]) {
-    let readme: Vec<String> = read("README.md").split_whitespace().map(str::to_owned).collect();
-    let readme = readme.join(" ");
-    let missing: Vec<_> = phrases.iter().filter(|phrase| !readme.contains(*phrase)).collect();
-    assert!(missing.is_empty(), "README.md lacks {missing:?}");
+/// Every phrase stands on the page, wherever its lines break.
+fn the_page_says(phrases: &[String]) {
+    let page = read("docs/robustness.md");
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let missing: Vec<_> = phrases.iter().filter(|phrase| !page.contains(*phrase)).collect();
+    assert!(missing.is_empty(), "docs/robustness.md lacks {missing:?}");
 }
 
 /// The words of each line of a record that has `count` of them.
@@ -29,7 +29,7 @@ fn number(word: &str) -> Option<u64> {
 }
 
 #[test]
-fn the_readme_quotes_the_record_of_the_extremes() {
+fn the_page_quotes_the_record_of_the_extremes() {
     let record: Value =
         serde_json::from_str(&read("host/benches/extremes/extremes.json")).expect("JSON");
     let cases = record["cases"].as_array().expect("cases");
@@ -38,7 +38,7 @@ fn the_readme_quotes_the_record_of_the_extremes() {
         ["correct", "certified-poor", "typed-error", "wrong"].map(count);
     let all = cases.len();
     assert_eq!(all, correct + poor + refused + wrong);
-    readme_says(&[
+    the_page_says(&[
         format!("{all} cases in about"),
         format!(
             "Of {all} cases {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong."
@@ -47,7 +47,7 @@ fn the_readme_quotes_the_record_of_the_extremes() {
 }
 
 #[test]
-fn the_readme_quotes_the_record_of_fuzzing() {
+fn the_page_quotes_the_record_of_fuzzing() {
     let record = read("tests/fuzz/record.txt");
     // target, executions, edges, corpus, found, date
     let targets = lines(&record, 6)
@@ -55,11 +55,11 @@ fn the_readme_quotes_the_record_of_fuzzing() {
         .filter_map(|words| Some(format!("{} {:.1}", words[0], number(words[1])? as f64 / 1e6)));
     let phrases: Vec<String> = targets.collect();
     assert_eq!(phrases.len(), 5, "{phrases:?}");
-    readme_says(&phrases);
+    the_page_says(&phrases);
 }
 
 #[test]
-fn the_readme_quotes_the_record_of_mutants() {
+fn the_page_quotes_the_record_of_mutants() {
     let record = read("tests/mutants/record.txt");
     // path, content, mutants, caught, timeout, missed, unviable
     let files = lines(&record, 7).into_iter().filter_map(|words| {
@@ -68,5 +68,5 @@ fn the_readme_quotes_the_record_of_mutants() {
     });
     let (killed, viable) = files.fold((0, 0), |sum, file| (sum.0 + file.0, sum.1 + file.1));
     assert!(viable > 0 && 100 * killed >= 95 * viable, "{killed} of {viable}");
-    readme_says(&[format!("{killed} of {viable} viable mutants")]);
+    the_page_says(&[format!("{killed} of {viable} viable mutants")]);
 }

@@ -346,16 +346,21 @@ fn cycles(baselines: &Value, solver: &str, problem: &str, start: &str) -> Option
     all.iter().find(same).map(|b| number(b, "cycles"))
 }
 
-/// Three digits, as the README has them.
+/// The page on benchmarks.
+fn page() -> String {
+    std::fs::read_to_string(root().join("docs/benchmarks.md")).expect("the page on benchmarks")
+}
+
+/// Three digits, as the page on benchmarks has them.
 fn short(cycles: Option<f64>) -> String {
     let Some(mega) = cycles.map(|cycles| 1e-6 * cycles) else { return "–".to_owned() };
     let digits = 2 - mega.log10().floor() as i32;
     format!("{mega:.*}", digits.max(0) as usize)
 }
 
-/// The README's tables of sizes are those of the record.
+/// The tables of sizes are those of the record.
 #[test]
-fn the_readme_quotes_the_record() {
+fn the_page_quotes_the_record() {
     const SOLVERS: [&str; 6] = [
         "kernel PSOR f64",
         "kernel PSOR f64, tuned ω",
@@ -365,9 +370,9 @@ fn the_readme_quotes_the_record() {
         "OSQP",
     ];
     let sizes = read(&root().join("host/benches/trade/sizes.json"));
-    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    let page = page();
     let lines: Vec<Vec<&str>> =
-        readme.lines().map(|line| line.split_whitespace().collect()).collect();
+        page.lines().map(|line| line.split_whitespace().collect()).collect();
     let mut missing = Vec::new();
     for start in ["cold", "warm"] {
         for size in sizes["rows"].as_array().expect("rows") {
@@ -380,13 +385,13 @@ fn the_readme_quotes_the_record() {
             }
         }
     }
-    assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
+    assert!(missing.is_empty(), "docs/benchmarks.md lacks\n{}", missing.join("\n"));
 }
 
-/// What the README says of condensed warm ticks, on scenes with more than rounding to be wrong about.
+/// What is said of condensed warm ticks, on scenes with more than rounding to be wrong about.
 #[test]
-fn the_readme_says_how_far_condensed_ticks_are_ahead() {
-    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+fn the_page_says_how_far_condensed_ticks_are_ahead() {
+    let page = page();
     let warm = |record: &Value, solver: &str, problem: &str| {
         let all = record["baselines"].as_array().expect("baselines");
         let same = |b: &&Value| b["solver"] == solver && b["problem"] == problem;
@@ -400,7 +405,7 @@ fn the_readme_says_how_far_condensed_ticks_are_ahead() {
     assert!(exact.iter().all(|(_, record)| record["scene"] == "patch-mixed"));
     let mut missing = Vec::new();
     let mut quote = |line: String| {
-        if !readme.contains(&line) {
+        if !page.contains(&line) {
             missing.push(line);
         }
     };
@@ -453,13 +458,13 @@ fn the_readme_says_how_far_condensed_ticks_are_ahead() {
     let full = full.filter(|b| b["problem"] == "full" && b["start"] == "warm" && is_near(b));
     let least = full.filter_map(|b| b["to_condensed"].as_f64()).fold(f64::INFINITY, f64::min);
     quote(format!("{} times as long at least", least.floor()));
-    assert!(missing.is_empty(), "README.md lacks\n{}", missing.join("\n"));
+    assert!(missing.is_empty(), "docs/benchmarks.md lacks\n{}", missing.join("\n"));
 }
 
-/// What micromath costs in the kernel and in load data, as the README says.
+/// What micromath costs in the kernel and in load data.
 #[test]
-fn the_readme_says_what_micromath_costs() {
-    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+fn the_page_says_what_micromath_costs() {
+    let page = page();
     let range = |found: &[f64]| {
         let least = found.iter().copied().fold(f64::INFINITY, f64::min);
         (least, found.iter().copied().fold(f64::NEG_INFINITY, f64::max))
@@ -477,7 +482,7 @@ fn the_readme_says_what_micromath_costs() {
     }
     let (fewest, most) = range(&more);
     let said = format!("from {:.1} % fewer instructions a tick to {most:.1} % more", -fewest);
-    assert!(readme.contains(&said), "{said}");
+    assert!(page.contains(&said), "{said}");
     let records = recorded("host");
     let all = records.iter().flat_map(|(_, record)| record["math"].as_array().expect("math"));
     let of_kernel = ["search for ω", "lengths of edges"];
@@ -490,8 +495,8 @@ fn the_readme_says_what_micromath_costs() {
     };
     let (least, most) = errors(["sin", "cos"]);
     let said = format!("for an error of {least:.2} to {most:.2} %");
-    assert!(readme.contains(&said), "{said}");
+    assert!(page.contains(&said), "{said}");
     let (least, most) = errors(["powf", "sqrt"]);
     let said = format!("its power and square root cost {least:.1} to {most:.0} %");
-    assert!(readme.contains(&said), "{said}");
+    assert!(page.contains(&said), "{said}");
 }

@@ -116,7 +116,12 @@ pub use report::Report;
 pub use tensor::Tensor;
 pub use workspace::Workspace;
 
-/// The examples of the front page are compiled and run.
+/// The example of the page on embedding is compiled and run.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct FrontPage;
+#[doc = include_str!("../../docs/embedding.md")]
+struct Embedding;
+
+/// So is that of the crate's own page.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct OwnPage;

@@ -182,7 +182,7 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     assert!(psor::sweep_free(&rows, &mut [0.0; 3]).is_err());
     assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
 
-    // The README's bill of memory.
+    // The bill of memory in `docs/embedding.md`.
     assert_eq!((size_of::<Row<f32, u16, 4>>(), size_of::<Row<f32, u16, 6>>()), (28, 40));
     assert_eq!((size_of::<Row<f64, u16, 4>>(), size_of::<Row<f64, u16, 6>>()), (48, 72));
 

@@ -103,13 +103,14 @@ fn row(kind: &Kind) -> Result<String, String> {
     Ok(text)
 }
 
-/// `Ok` where the README shows this table, up to what records may differ by: the folder of a clone
+/// `Ok` where the page on firmware shows this table, up to what records may differ by: the folder of a clone
 /// moves constants by a few bytes.
 fn quoted(table: &str) -> Result<(), String> {
-    let readme = fs::read_to_string(root().join("README.md")).map_err(|error| error.to_string())?;
+    const PAGE: &str = "docs/firmware.md";
+    let page = fs::read_to_string(root().join(PAGE)).map_err(|error| error.to_string())?;
     let head = table.lines().next().unwrap_or_default();
-    let (_, shown) = readme.split_once(head).ok_or("README.md does not show the table")?;
+    let (_, shown) = page.split_once(head).ok_or(format!("{PAGE} does not show the table"))?;
     let shown: Vec<_> = shown.lines().take(table.lines().count()).collect();
     let differs = record::differences(&format!("{head}{}", shown.join("\n")), table)?;
-    if differs.is_empty() { Ok(()) } else { Err(format!("README.md: {}", differs.join("; "))) }
+    if differs.is_empty() { Ok(()) } else { Err(format!("{PAGE}: {}", differs.join("; "))) }
 }

@@ -97,7 +97,7 @@ impl<
     const Q: usize,
 > Tick<R, WIDTH, CONTACT, N, E, T, Q>
 {
-    /// The bytes that the README promises.
+    /// The bytes that `docs/embedding.md` promises.
     pub fn formula() -> u32 {
         let wide = size_of::<R>() == 8;
         let row = match (wide, WIDTH == TRIANGLES) {
