@@ -34,6 +34,31 @@ fn missing(start: &Path) -> InputError {
     InputError::new(message).hint("run this command inside of one")
 }
 
+/// The scene files below `folder`, in the order of their names.
+///
+/// # Errors
+/// A folder that cannot be read, or without scenes.
+pub fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).map_err(Error::io(&folder))? {
+            let path = entry.map_err(Error::io(&folder))?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                found.push(path);
+            }
+        }
+    }
+    if found.is_empty() {
+        let message = format!("{}: no scene found", folder.display());
+        return Err(InputError::new(message).hint("run from a complete checkout").into());
+    }
+    found.sort();
+    Ok(found)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

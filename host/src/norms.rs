@@ -10,17 +10,14 @@ use crate::certify::conductivity::{Conductivity, apply, dot, product};
 use crate::certify::exact::{Distance, distance};
 use crate::certify::sampled::{Sampled, Solution};
 use crate::certify::weighed::minus;
-use crate::error::{Error, Result};
-use crate::expression::Expression;
+use crate::error::Result;
 use crate::field::{CellField, Sample};
+use crate::pointwise::POINTS;
 use crate::problem::Problem;
 use crate::quadrature::gauss;
 use crate::scene::units::Units;
-use crate::scene::{Exact, Located, Scene};
+use crate::scene::{Exact, Scene};
 use crate::solve;
-
-/// Points a direction.
-pub(crate) const POINTS: usize = 16;
 
 /// Distances between the discrete and the exact solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -103,28 +100,6 @@ pub(crate) fn of_fields(
     let Errors { h1, l2, flux, energy, .. } = sums;
     let [h1, l2, flux, energy] = [h1, l2, flux, energy].map(f64::sqrt);
     Ok(Errors { h1, l2, flux, energy, ..Errors::default() })
-}
-
-/// u and ∇u of the exact solution at a point and a time.
-///
-/// # Errors
-/// A value that is not finite.
-pub(crate) fn exact_at(
-    scene: &Scene,
-    exact: &Exact,
-    [x, y]: [f64; 2],
-    time: f64,
-) -> Result<(f64, [f64; 2])> {
-    let value = |key: &Located<Expression>| {
-        let value = key.value.eval(x, y, time);
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let message = format!("not finite at ({x}, {y})");
-        Err(Error::from(scene.error(key, message).hint("see [exact]")))
-    };
-    let [along_x, along_y] = &exact.gradient;
-    Ok((value(&exact.u)?, [value(along_x)?, value(along_y)?]))
 }
 
 impl Errors {

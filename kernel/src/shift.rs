@@ -10,21 +10,9 @@
 //! out it leaves no rounding errors behind. c < 0 ends where the first edge touches. Each shift lowers
 //! the energy, as every sweep does.
 
-use crate::boundary::Robin;
 use crate::index::{Index, read};
 use crate::real::Real;
-use crate::signorini::System;
-
-/// Which part each unknown belongs to, and what holds the parts (borrowed).
-#[derive(Debug, Clone, Copy)]
-pub struct Shifts<'a, R, I> {
-    /// The part of each unknown, from 0; empty where there is only one part.
-    pub part: &'a [I],
-    /// How many parts there are.
-    pub parts: usize,
-    /// The transfer laws.
-    pub robin: &'a [Robin<R, I>],
-}
+use crate::signorini::{Shifts, System};
 
 /// Parts beyond these are left to the sweeps: a shift reads the whole matrix for every part.
 const MOST_PARTS: usize = 16;

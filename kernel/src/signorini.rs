@@ -9,12 +9,23 @@
 //! The residual that stops the solver is the largest of |r_i|/K_ii and |min(…)|: a length in u,
 //! the same whatever the units of K, divided by the size of u (see [`Residual::scaled`]).
 
+use crate::boundary::Robin;
 use crate::csr::Csr;
 use crate::edges::EdgeCounts;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::real::Real;
-use crate::shift::Shifts;
+
+/// Which part each unknown belongs to, and what holds the parts (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Shifts<'a, R, I> {
+    /// The part of each unknown, from 0; empty where there is only one part.
+    pub part: &'a [I],
+    /// How many parts there are.
+    pub parts: usize,
+    /// The transfer laws.
+    pub robin: &'a [Robin<R, I>],
+}
 
 /// Matrix, load and bounds of one contact problem (borrowed, validated).
 #[derive(Debug, Clone, Copy)]

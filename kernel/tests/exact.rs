@@ -8,7 +8,7 @@ use signorini_kernel::error::Array;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::{Residual, System};
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::{Error, Index, Relaxation, psor};

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::audit::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
+use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
 use crate::baked::Recipe;
 use crate::board::M4F;
 use crate::steps::Steps;

@@ -1,6 +1,7 @@
 //! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none
 //! of the project's crates, so it compiles in seconds.
 
+mod absence;
 mod audit;
 mod audit_baked;
 mod baked;
@@ -9,10 +10,12 @@ mod boards;
 mod cargo;
 mod checkout;
 mod cost;
+mod counted;
 mod cross;
 mod export;
 mod firmware;
 mod fuzz;
+mod imports;
 mod json;
 mod lock;
 mod mutants;
@@ -52,11 +55,16 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 15] = [
+const VERBS: [Verb; 16] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
         work: Work::Steps(test::run),
+    },
+    Verb {
+        name: "imports",
+        about: "no two files of a crate import each other, nor two of its folders",
+        work: Work::Steps(imports::run),
     },
     Verb {
         name: "no-std",

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::counted::counted;
 use crate::setup::install_packages;
 use crate::steps::{Steps, Tally};
-use crate::test::counted;
 use crate::toolchain::output;
 
 /// An MPI, and what its bindings are made with.

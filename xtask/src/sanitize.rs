@@ -11,8 +11,8 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 use crate::cargo::{cargo, target_dir};
+use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
-use crate::test::counted_by;
 use crate::toolchain::output;
 
 /// Whole solves and ticks in both scalars, with short and long indices.

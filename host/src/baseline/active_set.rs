@@ -3,7 +3,7 @@
 //! It knows no tolerance and refines to the last digits. Cold, it factors; warm, the factor stands and the
 //! contact set of the tick before is the first guess.
 
-use super::contest::{Contestant, Run, Start, counted};
+use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::quadratic::Quadratic;
 use crate::error::Result;

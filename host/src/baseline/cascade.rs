@@ -10,7 +10,7 @@ use signorini_kernel::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::signorini::System;
 use signorini_kernel::{Error as KernelError, Real, Relaxation};
 
-use super::contest::{Contestant, Run, Start, counted};
+use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::full::Full;
 use super::psor::{Given, solve};

@@ -9,7 +9,7 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
 
-use super::contest::{Contestant, Run, Start, counted};
+use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::quadratic::{Quadratic, Tick};
 use crate::error::Result;

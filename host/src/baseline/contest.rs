@@ -12,79 +12,16 @@
 //!   discrete solution, cold and warm apart. It is found before anything is timed. Exact methods and solvers left as
 //!   they come have one answer; `algebraic_error` tells how near it is.
 
-use crate::cycles;
+use crate::baseline::record::Baseline;
 use crate::error::Result;
-use crate::trade::record::Baseline;
 
-use super::quadratic::Quadratic;
+use super::contestant::{Contest, Contestant, Start};
 use super::series::Series;
 
 /// Repeats of a solver alone, and of several in turns.
 const REPEATS: [usize; 2] = [5, 9];
 /// The mean spread of repeats that are calm.
 const CALM: f64 = 0.05;
-
-/// What a solve begins with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Start {
-    Cold,
-    /// From what the last run left.
-    Warm,
-}
-
-impl Start {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cold => "cold",
-            Self::Warm => "warm",
-        }
-    }
-}
-
-/// One solve.
-#[derive(Debug, Clone)]
-pub(super) struct Run {
-    pub cycles: f64,
-    pub iterations: u32,
-    pub u: Vec<f64>,
-}
-
-/// A solver with its problem.
-pub(super) trait Contestant {
-    /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run>;
-
-    /// The exponent of the finest tolerance that makes sense.
-    fn finest(&self) -> i32 {
-        -13
-    }
-}
-
-impl<C: Contestant + ?Sized> Contestant for &mut C {
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
-        (**self).run(tick, start, tolerance)
-    }
-
-    fn finest(&self) -> i32 {
-        (**self).finest()
-    }
-}
-
-/// The cycles of `work` and what it returns.
-pub(super) fn counted<T>(work: impl FnOnce() -> T) -> (f64, T) {
-    let start = cycles::now();
-    let result = work();
-    (cycles::now().saturating_sub(start) as f64, result)
-}
-
-/// What is being measured.
-pub(super) struct Contest<'q> {
-    /// `full`, `condensed`, `conforming P1`.
-    pub problem: &'static str,
-    pub quadratic: &'q Quadratic,
-    /// The energy distance that is small enough.
-    pub target: f64,
-}
 
 /// A solver's name, and the solver or why it cannot take part.
 pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn Contestant + 'e>>);

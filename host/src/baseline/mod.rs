@@ -14,12 +14,14 @@ mod clarabel;
 mod condensed;
 pub mod conforming;
 mod contest;
+mod contestant;
 mod full;
 mod moment;
 mod osqp;
 mod pivots;
 mod psor;
 mod quadratic;
+pub mod record;
 mod ring;
 mod series;
 pub mod sizes;
@@ -30,12 +32,12 @@ mod verdict;
 
 use std::fmt::Display;
 
+use crate::baseline::record::Baseline;
 use crate::error::{Error, InputError, Result};
 use crate::norms;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solve::{Options, SolverKind, solve};
-use crate::trade::record::Baseline;
 use moment::Moment;
 use ring::Ring;
 pub use sizes::{Size, Sizes, sizes};

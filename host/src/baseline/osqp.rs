@@ -19,7 +19,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::contest::{Contestant, Run, Start};
+use super::contestant::{Contestant, Run, Start};
 use super::failed;
 use super::quadratic::Quadratic;
 use crate::checkout::root;

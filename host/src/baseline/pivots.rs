@@ -6,7 +6,7 @@ use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, Progress};
 use signorini_kernel::condensed::tableau::{Start as Begin, Tableau};
 
-use super::contest::{Contestant, Run, Start, counted};
+use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::quadratic::Tick;
 use crate::bake::condensed::{Baked, Work};

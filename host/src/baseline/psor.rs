@@ -5,7 +5,7 @@ use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings, Solver};
 
-use super::contest::{Contestant, Run, Start, counted};
+use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use crate::error::Result;
 use crate::scalar::Scalar;

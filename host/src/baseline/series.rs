@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
+use crate::baseline::record::Baseline;
 use crate::error::Result;
-use crate::trade::record::Baseline;
 
-use super::contest::{Contest, Contestant, Run, Start};
+use super::contestant::{Contest, Contestant, Run, Start};
 
 /// Seconds of a repeat, at least.
 const REPEAT: f64 = 0.1;

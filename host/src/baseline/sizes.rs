@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 use super::moment::Moment;
 use super::ring::Ring;
 use super::{SHARE, discretisation_error, osqp};
+use crate::baseline::record::Baseline;
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use crate::error::Result;
 use crate::mesh::structured::{Cells, grid};
 use crate::problem::Problem;
 use crate::scene::Scene;
-use crate::trade::record::Baseline;
 
 /// Squares over the height of the domain: 48 to 18 800 unknowns.
 const GRIDS: [u32; 6] = [3, 4, 8, 16, 32, 56];

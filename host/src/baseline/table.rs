@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 use super::verdict::verdict;
 use super::{Size, Sizes};
-use crate::trade::record::Baseline;
+use crate::baseline::record::Baseline;
 
 const HEADER: [&str; 12] = [
     "unknowns",

@@ -1,7 +1,7 @@
 //! What the figures of one size say, in plain sentences.
 
 use super::ring::PSOR;
-use crate::trade::record::Baseline;
+use crate::baseline::record::Baseline;
 
 /// The part of PSOR's cycles that is less by more than noise.
 const AHEAD: f64 = 0.95;

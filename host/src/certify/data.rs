@@ -6,7 +6,7 @@ use signorini_kernel::conforming::VertexData;
 
 use super::curved::{Curved as Bent, Rough, bends};
 use super::ends::Ends;
-use super::no_bound::{NoBound, Spot};
+use super::no_bound::{NoBound, Spot, VARYING};
 use super::oscillation::oscillation;
 use super::robin::{RobinPoints, robin};
 use crate::error::Result;
@@ -24,10 +24,6 @@ pub struct Data<R> {
     oscillation: R,
     no_bound: Option<NoBound>,
 }
-
-/// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
-/// beyond 8 points, and infinite where it does.
-pub(super) const VARYING: f64 = 10.0;
 
 /// Whether a coefficient at the points of an edge allows for a bound.
 fn is_moderate(edge: &RobinPoints) -> bool {

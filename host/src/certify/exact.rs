@@ -22,7 +22,7 @@ use super::sampled::{Lifted, Sampled, Solution};
 use super::weighed::{FEW, Weighed, in_cell, on_robin, plus, size_in_cell, twice};
 use crate::error::Result;
 use crate::field::CellField;
-use crate::norms::{POINTS, exact_at};
+use crate::pointwise::{POINTS, exact_at};
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use crate::scene::{Condition, Exact, Field, Scene};

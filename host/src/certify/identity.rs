@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::field::CellField;
 use crate::mesh::Mesh;
 use crate::mesh::structured::{Cells, grid};
-use crate::norms::exact_at;
+use crate::pointwise::exact_at;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use crate::scene::{Condition, Field, Scene};

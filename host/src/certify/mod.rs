@@ -10,7 +10,6 @@
 //!   oscillation  what the means of f, g, q leave out  ─┤                                       │
 //!   robin        h and u_ext at points of edges       ─┘                                     bound
 //!   admissible ─┬► exact   the true distance to s and τ, from an exact solution
-//!               └► energy_norm  the size of s, and how far u_h lies from it
 //! ```
 
 pub mod admissible;
@@ -23,7 +22,6 @@ mod data;
 pub(crate) mod deviation;
 pub mod ends;
 pub(crate) mod energy;
-pub mod energy_norm;
 pub mod exact;
 #[cfg(test)]
 pub(crate) mod fixtures;

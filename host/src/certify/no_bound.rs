@@ -4,10 +4,13 @@ use std::fmt;
 
 use signorini_kernel::certificate::Verdict;
 
-use super::data::VARYING;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::{Field, Scene};
+
+/// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
+/// beyond 8 points, and infinite where it does.
+pub(super) const VARYING: f64 = 10.0;
 
 /// Why there is no bound; its text is one sentence that names boundary and place.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::cell::{Cell, Jet};
 use super::deviation::{Deviations, Lift};
 use crate::error::Result;
-use crate::norms::{POINTS, exact_at};
+use crate::pointwise::{POINTS, exact_at};
 use crate::problem::Problem;
 use crate::quadrature::{Point, gauss};
 use crate::scene::{Exact, Scene};

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::place::Place;
-use crate::certify::energy_norm;
+use crate::energy_norm;
 use crate::engine;
 use crate::error::{Error, InputError, Result};
 use crate::field::CellField;

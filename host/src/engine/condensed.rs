@@ -13,8 +13,7 @@ use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::setting::ModelKind;
-use crate::solve::{Ran, unfit};
-use crate::tick::held::ended_name;
+use crate::solve::{Ran, ended_name, unfit};
 
 struct Condensed<'b, R: Scalar> {
     scene: &'b Scene,

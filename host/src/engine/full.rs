@@ -11,8 +11,7 @@ use crate::error::Result;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{Factored, Ran, unfit};
-use crate::tick::held::ended_name;
+use crate::solve::{Factored, Ran, ended_name, unfit};
 
 struct Full<'b, R: Scalar, const WIDTH: usize> {
     scene: &'b Scene,

@@ -17,6 +17,7 @@
 
 mod arithmetic;
 mod dual;
+mod elementary;
 mod lexer;
 mod operation;
 mod parser;
@@ -31,8 +32,9 @@ use dual::{Dual, Duals};
 use program::Program;
 use thiserror::Error;
 
-pub use arithmetic::{Arithmetic, Elementary};
+pub use arithmetic::Arithmetic;
 use arithmetic::{Doubles, Replaced, Singles};
+pub use elementary::Elementary;
 
 /// A parsed expression: evaluates without allocation, cannot fail.
 #[derive(Debug, Clone, PartialEq)]

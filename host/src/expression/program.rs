@@ -3,7 +3,7 @@
 //! `2*x + y` is `2 x * y +`: operands are pushed, an operation replaces the topmost one or two by
 //! its result. The machine's stack has a fixed size, so running allocates nothing.
 
-use super::arithmetic::Elementary;
+use super::elementary::Elementary;
 use super::operation::{Binary, Unary};
 
 /// The most operands that may wait on the stack.

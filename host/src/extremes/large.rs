@@ -10,7 +10,7 @@ use crate::certify::deviation::{Deviations, Lift};
 use crate::certify::weighed::in_cell;
 use crate::error::Result;
 use crate::field::CellField;
-use crate::norms::{POINTS, exact_at};
+use crate::pointwise::{POINTS, exact_at};
 use crate::problem::Problem;
 use crate::quadrature::gauss;
 use crate::scene::{Exact, Scene};

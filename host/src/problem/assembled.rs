@@ -7,7 +7,7 @@ use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Model, Tensor};

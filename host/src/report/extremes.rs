@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::Listing;
+use super::frame::frame;
 use super::outcome_map::{OutcomeMap, key, outcome_map};
-use super::page::frame;
 use super::svg::escape;
 use super::table::listing;
 

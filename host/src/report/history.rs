@@ -1,8 +1,8 @@
 //! What changes from tick to tick: a diagram a quantity, on top of each other over the same time, as a
 //! picture that stands by itself.
 
+use super::frame::STYLE;
 use super::loglog::{MARKER, marker};
-use super::page::STYLE;
 use super::scale::{Scale, extent};
 use super::simplify::simplify;
 use super::strip::{across, frame, heading, vertical};

@@ -22,6 +22,7 @@ mod contact;
 mod convergence;
 mod extremes;
 mod field;
+mod frame;
 mod history;
 mod isobands;
 mod lettering;

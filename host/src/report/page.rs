@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::convergence::{convergence, measured_rate, rate_label};
 use super::extremes::extremes;
+use super::frame::{frame, mark};
 use super::loglog::legend_marker;
 use super::panel::panel;
 use super::svg::escape;
@@ -11,8 +12,6 @@ use super::sweeps::sweeps;
 use super::table::checked;
 use super::tradeoff::tradeoff;
 use super::{Check, ConvergencePlot, Report, SweepPlot};
-
-pub(super) const STYLE: &str = include_str!("style.css");
 
 /// The whole page as one file, complete in itself.
 pub fn html(report: &Report) -> String {
@@ -43,16 +42,6 @@ pub fn html(report: &Report) -> String {
     let made_by = escape(&report.generated_by);
     let _ = write!(page, "</main>\n<footer>{made_by}</footer>\n");
     frame(&report.title, &page)
-}
-
-/// The page around its body.
-pub(super) fn frame(title: &str, body: &str) -> String {
-    let title = escape(title);
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
-    )
 }
 
 fn section(page: &mut String, heading: &str, body: &str) {
@@ -102,14 +91,6 @@ fn failures(noun: &str, passed: impl ExactSizeIterator<Item = bool>) -> Option<S
     let failed = passed.filter(|passed| !passed).count();
     let plural = if total == 1 { "" } else { "s" };
     (failed > 0).then(|| format!("{failed} of {total} {noun}{plural}"))
-}
-
-pub(super) fn mark(passed: bool) -> &'static str {
-    if passed {
-        "<span class=\"mark pass\" role=\"img\" aria-label=\"pass\">✓</span>"
-    } else {
-        "<span class=\"mark fail\" role=\"img\" aria-label=\"FAIL\">✗</span>"
-    }
 }
 
 fn checks(checks: &[Check]) -> String {

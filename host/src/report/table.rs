@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::page::mark;
+use super::frame::mark;
 use super::svg::escape;
 use super::{Listing, ScenePanel, Table};
 

@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
 use super::Located;
-use super::table::Document;
+use super::document::Document;
 use crate::error::{Error, InputError, Result};
 use crate::expression::{Expression, Variables};
 

@@ -10,8 +10,9 @@
 use std::path::Path;
 
 use super::Scene;
+use super::document::load;
 use super::entry::Entry;
-use super::read::{load, read_scene};
+use super::read::read_scene;
 use super::setting::read_setting;
 use super::table::Table;
 use crate::error::Result;

@@ -16,7 +16,9 @@
 
 mod boundary;
 mod control;
+mod document;
 mod entry;
+mod file;
 mod fragment;
 mod read;
 mod setting;

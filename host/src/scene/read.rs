@@ -1,20 +1,15 @@
 //! From the file to the model: the sections of a scene.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::boundary::read_boundary;
 use super::control::{read_input, read_output};
 use super::entry::Entry;
-use super::fragment::read_fragment;
 use super::setting::read_setting;
-use super::table::{Document, Table};
+use super::table::Table;
 use super::{Exact, Located, Material, Scene, Target, Time};
-use crate::error::{InputError, Result};
+use crate::error::Result;
 use crate::expression::{Expression, Variables};
-
-const LARGEST_FILE: usize = 1 << 20;
 
 /// Most tables `[KIND.NAME]` of a kind: names are looked up one by one, and each input has a field of its own.
 const MOST_TABLES: usize = 256;
@@ -23,49 +18,6 @@ const SECTIONS: [&str; 12] = [
     "title", "mesh", "material", "source", "boundary", "input", "output", "target", "time",
     "exact", "setting", "extends",
 ];
-
-impl Scene {
-    /// Reads and checks the scene file at `path`, and the one it extends, if it is a fragment; the
-    /// mesh file is not touched.
-    pub fn read(path: &Path) -> Result<Self> {
-        read(&load(path)?)
-    }
-
-    /// Reads and checks the scene `text`; `path` names it in messages, and mesh and extended scene
-    /// are found from there.
-    pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        read(&document(text.as_bytes(), path)?)
-    }
-}
-
-/// The file at `path`.
-pub(super) fn load(path: &Path) -> Result<Document> {
-    let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(path, error.to_string()))?;
-    document(&bytes, path)
-}
-
-fn document(bytes: &[u8], path: &Path) -> Result<Document> {
-    if bytes.len() > LARGEST_FILE {
-        return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
-    }
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        unreadable(path, "not UTF-8 text".to_owned()).line(line)
-    })?;
-    Ok(Document { path: path.to_owned(), text: text.into() })
-}
-
-fn read(document: &Document) -> Result<Scene> {
-    let entries = document.parse()?;
-    let root = Table::root(document, &entries);
-    match root.get("extends") {
-        Some(extends) => read_fragment(&root, &extends),
-        None => read_scene(&root),
-    }
-}
 
 /// A scene that stands on its own.
 pub(super) fn read_scene(root: &Table) -> Result<Scene> {
@@ -87,10 +39,6 @@ pub(super) fn read_scene(root: &Table) -> Result<Scene> {
         path: root.document.path.clone(),
         text: root.document.text.clone(),
     })
-}
-
-fn unreadable(path: &Path, message: String) -> InputError {
-    InputError::new(message).file(path).hint("a scene is a TOML file")
 }
 
 /// The tables `[key.NAME]`, each read.

@@ -5,48 +5,22 @@
 //! Serde could read the same into structs, but its errors carry no path of keys, and an enum chosen
 //! by `kind` loses the places.
 
-use std::fmt::Display;
 use std::ops::Range;
-use std::path::PathBuf;
-use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::Located;
+use super::document::Document;
 use super::entry::Entry;
 use crate::error::{InputError, Result};
 use crate::expression::{Expression, Variables};
-
-/// The scene file as text.
-pub(super) struct Document {
-    pub path: PathBuf,
-    pub text: Arc<str>,
-}
 
 /// A table, its name located at the header.
 pub(super) struct Table<'a> {
     pub document: &'a Document,
     pub name: Located<String>,
     entries: &'a DeTable<'a>,
-}
-
-impl Document {
-    /// The tables and values of the text; the TOML reader itself limits how deep they nest.
-    pub fn parse(&self) -> Result<DeTable<'_>> {
-        let root = DeTable::parse(&self.text).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            InputError::new(format!("not TOML: {}", error.message()))
-                .file(&self.path)
-                .excerpt(&self.text, span)
-        })?;
-        Ok(root.into_inner())
-    }
-
-    /// The error that `at` is wrong.
-    pub fn error<T>(&self, at: &Located<T>, message: impl Display) -> InputError {
-        at.error(&self.path, &self.text, message)
-    }
 }
 
 impl<'a> Table<'a> {

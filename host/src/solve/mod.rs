@@ -18,7 +18,7 @@ pub use factored::Factored;
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
-pub use solution::{Seconds, Solution, status_name};
+pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
 pub(crate) use units::{choose as choose_units, choose_for_inputs, in_units, times};
 

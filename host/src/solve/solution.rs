@@ -6,6 +6,7 @@ use serde::Serialize;
 use signorini_kernel::Real;
 use signorini_kernel::components::{PartCounts, Support};
 use signorini_kernel::geometry::{quad_area, triangle_area};
+use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Status;
 
 use super::{Factored, Ran, ScalarKind};
@@ -176,6 +177,18 @@ pub(crate) fn centre_floating(
         if let Some(value) = vertices.get_mut(vertex as usize) {
             *value -= shift(parts.of_cell(cell));
         }
+    }
+}
+
+/// The word for the end of a tick in `ticks.csv`.
+pub fn ended_name(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Exact => "exact",
+        Ended::Accurate => "accurate",
+        Ended::Settled => "settled",
+        Ended::OutOfSweeps => "out-of-sweeps",
+        Ended::OutOfTime => "out-of-time",
+        Ended::NotFinite => "not-finite",
     }
 }
 

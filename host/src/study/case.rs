@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::bound::Certified;
-use super::checks::{self, Check};
-use super::cost::{self, Cost};
+use super::checks;
+use super::cost;
+use super::known::{Case, Run};
 use super::panel::panel;
 use crate::cycles;
 use crate::error::Result;
@@ -15,47 +14,6 @@ use crate::problem::Problem;
 use crate::report::ScenePanel;
 use crate::scene::Scene;
 use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve};
-
-/// What is known of a scene after the study.
-#[derive(Debug, Clone, Serialize)]
-pub struct Case {
-    /// The scene file's name.
-    pub name: String,
-    /// Its title.
-    pub title: String,
-    /// Triangles and quads.
-    pub cells: [usize; 2],
-    /// Edges not on the Dirichlet boundary.
-    pub unknowns: usize,
-    /// Active contact edges, and all of them.
-    pub contact: [usize; 2],
-    /// ∫_C (σ·n − q)
-    pub force: f64,
-    /// ‖A^½∇_h u_h‖
-    pub energy: f64,
-    /// The kernel in f64 and f32.
-    pub f64: Run,
-    /// The same in f32.
-    pub f32: Run,
-    /// What was checked.
-    pub checks: Vec<Check>,
-}
-
-/// The kernel in one scalar.
-#[derive(Debug, Clone, Serialize)]
-pub struct Run {
-    /// Sweeps down to the rounding floor, the error bound there, and distances to the exact solution.
-    #[serde(flatten)]
-    pub certified: Certified,
-    /// The ω it found.
-    pub omega: f64,
-    /// Largest distance to the reference, relative to the range of u.
-    pub distance: f64,
-    /// Cycles per unknown for the whole solve.
-    pub solve_cycles: f64,
-    /// Cycles of a sweep.
-    pub cost: Cost,
-}
 
 /// Solves the scene at `path` three times and compares.
 pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {

@@ -7,15 +7,14 @@ mod contact_line;
 mod convergence;
 mod cost;
 mod cut_off;
+mod known;
 mod panel;
 mod table;
 
-use std::path::{Path, PathBuf};
-
 use serde::Serialize;
 
-use crate::checkout::root;
-use crate::error::{Error, InputError, Result};
+use crate::checkout::{root, scenes};
+use crate::error::Result;
 use crate::extremes::record as extremes;
 use crate::extremes::section::section as extremes_section;
 use crate::output::atomic::write_atomically;
@@ -24,10 +23,10 @@ use crate::report::{Report, html};
 use crate::trade::records::{self, RECORD};
 use crate::trade::section::section;
 use crate::trade::verdict::{KnobValue, knob_values};
-use case::Case;
 use checks::Check;
 use convergence::Study;
 use cut_off::CutOff;
+use known::Case;
 
 /// Everything that `results.json` holds.
 #[derive(Debug, Serialize)]
@@ -108,29 +107,4 @@ pub fn run() -> Result<u8> {
     }
     say(format_args!("{} of {} checks hold", checks.len() - failed.len(), checks.len()));
     Ok(u8::from(!failed.is_empty()))
-}
-
-/// The scene files below `folder`, in the order of their names.
-///
-/// # Errors
-/// A folder that cannot be read, or without scenes.
-pub fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).map_err(Error::io(&folder))? {
-            let path = entry.map_err(Error::io(&folder))?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "toml") {
-                found.push(path);
-            }
-        }
-    }
-    if found.is_empty() {
-        let message = format!("{}: no scene found", folder.display());
-        return Err(InputError::new(message).hint("run from a complete checkout").into());
-    }
-    found.sort();
-    Ok(found)
 }

@@ -1,7 +1,7 @@
 //! A solved scene as the report draws it.
 
-use super::case::Case;
 use super::contact_line::{Place, walk};
+use super::known::Case;
 use crate::field::CellField;
 use crate::problem::{EdgeKind, Problem};
 use crate::report::{BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};

@@ -2,9 +2,9 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
-use super::case::Case;
 use super::checks::Check;
 use super::convergence::Study;
+use super::known::Case;
 use crate::certify::ErrorBound;
 use crate::norms::Errors;
 use crate::report;

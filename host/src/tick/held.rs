@@ -2,7 +2,7 @@
 
 use signorini_kernel::prolongation::prolong;
 use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::tick::{Data, Deadline, Ended, Memory, Report, Tick};
+use signorini_kernel::tick::{Data, Deadline, Memory, Report, Tick};
 use signorini_kernel::{Error as KernelError, Relaxation, contact};
 
 use super::player::Answer;
@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{prefers_factor, unfit};
+use crate::solve::{ended_name, prefers_factor, unfit};
 
 /// Answers for the loads of a problem, tick after tick.
 pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
@@ -131,17 +131,5 @@ fn answer<R: Scalar, const WIDTH: usize>(
             tau,
             indicators: Vec::new(),
         },
-    }
-}
-
-/// The word for the end of a tick in `ticks.csv`.
-pub(crate) fn ended_name(ended: Ended) -> &'static str {
-    match ended {
-        Ended::Exact => "exact",
-        Ended::Accurate => "accurate",
-        Ended::Settled => "settled",
-        Ended::OutOfSweeps => "out-of-sweeps",
-        Ended::OutOfTime => "out-of-time",
-        Ended::NotFinite => "not-finite",
     }
 }

@@ -17,10 +17,10 @@ use super::study::{Progress, Study};
 use super::target::Target;
 use crate::baseline;
 use crate::checkout::root;
+use crate::checkout::scenes;
 use crate::error::{InputError, Result};
 use crate::output::atomic::write_atomically;
 use crate::scene::Scene;
-use crate::study::scenes;
 
 /// Studies, and whether the study of sizes goes with them.
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 //! Studies for tests: plausible, deterministic, with everything in them.
 
-use super::record::{Baseline, FunctionCost, Point, PointError, Recommendation, Skipped, Trade};
+use super::record::{FunctionCost, Point, Recommendation, Skipped, Trade};
+use crate::baseline::record::{Baseline, PointError};
 use crate::report::plain;
 use crate::setting::Setting;
 

@@ -1,7 +1,8 @@
 //! One setting measured: what a tick costs, and how far its answer is from the truth.
 
-use super::record::{Point, PointError};
+use super::record::Point;
 use super::truth::{Answer as Measured, Truth};
+use crate::baseline::record::PointError;
 use signorini_kernel::solver::Status;
 
 use crate::bake::trial::inputs;

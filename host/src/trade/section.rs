@@ -6,10 +6,11 @@ use super::digits::{or_dash, percent};
 use super::front::sentence;
 use super::listings::{baselines, costs, front, math, skipped};
 use super::picture::{picture, target_name};
-use super::record::{Baseline, Point, Trade};
+use super::record::{Point, Trade};
 use super::records::Records;
 use super::verdict::{certificate, knob_values, sentences};
 use crate::baseline;
+use crate::baseline::record::Baseline;
 use crate::report::{Listing, TradePanel, TradeStudy, Tradeoff, plain};
 
 /// Everything of the section.

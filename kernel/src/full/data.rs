@@ -1,7 +1,7 @@
 //! Loads and boundary data of one tick: the statics, or copies of them with the inputs' shares.
 
 use super::curved::CurvedSum;
-use super::pattern::Pattern;
+use super::pattern::{DataMemory, Pattern};
 use crate::assembly::CellLoads;
 use crate::boundary::{Boundary, Neumann, Robin};
 use crate::certificate::{Curved, Given};
@@ -36,23 +36,6 @@ pub struct Base<'a, R, I> {
     pub curved_sums: &'a [CurvedSum<'a, R, I>],
     /// ∫h and u_ext at the Gauss points of transfer edges, or nothing where both are constant along them.
     pub transfer: &'a [[[R; 2]; 8]],
-}
-
-/// Memory for the data: each array is as long as its base where an input changes it, and else empty.
-#[derive(Debug, Default)]
-#[allow(missing_docs)]
-pub struct DataMemory<'a, R, I> {
-    pub triangles: &'a mut [R],
-    pub quads: &'a mut [R],
-    pub neumann: &'a mut [Neumann<R, I>],
-    pub robin: &'a mut [Robin<R, I>],
-    pub contact_flux: &'a mut [R],
-    pub gap: &'a mut [R],
-    pub gap_ends: &'a mut [[R; 2]],
-    pub dirichlet: &'a mut [R],
-    pub dirichlet_ends: &'a mut [[R; 2]],
-    pub curved: &'a mut [Curved<R, I>],
-    pub transfer: &'a mut [[[R; 2]; 8]],
 }
 
 impl<R: Real, I: Index> DataMemory<'_, R, I> {

@@ -15,9 +15,9 @@ mod functional;
 mod pattern;
 
 pub use curved::{CurvedPart, CurvedSum, Product};
-pub use data::{Base, DataMemory};
+pub use data::Base;
 pub use functional::Functional;
-pub use pattern::{Chord, Pattern, Points, Share};
+pub use pattern::{Chord, DataMemory, Pattern, Points, Share};
 
 use crate::certificate::{Ground, Verdict};
 use crate::conforming::VertexData;

@@ -1,6 +1,7 @@
-//! What one input adds to the data for each unit of its value.
+//! What one input adds to the data for each unit of its value, and the memory that it is added in.
 
-use super::data::DataMemory;
+use crate::boundary::{Neumann, Robin};
+use crate::certificate::Curved;
 use crate::features;
 use crate::index::Index;
 use crate::real::Real;
@@ -59,6 +60,23 @@ pub enum Pattern<'a, R, I> {
         /// At points, where that is not constant along every edge.
         points: &'a [Points<R, I>],
     },
+}
+
+/// Memory for the data: each array is as long as its base where an input changes it, and else empty.
+#[derive(Debug, Default)]
+#[allow(missing_docs)]
+pub struct DataMemory<'a, R, I> {
+    pub triangles: &'a mut [R],
+    pub quads: &'a mut [R],
+    pub neumann: &'a mut [Neumann<R, I>],
+    pub robin: &'a mut [Robin<R, I>],
+    pub contact_flux: &'a mut [R],
+    pub gap: &'a mut [R],
+    pub gap_ends: &'a mut [[R; 2]],
+    pub dirichlet: &'a mut [R],
+    pub dirichlet_ends: &'a mut [[R; 2]],
+    pub curved: &'a mut [Curved<R, I>],
+    pub transfer: &'a mut [[[R; 2]; 8]],
 }
 
 impl<R: Real, I: Index> Pattern<'_, R, I> {

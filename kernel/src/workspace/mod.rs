@@ -21,7 +21,7 @@ use crate::mesh::Mesh;
 use crate::numbering::{NumberingBuffers, number};
 use crate::real::Real;
 use crate::rows::{Row, Rows};
-use crate::shift::Shifts;
+use crate::signorini::Shifts;
 use crate::signorini::System;
 use crate::solver::{Outcome, Settings, Solver};
 use crate::stiffness::{self, Coefficient, Stiffness};

@@ -7,7 +7,7 @@ use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Tensor};

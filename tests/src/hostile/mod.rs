@@ -19,6 +19,7 @@ mod constructors;
 mod expression;
 mod mesh;
 mod plate;
+mod refusal;
 mod scene;
 mod scenes;
 mod solved;

@@ -3,11 +3,12 @@
 use std::path::Path;
 use std::str;
 
-use signorini_host::error::{Error, Result};
+use signorini_host::error::Result;
 use signorini_host::mesh::structured::{Cells, grid};
 use signorini_host::mesh::{Curve, Mesh, Surface};
 use signorini_host::scene::Scene;
 
+use super::refusal::refused;
 use super::{bytes, solved};
 
 /// The text of a scene file.
@@ -26,13 +27,6 @@ pub fn scene(data: &[u8]) {
 /// There is nothing beside the scene that it could extend.
 fn read(text: &str) -> Result<Scene> {
     Scene::parse(text, Path::new("/nowhere/hostile.toml"))
-}
-
-/// Wrong input says so in a few words.
-pub(super) fn refused(error: &Error) {
-    assert_eq!(error.exit_status(), 2, "{error}");
-    let message = error.to_string();
-    assert!(!message.is_empty() && message.len() < 20_000, "{message}");
 }
 
 /// `mesh` with the groups that the scene names: its surfaces by turns, its boundary in stretches.

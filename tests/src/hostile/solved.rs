@@ -12,7 +12,7 @@ use signorini_host::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_host::tick::{Budget, Tick, play, schedule};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 
-use super::scene::refused;
+use super::refusal::refused;
 
 /// Sweeps of a solve: enough for some looks at the residual.
 const SWEEPS: u32 = 40;

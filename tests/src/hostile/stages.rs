@@ -9,7 +9,7 @@ use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};

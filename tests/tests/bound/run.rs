@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use signorini_host::certify::ErrorBound;
-use signorini_host::certify::energy_norm::nonconformity;
+use signorini_host::energy_norm::nonconformity;
 use signorini_host::mesh::Mesh;
 use signorini_host::norms::{Errors, errors, of_solution};
 use signorini_host::problem::Problem;

@@ -15,7 +15,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::numbering::{NumberingBuffers, number};
 use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};

@@ -11,8 +11,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cargo::{cargo, root, run, run_with_lines, target_dir};
+use crate::counted::counted;
 use crate::steps::Steps;
-use crate::test::counted;
 use crate::toolchain::output;
 use record::{Record, Row, content, sources};
 use survivors::{Key, Survivors};

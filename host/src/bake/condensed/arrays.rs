@@ -1,13 +1,14 @@
 //! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
 
 use signorini_kernel::condensed::Condensed;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::condensed::blocks::Block;
 use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::condensed::factor::Factor;
 use signorini_kernel::condensed::method::Sweeps;
 use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::{Error, error::Array};
 
+use super::padding::{filled_up, matrix, narrow};
 use super::relaxation::best_omega;
 use super::start::Start;
 use crate::condense::{self, Condensate};
@@ -325,31 +326,4 @@ fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
         weights: vertex.weights.map(R::narrow),
         beside: vertex.beside.map(|edge| edge as u16),
     }
-}
-
-fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
-    numbers.iter().map(|&x| R::narrow(x)).collect()
-}
-
-pub(super) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
-    let mut column = narrow(column);
-    column.resize(padded(column.len()), R::ZERO);
-    column
-}
-
-/// Ŝ in blocks, padding 0.
-pub(super) fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
-    let n = condensate.contact;
-    let entry = |row: usize, column: usize| {
-        let inside = row < n && column < n;
-        R::narrow(if inside { condensate.matrix[row * n + column] } else { 0.0 })
-    };
-    let block = |row: usize, column: usize| {
-        let line = |r| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
-        std::array::from_fn(line)
-    };
-    let rows = 0..n.div_ceil(SIDE);
-    let all: Vec<_> = rows.flat_map(|row| (0..=row).map(move |c| (row, c))).collect();
-    debug_assert_eq!(all.len(), count(n));
-    all.into_iter().map(|(row, column)| block(row, column)).collect()
 }

@@ -9,6 +9,7 @@
 mod arrays;
 mod controller;
 mod header;
+mod padding;
 mod relaxation;
 mod sizes;
 mod source;

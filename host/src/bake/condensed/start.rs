@@ -4,7 +4,7 @@ use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::tableau::{self, Tableau};
 
-use super::arrays::{filled_up, matrix};
+use super::padding::{filled_up, matrix};
 use crate::condense::Condensate;
 use crate::scalar::Scalar;
 

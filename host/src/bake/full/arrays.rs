@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use signorini_kernel::cells::{Cells, Quad, Triangle};
 use signorini_kernel::certificate::{Ground, Metric, POINTS, Reach};
 use signorini_kernel::edges::{EdgeCounts, Edges};
-use signorini_kernel::full::Share;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::tick::Limits;
@@ -15,13 +14,14 @@ use super::data::Data;
 use super::factored::Factored;
 use super::faint::refuse_faint;
 use super::limits;
+use super::output::{Output, output};
 use super::scale::Scale;
 use crate::bake::face::Face;
 use crate::bake::setting::checked;
 use crate::bake::superposition::parts;
 use crate::certify::Certifier;
 use crate::error::{InputError, Result};
-use crate::functional::{Functional, basis_at, functionals};
+use crate::functional::functionals;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
@@ -86,16 +86,6 @@ impl<R: Scalar> How<R> {
             fast: setting.math == MathKind::Micromath,
         }
     }
-}
-
-/// An output with its arrays.
-#[derive(Debug, Clone)]
-pub(super) enum Output<R> {
-    Flux(Vec<u32>),
-    Force(Vec<u32>),
-    Length(Vec<Share<R, u32>>),
-    Probe(Vec<Share<R, u32>>),
-    Bound,
 }
 
 impl<R: Scalar> Baked<R> {
@@ -261,25 +251,6 @@ fn refuse_loose(scene: &Scene, parts: &Parts) -> Result<()> {
     let message = format!("boundary: the full model has no tick for a part that {held}");
     let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
     Err(InputError::new(message).file(&scene.path).hint(hint).into())
-}
-
-fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> Output<R> {
-    let free = problem.topology.counts.free;
-    let all = |edges: &[usize], first| edges.iter().map(|&edge| (edge - first) as u32).collect();
-    let shares = |weights: &[(usize, f64)], first| {
-        let share =
-            |&(edge, weight)| Share { at: (edge - first) as u32, weight: R::narrow(weight) };
-        weights.iter().map(share).collect()
-    };
-    match functional {
-        Functional::Flux(edges) => Output::Flux(all(edges, 0)),
-        Functional::Force(edges) => Output::Force(all(edges, free)),
-        Functional::Probe(cell, point) => {
-            Output::Probe(shares(&basis_at(problem, *cell, point), 0))
-        }
-        Functional::Length(lengths) => Output::Length(shares(lengths, free)),
-        Functional::Bound => Output::Bound,
-    }
 }
 
 /// For every vertex where a contact and a Dirichlet edge meet, an end of either.

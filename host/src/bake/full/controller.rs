@@ -11,8 +11,9 @@ use signorini_kernel::sparse::{Exact, Solved};
 use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
 use signorini_kernel::{Libm, Math};
 
-use super::arrays::{Baked, Output};
+use super::arrays::Baked;
 use super::data::{Data, Pattern};
+use super::output::Output;
 use crate::scalar::Scalar;
 use crate::solve::Exchanges;
 

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, How};
+use super::imports::imports;
 use super::items::Item;
 use super::rescaling::Rescaling;
-use super::source::imports;
 use crate::bake::controller::{self, Parts};
 use crate::scalar::Scalar;
 

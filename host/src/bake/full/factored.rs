@@ -3,18 +3,15 @@
 use signorini_kernel::Index;
 use signorini_kernel::condensed::blocks::{Block, padded};
 use signorini_kernel::condensed::tableau::Start;
-use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::sparse::direct::normalise;
 use signorini_kernel::sparse::{self, Factor};
 
-use super::arrays::Baked;
-use super::controller::Controller;
 use super::items::List;
-use crate::error::{InputError, Result};
+use crate::error::Result;
 use crate::problem::{Assembled, Problem};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::solve::{Ldlt, in_units, unfit};
+use crate::solve::{Ldlt, unfit};
 
 /// Fields of the controller that hold nothing between ticks.
 const SCRATCH: [&str; 5] = ["column", "next_column", "reduced", "balance", "change"];
@@ -30,7 +27,7 @@ pub(super) struct Factored<R> {
 
 impl<R: Scalar> Factored<R> {
     /// That of `problem`; nothing where its matrix is singular, or its factor too large, in f64.
-    fn new(scene: &Scene, problem: &Problem) -> Result<Option<Self>> {
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Option<Self>> {
         let unfit = unfit::<f64>(scene);
         let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
         let system = assembled.system().map_err(&unfit)?;
@@ -87,44 +84,5 @@ impl<R: Scalar> Factored<R> {
             list.reserve::<R>(name, "Scratch of the exchanges.", "Scalar", "0.0", length);
         }
         list.reserve::<bool>("open", "Scratch of the exchanges.", "bool", "false", length);
-    }
-}
-
-impl<R: Scalar> Baked<R> {
-    /// The same with ticks that a factor solves; `scene` and `problem` are what it was baked from.
-    ///
-    /// # Errors
-    /// A matrix that this scalar cannot tell from a singular one, a factor beyond all memory.
-    pub fn with_factor(self, scene: &Scene, problem: &Problem) -> Result<Self> {
-        let refused = |message: String| {
-            let hint = "take solver = \"sweeps\", or the scalar f64";
-            InputError::new(message).file(&scene.path).hint(hint)
-        };
-        let in_other_units = match self.scale {
-            Some(scale) => Some(in_units(scene, problem, &scale.units)?),
-            None => None,
-        };
-        let own = in_other_units.as_ref().map_or(problem, |(_, problem)| problem);
-        let Some(factored) = Factored::new(scene, own)? else {
-            return Err(refused("setting.solver: this mesh has no factor in f64".to_owned()).into());
-        };
-        let baked = Self { factored: Some(factored), ..self };
-        if baked.solves(scene) {
-            return Ok(baked);
-        }
-        let why = "corrections by the factor do not converge";
-        let message =
-            format!("setting.solver: {why} in {}: the matrix is too close to singular", R::NAME);
-        Err(refused(message).into())
-    }
-
-    /// Whether its first tick needs no sweeps.
-    fn solves(&self, scene: &Scene) -> bool {
-        let inputs = scene.inputs.iter().map(|input| R::narrow(input.default));
-        let inputs: Vec<R> = inputs.collect();
-        match self.has_quads() {
-            true => Controller::<R, QUADS>::new(self).solves(&inputs),
-            false => Controller::<R, TRIANGLES>::new(self).solves(&inputs),
-        }
     }
 }

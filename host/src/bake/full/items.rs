@@ -10,8 +10,9 @@ use signorini_kernel::rows::{QUADS, Row, TRIANGLES};
 use signorini_kernel::tick::Progress;
 use signorini_kernel::{Index, Tensor};
 
-use super::arrays::{Baked, Output};
+use super::arrays::Baked;
 use super::data::Pattern;
+use super::output::Output;
 use crate::bake::text::array;
 use crate::scalar::Scalar;
 

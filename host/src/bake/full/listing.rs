@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::arrays::{Baked, Output};
+use super::arrays::Baked;
 use super::data::Pattern;
+use super::imports::imports;
 use super::items::{Item, named};
-use super::source::imports;
+use super::output::Output;
 use crate::scalar::Scalar;
 
 /// What they may name, with its place in the kernel.

@@ -12,14 +12,17 @@ use crate::scalar::Scalar;
 use crate::setting::Setting;
 
 mod arrays;
+mod baking;
 mod bent;
 mod controller;
 mod data;
 mod driver;
 mod factored;
 mod faint;
+mod imports;
 mod items;
 mod listing;
+mod output;
 mod rescaling;
 mod scale;
 mod source;

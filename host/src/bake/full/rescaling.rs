@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::arrays::{Baked, Output};
+use super::arrays::Baked;
+use super::output::Output;
 use super::scale::Scale;
 use crate::scalar::Scalar;
 

@@ -12,15 +12,12 @@
 use signorini_kernel::certificate::{Certificate, Verdict};
 use signorini_kernel::tick::{Limits, Report};
 
-use super::arrays::{Baked, Output};
-use crate::bake::face::Face;
+use super::output::Output;
 use crate::bake::range::refuse_answers;
 use crate::error::Result;
-use crate::problem::Problem;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::scene::units::Units;
-use crate::solve::{choose_for_inputs, in_units};
 
 /// What 1 stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,30 +29,6 @@ pub(super) struct Scale<R> {
     pub flux: R,
     /// U √α
     pub energy: R,
-}
-
-impl<R: Scalar> Baked<R> {
-    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
-    ///
-    /// # Errors
-    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or
-    /// answers that the scalar type cannot hold.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        let face = Face::new(scene, problem);
-        let units = choose_for_inputs(scene, problem)?;
-        if units == Units::default() {
-            return Self::in_its_units(scene, problem, face);
-        }
-        let scale = Scale::new(scene, units)?;
-        let (scene, problem) = in_units(scene, problem, &units)?;
-        let baked = Self::in_its_units(&scene, &problem, face)?;
-        Ok(Self { scale: Some(scale), ..baked })
-    }
-
-    /// What 1 stands for in [`super::Controller::u`] and the other arrays of a controller.
-    pub fn units(&self) -> Units {
-        self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
-    }
 }
 
 impl<R: Scalar> Scale<R> {

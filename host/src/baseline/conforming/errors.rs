@@ -4,12 +4,12 @@ use signorini_kernel::Real;
 
 use super::Conforming;
 use super::assembly::gradients;
+use crate::baseline::record::PointError;
 use crate::error::Result;
-use crate::norms::{self, exact_at};
+use crate::pointwise::{POINTS, exact_at};
 use crate::problem::EdgeKind;
 use crate::quadrature::{gauss, on_triangle};
 use crate::scene::{Condition, Exact, Scene};
-use crate::trade::record::PointError;
 
 /// Of u as values at all vertices of the mesh, by the rules of [`crate::norms`]. The flux is A∇u_h.
 pub(super) fn errors(
@@ -21,7 +21,7 @@ pub(super) fn errors(
     length: f64,
 ) -> Result<PointError> {
     let (problem, time) = (&conforming.problem, conforming.problem.time);
-    let rule = gauss(norms::POINTS);
+    let rule = gauss(POINTS);
     let mut sums = PointError::default();
     for (cell, corners) in problem.mesh.triangles.iter().enumerate() {
         let material = &scene.materials[problem.binding.materials[cell] as usize];

@@ -14,15 +14,15 @@ mod vertices;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::signorini::System;
 
-use super::contest::Contest;
+use super::contestant::Contest;
 use super::failed;
 use super::moment::Moment;
 use super::psor::{Given, Psor};
 use super::quadratic::{Matrix, Quadratic, Tick};
+use crate::baseline::record::{Baseline, PointError};
 use crate::error::Result;
 use crate::problem::{EdgeKind, Parts, Problem};
 use crate::scene::Scene;
-use crate::trade::record::{Baseline, PointError};
 use vertices::Vertices;
 
 /// The discretisation over some ticks, with the answers of the first.

@@ -12,6 +12,7 @@ mod cross;
 mod inside;
 mod missed;
 mod panels;
+mod singular;
 #[cfg(test)]
 mod tests;
 
@@ -30,7 +31,7 @@ use panels::Panels;
 pub(crate) use cross::half_triangle;
 pub(crate) use inside::{of_rough_sides, points};
 pub(crate) use panels::PANELS;
-pub use panels::Rough;
+pub use singular::Rough;
 
 /// Gauss points a panel, and away from the edge.
 pub(crate) const POINTS: usize = 8;

@@ -8,7 +8,7 @@
 //! in the integral. Other panels are bisected, level by level.
 
 use super::POINTS;
-use super::missed::beyond;
+use super::singular::{Rough, beyond};
 use crate::certify::deviation::Deviation;
 use crate::error::Result;
 use crate::quadrature::gauss;
@@ -21,15 +21,6 @@ const LEVELS: u32 = 24;
 const MOST: usize = 128;
 /// What may be missing of a rise.
 const MISSING: f64 = 1e-9;
-
-/// What forbids a function of finite energy to follow w, and the place along the edge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Rough {
-    /// w jumps.
-    Jump(f64),
-    /// ∫w′² is infinite there.
-    Steep(f64),
-}
 
 /// A subdivision of \[0, 1\] along an edge.
 #[derive(Debug, Clone, PartialEq)]

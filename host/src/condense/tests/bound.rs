@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::*;
 use crate::bake::condensed::{Baked, Controller, Work};
-use crate::certify::energy_norm::nonconformity;
 use crate::certify::exact::{Distance, distance};
 use crate::certify::fixtures::{SMOOTH, distorted};
 use crate::condense::{Condensate, Recovery, recoverable};
+use crate::energy_norm::nonconformity;
 use crate::mesh::Curve;
 use crate::mesh::structured::{Cells, grid};
 use crate::norms::errors;

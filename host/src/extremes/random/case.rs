@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::dice::Random;
 use super::mesh::{Kind, Outline, Plan, Regions};
+use super::posed::Hold;
 use super::{catalogue, data, made};
 use crate::mesh::Mesh;
 use crate::solve::ScalarKind;
@@ -17,17 +18,6 @@ pub enum Truth {
     Made,
     /// The data were chosen; the truth is a finer solve with its own bound.
     Finer,
-}
-
-/// What holds its parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hold {
-    /// Given values somewhere.
-    Dirichlet,
-    /// A transfer law somewhere, no given values.
-    Robin,
-    /// Contact alone.
-    Contact,
 }
 
 /// Who solves it.
@@ -75,15 +65,6 @@ pub struct Case {
     pub mesh: Mesh,
     /// How it is solved.
     pub effort: Effort,
-}
-
-/// A scene without its setting.
-pub(super) struct Posed {
-    pub(super) scene: String,
-    pub(super) mesh: Mesh,
-    pub(super) hold: Hold,
-    /// Default values of the inputs.
-    pub(super) inputs: Vec<f64>,
 }
 
 impl Case {

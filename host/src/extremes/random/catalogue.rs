@@ -1,8 +1,8 @@
 //! Scenes with a solution of the catalogue: jumps, anisotropy, obliqueness and scales of any size.
 
-use super::case::{Hold, Posed};
 use super::dice::Random;
 use super::mesh::{self, Plan, Regions};
+use super::posed::{Hold, Posed};
 use crate::extremes::grid::{Grid, Shape};
 use crate::extremes::posed::{Hold as Side, Posed as Known, Scales};
 use crate::extremes::solution::{Shear, Solution};

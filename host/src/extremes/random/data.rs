@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::case::{Hold, Posed};
 use super::dice::Random;
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, Plan};
+use super::posed::{Hold, Posed};
 
 /// Draws one; `moving`: with inputs.
 pub(super) fn draw(random: &mut Random, plan: &Plan, moving: bool) -> Posed {

@@ -7,10 +7,10 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::case::{Hold, Posed};
 use super::dice::Random;
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, Drawn, Outline, Plan, Regions};
+use super::posed::{Hold, Posed};
 
 /// u with ∇u, σ = A∇u and f as texts, and the materials.
 struct Chosen {

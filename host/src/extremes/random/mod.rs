@@ -15,6 +15,7 @@ mod made;
 mod measure;
 mod mesh;
 mod nested;
+mod posed;
 pub mod record;
 mod residual;
 pub mod row;

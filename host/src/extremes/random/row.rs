@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::attempt::Attempt;
-use super::case::{Case, Hold, Truth, Way};
+use super::case::{Case, Truth, Way};
 use super::measure::Measured;
 use super::mesh::Kind;
+use super::posed::Hold;
 use super::verdict::Broken;
 use crate::error::{Error, Result};
 use crate::extremes::judge::Outcome;

@@ -4,8 +4,8 @@
 mod key;
 mod layout;
 
+use super::frame::STYLE;
 use super::loglog::{MARKER, has_logarithm, marker, upright};
-use super::page::STYLE;
 use super::scale::Scale;
 use super::svg::{Anchor, Path, Svg, circle};
 use layout::Layout;

@@ -4,8 +4,9 @@ use proptest::prelude::*;
 use tempfile::{TempDir, tempdir};
 
 use super::*;
+use crate::baseline::record::PointError;
 use crate::setting::{Omega, Setting};
-use crate::trade::record::{Point, PointError};
+use crate::trade::record::Point;
 
 const OF: &str = "levee, its mesh";
 

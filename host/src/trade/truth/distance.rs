@@ -6,6 +6,7 @@
 use super::Answer;
 use super::places::Places;
 use super::reference::Reference;
+use crate::baseline::record::PointError;
 use crate::certify::admissible::{Admissible, OnCell};
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{apply, dot, product};
@@ -17,7 +18,6 @@ use crate::problem::Problem;
 use crate::quadrature::Point;
 use crate::scene::Scene;
 use crate::search::Place;
-use crate::trade::record::PointError;
 
 /// S and τ of an answer on one of its cells.
 struct Certified<'d, 's> {

@@ -6,7 +6,7 @@ use crate::certify::cell::Cell;
 use crate::certify::conductivity::{Conductivity, apply, dot, product};
 use crate::certify::sampled::Sampled;
 use crate::error::Result;
-use crate::norms::{POINTS, exact_at};
+use crate::pointwise::{POINTS, exact_at};
 use crate::problem::{Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use crate::scene::{Exact, Field, Scene};

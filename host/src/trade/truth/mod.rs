@@ -10,6 +10,7 @@
 mod distance;
 mod exact;
 mod places;
+mod points;
 mod recovery;
 mod reference;
 mod tables;
@@ -19,7 +20,7 @@ mod tests;
 use self::exact::Contact;
 use self::reference::Reference;
 use self::tables::Recent;
-use super::record::PointError;
+use crate::baseline::record::PointError;
 use crate::certify::admissible::Admissible;
 use crate::certify::deviation::Deviations;
 use crate::certify::exact::Study;

@@ -12,7 +12,7 @@
 
 use std::collections::HashMap;
 
-use super::reference::{Inside, points};
+use super::points::{Inside, points};
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{dot, product};
 use crate::certify::weighed::minus;

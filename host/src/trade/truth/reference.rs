@@ -8,10 +8,9 @@
 //! and [`recovery`] brings it nearer: ∇u ≈ G, σ ≈ AG, ‖A^½(∇u − G)‖ ≤ total/√2 + ‖A^½(p − G)‖.
 //! Of u itself the mean of u_h and s is taken, nearer to it than u_h by a third or more.
 
-use signorini_kernel::Tensor;
-
 use super::exact::Contact;
 use super::places::Known;
+use super::points::{Inside, points};
 use super::recovery;
 use crate::certify::admissible::Admissible;
 use crate::certify::cell::Cell;
@@ -21,14 +20,10 @@ use crate::error::Result;
 use crate::field::CellField;
 use crate::mesh::Mesh;
 use crate::problem::{EdgeKind, Problem, Sum};
-use crate::quadrature::{Point, gauss};
+use crate::quadrature::gauss;
 use crate::scene::{Condition, Field, Scene};
 use crate::solve::{Options, Solution, SolverKind, solve};
 
-/// Points a direction: exact to degree 2 on triangles and 5 along both sides of quads, enough for the
-/// squares of differences of linear fields where A is constant and the meshes are nested.
-const ON_TRIANGLES: usize = 2;
-const ON_QUADS: usize = 3;
 const ON_EDGES: usize = 3;
 
 /// The solution on a fine mesh.
@@ -41,17 +36,6 @@ pub(super) struct Reference {
     unknowns: usize,
     /// What its own error is at most, in the energy norm.
     certified: Option<f64>,
-}
-
-/// The solution at a point inside.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Inside {
-    pub(super) x: [f64; 2],
-    /// An element of area.
-    pub(super) weight: f64,
-    pub(super) u: f64,
-    pub(super) gradient: [f64; 2],
-    pub(super) conductivity: Tensor<f64>,
 }
 
 /// The solution at a point of the Robin boundary.
@@ -103,14 +87,6 @@ impl Reference {
             "the faer reference on {unknowns} unknowns, two refinements finer than the finest mesh; {own}"
         )
     }
-}
-
-/// The points of a cell.
-pub(super) fn points(cell: &Cell) -> Vec<Point> {
-    cell.points(&gauss(match cell {
-        Cell::Triangle(_) => ON_TRIANGLES,
-        Cell::Quad(_) => ON_QUADS,
-    }))
 }
 
 /// Values at the points of all cells and of the Robin boundary.

@@ -3,18 +3,20 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use super::reference::{Inside, Reference};
+use super::points::Inside;
+use super::reference::Reference;
 use super::{Answer, Truth};
+use crate::baseline::record::PointError;
 use crate::certify::conductivity::product;
 use crate::certify::fixtures::{SMOOTH, on_grid, with_four_sides};
 use crate::certify::weighed::minus;
 use crate::mesh::structured::{Cells, grid};
 use crate::mesh::{Mesh, gmsh};
-use crate::norms::{exact_at, of_solution};
+use crate::norms::of_solution;
+use crate::pointwise::exact_at;
 use crate::problem::Problem;
 use crate::scene::Scene;
 use crate::solve::{Options, Solution, SolverKind, solve};
-use crate::trade::record::PointError;
 
 fn read(path: &str) -> Scene {
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes");

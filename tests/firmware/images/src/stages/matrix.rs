@@ -4,7 +4,7 @@ use signorini_kernel::boundary::Boundary;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::Edges;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::shift::Shifts;
+use signorini_kernel::signorini::Shifts;
 use signorini_kernel::signorini::{Residual, System};
 use signorini_kernel::{Error, Model, Real, assembly as numeric, flux as recovery, psor};
 

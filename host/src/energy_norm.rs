@@ -5,15 +5,15 @@
 //!   nonconformity  ‖A^½∇_h(S − u_h)‖                  what the bound for u_h adds to that for S
 //! ```
 
-use super::admissible::Admissible;
-use super::cell::Cell;
-use super::conductivity::{Conductivity, product};
-use super::curved;
-use super::deviation::Deviations;
-use super::robin::robin;
+use crate::certify::admissible::Admissible;
+use crate::certify::cell::Cell;
+use crate::certify::conductivity::{Conductivity, product};
+use crate::certify::curved;
+use crate::certify::deviation::Deviations;
+use crate::certify::robin::robin;
 use crate::error::Result;
 use crate::field::CellField;
-use crate::norms::POINTS;
+use crate::pointwise::POINTS;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, gauss};
 use crate::scene::Scene;

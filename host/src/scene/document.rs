@@ -1,0 +1,62 @@
+//! The scene file as text, and errors that show a place in it.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
+use super::Located;
+use crate::error::{InputError, Result};
+
+const LARGEST_FILE: usize = 1 << 20;
+
+/// The scene file as text.
+pub(super) struct Document {
+    pub path: PathBuf,
+    pub text: Arc<str>,
+}
+
+impl Document {
+    /// The tables and values of the text; the TOML reader itself limits how deep they nest.
+    pub fn parse(&self) -> Result<DeTable<'_>> {
+        let root = DeTable::parse(&self.text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            InputError::new(format!("not TOML: {}", error.message()))
+                .file(&self.path)
+                .excerpt(&self.text, span)
+        })?;
+        Ok(root.into_inner())
+    }
+
+    /// The error that `at` is wrong.
+    pub fn error<T>(&self, at: &Located<T>, message: impl Display) -> InputError {
+        at.error(&self.path, &self.text, message)
+    }
+}
+
+/// The file at `path`.
+pub(super) fn load(path: &Path) -> Result<Document> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(path, error.to_string()))?;
+    document(&bytes, path)
+}
+
+pub(super) fn document(bytes: &[u8], path: &Path) -> Result<Document> {
+    if bytes.len() > LARGEST_FILE {
+        return Err(unreadable(path, format!("longer than {LARGEST_FILE} bytes")).into());
+    }
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        unreadable(path, "not UTF-8 text".to_owned()).line(line)
+    })?;
+    Ok(Document { path: path.to_owned(), text: text.into() })
+}
+
+fn unreadable(path: &Path, message: String) -> InputError {
+    InputError::new(message).file(path).hint("a scene is a TOML file")
+}
