@@ -205,7 +205,7 @@ fn quoted(counts: &Counts) -> Result<(), String> {
     }
 }
 
-/// Not reached, and known: ARCHITECTURE.md says what was tried.
+/// Not reached, and known: docs/decisions has what was tried (`rows-without-csr`, `certificate-cost`).
 const OPEN: [&str; 2] = ["assembly a cell, all in", "certificate a cell, safe code"];
 
 /// `Err` where a target is missed that has been met before.
