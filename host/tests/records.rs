@@ -47,6 +47,22 @@ fn the_page_quotes_the_record_of_the_extremes() {
 }
 
 #[test]
+fn the_page_quotes_the_record_of_random_scenes() {
+    let record: Value =
+        serde_json::from_str(&read("host/benches/extremes/random.json")).expect("JSON");
+    let count = |outcome: &str| record["outcomes"][outcome].as_u64().unwrap_or(0);
+    let [correct, poor, refused, wrong] =
+        ["correct", "certified-poor", "typed-error", "wrong"].map(count);
+    let (all, seed) = (record["cases"].as_u64(), &record["seed"]);
+    assert_eq!(all, Some(correct + poor + refused + wrong));
+    assert_eq!(record["violations"], Value::Array(Vec::new()));
+    the_page_says(&[format!(
+        "Of {} scenes of seed {seed} {correct} are correct, {poor} certified but poor, {refused} refused, {wrong} wrong.",
+        all.unwrap_or_default()
+    )]);
+}
+
+#[test]
 fn the_page_quotes_the_record_of_fuzzing() {
     let record = read("tests/fuzz/record.txt");
     // target, executions, edges, corpus, found, date
