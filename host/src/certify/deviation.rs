@@ -17,6 +17,11 @@ const ROUNDING: f64 = 1e-14;
 /// Deviations above this part of the largest boundary datum are kept without weighing them.
 const PLAIN: f64 = 1e-9;
 
+/// Two points that are so near to each other, as a part of the edge, have the same w but for w′ and rounding.
+const NEXT: f64 = 1.0 / (1_u64 << 48) as f64;
+/// Noise is not the same everywhere: what may be missing of a rise, over the noise in the median.
+const NOISES: f64 = 64.0;
+
 /// Rules along an edge in search of a deviation: a bump narrower than a fortieth of the edge may lie between all points.
 const LOOKS: u32 = 8;
 
@@ -111,7 +116,8 @@ impl Deviation<'_> {
         [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
     }
 
-    /// What rounding may leave of w: that of the data, and of the place where they are evaluated.
+    /// What rounding may leave of w: that of the data, of the place where they are evaluated, and of what cancels inside
+    /// their expression.
     pub(crate) fn rounding(&self) -> f64 {
         let of_place = |point: &[f64; 2]| {
             let [x, y] = self.place(point[0]);
@@ -119,7 +125,22 @@ impl Deviation<'_> {
             self.data.at(x, y).abs().max((by_x * x).abs() + (by_y * y).abs())
         };
         let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
-        ROUNDING * places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max)
+        let data = places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max);
+        (ROUNDING * data).max(NOISES * self.noise())
+    }
+
+    /// By how much w and w′ at a point differ from those at one next to it, beyond what w′ says: in the median of some points,
+    /// since a kink or a jump may lie between two of them.
+    fn noise(&self) -> f64 {
+        let at = |t| self.at(t).unwrap_or([f64::NAN; 2]);
+        let between = |&[t, _]: &[f64; 2]| {
+            let ([w, slope], [next, its]) = (at(t), at(t + NEXT));
+            (next - w - NEXT * slope).abs() + (its - slope).abs()
+        };
+        let points = on_panels(2, f64::GAUSS[DATA_POINTS - 1]);
+        let mut found: Vec<f64> = points.iter().map(between).collect();
+        found.sort_by(f64::total_cmp);
+        found.get(found.len() / 2).copied().filter(|noise| noise.is_finite()).unwrap_or(0.0)
     }
 
     /// w and w′ at the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them
