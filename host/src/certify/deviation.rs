@@ -17,7 +17,8 @@ const ROUNDING: f64 = 1e-14;
 /// Deviations above this part of the largest boundary datum are kept without weighing them.
 const PLAIN: f64 = 1e-9;
 
-/// Two points that are so near to each other, as a part of the edge, have the same w but for w′ and rounding.
+/// Distances, as parts of an edge, at which w has no curvature worth speaking of, and w′ no change.
+const NEAR: f64 = 1.0 / (1_u64 << 26) as f64;
 const NEXT: f64 = 1.0 / (1_u64 << 48) as f64;
 /// Noise is not the same everywhere: what may be missing of a rise, over the noise in the median.
 const NOISES: f64 = 64.0;
@@ -129,16 +130,16 @@ impl Deviation<'_> {
         (ROUNDING * data).max(NOISES * self.noise())
     }
 
-    /// By how much w and w′ at a point differ from those at one next to it, beyond what w′ says: in the median of some points,
-    /// since a kink or a jump may lie between two of them.
+    /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside
+    /// a point: in the median of some points, since a kink or a jump may lie between.
     fn noise(&self) -> f64 {
-        let at = |t| self.at(t).unwrap_or([f64::NAN; 2]);
-        let between = |&[t, _]: &[f64; 2]| {
-            let ([w, slope], [next, its]) = (at(t), at(t + NEXT));
-            (next - w - NEXT * slope).abs() + (its - slope).abs()
+        let slope = |t| self.at(t).map_or(f64::NAN, |[_, slope]| slope);
+        let at = |&[t, _]: &[f64; 2]| {
+            let second = self.value(t + NEAR) - 2.0 * self.value(t) + self.value(t - NEAR);
+            second.abs() + (slope(t + NEXT) - slope(t)).abs()
         };
-        let points = on_panels(2, f64::GAUSS[DATA_POINTS - 1]);
-        let mut found: Vec<f64> = points.iter().map(between).collect();
+        let mut found: Vec<f64> =
+            on_panels(2, f64::GAUSS[DATA_POINTS - 1]).iter().map(at).collect();
         found.sort_by(f64::total_cmp);
         found.get(found.len() / 2).copied().filter(|noise| noise.is_finite()).unwrap_or(0.0)
     }

@@ -235,6 +235,16 @@ fn a_jump_inside_an_edge_has_no_bound() -> Result<()> {
     Ok(())
 }
 
+/// Terms of order 1 cancel to 1e−7: their rounding is more than 1e−9 of what is left.
+#[test]
+fn noise_is_no_singularity() -> Result<()> {
+    let noisy = with_gap("(exp(x) + 1e-7*sin(3*x)) - exp(x)")?;
+    assert_eq!(noisy.rough, None);
+    let plain = with_gap("1e-7*sin(3*x)")?;
+    assert!((noisy.energy / plain.energy - 1.0).abs() < 1e-5, "{noisy:?} {plain:?}");
+    Ok(())
+}
+
 #[test]
 fn single_singular_points_do_no_harm() -> Result<()> {
     // No slope at the end of the edge, no value in its middle.
