@@ -3,10 +3,12 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use signorini_host::cli::Cli;
+mod cli;
+
+use cli::Cli;
 
 fn main() -> ExitCode {
-    signorini_host::error::install_handler();
+    signorini_scene::error::install_handler();
     match Cli::parse().run() {
         Ok(status) => ExitCode::from(status),
         Err(error) => {

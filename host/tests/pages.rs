@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use miette::Diagnostic as _;
-use signorini_host::scene::Scene;
+use signorini_scene::scene::Scene;
 
 /// A page of the repository.
 fn page(name: &str) -> String {

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use signorini_host::mesh::gmsh;
-use signorini_host::mesh::structured::{Cells, grid};
-use signorini_host::norms::errors;
-use signorini_host::problem::Problem;
-use signorini_host::scene::Scene;
-use signorini_host::scene::units::Units;
-use signorini_host::solve::{Options, ScalarKind, solve};
-use signorini_host::tick::{Budget, Moment, play};
+use signorini_bake::tick::{Budget, Moment, play};
+use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+use signorini_solve::norms::errors;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, ScalarKind, solve};
 
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";

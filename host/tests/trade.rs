@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use signorini_host::mesh::gmsh;
+use signorini_scene::mesh::gmsh;
 
 /// Exit status, standard output and error of `signorini`.
 fn signorini(arguments: &[&str]) -> (i32, String, String) {

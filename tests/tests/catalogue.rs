@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use signorini_host::mesh::{Curve, Mesh};
-use signorini_host::norms::{Errors, errors};
-use signorini_host::problem::Problem;
-use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, Solution, solve};
+use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::scene::Scene;
+use signorini_solve::norms::{Errors, errors};
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, Solution, solve};
 use signorini_tests::grid::{Cells, Grid};
 use signorini_tests::targets::{
     ACTIVE, BENCHMARK, CATALOGUE, Case, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED,
@@ -39,7 +39,8 @@ fn mesh(grid: &Grid, curve: impl Fn([f64; 2]) -> &'static str) -> Mesh {
         });
         curves[at].edges.push([edge.0, edge.1]);
     }
-    let mut surfaces = signorini_host::mesh::structured::grid(1, Cells::Quads.into_host()).surfaces;
+    let mut surfaces =
+        signorini_scene::mesh::structured::grid(1, Cells::Quads.into_host()).surfaces;
     for (side, surface) in surfaces.iter_mut().enumerate() {
         let on_side = |cell: &u32| {
             let corners = grid.cell(*cell as usize);
@@ -58,15 +59,15 @@ fn mesh(grid: &Grid, curve: impl Fn([f64; 2]) -> &'static str) -> Mesh {
 }
 
 trait IntoHost {
-    fn into_host(self) -> signorini_host::mesh::structured::Cells;
+    fn into_host(self) -> signorini_scene::mesh::structured::Cells;
 }
 
 impl IntoHost for Cells {
-    fn into_host(self) -> signorini_host::mesh::structured::Cells {
+    fn into_host(self) -> signorini_scene::mesh::structured::Cells {
         match self {
-            Self::Triangles => signorini_host::mesh::structured::Cells::Triangles,
-            Self::Quads => signorini_host::mesh::structured::Cells::Quads,
-            Self::Mixed => signorini_host::mesh::structured::Cells::Mixed,
+            Self::Triangles => signorini_scene::mesh::structured::Cells::Triangles,
+            Self::Quads => signorini_scene::mesh::structured::Cells::Quads,
+            Self::Mixed => signorini_scene::mesh::structured::Cells::Mixed,
         }
     }
 }

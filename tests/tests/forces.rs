@@ -9,17 +9,17 @@
 
 use std::path::Path;
 
-use signorini_host::bake::{condensed, full};
-use signorini_host::condense::{Condensate, Recovery, recoverable};
-use signorini_host::mesh::gmsh;
-use signorini_host::outputs::outputs;
-use signorini_host::problem::Problem;
-use signorini_host::scalar::Scalar;
-use signorini_host::scene::{Quantity, Scene};
-use signorini_host::setting::Setting;
-use signorini_host::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_bake::{condensed, full};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::tick::Limits;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::scene::{Quantity, Scene};
+use signorini_scene::setting::Setting;
+use signorini_solve::condense::{Condensate, Recovery, recoverable};
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{FORCE_OF_EDGES, FORCE_OF_EDGES_NARROW, Tolerance};
 

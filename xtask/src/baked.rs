@@ -99,7 +99,7 @@ impl Recipe {
             return Command::new(program);
         }
         // The build that tests and exports use, optimised like a release.
-        let mut command = cargo(&["run", "--locked", "--package", "signorini-host"]);
+        let mut command = cargo(&["run", "--locked", "--package", "signorini"]);
         if !std::io::stderr().is_terminal() {
             command.arg("--quiet");
         }

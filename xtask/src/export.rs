@@ -27,7 +27,7 @@ fn write() -> Result<PathBuf, String> {
         for scalar in scalars {
             let fresh = folder.join(format!("{name}_{scalar}.{}.rs", std::process::id()));
             let mut command =
-                cargo(&["run", "--quiet", "--locked", "--package", "signorini-host", "--"]);
+                cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
             command.args(["export", file, "--scalar", scalar, "--output"]).arg(&fresh);
             run(command)?;
             take(&fresh, &folder.join(format!("{name}_{scalar}.rs")))?;

@@ -128,8 +128,7 @@ fn condense(size: usize, folder: &Path) -> Result<PathBuf, String> {
     let scene = root().join(format!("tests/firmware/peers/contact-{size}.toml"));
     let source = folder.join("contact.rs");
     for (words, file) in [(&["condense"][..], &header), (&["bake", "--condensed"], &source)] {
-        let mut command =
-            cargo(&["run", "--quiet", "--locked", "--package", "signorini-host", "--"]);
+        let mut command = cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
         command.args(words).arg(&scene).arg("-o").arg(file);
         run_cargo(command)?;
     }

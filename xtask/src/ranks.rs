@@ -13,7 +13,7 @@ const PACKAGES: [&str; 3] = ["libopenmpi-dev", "openmpi-bin", "libclang-dev"];
 
 /// The whole workspace, as the tests before, so that its dependencies are compiled already.
 const TESTS: [&str; 7] =
-    ["test", "--workspace", "--locked", "--features", "signorini-host/mpi", "--test", "ranks"];
+    ["test", "--workspace", "--locked", "--features", "signorini/mpi", "--test", "ranks"];
 
 /// The step.
 pub fn run(steps: &mut Steps) {

@@ -27,8 +27,7 @@ pub fn compare(journal: &str) -> Result<(), String> {
     for (name, section) in SCENES.iter().zip(sections) {
         let folder = target_dir("firmware").join("solve").join(name);
         let scene = format!("meshes/scenes/{name}.toml");
-        let mut command =
-            cargo(&["run", "--quiet", "--locked", "--package", "signorini-host", "--"]);
+        let mut command = cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
         command.args(["solve", &scene, "--scalar", "f32", "--out"]).arg(&folder);
         run(command)?;
         let summary = fs::read_to_string(folder.join("summary.json"));

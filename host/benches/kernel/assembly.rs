@@ -1,9 +1,9 @@
 //! Matrix and load from element matrices, and packed rows from either.
 
 use criterion::Bencher;
-use signorini_host::scalar::Scalar;
 use signorini_kernel::assembly;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;
 

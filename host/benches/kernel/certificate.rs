@@ -1,10 +1,10 @@
 //! The error bound alone, and a whole tick of the full model.
 
 use criterion::Bencher;
-use signorini_host::bake::full::{Baked, Controller};
-use signorini_host::certify::{Certifier, Data};
-use signorini_host::scalar::Scalar;
+use signorini_bake::full::{Baked, Controller};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_solve::certify::{Certifier, Data};
+use signorini_solve::scalar::Scalar;
 
 use crate::strip::{Strip, scene};
 

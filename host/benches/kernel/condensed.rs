@@ -1,13 +1,13 @@
 //! The condensed model: contact edges alone.
 
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
-use signorini_host::bake::condensed::{Baked, Controller, Work};
-use signorini_host::condense::{Condensate, condense};
-use signorini_host::mesh::structured::Cells;
-use signorini_host::scalar::Scalar;
+use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::condensed::blocks::padded;
 use signorini_kernel::condensed::certificate::Answer;
 use signorini_kernel::condensed::sor;
+use signorini_scene::mesh::structured::Cells;
+use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::scalar::Scalar;
 
 use crate::group;
 use crate::strip::{Strip, scene};

@@ -1,11 +1,11 @@
 //! Element matrices.
 
 use criterion::Bencher;
-use signorini_host::quadrature::DATA_POINTS;
-use signorini_host::scalar::Scalar;
 use signorini_kernel::Tensor;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::{self, Coefficient};
+use signorini_solve::quadrature::DATA_POINTS;
+use signorini_solve::scalar::Scalar;
 
 use crate::mesh;
 use crate::strip::Strip;

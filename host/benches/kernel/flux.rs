@@ -1,8 +1,8 @@
 //! Fluxes from edge means.
 
 use criterion::Bencher;
-use signorini_host::scalar::Scalar;
 use signorini_kernel::flux;
+use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;
 

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::time::Duration;
 
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
-use signorini_host::condense::condense;
-use signorini_host::mesh::gmsh;
-use signorini_host::problem::Problem;
-use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, SolverKind, solve};
+use signorini_scene::mesh::gmsh;
+use signorini_scene::scene::Scene;
+use signorini_solve::condense::condense;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, SolverKind, solve};
 
 use crate::strip::{Strip, scene};
 use crate::{Stages, group};

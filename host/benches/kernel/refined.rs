@@ -1,13 +1,13 @@
 //! Accuracy beyond what sweeps in f32 alone reach.
 
 use criterion::{BatchSize, Bencher};
-use signorini_host::scalar::Scalar;
-use signorini_host::solve::Mixed;
 use signorini_kernel::Libm;
 use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Settings, Solver};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::Mixed;
 
 use crate::strip::Strip;
 

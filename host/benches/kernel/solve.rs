@@ -1,13 +1,13 @@
 //! Whole solves, to a residual that both scalars reach.
 
 use criterion::{BatchSize, Bencher};
-use signorini_host::problem::Assembled;
-use signorini_host::scalar::Scalar;
-use signorini_host::tick::coarse;
+use signorini_bake::tick::coarse;
 use signorini_kernel::prolongation::prolong;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error, Relaxation};
+use signorini_solve::problem::Assembled;
+use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;
 

@@ -1,9 +1,9 @@
 //! One sweep, and what it costs to know how far one is.
 
 use criterion::Bencher;
-use signorini_host::scalar::Scalar;
 use signorini_kernel::psor;
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;
 

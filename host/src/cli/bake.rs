@@ -5,20 +5,20 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{scene_at, write_beside};
-use crate::bake::choice::{Choice, Model};
-use crate::bake::condensed;
-use crate::bake::explain::{explanation, warnings};
-use crate::bake::face::Face;
-use crate::bake::full;
-use crate::bake::setting;
-use crate::error::Result;
-use crate::mesh::adapted;
-use crate::problem::Problem;
-use crate::progress::{say, waiting, warn};
-use crate::scalar::Scalar;
-use crate::scene::Scene;
-use crate::setting::ModelKind;
-use crate::solve::ScalarKind;
+use signorini_bake::choice::{Choice, Model};
+use signorini_bake::condensed;
+use signorini_bake::explain::{explanation, warnings};
+use signorini_bake::face::Face;
+use signorini_bake::full;
+use signorini_bake::setting;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::{say, waiting, warn};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -119,7 +119,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::bake::compiled::printed;
+    use signorini_bake::compiled::printed;
 
     /// What stands in the help below `In the firmware:`, without its margin.
     fn example() -> Vec<&'static str> {

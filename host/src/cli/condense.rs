@@ -6,12 +6,12 @@ use clap::Args;
 
 use super::honoured::Command;
 use super::{scene_at, write_beside};
-use crate::bake::condensed::header;
-use crate::condense::condense;
-use crate::error::Result;
-use crate::mesh::adapted;
-use crate::problem::Problem;
-use crate::progress::warn;
+use signorini_bake::condensed::header;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted;
+use signorini_solve::condense::condense;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::warn;
 
 const EXAMPLES: &str = "\
 Example:

@@ -6,15 +6,15 @@ use clap::Args;
 
 use super::honoured::Command;
 use super::write_beside;
-use crate::bake::setting;
-use crate::error::Result;
-use crate::export::{Origin, export};
-use crate::mesh::adapted;
-use crate::problem::Problem;
-use crate::progress::warn;
-use crate::scene::Scene;
-use crate::scene::term::at_rest_warning;
-use crate::solve::ScalarKind;
+use signorini_bake::export::{Origin, export};
+use signorini_bake::setting;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::term::at_rest_warning;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::warn;
+use signorini_solve::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:

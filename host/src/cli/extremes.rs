@@ -6,15 +6,15 @@ use std::time::Instant;
 
 use clap::Args;
 
-use crate::error::{InputError, Result};
-use crate::extremes::judge::Outcome;
-use crate::extremes::kept::Kept;
-use crate::extremes::random::row::Row;
-use crate::extremes::section::section;
-use crate::extremes::{Plan, random, text};
-use crate::output::atomic::write_atomically;
-use crate::progress::{say, steps};
-use crate::report::extremes_page;
+use signorini_draw::extremes_page;
+use signorini_lab::extremes::judge::Outcome;
+use signorini_lab::extremes::kept::Kept;
+use signorini_lab::extremes::random::row::Row;
+use signorini_lab::extremes::section::section;
+use signorini_lab::extremes::{Plan, random, text};
+use signorini_scene::error::{InputError, Result};
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::progress::{say, steps};
 
 const EXAMPLES: &str = "\
 Examples:

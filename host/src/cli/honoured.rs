@@ -6,9 +6,9 @@
 //!   the rest                  solve, bake, trade, tick --baked
 //! ```
 
-use crate::error::{InputError, Result};
-use crate::scene::Scene;
-use crate::setting::{Method, ModelKind, Precision, Setting};
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{Method, ModelKind, Precision, Setting};
 
 /// A command that follows a part of a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -12,7 +12,7 @@ mod trade;
 
 use clap::{Parser, Subcommand};
 
-use crate::error::Result;
+use signorini_scene::error::Result;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -71,13 +71,17 @@ impl Cli {
             Some(Command::Extremes(arguments)) => arguments.run(),
             Some(Command::Condense(arguments)) => arguments.run(),
             Some(Command::Export(arguments)) => arguments.run(),
-            None => crate::study::run(),
+            None => signorini_lab::study::run(),
         }
     }
 }
 
 /// Writes a file, unless it is one that the scene is made of.
-fn write_beside(scene: &crate::scene::Scene, output: &std::path::Path, text: &str) -> Result<()> {
+fn write_beside(
+    scene: &signorini_scene::scene::Scene,
+    output: &std::path::Path,
+    text: &str,
+) -> Result<()> {
     let own = [&scene.path, &scene.mesh.value].into_iter().chain(&scene.fragment);
     let is_own = |place: &std::path::PathBuf| {
         own.clone().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
@@ -85,14 +89,14 @@ fn write_beside(scene: &crate::scene::Scene, output: &std::path::Path, text: &st
     if output.canonicalize().as_ref().is_ok_and(is_own) {
         let message = format!("-o {}: the scene is made of this file", output.display());
         let hint = "name another file to write";
-        return Err(crate::error::InputError::new(message).hint(hint).into());
+        return Err(signorini_scene::error::InputError::new(message).hint(hint).into());
     }
-    crate::output::atomic::write_atomically(output, text.as_bytes())
+    signorini_solve::output::atomic::write_atomically(output, text.as_bytes())
 }
 
 /// The scene with the inputs of the command line.
-fn scene_at(path: &std::path::Path, inputs: &[String]) -> Result<crate::scene::Scene> {
-    let mut scene = crate::scene::Scene::read(path)?;
+fn scene_at(path: &std::path::Path, inputs: &[String]) -> Result<signorini_scene::scene::Scene> {
+    let mut scene = signorini_scene::scene::Scene::read(path)?;
     inputs.iter().try_for_each(|input| scene.set_input(input))?;
     Ok(scene)
 }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::error::{InputError, Result};
-use crate::scene::Scene;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
 
 /// The scene with what the command line changes in it, and the folder of the files.
 #[derive(Debug, Args)]

@@ -3,24 +3,24 @@
 use clap::Args;
 
 use super::place::Place;
-use crate::energy_norm;
-use crate::engine;
-use crate::error::{Error, InputError, Result};
-use crate::field::CellField;
-use crate::mesh::adapted;
-use crate::norms::{Errors, of_solution};
-use crate::output::atomic::write_atomically;
-use crate::output::digits::{percent_above, rounded, supported};
-use crate::output::edges::edges_csv;
-use crate::output::summary::Summary;
-use crate::output::vtu::{Field, vtu};
-use crate::outputs::outputs;
-use crate::problem::Problem;
-use crate::progress::{say, waiting, warn};
-use crate::scene::Scene;
-use crate::scene::term::at_rest_warning;
-use crate::setting::{Precision, Setting};
-use crate::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_bake::engine;
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::term::at_rest_warning;
+use signorini_scene::setting::{Precision, Setting};
+use signorini_solve::energy_norm;
+use signorini_solve::field::CellField;
+use signorini_solve::norms::{Errors, of_solution};
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::output::digits::{percent_above, rounded, supported};
+use signorini_solve::output::edges::edges_csv;
+use signorini_solve::output::summary::Summary;
+use signorini_solve::output::vtu::{Field, vtu};
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::{say, waiting, warn};
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -37,7 +37,7 @@ sweeps. What solved the scene is printed, and stands in summary.json as `solver_
 
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
-#[command(after_help = format!("{EXAMPLES}\n\n{}", crate::expression::vocabulary()))]
+#[command(after_help = format!("{EXAMPLES}\n\n{}", signorini_scene::expression::vocabulary()))]
 pub struct Arguments {
     #[command(flatten)]
     place: Place,

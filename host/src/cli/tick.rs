@@ -6,18 +6,18 @@ use clap::Args;
 
 use super::honoured::Command;
 use super::place::Place;
-use crate::error::{Error, Result};
-use crate::mesh::{adapted, gmsh};
-use crate::output::atomic::write_atomically;
-use crate::output::ticks::ticks_csv;
-use crate::problem::Problem;
-use crate::progress::{say, steps, warn};
-use crate::report::history;
-use crate::scene::Scene;
-use crate::setting::Precision;
-use crate::solve::{Options, ScalarKind};
-use crate::tick::baked::replay;
-use crate::tick::{Budget, Tick, log, picture, play, schedule};
+use signorini_bake::tick::baked::replay;
+use signorini_bake::tick::columns::ticks_csv;
+use signorini_bake::tick::{Budget, Tick, log, picture, play, schedule};
+use signorini_draw::history;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::Precision;
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::{say, steps, warn};
+use signorini_solve::solve::{Options, ScalarKind};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::error::{InputError, Result};
-use crate::progress::{say, steps, warn};
-use crate::trade::campaign::{Campaign, Ended};
-use crate::trade::front::{Tolerance, Wish};
-use crate::trade::shard::Shard;
-use crate::trade::table::text;
-use crate::trade::target::Target;
+use signorini_lab::trade::campaign::{Campaign, Ended};
+use signorini_lab::trade::front::{Tolerance, Wish};
+use signorini_lab::trade::shard::Shard;
+use signorini_lab::trade::table::text;
+use signorini_lab::trade::target::Target;
+use signorini_scene::error::{InputError, Result};
+use signorini_solve::progress::{say, steps, warn};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -104,7 +104,7 @@ impl Arguments {
 }
 
 /// A wish that nothing meets is wrong input; the studies are written all the same.
-fn refused(trades: &[(PathBuf, crate::trade::record::Trade)], wish: &Wish) -> Result<u8> {
+fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Wish) -> Result<u8> {
     let unmet = trades.iter().find(|(_, trade)| trade.recommendation.point.is_none());
     match unmet {
         Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {

@@ -2,9 +2,7 @@
 
 use std::sync::OnceLock;
 
-use signorini_host::bake::condensed::{Baked, Controller, Work};
-use signorini_host::condense::{Condensate, condense};
-use signorini_host::problem::Problem;
+use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{Block, Blocks, SIDE, count, padded};
 use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
@@ -14,6 +12,8 @@ use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::report::{Ended, Report};
+use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::problem::Problem;
 
 use super::bytes::{Bits, Bytes};
 use super::certified::is_bound;
@@ -213,7 +213,7 @@ pub trait Kept: Sized + 'static {
     /// The models of all scenes, with every method.
     fn baked() -> &'static [Baked<Self>]
     where
-        Self: signorini_host::scalar::Scalar;
+        Self: signorini_solve::scalar::Scalar;
 }
 
 const WORKS: [Work; 3] = [

@@ -2,7 +2,7 @@
 
 use std::str;
 
-use signorini_host::expression::{Arithmetic, Elementary, Expression, ParseError, Variables};
+use signorini_scene::expression::{Arithmetic, Elementary, Expression, ParseError, Variables};
 
 use super::bytes::Bytes;
 

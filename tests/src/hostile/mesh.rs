@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use signorini_host::mesh::shape::{self, Orientation};
-use signorini_host::mesh::{Mesh, check, cut, gmsh, pairing, refine};
-use signorini_host::scene::Scene;
+use signorini_scene::mesh::shape::{self, Orientation};
+use signorini_scene::mesh::{Mesh, check, cut, gmsh, pairing, refine};
+use signorini_scene::scene::Scene;
 
 use super::{bytes, solved};
 

@@ -1,6 +1,6 @@
 //! What a refusal must be.
 
-use signorini_host::error::Error;
+use signorini_scene::error::Error;
 
 /// Wrong input says so in a few words.
 pub(super) fn refused(error: &Error) {

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::str;
 
-use signorini_host::error::Result;
-use signorini_host::mesh::structured::{Cells, grid};
-use signorini_host::mesh::{Curve, Mesh, Surface};
-use signorini_host::scene::Scene;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{Curve, Mesh, Surface};
+use signorini_scene::scene::Scene;
 
 use super::refusal::refused;
 use super::{bytes, solved};

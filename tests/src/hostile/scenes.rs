@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use signorini_host::mesh::Mesh;
-use signorini_host::mesh::structured::{Cells, grid};
-use signorini_host::scene::Scene;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
 
 /// Inputs of each scene.
 pub const INPUTS: usize = 5;

@@ -1,16 +1,16 @@
 //! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
 
-use signorini_host::bake::{condensed, full};
-use signorini_host::condense::condense;
-use signorini_host::error::Result;
-use signorini_host::mesh::Mesh;
-use signorini_host::outputs::outputs;
-use signorini_host::problem::Problem;
-use signorini_host::scalar::Scalar;
-use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, ScalarKind, Solution, SolverKind, solve};
-use signorini_host::tick::{Budget, Tick, play, schedule};
+use signorini_bake::tick::{Budget, Tick, play, schedule};
+use signorini_bake::{condensed, full};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::Scene;
+use signorini_solve::condense::condense;
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 use super::refusal::refused;
 

@@ -3,12 +3,12 @@
 use std::cell::Cell;
 use std::sync::OnceLock;
 
-use signorini_host::bake::full::{Baked, Controller};
-use signorini_host::problem::Problem;
+use signorini_bake::full::{Baked, Controller};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::tick::{Deadline, Ended, Limits, Memory, Report, Tick};
 use signorini_kernel::{Error, Libm, Relaxation, Tensor};
+use signorini_solve::problem::Problem;
 
 use super::bytes::{Bits, Bytes};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
@@ -192,7 +192,7 @@ pub trait Driven: Sized + 'static {
     /// The models of all scenes.
     fn baked() -> &'static [Baked<Self>]
     where
-        Self: signorini_host::scalar::Scalar;
+        Self: signorini_solve::scalar::Scalar;
 }
 
 /// Sweeps or a factor, with a bound and without.

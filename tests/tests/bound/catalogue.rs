@@ -1,7 +1,7 @@
 //! How sharp the bound is on the catalogue: at convergence, and while the solver is under way.
 
-use signorini_host::mesh::structured::Cells;
-use signorini_host::solve::ScalarKind;
+use signorini_scene::mesh::structured::Cells;
+use signorini_solve::solve::ScalarKind;
 use signorini_tests::tolerances::{EDGE_MEAN, SHARPNESS};
 use signorini_tests::written::{Case, Side, Units, Written};
 

@@ -1,6 +1,6 @@
 //! What must not change the bound: the order of the cells, the units.
 
-use signorini_host::solve::ScalarKind;
+use signorini_solve::solve::ScalarKind;
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{ORDER, UNITS};
 use signorini_tests::written::{Case, Side, Units};

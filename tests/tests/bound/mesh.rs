@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use signorini_host::mesh::structured::{Cells, grid};
-use signorini_host::mesh::{Curve, Mesh};
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{Curve, Mesh};
 use signorini_tests::random::Random;
 
 /// How far a vertex may move, in mesh widths: every quad stays convex, every triangle positive.

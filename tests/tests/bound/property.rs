@@ -1,7 +1,7 @@
 //! On random scenes with an exact solution, stopped at any time.
 
-use signorini_host::solve::ScalarKind;
 use signorini_kernel::element::QuadElement;
+use signorini_solve::solve::ScalarKind;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
-use signorini_host::mesh::Mesh;
-use signorini_host::mesh::structured::Cells;
-use signorini_host::output::summary::Summary;
-use signorini_host::problem::Problem;
-use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::structured::Cells;
+use signorini_scene::scene::Scene;
+use signorini_solve::output::summary::Summary;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{GUARANTEE, IDENTITY};
 use signorini_tests::written::{Case, Contact, Side, Smooth, Units, Written};

@@ -11,14 +11,14 @@
 
 use std::path::Path;
 
-use signorini_host::bake::condensed::{Baked, Controller};
-use signorini_host::condense::{Condensate, Measure};
-use signorini_host::mesh::gmsh;
-use signorini_host::problem::Problem;
-use signorini_host::scalar::Scalar;
-use signorini_host::scene::Scene;
+use signorini_bake::condensed::{Baked, Controller};
 use signorini_kernel::certificate::Verdict;
 use signorini_kernel::report::Ended;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::scene::Scene;
+use signorini_solve::condense::{Condensate, Measure};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tests::tolerances::{CONDENSED, CONDENSED_NARROW, Tolerance};
 

@@ -1,10 +1,10 @@
 //! Any number of contact edges, inputs at their worst, very many ticks.
 
-use signorini_host::bake::condensed::{Baked, Controller, Work};
-use signorini_host::mesh::structured::Cells;
-use signorini_host::mesh::{Curve, Mesh};
-use signorini_host::scalar::Scalar;
+use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::report::Ended;
+use signorini_scene::mesh::structured::Cells;
+use signorini_scene::mesh::{Curve, Mesh};
+use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 
 use crate::mesh::regular;

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use signorini_host::bake::condensed::{Baked, Work};
-use signorini_host::condense::{Condensate, condense};
-use signorini_host::mesh::Mesh;
-use signorini_host::outputs::outputs;
-use signorini_host::problem::Problem;
-use signorini_host::scalar::Scalar;
-use signorini_host::scene::Scene;
-use signorini_host::solve::{Options, Solution, SolverKind, solve};
+use signorini_bake::condensed::{Baked, Work};
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::Scene;
+use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
 use signorini_tests::random::{Random, tensor};
 
 use crate::mesh::{KINDS, regular, scattered};

@@ -1,0 +1,128 @@
+//! The variants of the condensed model, each with what it takes.
+
+use signorini_kernel::condensed::blocks::padded;
+
+use super::work::{allowed, entries, fixed, within};
+use super::{Candidate, Model};
+use crate::budget::{Budget, Needs};
+use crate::costs::Costs;
+use crate::dense::{Done, Price};
+use crate::setting::checked;
+use crate::{condensed, trial};
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{Method, Setting};
+use signorini_solve::condense::Condensate;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::unfit;
+
+/// The variants of the condensed model: with the bound first, and of two the one that takes less time. Those that leave
+/// out a bound that is asked for are no choice.
+pub(super) fn of_condensed<R: Scalar>(
+    scene: &Scene,
+    condensate: &Condensate,
+    budget: &Budget,
+) -> Result<Vec<Candidate<R>>> {
+    let setting = checked::<R>(scene)?;
+    refuse_singular::<R>(scene, condensate)?;
+    let has_bound = condensate.certificate.is_ok();
+    let variants = match (setting.certificate, has_bound) {
+        (false, _) => &[false][..],
+        (true, true) => &[true, false],
+        (true, false) => &[true],
+    };
+    let mut all = Vec::new();
+    for &certified in variants {
+        let mut pair = Vec::new();
+        // Without contact there is nothing to solve.
+        let methods = match setting.solver {
+            _ if condensate.contact == 0 || setting.sweeps.is_some() => &[false][..],
+            Some(Method::Sweeps) => &[false],
+            Some(Method::Exact) => &[true],
+            _ => &[true, false],
+        };
+        for &exact in methods {
+            let mut candidate =
+                condensed_as(scene, condensate, budget, &setting, [exact, certified])?;
+            candidate.lacks_bound = setting.certificate && !certified;
+            if setting.certificate {
+                candidate.unbounded = condensate.certificate.as_ref().err().cloned();
+            }
+            pair.push(candidate);
+        }
+        // Sweeps come back from loads without a solution by small steps, where contact alone holds a part.
+        if condensate.held_by_contact.is_empty() {
+            pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
+        }
+        all.extend(pair);
+    }
+    Ok(all)
+}
+
+/// A matrix that the scalar type cannot tell from a singular one has no use there.
+fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &Condensate) -> Result<()> {
+    /// Part of an answer that rounding of the matrix may take.
+    const MOST: f64 = 1e-2;
+    let Ok(form) = &condensate.certificate else { return Ok(()) };
+    // reach² is 1/λ_min of the scaled matrix, or near to it.
+    let lost = form.reach.powi(2) * R::EPSILON.wide();
+    if lost <= MOST {
+        return Ok(());
+    }
+    let message = format!(
+        "the condensed problem is nearly singular (1/λ_min = {:.0e}): in {} it would be another one",
+        form.reach.powi(2),
+        R::NAME
+    );
+    let hint = "bake it with --scalar f64, or hold the domain more firmly: a larger transfer coefficient, a \
+                dirichlet boundary";
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
+pub(super) fn time(needs: &Needs) -> f64 {
+    needs.instructions().unwrap_or(f64::INFINITY)
+}
+
+fn condensed_as<R: Scalar>(
+    scene: &Scene,
+    condensate: &Condensate,
+    budget: &Budget,
+    setting: &Setting,
+    [exact, certified]: [bool; 2],
+) -> Result<Candidate<R>> {
+    let unfit = unfit::<R>(scene);
+    let all = allowed(setting, condensate.contact, exact);
+    let baked = condensed::Baked::<R>::new(condensate, all, certified).map_err(unfit)?;
+    let baked = baked.with_setting(setting);
+    let costs = Costs::measured();
+    let price = Price {
+        order: padded(condensate.contact),
+        entries: entries(condensate),
+        vertices: baked.vertices(),
+        exact,
+        forms: baked.forms(),
+    };
+    let price = |done: &Done| price.of::<R>(&costs, done);
+    let (trial, instructions) = trial::of_condensed(&baked, &condensate.defaults[1..], price);
+    let fixed = fixed::<R>(&costs, condensate, exact, certified);
+    let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
+    let work = within::<R>(&costs, condensate.contact, all, trial, time);
+    let baked = baked.with_work(work);
+    let sizes = condensed::sizes(&baked);
+    let needs = Needs::with_code(", condensed", sizes, instructions);
+    let solver = match (condensate.contact, exact) {
+        (0, _) => "linear",
+        (_, true) => "exact method",
+        (_, false) => "sweeps alone",
+    };
+    let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
+    Ok(Candidate {
+        name: format!("condensed, {solver}{bound}"),
+        shortfalls: budget.shortfalls(&needs),
+        model: Model::Condensed(Box::new(baked)),
+        needs,
+        trial,
+        lacks_bound: false,
+        unbounded: None,
+    })
+}

@@ -1,0 +1,147 @@
+//! The full model, swept and by a factor, each with what it takes.
+
+use super::candidates::time;
+use super::{Candidate, Model};
+use crate::budget::{Budget, Needs};
+use crate::costs::Costs;
+use crate::full;
+use crate::trial::{self, Trial};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// The solver that the setting asks for; where it leaves that open both, the quicker first: one that comes to its end
+/// before one that does not. `excluded` gets the reason why there is no factor.
+pub(super) fn of_full<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    budget: &Budget,
+    excluded: &mut Vec<String>,
+) -> Result<Vec<Candidate<R>>> {
+    let setting = scene.setting.unwrap_or_default();
+    let baked = full::Baked::<R>::new(scene, problem)?;
+    // Sweeps and shares are for who sweeps.
+    let is_open = setting.solver.is_none() && setting.sweeps.is_none() && setting.share.is_none();
+    let factored = is_open.then(|| baked.clone().with_factor(scene, problem));
+    let mut all = vec![candidate(scene, problem, budget, baked)];
+    match factored {
+        Some(Ok(factored)) => all.push(candidate(scene, problem, budget, factored)),
+        Some(Err(error)) => excluded.push(format!("full, by a factor: {error}")),
+        None => {}
+    }
+    let place = |candidate: &Candidate<R>| (!candidate.trial.settled, time(&candidate.needs));
+    all.sort_by(|a, b| place(a).0.cmp(&place(b).0).then(place(a).1.total_cmp(&place(b).1)));
+    Ok(all)
+}
+
+/// A full model, tried where there is room for it.
+fn candidate<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    budget: &Budget,
+    baked: full::Baked<R>,
+) -> Candidate<R> {
+    let sizes = full::sizes(&baked);
+    let memory = Needs::with_code(baked.code(), sizes, [None; 2]);
+    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    // A model that has no room is not tried.
+    let trial = match budget.shortfalls(&memory).is_empty() {
+        true => trial::of_full(&baked, &defaults),
+        false => Trial::default(),
+    };
+    let tick = Tick { costs: Costs::measured(), problem, baked: &baked, trial };
+    let needs = Needs { ticks: [0, 1].map(|of| tick.count(of)), ..memory };
+    let solver = if baked.entries().is_some() { ", by a factor" } else { "" };
+    let bound = if baked.is_certified() { "" } else { ", no error bound" };
+    Candidate {
+        name: format!("full{solver}{bound}"),
+        lacks_bound: false,
+        // Where the bound is left out, nobody asks for it.
+        unbounded: (baked.is_certified() && !baked.has_bound()).then(|| NO_BOUND.to_owned()),
+        model: Model::Full(Box::new(baked)),
+        shortfalls: budget.shortfalls(&needs),
+        needs,
+        trial,
+    }
+}
+
+/// Why a full model can have no bound.
+const NO_BOUND: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
+
+/// Ticks of a trial: the median one has number 0, the longest 1.
+struct Tick<'a, R: Scalar> {
+    costs: Costs,
+    problem: &'a Problem,
+    baked: &'a full::Baked<R>,
+    trial: Trial,
+}
+
+impl<R: Scalar> Tick<'_, R> {
+    /// Instructions: load and rows, the solve with its looks at residual and bound, and what comes last; nothing where
+    /// there was no tick.
+    fn count(&self, of: usize) -> Option<f64> {
+        let Trial { sweeps, rounds, looks, .. } = self.trial;
+        let (sweeps, rounds) = (sweeps[of], rounds[of]);
+        if sweeps + rounds == 0 {
+            return None;
+        }
+        let [certificates, measurements] = looks.map(|look| f64::from(look[of]));
+        let last = match self.baked.is_certified() {
+            true => certificates * self.of_cells("certificate")?,
+            false => self.of_cells("flux by edges")?,
+        };
+        let swept = match sweeps {
+            0 => 0.0,
+            _ => {
+                f64::from(sweeps) * self.of_unknowns("sweep", self.width())?
+                    + measurements * self.of_unknowns("residual", self.width())?
+            }
+        };
+        let solve = swept + if rounds > 0 { self.exact(of)? } else { 0.0 };
+        let rows = self.of_unknowns("rows from cells", self.quads())?;
+        Some(rows + solve + self.of_cells("load")? + last)
+    }
+
+    /// Defects and substitutions, exchanges, and products with tableau and S.
+    fn exact(&self, of: usize) -> Option<f64> {
+        let (pivots, rounds) = (self.trial.pivots[of], self.trial.rounds[of]);
+        let entries = self.baked.entries()? as f64;
+        let round = self.of_cells("defect")?
+            + self.of_unknowns("substitution, columns", self.width())?
+            + entries * self.costs.of_mesh::<R>("triangles", "substitution, entries")?;
+        let contact = self.problem.topology.counts.contact;
+        let dense = |stage: &str| self.costs.of_dense::<R>(stage, contact);
+        let first = dense("exact, no edge changes")? + dense("sweep")?;
+        let exchanges = f64::from(pivots) * dense("exchange")?;
+        Some(f64::from(rounds) * (round + dense("answer")?) + first + exchanges)
+    }
+
+    /// A stage on all cells, each kind at its own price.
+    fn of_cells(&self, stage: &str) -> Option<f64> {
+        let mesh = &self.problem.mesh;
+        let kinds = [("triangles", mesh.triangles.len()), ("quads", mesh.quads.len())];
+        let cost =
+            |(kind, number)| self.costs.of_mesh::<R>(kind, stage).map(|each| each * number as f64);
+        kinds.into_iter().filter(|(_, number)| *number > 0).map(cost).sum()
+    }
+
+    /// A stage on all unknowns, of which `quads` is the part that costs what it does on quads.
+    fn of_unknowns(&self, stage: &str, quads: f64) -> Option<f64> {
+        let [triangle, quad] = ["triangles", "quads"].map(|of| self.costs.of_mesh::<R>(of, stage));
+        let each = (1.0 - quads) * triangle? + quads * quad?;
+        Some(each * self.problem.topology.counts.unknowns() as f64)
+    }
+
+    /// Rows have room for the neighbours in quads as soon as there is one.
+    fn width(&self) -> f64 {
+        if self.baked.has_quads() { 1.0 } else { 0.0 }
+    }
+
+    /// The part of the sides of cells that are a quad's.
+    fn quads(&self) -> f64 {
+        let mesh = &self.problem.mesh;
+        let (triangles, quads) = (3.0 * mesh.triangles.len() as f64, 4.0 * mesh.quads.len() as f64);
+        quads / (triangles + quads).max(1.0)
+    }
+}

@@ -1,0 +1,196 @@
+//! Which model: the smallest that represents the scene exactly and fits the device.
+//!
+//! ```text
+//!   condensed, exact method │ condensed, sweeps alone │ full │ full, by a factor
+//!   ── each with its needs (bytes from its arrays, instructions from counted parts and a trial) ──►
+//!   the first that fits what `[target]` declares
+//! ```
+//! Of two that differ in their solver the quicker one comes first. Every model has its error bound, unless
+//! `certificate = false` in `[setting]` leaves it out: condensed models without it are worked out to say what that would
+//! save, and are no choice. A scene of which one model has no bound at all gets one that has; where none has, or none
+//! that is asked for, [`Choice::unbounded`] says why.
+
+mod advice;
+mod candidates;
+mod meshes;
+mod work;
+
+use super::budget::{Budget, Needs, Shortfall};
+use super::range::{refuse_answers, refuse_lengths, refuse_squares};
+use super::trial::Trial;
+use super::{condensed, full};
+use advice::too_large;
+use candidates::of_condensed;
+use meshes::of_full;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
+use signorini_solve::condense::{check_size, condense};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::choose_for_inputs;
+
+/// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
+const MOST_CONTACTS: usize = 1000;
+/// Bytes of flash beyond which a condensed model is compared with the full one.
+const LARGE: u64 = 1 << 20;
+
+/// A model, ready to be written.
+#[derive(Debug)]
+pub enum Model<R: Scalar> {
+    /// See [`condensed`].
+    Condensed(Box<condensed::Baked<R>>),
+    /// See [`full`].
+    Full(Box<full::Baked<R>>),
+}
+
+/// A model with what it takes.
+#[derive(Debug)]
+pub struct Candidate<R: Scalar> {
+    /// In a few words.
+    pub name: String,
+    /// The model.
+    pub model: Model<R>,
+    /// What it takes.
+    pub needs: Needs,
+    /// What its warm ticks do.
+    pub trial: Trial,
+    /// What of the device it goes beyond.
+    pub shortfalls: Vec<Shortfall>,
+    /// Whether it lacks the bound that is asked for: it is no choice then, but may be one without.
+    pub lacks_bound: bool,
+    /// Why this model of the scene can have no bound, where one is asked for: the last choice.
+    pub unbounded: Option<String>,
+}
+
+impl<R: Scalar> Candidate<R> {
+    /// Whether the device has room and time for it.
+    pub fn fits(&self) -> bool {
+        self.shortfalls.is_empty()
+    }
+
+    fn may_be_chosen(&self) -> bool {
+        self.fits() && !self.lacks_bound
+    }
+
+    fn has_all(&self) -> bool {
+        self.may_be_chosen() && self.unbounded.is_none()
+    }
+}
+
+/// All that was considered, and which it is.
+#[derive(Debug)]
+pub struct Choice<R: Scalar> {
+    /// In the order in which they were considered.
+    pub candidates: Vec<Candidate<R>>,
+    /// Position of the one chosen.
+    pub chosen: usize,
+    /// What the device has.
+    pub budget: Budget,
+    /// Why a model was not considered.
+    pub excluded: Vec<String>,
+}
+
+impl<R: Scalar> Choice<R> {
+    /// Chooses for `scene`, as its setting asks where `forced` does not; with `compared`, the full model is
+    /// worked out in any case.
+    ///
+    /// # Errors
+    /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
+    /// was asked for from existing, or a key of the setting from meaning anything to it.
+    pub fn new(
+        scene: &Scene,
+        problem: &Problem,
+        forced: Option<ModelKind>,
+        compared: bool,
+    ) -> Result<Self> {
+        let budget = Budget::of(scene);
+        let setting = scene.setting.unwrap_or_default();
+        let forced = forced.or(setting.model_kind());
+        if let Some((model, key)) =
+            forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
+        {
+            return Err(foreign(scene, model, key).into());
+        }
+        let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
+        let contact = problem.topology.counts.contact;
+        let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
+        let units = choose_for_inputs(scene, problem)?;
+        refuse_answers::<R>(scene, &units)?;
+        refuse_lengths::<R>(scene, problem)?;
+        // Condensation is in the scene's units, in f64.
+        let near = refuse_squares::<f64>(scene, &units);
+        if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
+            near?;
+            match of_condensed(scene, &condense(scene, problem)?, &budget) {
+                Ok(found) => candidates = found,
+                Err(error) if forced.is_some() => return Err(error),
+                Err(error) => excluded.push(format!("condensed: {error}")),
+            }
+        } else if let (None, Err(error)) = (forced, near) {
+            excluded.push(format!("condensed: {error}"));
+        } else if forced.is_none() {
+            let edges = problem.topology.counts.edges();
+            let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");
+            excluded.push(format!("condensed: {contact} contact edges among {edges}, {most}"));
+        }
+        let fits = candidates.iter().any(Candidate::has_all);
+        let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
+        if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
+            match of_full(scene, problem, &budget, &mut excluded) {
+                Ok(mut found) => {
+                    // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
+                    // the time, not refused.
+                    for candidate in found.iter_mut().filter(|_| forced.is_some()) {
+                        candidate.shortfalls.retain(|short| short.key != "target.tick");
+                    }
+                    candidates.append(&mut found);
+                }
+                Err(error) if candidates.is_empty() => return Err(error),
+                Err(error) => excluded.push(format!("full: {error}")),
+            }
+        }
+        // Condensed models come first; a mesh that takes less than their dense blocks is preferred to them.
+        let flash = |at: &usize| candidates[*at].needs.flash;
+        let first = candidates.iter().position(Candidate::has_all);
+        let is_full = |candidate: &Candidate<R>| matches!(candidate.model, Model::Full(_));
+        let full = candidates.iter().position(|of| is_full(of) && of.has_all());
+        let complete = match first.zip(full) {
+            Some((first, full)) if flash(&first) > LARGE && flash(&full) < flash(&first) => {
+                Some(full)
+            }
+            _ => first,
+        };
+        // Without a bound only where no model has one: what is asked for and does not fit is not left out.
+        let is_bounded = |of: &Candidate<R>| of.unbounded.is_none() && !of.lacks_bound;
+        let last = || match candidates.iter().any(is_bounded) {
+            true => None,
+            false => candidates.iter().position(Candidate::may_be_chosen),
+        };
+        match complete.or_else(last) {
+            Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
+            None => Err(too_large(scene, &candidates).into()),
+        }
+    }
+
+    /// Why the model chosen has no bound, where one is asked for.
+    pub fn unbounded(&self) -> Option<&str> {
+        self.candidate().unbounded.as_deref()
+    }
+
+    /// The model chosen.
+    pub fn candidate(&self) -> &Candidate<R> {
+        &self.candidates[self.chosen]
+    }
+}
+
+/// The error that a key of the setting does not go with the model that the command asks for.
+fn foreign(scene: &Scene, model: ModelKind, key: &str) -> InputError {
+    let model = match model {
+        ModelKind::Full => "full",
+        ModelKind::Condensed => "condensed",
+    };
+    InputError::new(format!("setting.{key}: means nothing to the {model} model"))
+        .file(&scene.path)
+        .hint(format!("remove it, or do not ask for the {model} model"))
+}

@@ -1,0 +1,75 @@
+//! What a condensed tick costs without changes, and how many exchanges and sweeps that leaves time for.
+
+use signorini_kernel::condensed::blocks::padded;
+
+use crate::condensed::Work;
+use crate::costs::Costs;
+use crate::trial::Trial;
+use signorini_scene::setting::Setting;
+use signorini_solve::condense::Condensate;
+use signorini_solve::scalar::Scalar;
+
+/// Sweeps that follow where the exchanges of a tick do not suffice.
+const FALLBACK: u32 = 20;
+/// Fewest exchanges that a tick is allowed, whatever the estimate of its time.
+const FEWEST: u32 = 4;
+/// Most sweeps of a model without the exact method.
+const MOST_SWEEPS: u32 = 1000;
+/// Instructions an entry of a load or an output: two loads, a multiply-add, half of a loop.
+const AN_ENTRY: f64 = 4.0;
+
+/// Instructions of a tick in which no edge changes sides, as if every group of eight edges had an open one:
+/// then a product costs what a sweep does, and all columns of the bound's factor count, not half of them.
+pub(super) fn fixed<R: Scalar>(
+    costs: &Costs,
+    condensate: &Condensate,
+    exact: bool,
+    certified: bool,
+) -> Option<f64> {
+    let of = |stage: &str| costs.of_dense::<R>(stage, condensate.contact);
+    let (sweep, product) = (of("sweep")?, of("product, half of x zero")?);
+    let solve = if exact { of("exact, no edge changes")? + 2.0 * (sweep - product) } else { sweep };
+    let bound = match certified && condensate.certificate.is_ok() {
+        true => 2.0 * of("norm of the bound, half of x zero")?,
+        false => 0.0,
+    };
+    Some(AN_ENTRY * entries(condensate) as f64 + solve + bound)
+}
+
+/// Entries of loads and outputs.
+pub(super) fn entries(condensate: &Condensate) -> usize {
+    let Condensate { contact, inputs, outputs, .. } = condensate;
+    let n = padded(*contact);
+    n * inputs + outputs.len() * (n + inputs)
+}
+
+/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number.
+pub(super) fn allowed(setting: &Setting, contact: usize, exact: bool) -> Work {
+    match exact {
+        true => Work { pivots: Some((2 * contact as u32).max(1)), sweeps: FALLBACK },
+        false => Work { pivots: None, sweeps: setting.sweeps.unwrap_or(MOST_SWEEPS) },
+    }
+}
+
+/// What a tick may do in the time declared, and in any case what the ticks of the trial did. `time`: the
+/// instructions of a tick without changes, and those that there are.
+pub(super) fn within<R: Scalar>(
+    costs: &Costs,
+    contact: usize,
+    all: Work,
+    trial: Trial,
+    time: Option<(f64, f64)>,
+) -> Work {
+    let steps = costs.of_dense::<R>("exchange", contact).zip(costs.of_dense::<R>("sweep", contact));
+    let (Some((fixed, budget)), Some((pivot, sweep)), true) = (time, steps, contact > 0) else {
+        return all;
+    };
+    let times = |instructions: f64, each: f64| (instructions / each).clamp(0.0, 1e6) as u32;
+    let Some(most) = all.pivots else {
+        let sweeps = times(budget - fixed, sweep).max(trial.sweeps[1]).clamp(1, all.sweeps);
+        return Work { pivots: None, sweeps };
+    };
+    let sweeps = times(0.25 * (budget - fixed), sweep).clamp(1, all.sweeps);
+    let affordable = times(budget - fixed - f64::from(sweeps) * sweep, pivot);
+    Work { pivots: Some(affordable.max(FEWEST).max(trial.pivots[1]).min(most)), sweeps }
+}

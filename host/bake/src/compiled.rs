@@ -1,0 +1,67 @@
+//! Generated text as the compiler sees it, for tests: no warnings, and then it runs.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Kernels that this build has made, the newest first: other features or profiles may be among them.
+fn kernels(folder: &Path) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(folder).expect("the folder of this test");
+    let paths = files.filter_map(|file| Some(file.ok()?.path()));
+    let is_kernel = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with("libsignorini_kernel-") && name.ends_with(".rlib")
+    };
+    let age = |path: &PathBuf| path.metadata().and_then(|of| of.modified()).ok();
+    let mut kernels: Vec<_> = paths.filter(is_kernel).collect();
+    kernels.sort_by_key(|path| std::cmp::Reverse(age(path)));
+    kernels
+}
+
+/// A firmware that knows nothing of the model: all that every module offers, by the same names. It prints whether a tick
+/// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
+pub const FIRMWARE: &str = "
+fn main() {
+    use signorini_kernel::report::{Ended, Report};
+    let mut controller = Box::new(Controller::new());
+    let first: Answer = controller.tick(Inputs::DEFAULT).unwrap();
+    let report: Report<Scalar> = first.report;
+    let limits = Limits { sweeps: 3, ..LIMITS };
+    let other = || Inputs::from_array(Inputs::DEFAULT.to_array().map(|value| 7.0 - value));
+    let deadline = &mut Deadline { remaining: || 0, sweep: 1, certificate: 1 };
+    let late = controller.tick_within(other(), limits, deadline).unwrap().report;
+    let cut = controller.tick_within(other(), limits, &mut Deadline::never()).unwrap().report;
+    controller.reset();
+    let again = controller.tick_within(Inputs::DEFAULT, LIMITS, &mut Deadline::never()).unwrap();
+    let whole = |report: &Report<Scalar>| report.sweeps <= 3 || report.ended != Ended::OutOfSweeps;
+    let bounds = [report, late, cut].map(|report| report.certificate().is_some());
+    println!(\"{} {:?} {:?} {}\", again == first, bounds, late.ended, whole(&cut));
+}
+";
+
+/// What a module with a `main` prints when it runs.
+pub fn printed(text: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, program) = (folder.path().join("scene.rs"), folder.path().join("scene"));
+    std::fs::write(&file, text).expect("a file");
+    let test = std::env::current_exe().expect("this test");
+    let dependencies = test.parent().expect("its folder");
+    let mut said = String::new();
+    for kernel in kernels(dependencies) {
+        let compiled = Command::new(std::env::var("RUSTC").unwrap_or("rustc".to_owned()))
+            .args(["--edition", "2024", "-D", "warnings"])
+            .arg("-L")
+            .arg(dependencies)
+            .arg("--extern")
+            .arg(format!("signorini_kernel={}", kernel.display()))
+            .arg("-o")
+            .args([&program, &file])
+            .output()
+            .expect("a compiler");
+        if compiled.status.success() {
+            let ran = Command::new(&program).output().expect("a program");
+            return String::from_utf8_lossy(&ran.stdout).into_owned();
+        }
+        said = String::from_utf8_lossy(&compiled.stderr).into_owned();
+    }
+    panic!("{said}");
+}

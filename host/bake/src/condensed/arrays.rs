@@ -1,0 +1,329 @@
+//! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
+
+use signorini_kernel::condensed::Condensed;
+use signorini_kernel::condensed::blocks::Block;
+use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::condensed::factor::Factor;
+use signorini_kernel::condensed::method::Sweeps;
+use signorini_kernel::condensed::outputs::Measure;
+use signorini_kernel::{Error, error::Array};
+
+use super::padding::{filled_up, matrix, narrow};
+use super::relaxation::best_omega;
+use super::start::Start;
+use signorini_scene::setting::{Omega, Setting, Start as From};
+use signorini_solve::condense::{self, Condensate};
+use signorini_solve::scalar::Scalar;
+
+/// How much the solver of a baked model may do in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Work {
+    /// Exchanges of the exact method; `None` leaves it out, with its memory.
+    pub pivots: Option<u32>,
+    /// Sweeps: all there is without the exact method, and what follows where its exchanges do not suffice.
+    pub sweeps: u32,
+}
+
+/// What a tick solves with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Solver {
+    /// Nothing: no edge is in contact.
+    Linear,
+    /// Sweeps alone.
+    Sweeps,
+    /// At most so many exchanges, and sweeps where they do not suffice.
+    Exchanges(u32),
+}
+
+/// A condensed scene in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Baked<R: Scalar> {
+    /// n
+    pub contact: usize,
+    /// m, the constant 1 included.
+    pub inputs: usize,
+    /// What the solver may do.
+    pub work: Work,
+    /// The factor of the sweeps and when they end.
+    pub sweeps: Sweeps<R>,
+    /// Whether every tick starts anew, from the answer to the scene's own inputs.
+    pub cold: bool,
+    /// Whether the data allow for a bound, even if it is left out.
+    pub has_bound: bool,
+    pub(super) matrix: Vec<Block<R>>,
+    pub(super) start: Start<R>,
+    pub(super) load: Vec<R>,
+    pub(super) outputs: Vec<Output<R>>,
+    pub(super) bound: Result<Bound<R>, String>,
+}
+
+/// An output with its arrays.
+#[derive(Debug, Clone)]
+pub(super) enum Output<R> {
+    Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
+    Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
+    Length { of_contact: Vec<R> },
+    Bound,
+}
+
+/// A quadratic form: its triangular factor by columns, and the norms of the columns.
+#[derive(Debug, Clone)]
+pub(super) struct Columns<R> {
+    pub columns: Vec<R>,
+    pub norms: Vec<R>,
+}
+
+/// The certificate's arrays.
+#[derive(Debug, Clone)]
+pub(super) struct Bound<R> {
+    pub factor: Columns<R>,
+    pub jump: Option<Columns<R>>,
+    pub vertices: Vec<Vertex<R>>,
+    pub corners: Vec<(u16, Vec<R>)>,
+    pub reach: R,
+    pub floating: Vec<R>,
+    pub oscillation: Vec<R>,
+    pub row_sum: R,
+    pub largest_load: Vec<R>,
+    pub unit: R,
+}
+
+impl<R: Scalar> Baked<R> {
+    /// Narrows `condensate`; without `certified` the certificate is left out.
+    ///
+    /// # Errors
+    /// Numbers that the scalar type cannot hold.
+    pub fn new(condensate: &Condensate, work: Work, certified: bool) -> Result<Self, Error> {
+        let n = condensate.contact;
+        let bound = match &condensate.certificate {
+            Err(reason) => Err(reason.clone()),
+            Ok(_) if !certified => Err("certificate = false leaves it out".to_owned()),
+            Ok(form) => Ok(Bound::new(condensate, form)),
+        };
+        let order = f64::from(u32::try_from(n.max(1)).unwrap_or(u32::MAX));
+        let tolerance = R::narrow(4.0 * order.sqrt() * R::EPSILON.wide());
+        let omega = R::narrow(best_omega(condensate));
+        let baked = Self {
+            contact: n,
+            inputs: condensate.inputs,
+            work,
+            sweeps: Sweeps { omega, tolerance, most: work.sweeps },
+            cold: false,
+            has_bound: condensate.certificate.is_ok(),
+            matrix: matrix(condensate),
+            start: Start::new(condensate, n > 0 && work.pivots.is_some())?,
+            load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
+            outputs: condensate.outputs.iter().map(Output::new).collect(),
+            bound,
+        };
+        baked.check().map(|()| baked)
+    }
+
+    pub(super) fn solver(&self) -> Solver {
+        match self.work.pivots {
+            _ if self.contact == 0 => Solver::Linear,
+            None => Solver::Sweeps,
+            Some(most) => Solver::Exchanges(most),
+        }
+    }
+
+    /// The same as a setting has it: its ω, its start, and where it gives a number of sweeps no end before
+    /// them but at a fixed point.
+    pub fn with_setting(self, setting: &Setting) -> Self {
+        let mut sweeps = self.sweeps;
+        if let Omega::Fixed(omega) = setting.omega {
+            sweeps.omega = R::narrow(omega);
+        }
+        if setting.sweeps.is_some() {
+            sweeps.tolerance = R::ZERO;
+        }
+        Self { sweeps, cold: setting.start == From::Cold, ..self }
+    }
+
+    /// The same with other limits, the exact method staying in or out.
+    pub fn with_work(self, work: Work) -> Self {
+        Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
+    }
+
+    /// Bytes of one number.
+    pub(super) fn scalar(&self) -> usize {
+        size_of::<R>()
+    }
+
+    /// Columns of F.
+    pub(super) fn columns(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| bound.factor.norms.len())
+    }
+
+    /// Contact vertices of the certificate.
+    pub fn vertices(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| bound.vertices.len())
+    }
+
+    /// Why there is no certificate, if so.
+    pub fn without_bound(&self) -> Option<&str> {
+        self.bound.as_ref().err().map(String::as_str)
+    }
+
+    /// How many forms the bound has: none, that of s, and that of u_h where it is another.
+    pub fn forms(&self) -> usize {
+        self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()))
+    }
+
+    /// Lends the model, as the generated module has it.
+    pub fn with_model<T>(&self, then: impl FnOnce(&Condensed<R>) -> T) -> T {
+        let outputs: Vec<_> = self.outputs.iter().map(Output::measure).collect();
+        let corners = self.bound.as_ref().map(|bound| &bound.corners[..]).unwrap_or_default();
+        let corners: Vec<_> =
+            corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
+        let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
+        let Self { contact, matrix, load, .. } = self;
+        let (x, start) = (&self.start.x, self.start.view());
+        then(&Condensed {
+            contact: *contact,
+            matrix,
+            x,
+            start,
+            load,
+            outputs: &outputs,
+            certificate,
+            has_bound: self.has_bound,
+        })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let finite = |of, numbers: &[R]| match numbers.iter().position(|x| !x.finite()) {
+            Some(at) => Err(Error::NotFinite { of, at }),
+            None => Ok(()),
+        };
+        finite(Array::Load, &self.load)?;
+        for output in &self.outputs {
+            for numbers in output.arrays() {
+                finite(Array::Fluxes, numbers)?;
+            }
+        }
+        let Ok(bound) = &self.bound else { return Ok(()) };
+        for form in std::iter::once(&bound.factor).chain(&bound.jump) {
+            finite(Array::MatrixValues, &form.columns)?;
+        }
+        finite(Array::Coefficients, &[bound.unit, bound.reach, R::ONE / bound.unit])
+    }
+}
+
+impl<R: Scalar> Output<R> {
+    fn new(measure: &condense::Measure) -> Self {
+        match measure {
+            condense::Measure::Linear { of_inputs, of_contact } => {
+                Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Flux { of_inputs, of_contact, of_reaction } => Self::Flux {
+                of_inputs: narrow(of_inputs),
+                of_contact: narrow(of_contact),
+                of_reaction: narrow(of_reaction),
+            },
+            condense::Measure::Length { of_contact } => {
+                Self::Length { of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Bound => Self::Bound,
+        }
+    }
+
+    /// What it holds in flash.
+    pub fn arrays(&self) -> [&[R]; 3] {
+        match self {
+            Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                [of_inputs, of_contact, of_reaction]
+            }
+            Self::Length { of_contact } => [&[], of_contact, &[]],
+            Self::Bound => [&[]; 3],
+        }
+    }
+
+    fn measure(&self) -> Measure<'_, R> {
+        match self {
+            Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                Measure::Flux { of_inputs, of_contact, of_reaction }
+            }
+            Self::Length { of_contact } => Measure::Length { of_contact },
+            Self::Bound => Measure::Bound,
+        }
+    }
+}
+
+impl<R: Scalar> Columns<R> {
+    /// The norms are what ε is multiplied by: what the host's own rounding may hide of a column is counted in them.
+    fn new(factor: &[f64], lost: &[f64], order: usize) -> Self {
+        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
+        let least = |j: usize| R::TINY.wide() * f64::from(j as u32 + 1).sqrt();
+        let hidden = |j: usize| lost[j] / (2.0 * R::EPSILON.wide());
+        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)) + hidden(j))).collect();
+        Self { columns: narrow(factor), norms }
+    }
+
+    fn view(&self) -> Factor<'_, R> {
+        Factor { columns: &self.columns, norms: &self.norms }
+    }
+}
+
+impl<R: Scalar> Bound<R> {
+    fn new(condensate: &Condensate, form: &condense::Form) -> Self {
+        let n = condensate.contact;
+        let order = condensate.inputs + n + form.vertices.len();
+        let least = R::TINY.wide();
+        let rows = condensate.matrix.chunks(n.max(1));
+        let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
+        let largest =
+            |column: &Vec<f64>| column.iter().fold(least, |most: f64, b| most.max(b.abs()));
+        // Only their ratios matter.
+        let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
+        let mut floating = vec![0.0; if form.floating.is_empty() { 0 } else { n }];
+        form.floating.iter().for_each(|&at| floating[at] = condensate.multiplier[at] / most);
+        // The kernel takes u_D that rounding of its sum has put below ψ: by how much is weighed here, input by input.
+        let slack = f64::from(condensate.inputs as u32 + 8) * R::EPSILON.wide();
+        let of_corners = |j: usize| {
+            let moved = form.corners.iter().map(|corner| corner.excess[j].abs() * corner.energy);
+            slack * moved.sum::<f64>()
+        };
+        let oscillation = form.oscillation.iter().enumerate();
+        let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
+        Self {
+            factor: Columns::new(&form.factor, &form.lost, order),
+            jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
+            vertices: form.vertices.iter().map(vertex).collect(),
+            corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
+            reach: R::narrow(form.reach),
+            floating: narrow(&floating),
+            oscillation: narrow(&oscillation),
+            row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
+            largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
+            unit: R::narrow(condensate.energy_unit),
+        }
+    }
+
+    fn form<'a>(&'a self, corners: &'a [Corner<'a, R>]) -> Form<'a, R> {
+        Form {
+            factor: self.factor.view(),
+            jump: self.jump.as_ref().map(Columns::view),
+            vertices: &self.vertices,
+            corners,
+            reach: self.reach,
+            floating: &self.floating,
+            oscillation: &self.oscillation,
+            row_sum: self.row_sum,
+            largest_load: &self.largest_load,
+            unit: self.unit,
+        }
+    }
+}
+
+fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
+    Vertex {
+        edges: vertex.edges.map(|edge| edge as u16),
+        weights: vertex.weights.map(R::narrow),
+        beside: vertex.beside.map(|edge| edge as u16),
+    }
+}

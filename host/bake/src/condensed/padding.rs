@@ -1,0 +1,33 @@
+//! Arrays and the matrix in the target's scalar, filled up with 0 to whole blocks.
+
+use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+
+use signorini_solve::condense::Condensate;
+use signorini_solve::scalar::Scalar;
+
+pub(super) fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
+    numbers.iter().map(|&x| R::narrow(x)).collect()
+}
+
+pub(super) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
+    let mut column = narrow(column);
+    column.resize(padded(column.len()), R::ZERO);
+    column
+}
+
+/// Ŝ in blocks, padding 0.
+pub(super) fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
+    let n = condensate.contact;
+    let entry = |row: usize, column: usize| {
+        let inside = row < n && column < n;
+        R::narrow(if inside { condensate.matrix[row * n + column] } else { 0.0 })
+    };
+    let block = |row: usize, column: usize| {
+        let line = |r| std::array::from_fn(|c| entry(SIDE * row + r, SIDE * column + c));
+        std::array::from_fn(line)
+    };
+    let rows = 0..n.div_ceil(SIDE);
+    let all: Vec<_> = rows.flat_map(|row| (0..=row).map(move |c| (row, c))).collect();
+    debug_assert_eq!(all.len(), count(n));
+    all.into_iter().map(|(row, column)| block(row, column)).collect()
+}

@@ -1,0 +1,97 @@
+//! What a condensed model takes of a device, from its sizes alone.
+
+use signorini_kernel::condensed::blocks::{count, padded};
+
+use super::arrays::{Baked, Columns, Output, Solver};
+use crate::full::Sizes;
+use signorini_solve::scalar::Scalar;
+
+/// Bytes of a block of the matrix, in numbers.
+const BLOCK: usize = 64;
+
+impl<R: Scalar> Baked<R> {
+    /// The parts of the model: name, whether it is there, its bytes of RAM and flash, why.
+    pub fn features(&self) -> impl Iterator<Item = (&'static str, bool, usize, String)> {
+        let (whole, n) = (sizes(self), padded(self.contact));
+        let total = |sizes: Sizes| sizes.ram + sizes.flash;
+        let without = |change: &dyn Fn(&mut Self)| {
+            let mut other = self.clone();
+            change(&mut other);
+            total(whole).saturating_sub(total(sizes(&other)))
+        };
+        let exact = self.work.pivots.is_some();
+        let tableau = without(&|other| {
+            other.work.pivots = None;
+            other.start.blocks.clear();
+            other.start.exchanged.clear();
+        });
+        let bound = without(&|other| other.bound = Err(String::new()));
+        let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
+        let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
+        let scalar = self.scalar();
+        [
+            ("matrix S", self.contact > 0, self.matrix.len() * BLOCK * scalar, {
+                format!("{} contact edges, half of a symmetric matrix", self.contact)
+            }),
+            (
+                "exact method",
+                exact,
+                tableau,
+                match exact {
+                    true => "a tableau, and the one it begins with".to_owned(),
+                    false if self.contact == 0 => "no contact edges".to_owned(),
+                    false => {
+                        "see the models above: what it takes, and why it is not chosen".to_owned()
+                    }
+                },
+            ),
+            ("inputs", self.inputs > 1, self.inputs * n * scalar, {
+                format!("{} and the constant part", self.inputs - 1)
+            }),
+            (
+                "error bound",
+                self.bound.is_ok(),
+                bound,
+                match &self.bound {
+                    Ok(bound) => format!("a factor of {} columns", bound.factor.norms.len()),
+                    Err(reason) => reason.clone(),
+                },
+            ),
+            ("corners", corners > 0, corners * self.inputs * scalar, {
+                format!("{corners} touching edges end at a value that may lie above the gap")
+            }),
+            ("floating domain", floating, if floating { self.contact * scalar } else { 0 }, {
+                match floating {
+                    true => "contact alone holds the domain".to_owned(),
+                    false => "a Dirichlet or Robin boundary holds the domain".to_owned(),
+                }
+            }),
+        ]
+        .into_iter()
+    }
+}
+
+/// RAM of the `Controller` and flash of its data, exact but for alignment and lengths of slices.
+pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
+    let (n, scalar) = (padded(baked.contact), baked.scalar());
+    let columns = baked.columns();
+    let tableau = match baked.solver() {
+        Solver::Exchanges(_) => (BLOCK * count(baked.contact) + 2 * n) * scalar + n,
+        _ => 0,
+    };
+    let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();
+    let bound = baked.bound.as_ref().map_or(0, |bound| {
+        let corners: usize = bound.corners.iter().map(|(_, excess)| excess.len() + 1).sum();
+        let form = |form: &Columns<R>| form.columns.len() + form.norms.len();
+        let forms = form(&bound.factor) + bound.jump.as_ref().map_or(0, form);
+        let numbers = forms + corners + bound.floating.len();
+        (numbers + 2 * baked.inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar)
+    });
+    Sizes {
+        ram: (4 * n + 2 * columns) * scalar + n + tableau,
+        flash: (BLOCK * (baked.matrix.len() + baked.start.blocks.len()) + n) * scalar
+            + baked.start.exchanged.len()
+            + (baked.load.len() + outputs) * scalar
+            + bound,
+    }
+}

@@ -1,0 +1,169 @@
+//! The Rust text of the condensed model.
+
+use std::fmt::Write as _;
+
+use signorini_kernel::condensed::blocks::{count, padded};
+
+use super::arrays::{Baked, Solver};
+use super::sizes::sizes;
+use super::statics::data;
+use crate::controller::{self, Parts};
+use crate::face::{About, Face};
+use signorini_solve::scalar::Scalar;
+
+/// The module.
+pub fn source<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+    let bytes = sizes(baked);
+    let about = format!(
+        "The condensed model in {}: {} contact edges, everything else eliminated exactly; {}. {} bytes of \
+         RAM in a [`Controller`], {} bytes of data in flash.",
+        R::NAME,
+        baked.contact,
+        match baked.without_bound() {
+            None => "with its error bound".to_owned(),
+            Some(reason) => format!("without an error bound ({reason})"),
+        },
+        bytes.ram,
+        bytes.flash
+    );
+    let about = About { model: "condensed", text: &about, features: &[] };
+    let mut text = face.source::<R>(&about);
+    text += &imports(baked);
+    text += &constants(baked);
+    text += &controller(face, baked);
+    text + &data(face, baked)
+}
+
+fn imports<R: Scalar>(baked: &Baked<R>) -> String {
+    let (method, storage) = match baked.solver() {
+        Solver::Linear => ("Linear", "storage::Storage"),
+        Solver::Sweeps => ("Sweeps", "storage::Storage"),
+        Solver::Exchanges(_) => ("Sweeps", "storage::{Storage, TableauStorage}"),
+    };
+    format!(
+        "
+use signorini_kernel::condensed::method::{method};
+use signorini_kernel::condensed::{storage};
+use signorini_kernel::limits::{{Deadline, Limits}};
+use signorini_kernel::{{Error, Report}};
+"
+    )
+}
+
+fn constants<R: Scalar>(baked: &Baked<R>) -> String {
+    let (contact, sweeps) = (baked.contact, baked.sweeps);
+    let mut text = format!(
+        "
+/// Contact edges; the unknowns follow them along the boundary.
+pub const CONTACT: usize = {contact};
+/// The same, filled up to whole blocks.
+const PADDED: usize = {padded};
+/// Columns of the error bound's factor.
+const COLUMNS: usize = {columns};
+",
+        padded = padded(contact),
+        columns = baked.columns(),
+    );
+    let purpose = match baked.solver() {
+        Solver::Linear => return text,
+        Solver::Sweeps => "from the last tick's answer",
+        Solver::Exchanges(most) => {
+            let _ = write!(
+                text,
+                "/// Blocks of the tableau.
+const BLOCKS: usize = {};
+/// Most edges that may change sides in one tick; where more want to, the next ticks go on.
+pub const PIVOTS: u32 = {most};
+",
+                count(contact)
+            );
+            "where the exchanges do not suffice"
+        }
+    };
+    let _ = write!(
+        text,
+        "/// Projected SOR: {purpose}.
+pub const SWEEPS: Sweeps<Scalar> =
+    Sweeps {{ omega: {:?}, tolerance: {:?}, most: LIMITS.sweeps }};
+",
+        sweeps.omega, sweeps.tolerance
+    );
+    text
+}
+
+fn controller<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+    let solver = baked.solver();
+    let is_exact = matches!(solver, Solver::Exchanges(_));
+    let only = |text: &'static str| if is_exact { text } else { "" };
+    let ends = match solver {
+        Solver::Linear => "with the solution, for nothing is in contact",
+        Solver::Sweeps => "with complementarity, or after so many sweeps",
+        Solver::Exchanges(_) => {
+            "with the solution; where [`PIVOTS`] do not suffice, after so many sweeps"
+        }
+    };
+    let sweeps = if solver == Solver::Linear { 0 } else { baked.sweeps.most };
+    let text = controller::controller(&Parts {
+        fields: &format!(
+            "    storage: Storage<Scalar, PADDED, COLUMNS>,\n{}",
+            only("    tableau: TableauStorage<Scalar, PADDED, BLOCKS>,\n")
+        ),
+        values: &format!(
+            "            storage: Storage::new(),\n{}",
+            only("            tableau: TableauStorage::new(),\n")
+        ),
+        first: "begins with the answer to the scene's own inputs",
+        from: match baked.cold {
+            true => "from the answer to the scene's own inputs",
+            false => "from where the last tick ended",
+        },
+        ends,
+        limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
+        is_limited: solver != Solver::Linear,
+        tick: &tick(face, baked),
+        reset: &format!(
+            "        self.storage.reset();\n{}",
+            only("        self.tableau.reset();\n")
+        ),
+    });
+    text + "\npub use data::SYSTEM;\n"
+}
+
+/// The body of a tick.
+fn tick<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+    const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
+    let method = match baked.solver() {
+        Solver::Linear => "Linear".to_owned(),
+        Solver::Sweeps => SWEEPS.to_owned(),
+        Solver::Exchanges(_) => {
+            format!(
+                "{{
+            let sweeps = {SWEEPS};
+            self.tableau.method(&data::SYSTEM, PIVOTS, sweeps)?
+        }}"
+            )
+        }
+    };
+    let names: Vec<_> = face.inputs().collect();
+    let given: Vec<_> = std::iter::once("1.0").chain(names.iter().copied()).collect();
+    let pattern = match names.is_empty() {
+        true => "let Inputs {} = inputs;".to_owned(),
+        false => format!("let Inputs {{ {} }} = inputs;", names.join(", ")),
+    };
+    let outputs = face.outputs().enumerate();
+    let outputs: Vec<_> = outputs.map(|(at, name)| format!("{name}: output({at})?")).collect();
+    format!(
+        "{}        {pattern}
+        let inputs = [{}];
+        let mut method = {method};
+        let mut memory = self.storage.memory(&data::SYSTEM);
+        let report = data::SYSTEM.tick_until(&inputs, &mut method, deadline, &mut memory)?;
+        let output = |number| data::SYSTEM.output(number, &inputs, &memory.iterate, &report);
+        let outputs = Outputs {{ {} }};
+        Ok(Answer {{ outputs, report }})
+",
+        if baked.cold { "        self.reset();\n" } else { "" },
+        given.join(", "),
+        outputs.join(", "),
+    )
+}

@@ -1,0 +1,46 @@
+//! The answer to the default inputs, in which the first tick begins.
+
+use signorini_kernel::Error;
+use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::condensed::tableau::{self, Tableau};
+
+use super::padding::{filled_up, matrix};
+use signorini_solve::condense::Condensate;
+use signorini_solve::scalar::Scalar;
+
+/// x of the default inputs and, for the exact method, the tableau that belongs to it: exchanged in f64 and
+/// rounded once, it is as good as a tableau can be.
+#[derive(Debug, Clone)]
+pub(super) struct Start<R> {
+    pub x: Vec<R>,
+    pub blocks: Vec<Block<R>>,
+    pub exchanged: Vec<bool>,
+}
+
+impl<R: Scalar> Start<R> {
+    /// Where the default inputs have no solution, everything touches.
+    pub fn new(condensate: &Condensate, is_exact: bool) -> Result<Self, Error> {
+        let n = condensate.contact;
+        let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
+        if !is_exact {
+            return Ok(Self { x: filled_up(&x), blocks: Vec::new(), exchanged: Vec::new() });
+        }
+        let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(n)];
+        let mut exchanged = vec![false; padded(n)];
+        let [mut column, mut next, mut answer] = [(); 3].map(|()| vec![0.0; padded(n)]);
+        let nothing = exchanged.clone();
+        let mut tableau = Tableau::new(n, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
+        let given = matrix::<f64>(condensate);
+        tableau.reset(&tableau::Start { blocks: &given, exchanged: &nothing })?;
+        for open in (0..n).filter(|&edge| x[edge] > 0.0) {
+            tableau.exchange(open, &mut answer)?;
+        }
+        let narrow = |block: &Block<f64>| block.map(|row| row.map(R::narrow));
+        let blocks = tableau.blocks().iter().map(narrow).collect();
+        Ok(Self { x: filled_up(&x), blocks, exchanged })
+    }
+
+    pub fn view(&self) -> tableau::Start<'_, R> {
+        tableau::Start { blocks: &self.blocks, exchanged: &self.exchanged }
+    }
+}

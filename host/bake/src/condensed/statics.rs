@@ -1,0 +1,183 @@
+//! The statics of the condensed model as Rust text.
+
+use std::fmt::{Debug, Write as _};
+
+use signorini_kernel::condensed::blocks::Block;
+
+use super::arrays::{Baked, Bound, Output, Solver};
+use crate::face::Face;
+use crate::text::array;
+use signorini_solve::scalar::Scalar;
+
+/// A module of their own.
+pub(super) fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+    let mut text = String::new();
+    let mut names = Vec::new();
+    put(&mut text, "MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", {
+        (baked.matrix.len(), blocks(&baked.matrix))
+    });
+    let start = match baked.solver() {
+        Solver::Exchanges(_) => {
+            let doc = "The tableau of the scene's own inputs: where exchanges begin.";
+            let value = (baked.start.blocks.len(), blocks(&baked.start.blocks));
+            put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);
+            let value = (baked.start.exchanged.len(), array(&baked.start.exchanged, 4));
+            put(&mut text, "OPEN", "The edges that are open in it.", "bool", value);
+            "Start { blocks: &TABLEAU, exchanged: &OPEN }"
+        }
+        _ => "Start { blocks: &[], exchanged: &[] }",
+    };
+    let _ = write!(
+        text,
+        "\n    /// The scaled openings for the scene's own inputs.\n    static START: [Scalar; {}] \
+         = {};\n",
+        baked.start.x.len(),
+        array(&baked.start.x, 4)
+    );
+    numbers(
+        &mut text,
+        "LOAD",
+        "B by columns: what each input, the constant first, does.",
+        &baked.load,
+    );
+    for (output, name) in baked.outputs.iter().zip(face.outputs()) {
+        names.push(measure(&mut text, &name.to_ascii_uppercase(), output));
+    }
+    let certificate = match &baked.bound {
+        Ok(bound) => certificate(&mut text, bound),
+        Err(_) => "None".to_owned(),
+    };
+    let uses = match &baked.bound {
+        Ok(bound) if bound.corners.is_empty() => "certificate::{Form, Vertex}, factor::Factor, ",
+        Ok(_) => "certificate::{Corner, Form, Vertex}, factor::Factor, ",
+        Err(_) => "",
+    };
+    format!(
+        "
+/// The scene: what stays from tick to tick.
+#[rustfmt::skip]
+#[allow(clippy::all)]
+mod data {{
+    use signorini_kernel::condensed::{{{uses}outputs::Measure, tableau::Start, Condensed}};
+
+    use super::Scalar;
+{text}
+    /// All of it.
+    pub static SYSTEM: Condensed<'static, Scalar> = Condensed {{
+        contact: super::CONTACT,
+        matrix: &MATRIX,
+        x: &START,
+        start: {start},
+        load: &LOAD,
+        outputs: &[{}],
+        certificate: {certificate},
+        has_bound: {},
+    }};
+}}
+",
+        names.iter().map(|name| format!("\n            {name},")).collect::<String>()
+            + "\n        ",
+        baked.has_bound,
+    )
+}
+
+fn put(text: &mut String, name: &str, doc: &str, of: &str, (length, value): (usize, String)) {
+    let _ = write!(text, "\n    /// {doc}\n    static {name}: [{of}; {length}] = {value};\n");
+}
+
+fn numbers<T: Debug>(text: &mut String, name: &str, doc: &str, numbers: &[T]) {
+    put(text, name, doc, "Scalar", (numbers.len(), array(numbers, 4)));
+}
+
+/// A line a row of each block.
+fn blocks<R: Debug>(blocks: &[Block<R>]) -> String {
+    let block = |block: &Block<R>| {
+        let rows: String = block.iter().map(|row| format!("\n        {row:?},")).collect();
+        format!("\n        [{}],", rows.trim_start().trim_end_matches(','))
+    };
+    format!("[{}\n    ]", blocks.iter().map(block).collect::<String>())
+}
+
+fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> String {
+    match output {
+        Output::Linear { of_inputs, of_contact } => {
+            numbers(text, &format!("{name}_OF_INPUTS"), "By the inputs.", of_inputs);
+            numbers(text, &format!("{name}_OF_CONTACT"), "By the openings.", of_contact);
+            format!(
+                "Measure::Linear {{ of_inputs: &{name}_OF_INPUTS, of_contact: &{name}_OF_CONTACT }}"
+            )
+        }
+        Output::Flux { of_inputs, of_contact, of_reaction } => {
+            let mut some = |of: &str, doc: &str, factors: &[R]| {
+                if factors.is_empty() {
+                    return "&[]".to_owned();
+                }
+                let name = format!("{name}_{of}");
+                numbers(text, &name, doc, factors);
+                format!("&{name}")
+            };
+            let of_inputs = some("OF_INPUTS", "By the inputs.", of_inputs);
+            let of_contact = some("OF_CONTACT", "By the openings.", of_contact);
+            let of_reaction = some("OF_REACTION", "By the reactions.", of_reaction);
+            format!(
+                "Measure::Flux {{ of_inputs: {of_inputs}, of_contact: {of_contact}, \
+                 of_reaction: {of_reaction} }}"
+            )
+        }
+        Output::Length { of_contact } => {
+            numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
+            format!("Measure::Length {{ of_contact: &{name}_OF_CONTACT }}")
+        }
+        Output::Bound => "Measure::Bound".to_owned(),
+    }
+}
+
+fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
+    numbers(text, "FACTOR", "F by columns: inputs, openings, corrections.", &bound.factor.columns);
+    numbers(text, "NORMS", "The norms of its columns.", &bound.factor.norms);
+    let jump = match &bound.jump {
+        None => "None",
+        Some(jump) => {
+            numbers(text, "JUMP", "J by columns: what u_h is off from s.", &jump.columns);
+            numbers(text, "JUMP_NORMS", "The norms of its columns.", &jump.norms);
+            "Some(Factor { columns: &JUMP, norms: &JUMP_NORMS })"
+        }
+    };
+    let vertices = &bound.vertices;
+    put(text, "VERTICES", "Contact vertices.", "Vertex<Scalar>", {
+        (vertices.len(), array(vertices, 4))
+    });
+    numbers(text, "OSCILLATION", "The oscillation of each input.", &bound.oscillation);
+    numbers(text, "LARGEST_LOAD", "The largest entry of each load.", &bound.largest_load);
+    let floating = match bound.floating.is_empty() {
+        true => "&[]",
+        false => {
+            numbers(text, "FLOATING", "The flux of a unit on each contact edge.", &bound.floating);
+            "&FLOATING"
+        }
+    };
+    let corners = bound.corners.iter().enumerate().map(|(at, (edge, excess))| {
+        let name = format!("CORNER_{at}");
+        numbers(text, &name, "u_D above the gap at an end of the contact.", excess);
+        format!("Corner {{ edge: {edge}, excess: &{name} }}")
+    });
+    let corners: Vec<_> = corners.collect();
+    format!(
+        "Some(Form {{
+            factor: Factor {{ columns: &FACTOR, norms: &NORMS }},
+            jump: {jump},
+            vertices: &VERTICES,
+            corners: &[{}],
+            reach: {:?},
+            floating: {floating},
+            oscillation: &OSCILLATION,
+            row_sum: {:?},
+            largest_load: &LARGEST_LOAD,
+            unit: {:?},
+        }})",
+        corners.join(", "),
+        bound.reach,
+        bound.row_sum,
+        bound.unit
+    )
+}

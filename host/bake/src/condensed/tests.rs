@@ -1,0 +1,267 @@
+//! The generated text: no warnings, and the bits of the same arrays on this machine.
+
+use super::{Baked, Controller, Work, source};
+use crate::choice::{Choice, Model};
+use crate::compiled::{FIRMWARE, printed};
+use crate::face::Face;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+use signorini_scene::setting::{ModelKind, Omega, Setting, Start};
+use signorini_solve::condense::condense;
+use signorini_solve::fixtures::on_grid;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// Prints the outputs of a cold and two warm ticks as bits.
+const MAIN: &str = "
+fn main() {
+    static CONTROLLER: std::sync::Mutex<Controller> = std::sync::Mutex::new(Controller::new());
+    let mut controller = CONTROLLER.lock().unwrap();
+    for factor in [1.0, -0.5, 0.25] {
+        let inputs = Inputs::from_array(Inputs::DEFAULT.to_array().map(|value| factor * value));
+        let outputs = controller.tick(inputs).map(|answer| answer.outputs.to_array());
+        println!(\"{:?}\", outputs.map(|outputs| outputs.map(Scalar::to_bits)));
+    }
+}
+";
+
+/// Dirichlet values above the gap at both ends, every kind of output, names that are no identifiers.
+const NAMES: &str = r#"
+title = "a \"title\" of\nlines [m] <b> */"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "-1 - x"
+[boundary."dirichlet"]
+kind = "dirichlet"
+value = "0.1*x"
+[boundary.left]
+kind = "dirichlet"
+value = "0.1*x"
+[boundary."right"]
+kind = "robin"
+coefficient = "2"
+ambient = "y"
+[boundary.contact]
+kind = "contact"
+gap = "-0.3 + 0.1*x^2"
+[input.type]
+of = "contact"
+field = "gap"
+pattern = "cos(3*x)/5"
+default = -0.3
+[input."größe \"q\"\n`code`"]
+of = "right"
+field = "ambient"
+pattern = "1"
+default = 0.7
+[input.inputs]
+of = "source"
+field = "f"
+pattern = "1"
+default = 0.5
+[input.memory]
+of = "source"
+field = "f"
+pattern = "x"
+default = 1e-40
+[output.self]
+kind = "flux"
+of = "dirichlet"
+[output."x \\ y"]
+kind = "force"
+of = "contact"
+[output."X-Y"]
+kind = "length"
+[output.load]
+kind = "probe"
+at = [0.1, 0.4]
+[output."∫"]
+kind = "bound"
+"#;
+
+/// Contact alone holds it, no inputs, no outputs.
+const FLOATING: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.contact]
+kind = "contact"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-1 - x/2"
+"#;
+
+/// Nothing touches.
+const LINEAR: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.default]
+kind = "dirichlet"
+value = "x*y"
+[input.heat]
+of = "source"
+field = "f"
+pattern = "1"
+default = 1.0
+[output.inside]
+kind = "probe"
+at = [0.1, 0.4]
+[output.bound]
+kind = "bound"
+"#;
+
+fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
+    let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+    let condensate = condense(&scene, &problem)?;
+    let baked = Baked::<R>::new(&condensate, work, certified).expect("numbers in range");
+    assert_eq!(baked.without_bound().is_none(), certified);
+    same_bits_of(&scene, &problem, &baked, bits)
+}
+
+fn same_bits_of<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    baked: &Baked<R>,
+    bits: fn(R) -> u64,
+) -> Result<()> {
+    let mut controller = Controller::new(baked);
+    let lines = [1.0, -0.5, 0.25].map(|factor| {
+        let value = |default: f64| R::narrow(factor) * R::narrow(default);
+        let inputs: Vec<R> = scene.inputs.iter().map(|input| value(input.default)).collect();
+        let (outputs, _) = controller.tick(&inputs).expect("a tick");
+        format!("Ok({:?})\n", outputs.into_iter().map(bits).collect::<Vec<_>>())
+    });
+    assert!(scene.inputs.is_empty() || lines[0] != lines[1]);
+    let text = source(&Face::new(scene, problem), baked);
+    assert_eq!(printed(&(text + MAIN)), lines.concat());
+    Ok(())
+}
+
+const PIVOTS: Work = Work { pivots: Some(40), sweeps: 4 };
+const SWEEPS: Work = Work { pivots: None, sweeps: 6 };
+
+#[test]
+fn any_name_with_corners() -> Result<()> {
+    same_bits::<f32>(NAMES, PIVOTS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(NAMES, SWEEPS, true, f64::to_bits)
+}
+
+#[test]
+fn without_a_bound() -> Result<()> {
+    same_bits::<f64>(NAMES, PIVOTS, false, f64::to_bits)
+}
+
+#[test]
+fn without_inputs_on_contact_alone() -> Result<()> {
+    same_bits::<f32>(FLOATING, SWEEPS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(FLOATING, PIVOTS, true, f64::to_bits)
+}
+
+#[test]
+fn without_contact() -> Result<()> {
+    same_bits::<f32>(LINEAR, PIVOTS, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(LINEAR, SWEEPS, true, f64::to_bits)
+}
+
+#[test]
+fn with_a_setting() -> Result<()> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let condensate = condense(&scene, &problem)?;
+    let setting = Setting {
+        sweeps: Some(6),
+        omega: Omega::Fixed(1.2),
+        start: Start::Cold,
+        ..Setting::default()
+    };
+    for work in [SWEEPS, PIVOTS] {
+        let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
+        let baked = baked.with_setting(&setting);
+        same_bits_of(&scene, &problem, &baked, |x| x.to_bits().into())?;
+        let mut controller = Controller::new(&baked);
+        let defaults: Vec<_> = scene.inputs.iter().map(|input| input.default as f32).collect();
+        let moved: Vec<_> = defaults.iter().map(|value| -value).collect();
+        let [first, other, again] = [&defaults, &moved, &defaults].map(|inputs| {
+            let (outputs, report) = controller.tick(inputs).expect("a tick");
+            (outputs, report)
+        });
+        assert_eq!(first, again);
+        assert!(work != SWEEPS || other.1.sweeps == 6);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_firmware_need_not_know_the_model() -> Result<()> {
+    // An exact tick in which no edge changes sides needs no time for exchanges.
+    let linear = Work { pivots: None, sweeps: 0 };
+    for (text, work, ended) in
+        [(NAMES, PIVOTS, "Exact"), (NAMES, SWEEPS, "OutOfTime"), (LINEAR, linear, "Exact")]
+    {
+        let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+        let condensate = condense(&scene, &problem)?;
+        let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
+        let text = source(&Face::new(&scene, &problem), &baked) + FIRMWARE;
+        let expected = format!("true [true, true, true] {ended} true\n");
+        assert_eq!(printed(&text), expected, "{work:?}");
+    }
+    Ok(())
+}
+
+/// Both ends are Dirichlet corners.
+#[test]
+fn the_names_scene_has_corners() -> Result<()> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let form = condense(&scene, &problem)?.certificate.expect("a bound");
+    assert_eq!(form.corners.len(), 1);
+    Ok(())
+}
+
+/// Flux, force, length, probe and bound, in the units that NAMES has.
+fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
+    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let scene = units.inverse().scene(&scene);
+    let problem = Problem::new(&scene, problem.mesh)?;
+    let baked = Baked::<R>::new(&condense(&scene, &problem)?, PIVOTS, true).expect("in range");
+    let inputs = [0.3, -0.7, 0.5, 0.0].map(R::narrow);
+    let (outputs, _) = Controller::new(&baked).tick(&inputs).expect("a tick");
+    let quantities = scene.outputs.iter().map(|output| units.of_output(output.quantity));
+    Ok(outputs.iter().zip(quantities).map(|(output, unit)| output.wide() / unit).collect())
+}
+
+/// As long as the answers are within range: condensed models have a unit of energy.
+#[test]
+fn other_units_change_no_digit() -> Result<()> {
+    let powers = |u, a| Units { u: 2f64.powi(u), conductivity: 2f64.powi(a) };
+    let near = outputs_in::<f32>(Units::default())?;
+    assert!(near[1] > 0.0 && near[2] > 0.0, "{near:?}");
+    for units in [powers(0, -100), powers(0, 100), powers(-60, 0), powers(60, 40)] {
+        assert_eq!(outputs_in::<f32>(units)?, near, "{units:?}");
+    }
+    let near = outputs_in::<f64>(Units::default())?;
+    for units in [powers(-400, 200), powers(400, -400)] {
+        assert_eq!(outputs_in::<f64>(units)?, near, "{units:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_too_far_from_1_is_not_condensed() -> Result<()> {
+    let choice = |u: i32, conductivity: i32, kind| {
+        let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+        let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) };
+        let scene = units.inverse().scene(&scene);
+        let problem = Problem::new(&scene, problem.mesh)?;
+        Choice::<f64>::new(&scene, &problem, kind, false)
+    };
+    let refused = choice(-400, -200, Some(ModelKind::Condensed)).expect_err("underflow");
+    assert!(refused.to_string().contains("fluxes are near 1e-181, which f64"), "{refused}");
+    let other = choice(-400, -200, None)?;
+    assert!(matches!(other.candidate().model, Model::Full(_)));
+    assert!(other.excluded[0].contains("fluxes are near"), "{:?}", other.excluded);
+    Ok(())
+}

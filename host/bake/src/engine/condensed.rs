@@ -1,0 +1,125 @@
+//! The condensed model.
+
+use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::solver::Status;
+
+use super::{Answer, Engine, status};
+use crate::choice::{Choice, Model};
+use crate::condensed::{Baked, Controller};
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
+use signorini_solve::certify::{ErrorBound, NoBound};
+use signorini_solve::condense::{Condensate, Recovery, recoverable};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Ran, ended_name, unfit};
+
+struct Condensed<'b, R: Scalar> {
+    scene: &'b Scene,
+    condensate: &'b Condensate,
+    recovery: &'b Recovery,
+    baked: &'b Baked<R>,
+    controller: Controller<'b, R>,
+    inputs: Vec<R>,
+    outputs: Vec<R>,
+    report: Option<Report<R>>,
+}
+
+/// Lends it.
+pub(super) fn with<R: Scalar, T>(
+    scene: &Scene,
+    problem: &Problem,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let choice = Choice::<R>::new(scene, problem, Some(ModelKind::Condensed), false)?;
+    let Model::Condensed(baked) = &choice.candidate().model else {
+        let message = "setting.model: there is no condensed model of this scene";
+        return Err(InputError::new(message).file(&scene.path).into());
+    };
+    lend(scene, problem, baked, then)
+}
+
+/// Lends the engine of a baked model of `scene`.
+pub(super) fn lend<R: Scalar, T>(
+    scene: &Scene,
+    problem: &Problem,
+    baked: &Baked<R>,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let (condensate, recovery) = recoverable(scene, problem)?;
+    then(&mut Condensed {
+        scene,
+        condensate: &condensate,
+        recovery: &recovery,
+        baked,
+        controller: Controller::new(baked),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        report: None,
+    })
+}
+
+impl<R: Scalar> Engine for Condensed<'_, R> {
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
+        self.inputs.clear();
+        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
+        let answer = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let (outputs, report) = answer;
+        self.outputs = outputs;
+        self.report = Some(report);
+        Ok(report.sweeps)
+    }
+
+    fn restart(&mut self) {
+        self.controller = Controller::new(self.baked);
+    }
+
+    fn answer(&self, problem: &Problem) -> Result<Answer> {
+        let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
+        let p: Vec<f64> =
+            std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
+        let (mut u, flux) = self.recovery.field(self.condensate, &p, &x);
+        let counts = problem.topology.counts;
+        let active: Vec<_> = self.condensate.by_edge(&x).into_iter().map(|x| x == 0.0).collect();
+        // A sum of columns meets the gap but for rounding; whoever asks for contact compares the two.
+        let contact = u[counts.free..].iter_mut().zip(&problem.loads.gap).zip(&active);
+        for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
+            *u = gap;
+        }
+        let certificate = self.report.as_ref().and_then(|report| report.certificate());
+        let certified = self.recovery.admissible(self.condensate, problem, &p, &x);
+        Ok(Answer {
+            status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
+            ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
+            ran: match self.report.map(|report| report.ended) {
+                _ if self.baked.contact == 0 => Ran::CondensedLinear,
+                Some(Ended::Exact) => Ran::CondensedExact,
+                _ => Ran::CondensedSweeps,
+            },
+            factored: None,
+            outputs: self.outputs.iter().map(|x| x.wide()).collect(),
+            sweeps: self.report.map_or(0, |report| report.sweeps),
+            omega: self.baked.sweeps.omega.wide(),
+            residual: largest_violation(&self.condensate.residual(&p, &x), &x),
+            force: self.condensate.force(&p, &x),
+            active,
+            bound: certificate.map(ErrorBound::new),
+            no_bound: self.report.and_then(|report| {
+                let reason = || self.condensate.certificate.as_ref().err().cloned();
+                let data = || reason().map(NoBound::Condensed);
+                NoBound::of_verdict(&report.verdict, self.scene, problem, data)
+            }),
+            certified: certified.filter(|_| certificate.is_some()).unwrap_or_default(),
+            u,
+            flux,
+        })
+    }
+}
+
+/// max |min(x, r)| over max x: how far complementarity fails.
+fn largest_violation(residual: &[f64], x: &[f64]) -> f64 {
+    let size = x.iter().chain(residual).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let violations = residual.iter().zip(x).map(|(r, x)| r.min(*x).abs());
+    violations.fold(0.0, f64::max) / size
+}

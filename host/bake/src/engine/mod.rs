@@ -1,0 +1,151 @@
+//! A scene solved as its setting says: by the code that firmware runs, on this machine.
+//!
+//! ```text
+//!   Scene with a setting + Problem ─┬─ condensed ─ bake::condensed::Controller ─┐
+//!                                   ├─ full ────── bake::full::Controller ──────┼─► Answer
+//!                                   └─ single ──── one solve at a time ─────────┘
+//! ```
+//! [`baked`] lends the controller that `bake` would choose, whichever that is.
+
+mod baked;
+mod condensed;
+mod full;
+mod single;
+mod solution;
+
+pub use baked::baked;
+pub use solution::solve;
+
+use signorini_kernel::report::Ended;
+use signorini_kernel::solver::Status;
+
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{MathKind, Method, ModelKind, Precision, Setting};
+use signorini_solve::certify::{self, ErrorBound, NoBound};
+use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::solve::{Factored, Ran};
+
+/// What a tick left, in f64.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// How it ended.
+    pub status: Status,
+    /// The same in the word of a tick's report.
+    pub ended: &'static str,
+    /// What solved it.
+    pub ran: Ran,
+    /// What a factor did, where one solved it.
+    pub factored: Option<Factored>,
+    /// The outputs of a controller, in the order of the scene, with its bits; of one solve at a time none.
+    pub outputs: Vec<f64>,
+    /// Sweeps; 0 for the exact method.
+    pub sweeps: u32,
+    /// The relaxation factor; 0 where there is none.
+    pub omega: f64,
+    /// The scaled complementarity residual.
+    pub residual: f64,
+    /// Mean of u_h over each edge.
+    pub u: Vec<f64>,
+    /// ∫_E σ·n of each edge, along its direction.
+    pub flux: Vec<f64>,
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
+    pub force: f64,
+    /// Which contact edges are active.
+    pub active: Vec<bool>,
+    /// The bound on its error, where there is one.
+    pub bound: Option<ErrorBound>,
+    /// Why there is no bound.
+    pub no_bound: Option<NoBound>,
+    /// What the bound is about; arrays are empty without one.
+    pub certified: certify::Answer,
+}
+
+impl Answer {
+    /// Σ|E| over the active contact edges.
+    pub fn length(&self, problem: &Problem) -> f64 {
+        let lengths = problem.lengths.iter().skip(problem.topology.counts.free);
+        let active = self.active.iter().zip(lengths).filter(|(active, _)| **active);
+        active.fold(0.0, |sum, (_, length)| sum + length)
+    }
+}
+
+/// The status of a tick that ended so.
+fn status(ended: Ended) -> Status {
+    match ended {
+        Ended::Exact | Ended::Accurate | Ended::Settled => Status::Converged,
+        Ended::OutOfSweeps | Ended::OutOfTime => Status::OutOfSweeps,
+        Ended::NotFinite => Status::NotFinite,
+    }
+}
+
+/// A scene in one setting, tick after tick.
+pub trait Engine {
+    /// Answers for these inputs, in the order of the scene; returns the sweeps. This is what a study times.
+    ///
+    /// # Errors
+    /// Inputs without an answer.
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32>;
+
+    /// Forgets all ticks: the next one starts cold.
+    fn restart(&mut self);
+
+    /// The answer of the last tick, whose inputs were those of `problem`.
+    ///
+    /// # Errors
+    /// Numbers that do not fit.
+    fn answer(&self, problem: &Problem) -> Result<Answer>;
+}
+
+/// The setting of a scene with what is left open filled in: full, in f64.
+pub fn completed(scene: &Scene) -> Setting {
+    let setting = scene.setting.unwrap_or_default();
+    Setting {
+        scalar: setting.scalar.or(Some(Precision::F64)),
+        model: setting.model_kind().or(Some(ModelKind::Full)),
+        ..setting
+    }
+}
+
+/// Lends the engine of `scene`, on whose mesh `problem` stands.
+///
+/// # Errors
+/// A setting that the scene does not allow for, numbers that the scalar cannot hold.
+pub fn with<T>(
+    scene: &Scene,
+    problem: &Problem,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let setting = completed(scene);
+    let mixed = setting.scalar == Some(Precision::Mixed);
+    let single = setting.scalar == Some(Precision::F32);
+    let parts = Parts::examine(scene, problem)?;
+    let is_loose = parts.counts.contact + parts.counts.floating > 0;
+    match setting.model {
+        Some(ModelKind::Condensed) if mixed => Err(no_mixed(scene, "a condensed model").into()),
+        Some(ModelKind::Condensed) if single => condensed::with::<f32, _>(scene, problem, then),
+        Some(ModelKind::Condensed) => condensed::with::<f64, _>(scene, problem, then),
+        _ if mixed && is_loose => Err(no_mixed(scene, "a domain that contact alone holds").into()),
+        _ if is_loose && setting.solver == Some(Method::Factor) => {
+            Err(not_loose(scene, "solver", "a factor").into())
+        }
+        _ if is_loose && setting.math == MathKind::Micromath => {
+            Err(not_loose(scene, "math", "micromath").into())
+        }
+        _ if mixed || is_loose => single::with(scene, problem, then),
+        _ if single => full::with::<f32, _>(scene, problem, then),
+        _ => full::with::<f64, _>(scene, problem, then),
+    }
+}
+
+/// A key of the full model that a domain held by contact alone, or by nothing, leaves no room for.
+fn not_loose(scene: &Scene, key: &str, what: &str) -> InputError {
+    let message = format!("setting.{key}: {what} is not for a domain that contact alone holds");
+    InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
+}
+
+fn no_mixed(scene: &Scene, what: &str) -> InputError {
+    InputError::new(format!("setting.scalar: f32+f64 is not for {what}"))
+        .file(&scene.path)
+        .hint("take f32 or f64")
+}

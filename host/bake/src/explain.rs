@@ -1,0 +1,262 @@
+//! Why the model is what it is: the candidates with their needs, and each feature of the general model with
+//! what leaving it out saves.
+
+use std::fmt::Write as _;
+
+use super::choice::{Candidate, Choice, Model};
+use super::costs::{CYCLES, Costs};
+use signorini_scene::scene::{Quantity, Scene};
+use signorini_solve::problem::{EdgeKind, Problem, QuadCoefficient};
+use signorini_solve::scalar::Scalar;
+
+/// A feature of the general model: any mesh, any data, everything computed and kept on the target.
+#[derive(Debug, Clone, PartialEq)]
+struct Feature {
+    name: &'static str,
+    /// What the scene has of it; 0 leaves it out.
+    present: usize,
+    /// What there is, or what there is not.
+    why: String,
+    /// Bytes of RAM and flash that the general model has for it on this mesh.
+    bytes: usize,
+    /// Instructions a tick (or, for sweeps, a sweep) that go with them.
+    instructions: Option<f64>,
+}
+
+/// The page that `--explain` prints.
+pub fn explanation<R: Scalar>(scene: &Scene, problem: &Problem, choice: &Choice<R>) -> String {
+    let mut text = candidates(choice);
+    let chosen = choice.candidate();
+    let _ = writeln!(text, "\n{}:", chosen.name);
+    let condensed = matches!(chosen.model, Model::Condensed(_));
+    let head = ["feature", "", "bytes", "instructions", "why"];
+    let mut rows = vec![head.map(str::to_owned)];
+    for feature in features::<R>(scene, problem) {
+        rows.push(row(&feature, condensed));
+    }
+    if let Model::Condensed(baked) = &chosen.model {
+        rows.extend(baked.features().map(|(name, kept, bytes, why)| {
+            let state = if kept { "kept" } else { "dropped" };
+            [name.to_owned(), state.to_owned(), bytes.to_string(), "-".to_owned(), why]
+        }));
+    }
+    text += &table(&rows);
+    text += "\nBytes and instructions: what the general model spends on it on this mesh, RAM and flash \
+             together; instructions a tick, of quads' columns a sweep (Cortex-M4F, counted parts).\n";
+    text
+}
+
+/// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.
+pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
+    let unbounded = choice.unbounded().map(|why| {
+        format!("warning: there is no error bound: {why}; certificate = false in [setting] silences this")
+    });
+    late(choice).into_iter().chain(unbounded).collect()
+}
+
+/// That the longest tick of the trial probably takes longer than declared.
+fn late<R: Scalar>(choice: &Choice<R>) -> Option<String> {
+    let (cycles, needed) =
+        choice.budget.cycles.zip(choice.candidate().needs.most_instructions())?;
+    let estimated = needed * CYCLES;
+    (estimated > cycles).then(|| {
+        format!(
+            "warning: the longest warm tick tried, of {needed:.0} instructions, takes about {estimated:.0} cycles \
+             ({CYCLES} an instruction, estimated); [target] has {cycles:.0}. Measure it on the part, or give \
+             tick_within a deadline."
+        )
+    })
+}
+
+fn candidates<R: Scalar>(choice: &Choice<R>) -> String {
+    let head =
+        ["model", "RAM", "flash", "instructions", "exchanges", "sweeps", "substitutions", ""];
+    let mut rows = vec![head.map(str::to_owned)];
+    for (at, candidate) in choice.candidates.iter().enumerate() {
+        let Candidate { name, needs, trial, shortfalls, lacks_bound, unbounded, .. } = candidate;
+        let short: Vec<_> = shortfalls.iter().map(|short| short.key).collect();
+        let verdict = if at == choice.chosen {
+            "chosen".to_owned()
+        } else if !short.is_empty() {
+            format!("beyond {}", short.join(", "))
+        } else if *lacks_bound {
+            "only with certificate = false".to_owned()
+        } else if unbounded.is_some() {
+            "has no error bound".to_owned()
+        } else {
+            "would fit".to_owned()
+        };
+        rows.push([
+            name.clone(),
+            needs.ram.to_string(),
+            needs.flash.to_string(),
+            needs.instructions().map_or("-".to_owned(), |count| format!("{count:.0}")),
+            trial.pivots[0].to_string(),
+            trial.sweeps[0].to_string(),
+            trial.rounds[0].to_string(),
+            verdict,
+        ]);
+    }
+    let budget = choice.budget;
+    let limit = |limit: Option<u64>| limit.map_or("-".to_owned(), |limit| limit.to_string());
+    rows.push([
+        "[target]".to_owned(),
+        limit(budget.ram),
+        limit(budget.flash),
+        budget.cycles.map_or("-".to_owned(), |cycles| format!("{cycles:.0} cycles")),
+        String::new(),
+        String::new(),
+        String::new(),
+        String::new(),
+    ]);
+    let excluded = choice.excluded.iter().map(|why| format!("not considered: {why}\n"));
+    table(&rows) + &excluded.collect::<String>()
+}
+
+fn row(feature: &Feature, condensed: bool) -> [String; 5] {
+    let Feature { name, present, why, bytes, instructions } = feature;
+    let (state, why) = match (*present > 0, condensed) {
+        (true, false) => ("kept", why.clone()),
+        (true, true) if *name == "contact" => ("kept", why.clone()),
+        (true, true) => ("dropped", format!("{why}; eliminated on the host")),
+        (false, _) => ("dropped", why.clone()),
+    };
+    let count = instructions.map_or("-".to_owned(), |count| format!("{count:.0}"));
+    [(*name).to_owned(), state.to_owned(), bytes.to_string(), count, why]
+}
+
+/// Each feature with what the general model spends on it.
+fn features<R: Scalar>(scene: &Scene, problem: &Problem) -> Vec<Feature> {
+    let costs = Costs::measured();
+    let scalar = size_of::<R>();
+    let (mesh, counts) = (&problem.mesh, problem.topology.counts);
+    let (triangles, quads, cells) = (mesh.triangles.len(), mesh.quads.len(), problem.cells());
+    let (unknowns, edges) = (counts.unknowns(), counts.edges());
+    let index = if edges < 1 << 14 { 2 } else { 4 };
+    let shape = if quads > 0 { "quads" } else { "triangles" };
+    let each = |stage: &str, number: usize| {
+        costs.of_mesh::<R>(shape, stage).map(|count| count * number as f64)
+    };
+    let wider = costs.of_mesh::<R>("quads", "sweep").zip(costs.of_mesh::<R>("triangles", "sweep"));
+    let of_kind = |kind| problem.kinds.iter().filter(|&&known| known == kind).count();
+    let varying = varying(problem);
+    let sources = problem.loads.triangles.len() + problem.loads.quads.len();
+    let inputs_of = |name: &str| scene.inputs.iter().filter(|input| input.of.value == name).count();
+    let sources = sources + inputs_of("source");
+    let robin = of_kind(EdgeKind::Robin);
+    let pushed = problem.loads.contact_flux.iter().filter(|&&q| q != 0.0).count();
+    let gaps = problem.loads.gap.iter().filter(|&&gap| gap != 0.0).count();
+    let contact = counts.contact;
+    let read =
+        scene.outputs.iter().filter(|output| matches!(output.quantity, Quantity::Flux)).count();
+    let feature = |name, present, why: String, bytes, instructions| Feature {
+        name,
+        present,
+        why,
+        bytes,
+        instructions,
+    };
+    let some = |number: usize, what: &str| match number {
+        0 => format!("no {what}"),
+        _ => format!("{number} {what}"),
+    };
+    vec![
+        feature(
+            "triangles",
+            triangles,
+            some(triangles, "triangles"),
+            triangles * (3 * scalar + 6 * index),
+            None,
+        ),
+        feature(
+            "quads",
+            quads,
+            some(quads, "quads"),
+            if quads > 0 {
+                quads * (6 * scalar + 8 * index)
+            } else {
+                unknowns * (2 * scalar + 2 * index)
+            },
+            wider.map(|(quads, triangles)| (quads - triangles) * unknowns as f64),
+        ),
+        feature(
+            "tensors",
+            0,
+            "element matrices are baked".to_owned(),
+            cells * 3 * scalar,
+            each("element matrices", cells),
+        ),
+        feature(
+            "quadrature points",
+            varying,
+            match varying {
+                0 => "closed forms are exact in every cell".to_owned(),
+                _ => format!(
+                    "A varies, or a quad is no parallelogram, in {varying} of {cells} cells"
+                ),
+            },
+            if varying > 0 { varying } else { cells } * 192 * scalar,
+            None,
+        ),
+        feature(
+            "source f",
+            sources,
+            some(sources.min(cells), "cells with a source"),
+            cells * 2 * scalar,
+            each("load", cells),
+        ),
+        feature(
+            "Neumann fluxes",
+            problem.loads.neumann.len(),
+            some(problem.loads.neumann.len(), "edges with a flux"),
+            of_kind(EdgeKind::Neumann) * (scalar + index),
+            None,
+        ),
+        feature(
+            "Robin",
+            robin,
+            some(robin, "Robin edges"),
+            robin.max(1) * (2 * scalar + index),
+            None,
+        ),
+        feature("contact", contact, some(contact, "contact edges"), contact * (scalar + 1), None),
+        feature("gaps", gaps, some(gaps, "edges with a gap"), contact * 3 * scalar, None),
+        feature("offsets q", pushed, some(pushed, "edges with a flux q"), contact * scalar, None),
+        feature(
+            "fluxes of all edges",
+            0,
+            match read {
+                0 => "no output reads them".to_owned(),
+                _ => "outputs read those of their own edges alone".to_owned(),
+            },
+            (3 * triangles + 4 * quads) * scalar,
+            each("flux by cells", cells),
+        ),
+        feature("indicators of cells", 0, "no output reads them".to_owned(), cells * scalar, None),
+    ]
+}
+
+/// Cells that need 64 points each in the error bound.
+fn varying(problem: &Problem) -> usize {
+    let points = |quad: &&QuadCoefficient| matches!(quad, QuadCoefficient::AtPoints(_));
+    problem.coefficients.quads.iter().filter(points).count()
+}
+
+/// Columns, the first and the last to the left.
+fn table<const N: usize>(rows: &[[String; N]]) -> String {
+    let width =
+        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut text = String::new();
+    for row in rows {
+        let cells = row.iter().zip(widths).enumerate().map(|(at, (cell, width))| match at {
+            0 => format!("{cell:<width$}"),
+            _ if at + 1 == N => cell.clone(),
+            _ => format!("{cell:>width$}"),
+        });
+        let line: Vec<String> = cells.collect();
+        text += line.join("  ").trim_end();
+        text += "\n";
+    }
+    text
+}

@@ -1,0 +1,242 @@
+//! What every baked module shows, whatever its model: its header, `Inputs`, `Outputs`, `Answer`.
+
+use std::fmt::Write as _;
+
+use super::item::{Item, braced, from_array, items, names, structure, to_array};
+use super::text::{code, prose};
+use signorini_scene::scene::{Field, Input, Output, Quantity, Scene};
+use signorini_solve::functional::wanted;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// The names and meanings of a scene's inputs and outputs.
+#[derive(Debug, Clone)]
+pub struct Face {
+    title: String,
+    file: String,
+    hash: u64,
+    inputs: Vec<Item>,
+    defaults: Vec<f64>,
+    outputs: Vec<Item>,
+}
+
+/// What the numbers of every module mean.
+const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
+                     a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
+                     towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
+
+const ANSWER: &str = "
+/// What a tick came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// What the controller reads.
+    pub outputs: Outputs,
+    /// How the tick ended, what it took, and how wrong the answer can be.
+    pub report: Report<Scalar>,
+}
+";
+
+/// What a model says of itself in the header.
+#[derive(Debug, Clone)]
+pub struct About<'a> {
+    /// `full` or `condensed`.
+    pub model: &'a str,
+    /// What it is, one paragraph of Markdown.
+    pub text: &'a str,
+    /// The features of the kernel that it needs.
+    pub features: &'a [&'a str],
+}
+
+impl Face {
+    /// That of `scene`.
+    pub fn new(scene: &Scene, problem: &Problem) -> Self {
+        let names = scene.inputs.iter().map(|input| input.name.value.as_str());
+        let inputs = items(names, scene.inputs.iter().map(effect));
+        let wanted = wanted(scene);
+        let names = wanted.iter().map(|output| output.name.value.as_str());
+        let outputs = items(names, wanted.iter().map(meaning));
+        let file = scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Self {
+            title: scene.title.clone(),
+            file,
+            hash: hash(scene, problem),
+            inputs,
+            defaults: scene.inputs.iter().map(|input| input.default).collect(),
+            outputs,
+        }
+    }
+
+    /// Everything but the controller and its data.
+    pub fn source<R: Scalar>(&self, about: &About) -> String {
+        self.header(about) + &self.types::<R>(about)
+    }
+
+    /// Identifiers of the inputs, in the order of the scene.
+    pub fn inputs(&self) -> impl Iterator<Item = &str> {
+        self.inputs.iter().map(|item| item.identifier.as_str())
+    }
+
+    /// Identifiers of the outputs.
+    pub fn outputs(&self) -> impl Iterator<Item = &str> {
+        self.outputs.iter().map(|item| item.identifier.as_str())
+    }
+
+    /// The hash of scene, setting, mesh and default inputs.
+    pub fn hash(&self) -> u64 {
+        self.hash
+    }
+
+    fn header(&self, about: &About) -> String {
+        let Self { title, file, hash, inputs, outputs, .. } = self;
+        let features: Vec<_> = about.features.iter().map(|name| format!("{name:?}")).collect();
+        let mut lines = vec![
+            prose(title),
+            String::new(),
+            about.text.to_owned(),
+            String::new(),
+            format!(
+                "From {}, scene hash {hash:016x} (scene file, setting, mesh, default inputs).",
+                code(file)
+            ),
+            format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
+            String::new(),
+            "```toml".to_owned(),
+            format!(
+                "signorini-kernel = {{ default-features = false, features = [{}] }}",
+                features.join(", ")
+            ),
+            "```".to_owned(),
+            format!("Kernel features: {}.", features_or_none(about.features)),
+            String::new(),
+            UNITS.to_owned(),
+        ];
+        let mut table = |kind: &str, items: &[Item]| {
+            if !items.is_empty() {
+                let head = format!("| {kind} | meaning |");
+                lines.extend([String::new(), head, "|---|---|".to_owned()]);
+                let row = |item: &Item| format!("| `{}` | {} |", item.identifier, item.doc);
+                lines.extend(items.iter().map(row));
+            }
+        };
+        table("input", inputs);
+        table("output", outputs);
+        let lines = lines.iter().map(|line| format!("//! {line}").trim_end().to_owned() + "\n");
+        // A firmware needs not read all that a module offers.
+        lines.chain(["\n#![allow(dead_code, unused_imports)]\n".to_owned()]).collect()
+    }
+
+    fn types<R: Scalar>(&self, about: &About) -> String {
+        let mut text = String::new();
+        let _ = write!(
+            text,
+            "
+/// Every number of this module.
+pub type Scalar = {scalar};
+/// Which model of the scene this is.
+pub const MODEL: &str = {model:?};
+/// The scene that it was made of.
+pub const SCENE_HASH: u64 = 0x{hash:016x};
+/// The features of `signorini-kernel` that it needs.
+pub const KERNEL_FEATURES: &[&str] = &{features:?};
+/// Number of inputs.
+pub const INPUTS: usize = {inputs};
+/// Number of outputs.
+pub const OUTPUTS: usize = {outputs};
+",
+            scalar = R::NAME,
+            model = about.model,
+            hash = self.hash,
+            features = about.features,
+            inputs = self.inputs.len(),
+            outputs = self.outputs.len(),
+        );
+        text += &structure("Inputs", "What the controller sets.", &self.inputs);
+        let defaults = self.defaults.iter().map(|&x| format!("{:?}", R::narrow(x)));
+        let defaults = self.inputs().zip(defaults).map(|(name, x)| format!("{name}: {x}"));
+        let defaults = braced("Self", defaults);
+        text += "
+impl Inputs {
+    /// The values that the scene gives.
+";
+        let _ = writeln!(text, "    pub const DEFAULT: Self = {defaults};");
+        text += &names("INPUTS", &self.inputs);
+        text += &from_array("INPUTS", &self.inputs);
+        text += &to_array("INPUTS", &self.inputs);
+        text += "}\n";
+        text += &structure("Outputs", "What the controller reads.", &self.outputs);
+        text += "\nimpl Outputs {\n";
+        text += &names("OUTPUTS", &self.outputs);
+        text += &from_array("OUTPUTS", &self.outputs);
+        text += &to_array("OUTPUTS", &self.outputs);
+        text + "}\n" + ANSWER
+    }
+}
+
+/// What an input does, in a sentence.
+fn effect(input: &Input) -> String {
+    let (field, unit) = match input.field.value {
+        Field::Flux => ("flux", "that of a flux (A∇u)·n, n outward"),
+        Field::Value => ("value", "that of u"),
+        Field::Gap => ("gap", "that of u"),
+        Field::Ambient => ("ambient", "that of u"),
+        Field::Source => ("f", "that of the load f"),
+    };
+    let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));
+    format!(
+        "Times {pattern} (unit: {unit}) it is added to `{field}` of {of}; default {:?}.",
+        input.default
+    )
+}
+
+/// What an output means, in a few words.
+fn meaning(output: &Output) -> String {
+    let place = output.of.as_ref().map_or("all contact".to_owned(), |of| code(&of.value));
+    match output.quantity {
+        Quantity::Flux => {
+            format!("∫(A∇u)·n over {place}, n outward; unit of a flux times a length.")
+        }
+        Quantity::Force => {
+            format!(
+                "∫(σ·n − q) over {place}, σ = A∇u; never negative, wherever a tick ends; unit of a flux times a \
+                 length."
+            )
+        }
+        Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
+        Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
+        Quantity::Bound => {
+            "Bound on the error in the energy norm; infinite where there is none.".to_owned()
+        }
+    }
+}
+
+/// The features by name, as `cargo xtask firmware` reads them.
+fn features_or_none(features: &[&str]) -> String {
+    if features.is_empty() { "none".to_owned() } else { features.join(", ") }
+}
+
+/// FNV-1a over what the data are made of.
+fn hash(scene: &Scene, problem: &Problem) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut take = |bytes: &[u8]| {
+        for &byte in bytes {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    };
+    take(scene.text.as_bytes());
+    // A fragment's setting is no part of that text.
+    scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
+    scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
+    let mesh = &problem.mesh;
+    mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
+    let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());
+    corners.for_each(|vertex| take(&vertex.to_le_bytes()));
+    for surface in &mesh.surfaces {
+        take(surface.name.as_bytes());
+        surface.cells.iter().for_each(|cell| take(&cell.to_le_bytes()));
+    }
+    for curve in &mesh.curves {
+        take(curve.name.as_bytes());
+        curve.edges.as_flattened().iter().for_each(|vertex| take(&vertex.to_le_bytes()));
+    }
+    hash
+}

@@ -1,0 +1,264 @@
+//! Everything of a baked scene, owned: what the module's statics will hold.
+
+use std::collections::HashMap;
+
+use signorini_kernel::cells::{Cells, Quad, Triangle};
+use signorini_kernel::certificate::{Ground, Metric, POINTS, Reach};
+use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::tick::Limits;
+use signorini_kernel::{Relaxation, Tensor};
+
+use super::data::Data;
+use super::factored::Factored;
+use super::faint::refuse_faint;
+use super::limits;
+use super::output::{Output, output};
+use super::scale::Scale;
+use crate::face::Face;
+use crate::setting::checked;
+use crate::superposition::parts;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
+use signorini_solve::certify::Certifier;
+use signorini_solve::functional::functionals;
+use signorini_solve::problem::{Assembled, Parts, Problem};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::unfit;
+
+/// A scene as the full model takes it, in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Baked<R: Scalar> {
+    /// Names, meanings, outputs.
+    pub face: Face,
+    pub(super) counts: EdgeCounts,
+    pub(super) vertices: Vec<[R; 2]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) quads: Vec<[u32; 4]>,
+    pub(super) of_triangles: Vec<[u32; 3]>,
+    pub(super) of_quads: Vec<[u32; 4]>,
+    pub(super) half_edges: Vec<[u32; 2]>,
+    pub(super) stiffness_of_triangles: Vec<[R; 3]>,
+    pub(super) stiffness_of_quads: Vec<[R; 6]>,
+    pub(super) packed_triangles: Vec<Triangle<R, u32>>,
+    pub(super) packed_quads: Vec<Quad<R, u32>>,
+    pub(super) vertex_weights: Vec<R>,
+    pub(super) edge_weights: Vec<R>,
+    pub(super) order: Vec<u32>,
+    pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
+    pub(super) metric_place: Vec<u32>,
+    pub(super) bends: Vec<[R; 2]>,
+    pub(super) reach: Reach<R>,
+    pub(super) data: Data<R>,
+    pub(super) outputs: Vec<Output<R>>,
+    pub(super) corners: Vec<[u32; 2]>,
+    pub(super) start: R,
+    pub(super) how: How<R>,
+    /// Where the numbers above are not in the scene's units.
+    pub(super) scale: Option<Scale<R>>,
+    pub(super) factored: Option<Factored<R>>,
+}
+
+/// How its ticks are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct How<R> {
+    pub relaxation: Relaxation<R>,
+    pub limits: Limits<R>,
+    pub certified: bool,
+    /// Every tick starts anew.
+    pub cold: bool,
+    /// The search for ω takes the fast square root.
+    pub fast: bool,
+}
+
+impl<R: Scalar> How<R> {
+    fn new(setting: &Setting, unknowns: usize) -> Self {
+        Self {
+            relaxation: match setting.omega {
+                Omega::Fixed(omega) => Relaxation::Fixed(R::narrow(omega)),
+                Omega::Auto => Relaxation::for_unknowns(unknowns),
+            },
+            limits: limits(setting),
+            certified: setting.certificate,
+            cold: setting.start == Start::Cold,
+            fast: setting.math == MathKind::Micromath,
+        }
+    }
+}
+
+impl<R: Scalar> Baked<R> {
+    /// Whether a cell has four sides.
+    pub fn has_quads(&self) -> bool {
+        !self.of_quads.is_empty()
+    }
+
+    /// Whether these data allow for an error bound.
+    pub fn has_bound(&self) -> bool {
+        self.data.has_bound
+    }
+
+    /// The limits of its ticks.
+    pub fn limits(&self) -> Limits<R> {
+        self.how.limits
+    }
+
+    /// Entries of the factor that solves its ticks, if one does.
+    pub fn entries(&self) -> Option<usize> {
+        self.factored.as_ref().map(Factored::entries)
+    }
+
+    /// Whether its ticks have a certificate.
+    pub fn is_certified(&self) -> bool {
+        self.how.certified
+    }
+
+    /// The same in the units that `scene` is in.
+    pub(super) fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
+        let setting = checked::<R>(scene)?;
+        let held = Parts::examine(scene, problem)?;
+        refuse_loose(scene, &held)?;
+        let unfit = unfit::<R>(scene);
+        let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+        assembled.system().map_err(&unfit)?;
+        let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
+        let ground = certifier.ground(&assembled).map_err(&unfit)?;
+        let functionals = functionals(scene, problem)?;
+        let outputs = functionals.iter().map(|of| output(problem, of)).collect();
+        let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
+        data.check().map_err(&unfit)?;
+        refuse_faint(scene, &data)?;
+        let start = assembled.start().first().copied().unwrap_or(R::ZERO);
+        let how = How::new(&setting, problem.topology.counts.unknowns());
+        let corners = corners(problem);
+        let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
+        let baked = if how.certified { baked } else { baked.without_bound() };
+        match setting.solver {
+            Some(Method::Factor) => baked.with_factor(scene, problem),
+            _ => Ok(baked),
+        }
+    }
+
+    fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>, how: How<R>) -> Self {
+        let Ground { mesh, edges, stiffness, cells, metric, reach } = ground;
+        let [vertex_weights, edge_weights] = cells.weights();
+        let varies = !metric.at_points.is_empty();
+        // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
+        let needs_order = varies || !cells.quads().is_empty();
+        Self {
+            face,
+            counts: edges.counts(),
+            vertices: mesh.vertices().to_vec(),
+            triangles: mesh.triangles().to_vec(),
+            quads: mesh.quads().to_vec(),
+            of_triangles: edges.of_triangles().to_vec(),
+            of_quads: edges.of_quads().to_vec(),
+            half_edges: edges.half_edges().to_vec(),
+            stiffness_of_triangles: stiffness.triangles.to_vec(),
+            stiffness_of_quads: stiffness.quads.to_vec(),
+            packed_triangles: cells.triangles().to_vec(),
+            packed_quads: cells.quads().to_vec(),
+            vertex_weights: vertex_weights.to_vec(),
+            edge_weights: edge_weights.to_vec(),
+            order: if needs_order { cells.order().to_vec() } else { Vec::new() },
+            metric: metric.at_points.to_vec(),
+            metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
+            bends: metric.bends.to_vec(),
+            reach: *reach,
+            data,
+            outputs: Vec::new(),
+            corners: Vec::new(),
+            start: R::ZERO,
+            how,
+            scale: None,
+            factored: None,
+        }
+    }
+
+    /// Without everything that only the certificate reads.
+    fn without_bound(self) -> Self {
+        Self {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            quads: Vec::new(),
+            packed_triangles: Vec::new(),
+            packed_quads: Vec::new(),
+            vertex_weights: Vec::new(),
+            edge_weights: Vec::new(),
+            order: Vec::new(),
+            metric: Vec::new(),
+            metric_place: Vec::new(),
+            bends: Vec::new(),
+            corners: Vec::new(),
+            data: self.data.without_bound(),
+            ..self
+        }
+    }
+
+    /// What the certificate and the rows stand on.
+    pub(super) fn ground(&self) -> Ground<'_, R, u32> {
+        let (of_triangles, of_quads) = (&self.of_triangles, &self.of_quads);
+        Ground {
+            mesh: Mesh::baked(&self.vertices, &self.triangles, &self.quads),
+            edges: Edges::baked(of_triangles, of_quads, &self.half_edges, self.counts),
+            stiffness: Stiffness {
+                triangles: &self.stiffness_of_triangles,
+                quads: &self.stiffness_of_quads,
+            },
+            cells: Cells::baked(
+                &self.packed_triangles,
+                &self.packed_quads,
+                &self.vertex_weights,
+                &self.edge_weights,
+                &self.order,
+            ),
+            metric: Metric {
+                at_points: &self.metric,
+                place: &self.metric_place,
+                bends: &self.bends,
+            },
+            reach: self.reach,
+        }
+    }
+
+    /// The features of the kernel that the scene needs.
+    pub fn features(&self) -> Vec<&'static str> {
+        let needs = [
+            ("triangles", !self.of_triangles.is_empty()),
+            ("quads", !self.of_quads.is_empty()),
+            ("varying", !self.metric.is_empty()),
+            ("bent", !self.bends.is_empty()),
+            ("contact", self.counts.contact > 0),
+            ("robin", !self.data.robin.is_empty()),
+            ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
+        ];
+        needs.into_iter().filter(|(_, needed)| *needed).map(|(name, _)| name).collect()
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.counts.unknowns()
+    }
+}
+
+/// The tick's certificate needs a way out of every part that no iterate can close.
+fn refuse_loose(scene: &Scene, parts: &Parts) -> Result<()> {
+    if parts.counts.contact + parts.counts.floating == 0 {
+        return Ok(());
+    }
+    let held = if parts.counts.floating > 0 { "nothing holds" } else { "contact alone holds" };
+    let message = format!("boundary: the full model has no tick for a part that {held}");
+    let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
+    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+}
+
+/// For every vertex where a contact and a Dirichlet edge meet, an end of either.
+fn corners(problem: &Problem) -> Vec<[u32; 2]> {
+    let counts = problem.topology.counts;
+    let contact = counts.free..counts.unknowns();
+    let ends = contact.flat_map(|edge| problem.ends[edge]).zip(0..);
+    let on_contact: HashMap<u32, u32> = ends.collect();
+    let given = (counts.unknowns()..counts.edges()).flat_map(|edge| problem.ends[edge]).zip(0..);
+    given.filter_map(|(vertex, place)| Some([*on_contact.get(&vertex)?, place])).collect()
+}

@@ -1,0 +1,77 @@
+//! Curved edges as functions of the inputs: linear parts, and the energy by polarisation.
+//!
+//! The energy of Σ p_j w_j is Σ p_j² E_j + Σ_{i<j} p_i p_j (E_ij − E_i − E_j), with E_ij that of w_i + w_j.
+
+use std::collections::BTreeMap;
+
+use signorini_kernel::certificate;
+use signorini_kernel::full::{CurvedPart, Product};
+
+use crate::superposition::{Part, curved_pair};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::term::Term;
+use signorini_solve::certify::curved::Curved;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// A curved edge that inputs bend, owned.
+#[derive(Debug, Clone)]
+pub(super) struct Bent<R> {
+    pub edge: u32,
+    pub parts: Vec<CurvedPart<R>>,
+    pub energy: Vec<Product<R>>,
+}
+
+type Edges<R> = (Vec<certificate::Curved<R, u32>>, Vec<Bent<R>>);
+
+/// The curved edges: as records where no input bends an edge, else all of them as sums.
+pub(super) fn bent<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    parts: &[Part],
+) -> Result<Edges<R>> {
+    let bends: Vec<Term> =
+        (0..parts.len()).filter(|&term| !parts[term].curved.is_empty()).collect();
+    if bends.iter().all(|&term| term == 0) {
+        let records = parts.iter().flat_map(|part| &part.curved).map(|of| certificate::Curved {
+            edge: of.edge,
+            mean: R::narrow(of.mean),
+            energy: R::narrow(of.energy),
+            coupling: of.coupling.map(R::narrow),
+        });
+        return Ok((records.collect(), Vec::new()));
+    }
+    let mut edges = BTreeMap::new();
+    for &term in &bends {
+        for of in &parts[term].curved {
+            let bent = at(&mut edges, of.edge);
+            let (mean, coupling) = (R::narrow(of.mean), of.coupling.map(R::narrow));
+            bent.parts.push(CurvedPart { input: term as u16, mean, coupling });
+            add(bent, [term; 2], of.energy);
+        }
+    }
+    for (place, &i) in bends.iter().enumerate() {
+        for &j in &bends[place + 1..] {
+            for of in curved_pair(scene, problem, [i, j])? {
+                let alone = energy(&parts[i].curved, of.edge) + energy(&parts[j].curved, of.edge);
+                add(at(&mut edges, of.edge), [i, j], of.energy - alone);
+            }
+        }
+    }
+    Ok((Vec::new(), edges.into_values().collect()))
+}
+
+fn at<R>(edges: &mut BTreeMap<u32, Bent<R>>, edge: u32) -> &mut Bent<R> {
+    edges.entry(edge).or_insert_with(|| Bent { edge, parts: Vec::new(), energy: Vec::new() })
+}
+
+fn add<R: Scalar>(bent: &mut Bent<R>, [i, j]: [Term; 2], weight: f64) {
+    if weight != 0.0 {
+        bent.energy.push(Product { inputs: [i as u16, j as u16], weight: R::narrow(weight) });
+    }
+}
+
+fn energy(records: &[Curved], edge: u32) -> f64 {
+    records.iter().find(|record| record.edge == edge).map_or(0.0, |record| record.energy)
+}

@@ -1,0 +1,305 @@
+//! What the baked module does, on this machine and on the same numbers.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::boundary::{Neumann, Robin};
+use signorini_kernel::certificate::Curved;
+use signorini_kernel::conforming::VertexData;
+use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::sparse::{Exact, Solved};
+use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
+use signorini_kernel::{Libm, Math};
+
+use super::arrays::Baked;
+use super::data::{Data, Pattern};
+use super::output::Output;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::Exchanges;
+
+/// The controller of a baked scene; `WIDTH` is 4 on triangles alone and else 6.
+#[derive(Debug)]
+pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
+    baked: &'b Baked<R>,
+    rows: Vec<Row<R, u32, WIDTH>>,
+    load: Vec<R>,
+    u: Vec<R>,
+    active: Vec<bool>,
+    vertices: Vec<R>,
+    bubbles: Vec<R>,
+    tau: Vec<R>,
+    data: Owned<R>,
+    progress: Progress<R>,
+    exchanges: Option<Exchanges<R>>,
+    solved: Option<Solved<R>>,
+    certificates: u32,
+}
+
+/// [`DataMemory`], owned.
+#[derive(Debug)]
+struct Owned<R> {
+    triangles: Vec<R>,
+    quads: Vec<R>,
+    neumann: Vec<Neumann<R, u32>>,
+    robin: Vec<Robin<R, u32>>,
+    contact_flux: Vec<R>,
+    gap: Vec<R>,
+    gap_ends: Vec<[R; 2]>,
+    dirichlet: Vec<R>,
+    dirichlet_ends: Vec<[R; 2]>,
+    curved: Vec<Curved<R, u32>>,
+    transfer: Vec<[[R; 2]; 8]>,
+}
+
+impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
+    /// Before the first tick.
+    pub fn new(baked: &'b Baked<R>) -> Self {
+        let (counts, data) = (baked.counts, baked.varying());
+        let zeros = |length| vec![R::ZERO; length];
+        Self {
+            baked,
+            rows: vec![Row::EMPTY; counts.unknowns()],
+            load: zeros(counts.unknowns()),
+            u: zeros(counts.edges()),
+            active: vec![false; counts.contact],
+            vertices: zeros(baked.vertices.len()),
+            bubbles: zeros(if baked.quads.is_empty() { 0 } else { counts.edges() }),
+            tau: zeros(counts.edges()),
+            data: Owned {
+                triangles: zeros(data.triangles),
+                quads: zeros(data.quads),
+                neumann: vec![Neumann::default(); data.neumann],
+                robin: vec![Robin::default(); data.robin],
+                contact_flux: zeros(data.contact_flux),
+                gap: zeros(data.gap),
+                gap_ends: vec![[R::ZERO; 2]; data.gap],
+                dirichlet: zeros(data.dirichlet),
+                dirichlet_ends: vec![[R::ZERO; 2]; data.dirichlet],
+                curved: vec![Curved::default(); data.curved],
+                transfer: vec![[[R::ZERO; 2]; 8]; data.transfer],
+            },
+            progress: Progress::NONE,
+            exchanges: baked.factored.as_ref().map(|_| Exchanges::new(counts.contact)),
+            solved: None,
+            certificates: 0,
+        }
+    }
+
+    /// Outputs and report for these inputs, within the limits of the baked module.
+    ///
+    /// # Errors
+    /// Inputs that are not finite, of another number, or so large that data or answers may overflow: the last answer
+    /// stays. A `WIDTH` that is not that of the mesh.
+    pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), KernelError> {
+        self.tick_within(inputs, self.baked.how.limits)
+    }
+
+    /// The same within other limits.
+    ///
+    /// # Errors
+    /// As for [`Controller::tick`].
+    pub fn tick_within(
+        &mut self,
+        inputs: &[R],
+        limits: Limits<R>,
+    ) -> Result<(Vec<R>, Report<R>), KernelError> {
+        let (baked, data) = (self.baked, &mut self.data);
+        if baked.how.cold {
+            self.progress = Progress::NONE;
+        }
+        let ground = baked.ground();
+        let memory = Memory {
+            tick: tick::Memory {
+                rows: Rows::new(&ground.edges, &mut self.rows)?,
+                load: &mut self.load,
+                active: &mut self.active,
+                vertices: &mut self.vertices,
+                bubbles: &mut self.bubbles,
+                tau: &mut self.tau,
+                u: &mut self.u,
+            },
+            data: DataMemory {
+                triangles: &mut data.triangles,
+                quads: &mut data.quads,
+                neumann: &mut data.neumann,
+                robin: &mut data.robin,
+                contact_flux: &mut data.contact_flux,
+                gap: &mut data.gap,
+                gap_ends: &mut data.gap_ends,
+                dirichlet: &mut data.dirichlet,
+                dirichlet_ends: &mut data.dirichlet_ends,
+                curved: &mut data.curved,
+                transfer: &mut data.transfer,
+            },
+            progress: &mut self.progress,
+        };
+        let limits = baked.scale.map_or(limits, |scale| scale.limits(limits));
+        let mut outputs = vec![R::ZERO; baked.outputs.len()];
+        let factored = baked.factored.as_ref().zip(self.exchanges.as_mut());
+        let mut exact = match factored {
+            Some((factored, own)) => Some(Exact::new(factored.view(), own.memory())?),
+            None => None,
+        };
+        let mut looks = 0;
+        let report = match baked.how.fast {
+            true => baked.run::<R::Fast, WIDTH>(
+                inputs,
+                limits,
+                memory,
+                exact.as_mut(),
+                &mut outputs,
+                &mut looks,
+            )?,
+            false => baked.run::<Libm, WIDTH>(
+                inputs,
+                limits,
+                memory,
+                exact.as_mut(),
+                &mut outputs,
+                &mut looks,
+            )?,
+        };
+        // The clock is asked before every sweep and once more at the end, at every certificate, and after each but the last.
+        self.certificates = (looks.saturating_sub(report.sweeps) / 2).max(1);
+        self.solved = exact.and_then(|exact| exact.solved()).filter(|_| report.sweeps == 0);
+        let report = match baked.scale {
+            Some(scale) => scale.answer(&baked.outputs, &mut outputs, report),
+            None => report,
+        };
+        Ok((outputs, report))
+    }
+
+    /// Certificates of the last tick, where it was swept.
+    pub fn certificates(&self) -> u32 {
+        self.certificates
+    }
+
+    /// What the factor did in the last tick; `None` without one, or where sweeps had to help.
+    pub fn solved(&self) -> Option<Solved<R>> {
+        self.solved
+    }
+
+    /// Whether the factor alone answers for these inputs.
+    pub(super) fn solves(&mut self, inputs: &[R]) -> bool {
+        self.tick(inputs).is_ok_and(|(_, report)| report.sweeps == 0 && report.residual.finite())
+    }
+
+    /// Means of u over the edges, in [`Baked::units`] as all arrays below.
+    pub fn u(&self) -> &[R] {
+        &self.u
+    }
+
+    /// ∫τ·n of every edge along its direction: balanced, or of a tick without certificate σ_h of (15).
+    pub fn tau(&self) -> &[R] {
+        &self.tau
+    }
+
+    /// Means of ψ over the contact edges in the last tick.
+    pub fn lower(&self) -> &[R] {
+        if self.data.gap.is_empty() { &self.baked.data.gap } else { &self.data.gap }
+    }
+
+    /// s at the vertices; empty without a certificate.
+    pub fn vertices(&self) -> &[R] {
+        &self.vertices
+    }
+
+    /// The bubbles of s, one an edge; empty without quads or certificate.
+    pub fn bubbles(&self) -> &[R] {
+        &self.bubbles
+    }
+}
+
+impl<R: Scalar> Baked<R> {
+    /// The call that the module has in its `tick_within`.
+    fn run<M: Math<R>, const WIDTH: usize>(
+        &self,
+        inputs: &[R],
+        limits: Limits<R>,
+        memory: Memory<R, u32, WIDTH>,
+        exact: Option<&mut Exact<R, u32>>,
+        out: &mut [R],
+        looks: &mut u32,
+    ) -> Result<Report<R>, KernelError> {
+        let clock = || {
+            *looks += 1;
+            u32::MAX
+        };
+        let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
+        self.with(|full| match (exact, self.how.certified) {
+            (None, true) => full.tick_with::<M, WIDTH, _>(inputs, limits, never, memory, out),
+            (None, false) => {
+                full.tick_uncertified::<M, WIDTH, _>(inputs, limits, never, memory, out)
+            }
+            (Some(exact), true) => {
+                full.tick_factored::<M, WIDTH, _>(inputs, limits, never, memory, exact, out)
+            }
+            (Some(exact), false) => full.tick_factored_uncertified::<M, WIDTH, _>(
+                inputs, limits, never, memory, exact, out,
+            ),
+        })
+    }
+
+    /// Lends the arrays as the kernel takes them.
+    fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
+        let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();
+        let outputs: Vec<_> = self.outputs.iter().map(Output::view).collect();
+        let sums = self.data.curved_sums.iter();
+        let sums: Vec<_> = sums
+            .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
+            .collect();
+        take(&Full {
+            ground: self.ground(),
+            base: self.data.base(&sums),
+            patterns: &patterns,
+            oscillation: &self.data.oscillation,
+            outputs: &outputs,
+            has_bound: self.data.has_bound,
+            corners: &self.corners,
+            start: self.start,
+            relaxation: self.how.relaxation,
+        })
+    }
+}
+
+impl<R: Scalar> Data<R> {
+    fn base<'a>(&'a self, curved_sums: &'a [CurvedSum<'a, R, u32>]) -> Base<'a, R, u32> {
+        Base {
+            loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
+            neumann: &self.neumann,
+            robin: &self.robin,
+            contact_flux: &self.contact_flux,
+            gap: &self.gap,
+            dirichlet: &self.dirichlet,
+            ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
+            curved: &self.curved,
+            curved_sums,
+            transfer: &self.transfer,
+        }
+    }
+}
+
+impl<R: Scalar> Pattern<R> {
+    fn view(&self) -> full::Pattern<'_, R, u32> {
+        match self {
+            Self::Source { triangles, quads } => full::Pattern::Source { triangles, quads },
+            Self::Neumann(shares) => full::Pattern::Neumann(shares),
+            Self::ContactFlux(shares) => full::Pattern::ContactFlux(shares),
+            Self::Gap(chords) => full::Pattern::Gap(chords),
+            Self::Value(chords) => full::Pattern::Value(chords),
+            Self::Ambient { integrals, points } => full::Pattern::Ambient { integrals, points },
+        }
+    }
+}
+
+impl<R: Scalar> Output<R> {
+    fn view(&self) -> Functional<'_, R, u32> {
+        match self {
+            Self::Flux(edges) => Functional::Flux(edges),
+            Self::Force(edges) => Functional::Force(edges),
+            Self::Length(shares) => Functional::Length(shares),
+            Self::Probe(shares) => Functional::Probe(shares),
+            Self::Bound => Functional::Bound,
+        }
+    }
+}

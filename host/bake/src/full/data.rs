@@ -1,0 +1,249 @@
+//! Loads and boundary data as the target adds them up: base and patterns, narrowed.
+
+use signorini_kernel::boundary::{Neumann, Robin};
+use signorini_kernel::certificate::Curved;
+use signorini_kernel::full::{Chord, Points, Share};
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Error as KernelError, error::Array};
+
+use super::bent::{Bent, bent};
+use crate::superposition::Part;
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Scene};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// The arrays of [`signorini_kernel::full::Base`], the patterns, the oscillation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Data<R> {
+    pub triangles: Vec<R>,
+    pub quads: Vec<R>,
+    pub neumann: Vec<Neumann<R, u32>>,
+    pub robin: Vec<Robin<R, u32>>,
+    pub contact_flux: Vec<R>,
+    pub gap: Vec<R>,
+    pub gap_ends: Vec<[R; 2]>,
+    pub dirichlet: Vec<R>,
+    pub dirichlet_ends: Vec<[R; 2]>,
+    pub curved: Vec<Curved<R, u32>>,
+    pub curved_sums: Vec<Bent<R>>,
+    pub transfer: Vec<[[R; 2]; 8]>,
+    pub patterns: Vec<Pattern<R>>,
+    pub oscillation: Vec<R>,
+    pub has_bound: bool,
+}
+
+/// An input's pattern, owned.
+#[derive(Debug, Clone)]
+pub(super) enum Pattern<R> {
+    Source { triangles: Vec<Share<R, u32>>, quads: Vec<Share<R, u32>> },
+    Neumann(Vec<Share<R, u32>>),
+    ContactFlux(Vec<Share<R, u32>>),
+    Gap(Vec<Chord<R, u32>>),
+    Value(Vec<Chord<R, u32>>),
+    Ambient { integrals: Vec<Share<R, u32>>, points: Vec<Points<R, u32>> },
+}
+
+impl<R: Scalar> Data<R> {
+    /// From the parts of the data, base first.
+    pub fn new(
+        scene: &Scene,
+        problem: &Problem,
+        parts: &[Part],
+        stiffness: Stiffness<R>,
+    ) -> Result<Self> {
+        let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
+        let neumann = with_flux(parts);
+        let is_uniform = parts.iter().all(|part| {
+            part.transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0]))
+        });
+        let patterns = scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
+            let contact = !part.loads.contact_flux.iter().all(|&flux| flux == 0.0);
+            match input.field.value {
+                Field::Source => Pattern::Source {
+                    triangles: shares(&part.loads.triangles),
+                    quads: shares(&part.loads.quads),
+                },
+                Field::Flux if contact => Pattern::ContactFlux(shares(&part.loads.contact_flux)),
+                Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
+                Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
+                Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
+                Field::Ambient => ambient(part, is_uniform),
+            }
+        });
+        let (curved, curved_sums) = bent(scene, problem, parts)?;
+        let mut data = Self {
+            triangles: narrow(&base.loads.triangles),
+            quads: narrow(&base.loads.quads),
+            neumann: Vec::new(),
+            robin: base.loads.robin.iter().map(robin).collect(),
+            contact_flux: narrow(&base.loads.contact_flux),
+            gap: narrow(&base.loads.gap),
+            gap_ends: pairs(&base.ends.gap),
+            dirichlet: narrow(&base.loads.dirichlet),
+            dirichlet_ends: pairs(&base.ends.given),
+            curved,
+            curved_sums,
+            transfer: Vec::new(),
+            patterns: patterns.collect(),
+            oscillation: oscillation(problem, parts, stiffness),
+            has_bound: parts.iter().all(|part| part.has_bound),
+        };
+        let of_base = neumann.iter().zip(fluxes(&neumann, base));
+        data.neumann =
+            of_base.map(|(&edge, flux)| Neumann { edge, flux: R::narrow(flux) }).collect();
+        if !is_uniform {
+            let edges = base.transfer.iter();
+            data.transfer = edges.map(|edge| edge.map(|point| point.map(R::narrow))).collect();
+        }
+        data.leave_out_zeros(problem);
+        Ok(data)
+    }
+
+    /// Without everything that only the certificate reads.
+    pub fn without_bound(mut self) -> Self {
+        for pattern in &mut self.patterns {
+            if let Pattern::Ambient { points, .. } = pattern {
+                points.clear();
+            }
+        }
+        Self {
+            curved: Vec::new(),
+            curved_sums: Vec::new(),
+            transfer: Vec::new(),
+            oscillation: Vec::new(),
+            has_bound: false,
+            ..self
+        }
+    }
+
+    /// A load that is 0 and stays it has no array; one that an input changes has all its entries.
+    fn leave_out_zeros(&mut self, problem: &Problem) {
+        let fit = |array: &mut Vec<R>, varies: bool, length: usize| {
+            if varies {
+                array.resize(length, R::ZERO);
+            } else if array.iter().all(|&entry| entry == R::ZERO) {
+                array.clear();
+            }
+        };
+        let source = self.varies(|pattern| matches!(pattern, Pattern::Source { .. }));
+        let flux = self.varies(|pattern| matches!(pattern, Pattern::ContactFlux(_)));
+        fit(&mut self.triangles, source, problem.mesh.triangles.len());
+        fit(&mut self.quads, source, problem.mesh.quads.len());
+        fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
+    }
+
+    /// Whether there is such a pattern.
+    pub fn varies(&self, is_such: impl Fn(&Pattern<R>) -> bool) -> bool {
+        self.patterns.iter().any(is_such)
+    }
+
+    /// What the kernel checks of its own arrays only where they are used.
+    pub fn check(&self) -> std::result::Result<(), KernelError> {
+        let weights = self.patterns.iter().flat_map(Pattern::weights);
+        let numbers = self.oscillation.iter().copied().chain(weights);
+        match numbers.into_iter().position(|x| !x.finite()) {
+            Some(at) => Err(KernelError::NotFinite { of: Array::Inputs, at }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<R: Scalar> Pattern<R> {
+    /// Every number of it.
+    pub fn weights(&self) -> Vec<R> {
+        let of = |shares: &[Share<R, u32>]| shares.iter().map(|share| share.weight).collect();
+        match self {
+            Self::Source { triangles, quads } => [of(triangles), of(quads)].concat(),
+            Self::Neumann(shares) | Self::ContactFlux(shares) => of(shares),
+            Self::Gap(chords) | Self::Value(chords) => {
+                let all =
+                    chords.iter().flat_map(|chord| [chord.mean, chord.ends[0], chord.ends[1]]);
+                all.collect()
+            }
+            Self::Ambient { integrals, points } => {
+                let points = points.iter().flat_map(|point| point.ambient);
+                of(integrals).into_iter().chain(points).collect()
+            }
+        }
+    }
+}
+
+fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
+    numbers.iter().map(|&x| R::narrow(x)).collect()
+}
+
+fn pairs<R: Scalar>(all: &[[f64; 2]]) -> Vec<[R; 2]> {
+    all.iter().map(|pair| pair.map(R::narrow)).collect()
+}
+
+fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
+    let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
+    Robin { edge: law.edge, coefficient, ambient }
+}
+
+fn shares<R: Scalar>(weights: &[f64]) -> Vec<Share<R, u32>> {
+    let entries = weights.iter().zip(0..).filter(|(weight, _)| **weight != 0.0);
+    entries.map(|(&weight, at)| Share { at, weight: R::narrow(weight) }).collect()
+}
+
+fn chords<R: Scalar>(means: &[f64], ends: &[[f64; 2]]) -> Vec<Chord<R, u32>> {
+    let edges = means.iter().zip(ends).zip(0..);
+    let acts = edges.filter(|((mean, ends), _)| **mean != 0.0 || **ends != [0.0; 2]);
+    acts.map(|((&mean, ends), at)| Chord { at, mean: R::narrow(mean), ends: ends.map(R::narrow) })
+        .collect()
+}
+
+fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
+    let integrals: Vec<f64> = part.loads.robin.iter().map(|law| law.ambient).collect();
+    let edges = part.transfer.iter().zip(0..).filter(|_| !is_uniform);
+    let points = edges.map(|(edge, at)| Points { at, ambient: edge.map(|[_, u]| R::narrow(u)) });
+    let acts = |points: &Points<R, u32>| points.ambient.iter().any(|&u| u != R::ZERO);
+    Pattern::Ambient { integrals: shares(&integrals), points: points.filter(acts).collect() }
+}
+
+/// The Neumann edges on which some part of the data has a flux, ascending.
+fn with_flux(parts: &[Part]) -> Vec<u32> {
+    let mut edges: Vec<u32> =
+        parts.iter().flat_map(|part| part.loads.neumann.iter().map(|record| record.edge)).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+/// The flux of a part on each of these edges.
+fn fluxes(edges: &[u32], part: &Part) -> Vec<f64> {
+    let mut fluxes = vec![0.0; edges.len()];
+    for record in &part.loads.neumann {
+        if let Ok(at) = edges.binary_search(&record.edge) {
+            fluxes[at] += record.flux;
+        }
+    }
+    fluxes
+}
+
+/// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its
+/// boundary values: the kernel's own allowance knows only their sum, which may be a small difference.
+fn oscillation<R: Scalar>(problem: &Problem, parts: &[Part], k: Stiffness<R>) -> Vec<R> {
+    let moves = |part: &Part| part.ends.scale() > 0.0;
+    let varies = parts.iter().skip(1).any(moves);
+    let ripple = |part| if varies { ripple(problem, part, k) } else { 0.0 };
+    parts.iter().map(|part| R::narrow(part.oscillation + ripple(part))).collect()
+}
+
+/// As the kernel counts it: each value moves by 2ε, at 4Σ|K| of its cell for each square.
+fn ripple<R: Scalar>(problem: &Problem, part: &Part, k: Stiffness<R>) -> f64 {
+    let free = problem.topology.counts.free;
+    let size = |entries: &[R]| entries.iter().map(|k| k.wide().abs()).sum::<f64>();
+    let ends = part.ends.gap.iter().chain(&part.ends.given).zip(free..);
+    let squares = ends.map(|(ends, edge)| {
+        let moved = 2.0 * R::EPSILON.wide() * ends[0].abs().max(ends[1].abs());
+        let (cell, _) = problem.topology.first_side(edge);
+        let stiff = match cell.checked_sub(k.triangles.len()) {
+            None => size(&k.triangles[cell]),
+            Some(quad) => size(&k.quads[quad]),
+        };
+        4.0 * stiff * moved * moved
+    });
+    squares.sum::<f64>().sqrt()
+}

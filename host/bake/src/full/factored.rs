@@ -1,0 +1,88 @@
+//! The factor of a scene's matrix, worked out in f64 and rounded once: what solves a tick without sweeps.
+
+use signorini_kernel::Index;
+use signorini_kernel::condensed::blocks::{Block, padded};
+use signorini_kernel::condensed::tableau::Start;
+use signorini_kernel::sparse::direct::normalise;
+use signorini_kernel::sparse::{self, Factor};
+
+use super::items::List;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::{Assembled, Problem};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Ldlt, unfit};
+
+/// Fields of the controller that hold nothing between ticks.
+const SCRATCH: [&str; 5] = ["column", "next_column", "reduced", "balance", "change"];
+
+/// L, D and S as the target takes them.
+#[derive(Debug, Clone)]
+pub(super) struct Factored<R> {
+    ldlt: Ldlt<R>,
+    scale: Vec<R>,
+    /// Exchanges begin with none.
+    none: Vec<bool>,
+}
+
+impl<R: Scalar> Factored<R> {
+    /// That of `problem`; nothing where its matrix is singular, or its factor too large, in f64.
+    pub fn new(scene: &Scene, problem: &Problem) -> Result<Option<Self>> {
+        let unfit = unfit::<f64>(scene);
+        let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+        let system = assembled.system().map_err(&unfit)?;
+        let Some(mut ldlt) = Ldlt::new(&system).map_err(&unfit)? else { return Ok(None) };
+        let contact = ldlt.counts.contact;
+        let mut scale = vec![0.0; padded(contact)];
+        if !normalise(&mut ldlt.schur, &mut scale, contact) {
+            return Ok(None);
+        }
+        let narrow = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
+        let block = |block: &Block<f64>| block.map(|row| row.map(R::narrow));
+        let Ldlt { counts, places, pointers, rows, values, inverse, schur } = ldlt;
+        let (values, inverse) = (narrow(&values), narrow(&inverse));
+        let schur = schur.iter().map(block).collect();
+        let ldlt = Ldlt { counts, places, pointers, rows, values, inverse, schur };
+        Ok(Some(Self { ldlt, scale: narrow(&scale), none: vec![false; padded(contact)] }))
+    }
+
+    /// As the kernel takes it.
+    pub fn view(&self) -> sparse::Factored<'_, R, u32> {
+        let Self { ldlt, scale, none } = self;
+        let factor: Factor<R, u32> = ldlt.factor();
+        let start = Start { blocks: &ldlt.schur, exchanged: none };
+        sparse::Factored { factor, schur: &ldlt.schur, scale, start }
+    }
+
+    /// Entries of L.
+    pub fn entries(&self) -> usize {
+        self.ldlt.values.len()
+    }
+
+    /// Everything in flash, in the index type `I`.
+    #[rustfmt::skip] // A table.
+    pub fn statics<I: Index>(&self, list: &mut List) {
+        let ldlt = &self.ldlt;
+        list.put::<I>("PLACES", "When each interior, Neumann or Robin edge is eliminated.", "Index", &ldlt.places);
+        list.put::<u32>("COLUMNS", "Where the columns of L start, and the last one ends.", "u32", &ldlt.pointers);
+        list.put::<I>("ROWS", "The row of each entry of L.", "Index", &ldlt.rows);
+        list.put::<R>("ENTRIES", "The entries of L.", "Scalar", &ldlt.values);
+        list.put::<R>("INVERSE", "1/D", "Scalar", &ldlt.inverse);
+        list.put::<Block<R>>("SCHUR", "S on the contact edges, the lower triangle of its blocks, scaled to a diagonal of 1.", "[[Scalar; 8]; 8]", &ldlt.schur);
+        list.put::<R>("SCALE", "1/√S_ii of each contact edge.", "Scalar", &self.scale);
+        list.put::<bool>("NONE", "Exchanges begin with no edge exchanged.", "bool", &self.none);
+    }
+
+    /// What the controller has for it.
+    #[rustfmt::skip] // A table.
+    pub fn memory(&self, list: &mut List) {
+        let length = self.scale.len();
+        list.reserve::<Block<R>>("tableau", "S with open edges exchanged.", "[[Scalar; 8]; 8]", "[[0.0; 8]; 8]", self.ldlt.schur.len());
+        list.reserve::<bool>("exchanged", "Which edges are exchanged.", "bool", "false", length);
+        list.reserve::<R>("openings", "Scaled openings: where the next tick starts.", "Scalar", "0.0", length);
+        for name in SCRATCH {
+            list.reserve::<R>(name, "Scratch of the exchanges.", "Scalar", "0.0", length);
+        }
+        list.reserve::<bool>("open", "Scratch of the exchanges.", "bool", "false", length);
+    }
+}

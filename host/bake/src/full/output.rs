@@ -1,0 +1,37 @@
+//! Declared outputs as the arrays that the target evaluates.
+
+use signorini_kernel::full::Share;
+
+use signorini_solve::functional::{Functional, basis_at};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// An output with its arrays.
+#[derive(Debug, Clone)]
+pub(super) enum Output<R> {
+    Flux(Vec<u32>),
+    Force(Vec<u32>),
+    Length(Vec<Share<R, u32>>),
+    Probe(Vec<Share<R, u32>>),
+    Bound,
+}
+
+/// The arrays of what is read off a solution.
+pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> Output<R> {
+    let free = problem.topology.counts.free;
+    let all = |edges: &[usize], first| edges.iter().map(|&edge| (edge - first) as u32).collect();
+    let shares = |weights: &[(usize, f64)], first| {
+        let share =
+            |&(edge, weight)| Share { at: (edge - first) as u32, weight: R::narrow(weight) };
+        weights.iter().map(share).collect()
+    };
+    match functional {
+        Functional::Flux(edges) => Output::Flux(all(edges, 0)),
+        Functional::Force(edges) => Output::Force(all(edges, free)),
+        Functional::Probe(cell, point) => {
+            Output::Probe(shares(&basis_at(problem, *cell, point), 0))
+        }
+        Functional::Length(lengths) => Output::Length(shares(lengths, free)),
+        Functional::Bound => Output::Bound,
+    }
+}

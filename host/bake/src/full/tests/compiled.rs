@@ -1,0 +1,93 @@
+//! The text as the compiler sees it: no warnings, and the bits of the same arrays on the host.
+
+use signorini_kernel::rows;
+
+use super::setting::{scene, unbounded};
+use super::{BENT, Baked, Controller, fixtures, source};
+use crate::compiled::{FIRMWARE, printed};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// Prints the outputs of a cold and a warm tick as bits.
+const MAIN: &str = "
+fn main() {
+    let mut controller = Box::new(Controller::new());
+    for lift in [0.3, -0.2] {
+        let inputs = Inputs { lift, ..Inputs::DEFAULT };
+        let outputs = controller.tick(inputs).map(|answer| answer.outputs.to_array());
+        println!(\"{:?}\", outputs.map(|outputs| outputs.map(Scalar::to_bits)));
+    }
+}
+";
+
+fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u64) -> Result<()> {
+    let (scene, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
+    same_bits_of::<R, WIDTH>(&scene, &problem, bits)
+}
+
+/// Outputs of the module and of the host's controller.
+pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
+    scene: &Scene,
+    problem: &Problem,
+    bits: impl Fn(R) -> u64,
+) -> Result<()> {
+    let baked = Baked::<R>::new(scene, problem)?;
+    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    let lines = [0.3, -0.2].map(|lift| {
+        let defaults = scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
+        let inputs: Vec<R> = std::iter::once(R::narrow(lift)).chain(defaults).collect();
+        let (outputs, _) = controller.tick(&inputs).expect("a tick");
+        format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
+    });
+    assert_eq!(printed(&(source(&baked) + MAIN)), lines.concat());
+    Ok(())
+}
+
+#[test]
+fn triangles_in_f32() -> Result<()> {
+    same_bits::<f32, { rows::TRIANGLES }>(Cells::Triangles, |x| x.to_bits().into())
+}
+
+#[test]
+fn both_kinds_of_cells_in_f64() -> Result<()> {
+    same_bits::<f64, { rows::QUADS }>(Cells::Mixed, f64::to_bits)
+}
+
+#[test]
+fn nonparametric_quads_in_f32() -> Result<()> {
+    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
+    let mesh = fixtures::distorted(grid(3, Cells::Quads));
+    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+    same_bits_of::<f32, { rows::QUADS }>(&scene, &problem, |x| x.to_bits().into())
+}
+
+#[test]
+fn with_a_setting() -> Result<()> {
+    let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
+    let (of_fast, problem) = scene(BENT, Cells::Mixed, fast)?;
+    same_bits_of::<f32, { rows::QUADS }>(&of_fast, &problem, |x| x.to_bits().into())?;
+    let plain = Setting {
+        start: Start::Cold,
+        omega: Omega::Fixed(1.4),
+        sweeps: Some(12),
+        certificate: false,
+        ..Setting::default()
+    };
+    let (of_plain, problem) = scene(unbounded(), Cells::Mixed, plain)?;
+    same_bits_of::<f32, { rows::QUADS }>(&of_plain, &problem, |x| x.to_bits().into())
+}
+
+#[test]
+fn a_firmware_need_not_know_the_model() -> Result<()> {
+    let factored = Setting { solver: Some(Method::Factor), ..Setting::default() };
+    for setting in [Setting::default(), factored] {
+        let (scene, problem) = scene(BENT, Cells::Mixed, setting)?;
+        let text = source(&Baked::<f32>::new(&scene, &problem)?) + FIRMWARE;
+        assert_eq!(printed(&text), "true [true, true, true] OutOfTime true\n", "{setting:?}");
+    }
+    Ok(())
+}

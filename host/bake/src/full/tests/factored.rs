@@ -1,0 +1,233 @@
+//! Ticks by a factor, where sweeps do not end: against the direct solver, on this machine and as text.
+
+use std::path::Path;
+
+use signorini_kernel::rows::TRIANGLES;
+use signorini_kernel::tick::{Ended, Report};
+
+use super::compiled::same_bits_of;
+use super::setting::{scene, unbounded};
+use super::{BENT, Baked, Controller, fixtures, rows, source};
+use crate::choice::{Candidate, Choice, Model};
+use crate::full::sizes;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::{Scene, Target};
+use signorini_scene::setting::{Method, ModelKind, Setting, Start};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+
+fn factor() -> Setting {
+    Setting { solver: Some(Method::Factor), ..Setting::default() }
+}
+
+/// A gap that an input lifts.
+const LIFT: &str = r#"
+[input.lift]
+of = "contact"
+field = "gap"
+pattern = "0.1 - 0.1*x^2"
+default = 0.0
+[output.force]
+kind = "force"
+[output.bound]
+kind = "bound"
+"#;
+
+/// A scene of the catalogue with other text here and there, and with [`LIFT`].
+fn catalogue(name: &str, changes: &[[&str; 2]]) -> Result<(Scene, Problem)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue").join(name);
+    let mut text = std::fs::read_to_string(&path).expect("a scene") + LIFT;
+    for [from, to] in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let mut scene = Scene::parse(&text, &path)?;
+    scene.setting = Some(factor());
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    Ok((scene, problem))
+}
+
+/// Conductivity 10⁶ beside 1, exact.
+fn contrast() -> Result<(Scene, Problem)> {
+    catalogue("j100-tri.toml", &[["\"100\"", "\"1e6\""], ["(100)", "(1e6)"]])
+}
+
+/// T(3, 10⁻³): condition 10⁸. The boundary data are those of another tensor.
+fn anisotropy() -> Result<(Scene, Problem)> {
+    catalogue("t-h-tri.toml", &[["\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\""]])
+}
+
+/// What the host's own direct solver says for this lift.
+fn reference(scene: &Scene, problem: &Problem, lift: f64) -> Result<Solution> {
+    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    scene.inputs[0].default = lift;
+    problem.set_time(&scene, 0.0)?;
+    solve(&scene, &problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+}
+
+fn swept(scene: &Scene, problem: &Problem) -> Result<Report<f64>> {
+    let plain = Scene { setting: None, ..scene.clone() };
+    let baked = Baked::<f64>::new(&plain, problem)?;
+    Ok(Controller::<f64, TRIANGLES>::new(&baked).tick(&[0.0]).expect("a tick").1)
+}
+
+/// Ticks as the direct solver has them, u to `digits` and the bound to a thousandth.
+fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) -> Result<()> {
+    let baked = Baked::<R>::new(scene, problem)?;
+    let mut controller = Controller::<R, TRIANGLES>::new(&baked);
+    for lift in [0.0, 0.0, 1.0, -2.0, 0.5] {
+        let (outputs, report) = controller.tick(&[R::narrow(lift)]).expect("a tick");
+        let solved = controller.solved().expect("a factor");
+        let what = format!("{} {lift}: {solved:?} {report:?}", R::NAME);
+        assert!(report.ended == Ended::Exact && report.sweeps == 0 && solved.rounds <= 8, "{what}");
+        let expected = reference(scene, problem, lift)?;
+        let size = expected.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        let pairs = controller.u().iter().zip(&expected.u);
+        let off = pairs.fold(0.0, |most: f64, (u, expected)| most.max((u.wide() - expected).abs()));
+        assert!(off <= digits * size, "{off:e} of {size}, {what}");
+        let counts = problem.topology.counts;
+        let openings = controller.u()[counts.free..].iter().zip(controller.lower());
+        assert!(openings.clone().all(|(u, lower)| u >= lower), "{what}");
+        let touching = openings.filter(|(u, lower)| u == lower).count();
+        assert_eq!(touching, expected.contact_active, "{what}");
+        // Of the total, rounding may be most in f32: it knows no better than ε of the largest fluxes.
+        let certificate = report.verdict.certificate().expect("a bound");
+        let (gap, bound) = (certificate.gap.wide(), expected.bound.expect("a bound"));
+        assert!((gap / bound.gap - 1.0).abs() < 1e-3, "{gap} {bound:?}, {what}");
+        assert!(certificate.algebraic.wide() <= 0.05 * gap, "{what}");
+        assert!(outputs[1] == certificate.total && outputs[1].wide() >= gap, "{what}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_contrast_of_a_million() -> Result<()> {
+    let (scene, problem) = contrast()?;
+    as_directly_solved::<f64>(&scene, &problem, 1e-9)?;
+    as_directly_solved::<f32>(&scene, &problem, 1e-4)
+}
+
+#[test]
+fn an_anisotropy_of_a_hundred_million() -> Result<()> {
+    let (scene, problem) = anisotropy()?;
+    assert_eq!(swept(&scene, &problem)?.ended, Ended::OutOfSweeps);
+    as_directly_solved::<f64>(&scene, &problem, 1e-7)?;
+    // In f32 the element matrices are those of another problem.
+    let error = Baked::<f32>::new(&scene, &problem).expect_err("refused").to_string();
+    assert!(error.contains("too oblique"), "{error}");
+    Ok(())
+}
+
+#[test]
+fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
+    let steps: [&[f64]; 3] = [
+        &[0.3, 0.7, 0.0, 0.0, 0.0, 0.0],
+        &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
+        &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
+    ];
+    let text = format!("{BENT}[setting]\nsolver = \"factor\"\n");
+    for cells in [Cells::Quads, Cells::Mixed] {
+        let (scene, problem) = fixtures::on_grid(&text, grid(5, cells))?;
+        super::ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    }
+    let (scene, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
+    super::ticks::<f64, TRIANGLES>(&scene, &problem, &steps, 1e-7)?;
+    super::ticks::<f32, TRIANGLES>(&scene, &problem, &steps, 1e-3)
+}
+
+#[test]
+fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
+    let (of_factor, problem) = scene(BENT, Cells::Mixed, factor())?;
+    same_bits_of::<f32, { rows::QUADS }>(&of_factor, &problem, |x| x.to_bits().into())?;
+    let plain = Setting { certificate: false, start: Start::Cold, ..factor() };
+    let (of_plain, problem) = scene(unbounded(), Cells::Triangles, plain)?;
+    same_bits_of::<f64, TRIANGLES>(&of_plain, &problem, f64::to_bits)
+}
+
+#[test]
+fn a_module_without_contact() -> Result<()> {
+    let text = unbounded().replace(
+        "kind = \"contact\"\ngap = \"x^3 - 0.3\"\nflux = \"-0.5*x^2\"",
+        "kind = \"dirichlet\"\nvalue = \"x\"",
+    );
+    let text = text.replace("field = \"gap\"", "field = \"value\"");
+    let text = text
+        .replace("[input.rain]\nof = \"contact\"\nfield = \"flux\"\npattern = \"-1 - x\"\n", "");
+    let text =
+        text.replace("[output.force]\nkind = \"force\"\n[output.length]\nkind = \"length\"\n", "");
+    let setting = Setting { certificate: false, ..factor() };
+    let (scene, problem) = scene(&text, Cells::Triangles, setting)?;
+    same_bits_of::<f32, TRIANGLES>(&scene, &problem, |x| x.to_bits().into())
+}
+
+#[test]
+fn the_factor_is_counted() -> Result<()> {
+    let (of_factor, problem) = scene(BENT, Cells::Triangles, factor())?;
+    let (of_sweeps, _) = scene(BENT, Cells::Triangles, Setting { solver: None, ..factor() })?;
+    let (with, without) =
+        (Baked::<f32>::new(&of_factor, &problem)?, Baked::<f32>::new(&of_sweeps, &problem)?);
+    let (counts, entries) = (problem.topology.counts, with.entries().expect("a factor"));
+    // Every free unknown but the last few is coupled with another one.
+    assert!(entries > counts.free && without.entries().is_none());
+    // Eight contact edges: one block, S and tableau.
+    assert_eq!(counts.contact, 8);
+    let flash = entries * 6 + counts.free * (2 + 4) + (counts.free + 1) * 4 + 256 + 8 * 4 + 8;
+    assert_eq!(sizes(&with).flash - sizes(&without).flash, flash);
+    assert_eq!(sizes(&with).ram - sizes(&without).ram, 256 + 8 * (6 * 4 + 2));
+    assert!(source(&with).contains("static ENTRIES") && !source(&without).contains("Factor"));
+    Ok(())
+}
+
+/// Entries of the factor of a candidate.
+fn entries<R: Scalar>(candidate: &Candidate<R>) -> Option<usize> {
+    match &candidate.model {
+        Model::Full(baked) => baked.entries(),
+        Model::Condensed(_) => None,
+    }
+}
+
+#[test]
+fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
+    let (asked, problem) = anisotropy()?;
+    let with = |solver| {
+        let setting = Setting { solver, ..Setting::default() };
+        Scene { setting: Some(setting), ..asked.clone() }
+    };
+    let choose = |scene: &Scene| Choice::<f64>::new(scene, &problem, Some(ModelKind::Full), false);
+    let choice = choose(&with(None))?;
+    let [factored, swept] = &choice.candidates[..] else { panic!("two models") };
+    assert!(choice.chosen == 0 && entries(factored).is_some() && entries(swept).is_none());
+    assert!(factored.trial.settled && !swept.trial.settled);
+    assert!(factored.trial.rounds[0] > 0 && factored.trial.sweeps == [0, 0]);
+    assert!(factored.needs.flash > swept.needs.flash && factored.needs.ram > swept.needs.ram);
+    for (solver, expected) in [(Method::Sweeps, false), (Method::Factor, true)] {
+        let choice = choose(&with(Some(solver)))?;
+        let [only] = &choice.candidates[..] else { panic!("one model") };
+        assert_eq!(entries(only).is_some(), expected, "{solver:?}");
+    }
+    // Where there is no room for the factor.
+    let flash = Some(factored.needs.flash - 1);
+    let target = Target { flash, ram: None, tick: None, clock: None };
+    let choice = choose(&Scene { target: Some(target), ..with(None) })?;
+    assert!(entries(choice.candidate()).is_none());
+    Ok(())
+}
+
+#[test]
+fn bake_takes_the_one_that_costs_less() -> Result<()> {
+    let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
+    for (scene, problem) in [coarse, super::standard("strip.toml")?] {
+        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Full), false)?;
+        let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
+        let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
+        assert!(
+            first <= second && choice.candidates.iter().all(|of| of.trial.settled),
+            "{costs:?}"
+        );
+        assert!(entries(choice.candidate()).is_some(), "{costs:?}");
+    }
+    Ok(())
+}

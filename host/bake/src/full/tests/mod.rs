@@ -1,0 +1,235 @@
+//! Baked arrays through the kernel, against the solver on the same scene.
+
+mod compiled;
+mod factored;
+mod scale;
+mod setting;
+
+use std::path::Path;
+
+use signorini_kernel::rows;
+use signorini_kernel::tick::Limits;
+
+use super::{Baked, Controller, source};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_solve::fixtures;
+use signorini_solve::functional::wanted;
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, solve};
+
+/// A gap and a Dirichlet value that inputs bend, a source, given fluxes, varying A and a varying law.
+const BENT: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2 + x", "0.5", "1"]
+[source]
+f = "-1 - x"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "x^2"
+[boundary.left]
+kind = "robin"
+coefficient = "2 + y"
+ambient = "y"
+[boundary.right]
+kind = "neumann"
+flux = "1 - y"
+[boundary.contact]
+kind = "contact"
+gap = "x^3 - 0.3"
+flux = "-0.5*x^2"
+[input.lift]
+of = "contact"
+field = "gap"
+pattern = "cos(3*x)/5"
+default = 0.3
+[input.level]
+of = "dirichlet"
+field = "value"
+pattern = "1 + x^2/2"
+default = 0.7
+[input.rain]
+of = "contact"
+field = "flux"
+pattern = "-1 - x"
+[input.heat]
+of = "source"
+field = "f"
+pattern = "1 + y"
+[input.inflow]
+of = "right"
+field = "flux"
+pattern = "y^2"
+[input.air]
+of = "left"
+field = "ambient"
+pattern = "1 - y"
+[output.flux]
+kind = "flux"
+of = "dirichlet"
+[output.force]
+kind = "force"
+[output.length]
+kind = "length"
+[output.probe]
+kind = "probe"
+at = [0.1, 0.4]
+[output.bound]
+kind = "bound"
+"#;
+
+fn standard(name: &str) -> Result<(Scene, Problem)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
+    let scene = Scene::read(&path)?;
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    Ok((scene, problem))
+}
+
+/// As far down as rounding lets the algebraic part go.
+fn to_the_end<R: Scalar>() -> Limits<R> {
+    Limits { error: R::ZERO, share: R::narrow(1e-9), sweeps: 200_000 }
+}
+
+fn ticks<R: Scalar, const WIDTH: usize>(
+    scene: &Scene,
+    problem: &Problem,
+    steps: &[&[f64]],
+    tolerance: f64,
+) -> Result<()> {
+    let baked = Baked::<R>::new(scene, problem)?;
+    let mut warm = Controller::<R, WIDTH>::new(&baked);
+    for values in steps {
+        let inputs: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
+        let (found, report) = warm.tick_within(&inputs, to_the_end()).expect("a tick");
+        let cold = Controller::<R, WIDTH>::new(&baked).tick_within(&inputs, to_the_end());
+        let (cold, _) = cold.expect("a cold tick");
+        let (mut scene, mut problem) = (scene.clone(), problem.clone());
+        for (input, value) in scene.inputs.iter_mut().zip(*values) {
+            input.default = *value;
+        }
+        problem.set_time(&scene, 0.0)?;
+        let solution = solve(&scene, &problem, &Options::default())?;
+        let expected = outputs(&scene, &problem, &solution)?;
+        let fluxes = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
+        let wanted = wanted(&scene);
+        let names = wanted.iter().map(|output| &output.name.value);
+        for ((name, found), cold) in
+            names.zip(&found).zip(&cold).filter(|((name, _), _)| *name != "bound")
+        {
+            let expected = expected[name].expect("a value");
+            let size = expected.abs().max(1e-3 * fluxes);
+            for value in [found.wide(), cold.wide()] {
+                let off = (value - expected).abs();
+                assert!(off <= tolerance * size, "{name} {values:?}: {value}, not {expected}");
+            }
+        }
+        // The gap is that of the solver; the oscillation of a sum is at most the sum of oscillations.
+        let (of_tick, bound) = (report.verdict.certificate().expect("a bound"), solution.bound);
+        let bound = bound.expect("a bound");
+        let off = (of_tick.gap.wide() - bound.gap).abs();
+        assert!(off <= 10.0 * tolerance * bound.gap, "{values:?}: {} {}", of_tick.gap, bound.gap);
+        assert!(of_tick.oscillation.wide() >= bound.oscillation * (1.0 - 1e-6));
+    }
+    Ok(())
+}
+
+#[test]
+fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
+    let steps: [&[f64]; 3] = [
+        &[0.3, 0.7, 0.0, 0.0, 0.0, 0.0],
+        &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
+        &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
+    ];
+    let (scene, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
+    ticks::<f64, { rows::TRIANGLES }>(&scene, &problem, &steps, 1e-7)?;
+    for cells in [Cells::Quads, Cells::Mixed] {
+        let (scene, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
+        ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    }
+    Ok(())
+}
+
+/// K and the values at vertices are the element's: both come from the host's arrays.
+#[test]
+fn nonparametric_quads() -> Result<()> {
+    let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
+    let mesh = fixtures::distorted(grid(5, Cells::Quads));
+    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+    let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
+    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    let baked = Baked::<f64>::new(&scene, &problem)?;
+    assert_eq!(baked.bends.len(), problem.mesh.quads.len());
+    assert!(source(&baked).contains("bends: &QUAD_BENDS"));
+    Ok(())
+}
+
+#[test]
+fn standard_scenes_in_both_scalars() -> Result<()> {
+    let (scene, problem) = standard("strip.toml")?;
+    let steps: [&[f64]; 2] = [&[0.0], &[0.1]];
+    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    ticks::<f32, { rows::QUADS }>(&scene, &problem, &steps, 1e-4)
+}
+
+#[test]
+fn a_load_that_depends_on_time_is_refused_by_its_key() -> Result<()> {
+    let text = BENT.replace("flux = \"1 - y\"", "flux = \"1 - t\"");
+    let (scene, problem) = fixtures::on_grid(&text, grid(2, Cells::Triangles))?;
+    let error = Baked::<f64>::new(&scene, &problem).expect_err("no clock");
+    assert!(error.to_string().contains("boundary.right.flux"), "{error}");
+    Ok(())
+}
+
+#[test]
+fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
+    let text = BENT.replace("[boundary.dirichlet]", "[boundary.right]").replace(
+        "[boundary.right]\nkind = \"neumann\"\nflux = \"1 - y\"",
+        "[boundary.dirichlet]\nkind = \"neumann\"\nflux = \"1 - y\"",
+    );
+    let text = text
+        .replace("of = \"right\"", "of = \"top\"")
+        .replace("of = \"dirichlet\"", "of = \"right\"");
+    let text = text.replace("of = \"top\"", "of = \"dirichlet\"");
+    let (scene, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
+    let baked = Baked::<f64>::new(&scene, &problem)?;
+    assert_eq!(baked.corners.len(), 1);
+    let mut controller = Controller::<f64, { rows::TRIANGLES }>::new(&baked);
+    let (outputs, _) =
+        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+    assert!(outputs[4].is_finite());
+    // u_D = 1 − 1.5 below ψ = 0.7 − 0.2 at (1, 0).
+    let (outputs, report) =
+        controller.tick_within(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+    assert!(outputs[4].is_infinite() && report.verdict.certificate().is_none());
+    assert!(controller.tick_within(&[f64::NAN; 6], to_the_end()).is_err());
+    let (outputs, _) =
+        controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
+    assert!(outputs[4].is_finite());
+    Ok(())
+}
+
+#[test]
+fn a_part_that_contact_alone_holds_is_refused() -> Result<()> {
+    let (scene, problem) = standard("membrane.toml")?;
+    let error = Baked::<f32>::new(&scene, &problem).expect_err("no way out");
+    assert!(error.to_string().contains("contact alone holds"), "{error}");
+    Ok(())
+}
+
+#[test]
+fn the_text_holds_every_number_once_more() -> Result<()> {
+    let (scene, problem) = standard("strip.toml")?;
+    let baked = Baked::<f32>::new(&scene, &problem)?;
+    let text = source(&baked);
+    for number in baked.stiffness_of_triangles.iter().flatten() {
+        assert!(text.contains(&format!("{number:?}")), "{number}");
+    }
+    assert!(text.contains("features = [\"triangles\", \"quads\", \"contact\", \"curved\"]"));
+    assert!(!text.contains("4294967295") && !text.contains("inf") && !text.contains("NaN"));
+    Ok(())
+}

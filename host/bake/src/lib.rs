@@ -1,0 +1,29 @@
+//! A scene as the Rust source of its firmware: static data and a `Controller` for the kernel.
+//!
+//! ```text
+//!   Scene, Problem ─┬─► superposition: loads as base + Σ input · pattern ─► full ──────┬─► source
+//!                   └─► condense: a dense problem on contact edges ───────► condensed ─┘  face, text
+//! ```
+//! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
+//! `Controller`.
+
+pub mod budget;
+pub mod choice;
+#[cfg(any(test, feature = "fixtures"))]
+pub mod compiled;
+pub mod condensed;
+mod controller;
+pub mod costs;
+pub mod dense;
+pub mod engine;
+pub mod explain;
+pub mod export;
+pub mod face;
+pub mod full;
+mod item;
+pub mod range;
+pub mod setting;
+pub mod superposition;
+pub mod text;
+pub mod tick;
+pub mod trial;

@@ -1,0 +1,63 @@
+//! Loads and boundary data as a sum over inputs: base + Σ value · pattern, each part by itself.
+//!
+//! All data are linear in the inputs, so each part is what the rest of the host computes for a scene in
+//! which only that part is left.
+
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::term::{Term, left_with, refuse_time};
+use signorini_solve::certify::Data;
+use signorini_solve::certify::curved::{Curved, curved};
+use signorini_solve::certify::ends::Ends;
+use signorini_solve::certify::robin::{RobinPoints, robin};
+use signorini_solve::problem::{Loads, Problem};
+
+/// The data of one part.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// Integrals and means.
+    pub loads: Loads,
+    /// ψ and u_D at the ends of edges.
+    pub ends: Ends,
+    /// Edges on which ψ or u_D is not affine.
+    pub curved: Vec<Curved>,
+    /// h and u_ext along the transfer edges.
+    pub transfer: Vec<RobinPoints>,
+    /// √Σ osc², and what is left out of ψ and u_D.
+    pub oscillation: f64,
+    /// Whether these data allow for a bound.
+    pub has_bound: bool,
+}
+
+/// The base and every input's part, in the order of the terms.
+///
+/// # Errors
+/// A load that depends on t; data that are not finite.
+pub fn parts(scene: &Scene, problem: &Problem) -> Result<Vec<Part>> {
+    refuse_time(scene)?;
+    (0..=scene.inputs.len()).map(|term| Part::new(scene, problem, term)).collect()
+}
+
+impl Part {
+    fn new(scene: &Scene, problem: &Problem, term: Term) -> Result<Self> {
+        let (scene, problem) = (&left_with(scene, &[term]), &mut problem.clone());
+        problem.loads = Loads::at_time(scene, problem, 0.0)?;
+        let data = Data::<f64>::new(scene, problem)?;
+        Ok(Self {
+            ends: Ends::at_time(scene, problem, 0.0)?,
+            curved: curved(scene, problem, 0.0)?,
+            transfer: robin(scene, problem, 0.0)?,
+            oscillation: data.oscillation(),
+            has_bound: data.has_bound(),
+            loads: std::mem::take(&mut problem.loads),
+        })
+    }
+}
+
+/// The curved edges where both terms act together, one unit of each.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn curved_pair(scene: &Scene, problem: &Problem, pair: [Term; 2]) -> Result<Vec<Curved>> {
+    curved(&left_with(scene, &pair), problem, 0.0)
+}

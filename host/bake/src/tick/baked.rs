@@ -1,0 +1,89 @@
+//! Ticks of the controller that `bake` writes for a scene, with the bits that firmware gets.
+//!
+//! Model, solver, scalar, setting, first state and what stays from tick to tick are the module's. What the module
+//! does not say, the contact force and length of a scene with other outputs and the true error, is read off its
+//! state. A tick that the module refuses leaves its state and the answer before, as on a device.
+
+#[cfg(test)]
+mod tests;
+
+use super::{Moment, Tick};
+use crate::engine::{self, Answer, Engine};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::exact::distance;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::ScalarKind;
+
+/// Plays `moments` through the controller of `scene`, calling `done` after each; also the controller's name in
+/// a few words. `asked` is a scalar instead of that of the scene's setting.
+///
+/// # Errors
+/// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
+pub fn replay(
+    scene: &Scene,
+    problem: &Problem,
+    moments: &[Moment],
+    asked: Option<ScalarKind>,
+    mut done: impl FnMut(&Tick),
+) -> Result<(String, Vec<Tick>)> {
+    engine::baked(scene, problem, asked, |engine, name| {
+        let (mut scene, mut problem) = (scene.clone(), problem.clone());
+        let ticks = moments.iter().map(|moment| {
+            moment.set(&mut scene, &mut problem)?;
+            let tick = tick(&scene, &problem, engine)?;
+            done(&tick);
+            Ok(tick)
+        });
+        Ok((name.to_owned(), ticks.collect::<Result<_>>()?))
+    })
+}
+
+fn tick(scene: &Scene, problem: &Problem, engine: &mut dyn Engine) -> Result<Tick> {
+    let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    match engine.tick(&inputs) {
+        Ok(_) => read_off(scene, problem, engine.answer(problem)?),
+        Err(_) => Ok(refused(scene, problem)),
+    }
+}
+
+/// A tick whose inputs or answer the controller's scalar cannot hold.
+fn refused(scene: &Scene, problem: &Problem) -> Tick {
+    Tick {
+        time: problem.time,
+        status: "not-finite",
+        sweeps: 0,
+        contact_force: None,
+        contact_length: None,
+        bound: None,
+        combined: None,
+        outputs: vec![None; scene.outputs.len()],
+    }
+}
+
+fn read_off(scene: &Scene, problem: &Problem, answer: Answer) -> Result<Tick> {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let bound = answer.bound.filter(|bound| bound.total.is_finite());
+    let combined = match (&scene.exact, bound) {
+        (Some(exact), Some(_)) => {
+            Some(distance(scene, exact, problem, &answer.certified.admissible())?.combined)
+        }
+        _ => None,
+    };
+    // Without declared outputs the module's are these two.
+    let [force, length] = match (scene.outputs.is_empty(), &answer.outputs[..]) {
+        (true, &[force, length]) => [force, length],
+        _ => [answer.force, answer.length(problem)],
+    };
+    let outputs = answer.outputs.iter().take(scene.outputs.len());
+    Ok(Tick {
+        time: problem.time,
+        status: answer.ended,
+        sweeps: answer.sweeps,
+        contact_force: finite(force),
+        contact_length: finite(length),
+        bound,
+        combined: combined.and_then(finite),
+        outputs: outputs.map(|&value| finite(value)).collect(),
+    })
+}

@@ -1,0 +1,52 @@
+//! A start from a coarser mesh: solved there first, and brought to the fine one.
+
+use signorini_kernel::element::crouzeix_raviart;
+use signorini_kernel::prolongation::Origin;
+
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::search::{Place, Search};
+use signorini_solve::solve::{Options, SolverKind, solve};
+
+/// Means of u over the edges of `coarse`.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solved(scene: &Scene, coarse: &Problem) -> Result<Vec<f64>> {
+    let options = Options { solver: SolverKind::Auto, ..Options::default() };
+    Ok(solve(scene, coarse, &options)?.u)
+}
+
+/// For every edge of `fine` the sides of the coarse cell that its middle lies in.
+///
+/// # Errors
+/// A coarse mesh without cells.
+pub fn origins<R: Scalar>(fine: &Problem, coarse: &Problem) -> Result<Vec<Origin<R, u32>>> {
+    let search = Search::new(coarse);
+    (0..fine.ends.len())
+        .map(|edge| {
+            let [a, b] = fine.segment(edge);
+            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+            origin(coarse, &search, middle)
+        })
+        .collect()
+}
+
+/// The sides of the cell at a place, with the values of their basis functions there.
+fn origin<R: Scalar>(coarse: &Problem, search: &Search, point: [f64; 2]) -> Result<Origin<R, u32>> {
+    let Some(Place { cell, reference }) = search.find(point) else {
+        return Err(InputError::new("--coarse: the mesh has no cells").into());
+    };
+    let (cell, topology) = (cell as usize, &coarse.topology);
+    let Some(quad) = cell.checked_sub(topology.of_triangles.len()) else {
+        let [a, b, c] = topology.of_triangles[cell];
+        let [p, q, r] = crouzeix_raviart::basis(reference).map(R::narrow);
+        return Ok(Origin { edges: [a, b, c, a], weights: [p, q, r, R::ZERO] });
+    };
+    let corners = coarse.mesh.quads[quad].map(|vertex| coarse.mesh.vertices[vertex as usize]);
+    let [x, y, _] = reference;
+    let weights = coarse.element.basis(corners, [x, y]).map(R::narrow);
+    Ok(Origin { edges: topology.of_quads[quad], weights })
+}

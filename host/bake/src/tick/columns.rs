@@ -1,0 +1,31 @@
+//! `ticks.csv`: one line a tick.
+
+use super::Tick;
+use signorini_scene::scene::Scene;
+
+/// The text of `ticks.csv`:
+/// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
+/// declared output; the combined error only where the scene knows its exact solution. A value that
+/// does not exist is an empty field.
+pub fn ticks_csv(scene: &Scene, ticks: &[Tick]) -> csv::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
+    let combined = scene.exact.iter().map(|_| "error_combined");
+    let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
+    writer.write_record(fixed.into_iter().chain(combined).chain(outputs))?;
+    for tick in ticks {
+        let mut fields = vec![digits(tick.time), tick.status.to_owned(), tick.sweeps.to_string()];
+        let bound = tick.bound.map(|bound| bound.total);
+        let combined = scene.exact.iter().map(|_| tick.combined);
+        let numbers = [tick.contact_force, tick.contact_length, bound].into_iter().chain(combined);
+        let numbers = numbers.chain(tick.outputs.iter().copied());
+        fields.extend(numbers.map(|number| number.map_or(String::new(), digits)));
+        writer.write_record(fields)?;
+    }
+    writer.into_inner().map_err(|error| error.into_error().into())
+}
+
+/// The shortest text that reads back as the same number; −0 is 0.
+fn digits(x: f64) -> String {
+    format!("{:?}", x + 0.0)
+}

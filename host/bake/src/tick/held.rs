@@ -1,0 +1,135 @@
+//! The kernel's tick on a scene whose parts D or R holds: what a device would do.
+
+use signorini_kernel::prolongation::prolong;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::tick::{Data, Deadline, Memory, Report, Tick};
+use signorini_kernel::{Error as KernelError, Relaxation, contact};
+
+use super::player::Answer;
+use super::{Budget, coarse};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::{self, Certifier, ErrorBound};
+use signorini_solve::problem::{Assembled, Parts, Problem};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{ended_name, prefers_factor, unfit};
+
+/// Answers for the loads of a problem, tick after tick.
+pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
+
+/// Lends an engine to `play` for as long as it takes: its memory lives here. Its first tick starts from
+/// the solution on `coarse`, the same problem on a coarser mesh, where there is one; where there is none, on a
+/// large mesh and without a budget of sweeps, from that of a factor.
+///
+/// # Errors
+/// Numbers that the scalar type cannot hold.
+pub fn with<R: Scalar, const WIDTH: usize, T>(
+    scene: &Scene,
+    problem: &Problem,
+    parts: &Parts,
+    coarse: Option<&Problem>,
+    budget: &Budget,
+    play: impl FnOnce(&mut Engine) -> T,
+) -> Result<T> {
+    let unfit = unfit::<R>(scene);
+    let fixed = Assembled::<R>::new(problem).map_err(&unfit)?;
+    let certifier = Certifier::new(scene, problem, parts, &fixed).map_err(&unfit)?;
+    let mut store = Store::<R, WIDTH>::new(problem, &fixed);
+    if let Some(coarse) = coarse {
+        let means: Vec<R> = coarse::solved(scene, coarse)?.into_iter().map(R::narrow).collect();
+        let origins = coarse::origins(problem, coarse)?;
+        prolong(&origins, &means, &mut store.u).map_err(&unfit)?;
+    } else if budget.is_open() && prefers_factor(problem) {
+        // Cold sweeps on a large mesh would take longer than all ticks after them.
+        let means = coarse::solved(scene, problem)?.into_iter().map(R::narrow);
+        store.u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
+    }
+    let mut tick = store.tick(&certifier, &fixed).map_err(&unfit)?;
+    let mut moving = fixed.clone();
+    Ok(play(&mut |scene, problem| {
+        moving.set_loads(&problem.loads).map_err(&unfit)?;
+        let data = certify::Data::<R>::new(scene, problem)?;
+        let report = advance(&mut tick, &moving, &data, budget).map_err(&unfit)?;
+        let mut answer = answer(problem, &moving, &tick, &report);
+        answer.bound = answer.bound.filter(|_| data.has_bound());
+        Ok(answer)
+    }))
+}
+
+/// Memory of a tick, owned.
+struct Store<R, const WIDTH: usize> {
+    rows: Vec<Row<R, u32, WIDTH>>,
+    load: Vec<R>,
+    active: Vec<bool>,
+    vertices: Vec<R>,
+    bubbles: Vec<R>,
+    tau: Vec<R>,
+    u: Vec<R>,
+}
+
+impl<R: Scalar, const WIDTH: usize> Store<R, WIDTH> {
+    fn new(problem: &Problem, assembled: &Assembled<R>) -> Self {
+        let counts = problem.topology.counts;
+        Self {
+            rows: vec![Row::EMPTY; counts.unknowns()],
+            load: vec![R::ZERO; counts.unknowns()],
+            active: vec![false; counts.contact],
+            vertices: vec![R::ZERO; problem.mesh.vertices.len()],
+            bubbles: vec![R::ZERO; counts.edges()],
+            tau: vec![R::ZERO; counts.edges()],
+            u: assembled.start(),
+        }
+    }
+
+    fn tick<'a>(
+        &'a mut self,
+        certifier: &'a Certifier<R>,
+        assembled: &'a Assembled<R>,
+    ) -> std::result::Result<Tick<'a, R, u32, WIDTH>, KernelError> {
+        let ground = certifier.ground(assembled)?;
+        let Self { rows, load, active, vertices, bubbles, tau, u } = self;
+        let rows = Rows::new(&ground.edges, rows)?;
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
+        Tick::new(ground, memory, Relaxation::for_unknowns(ground.edges.counts().unknowns()))
+    }
+}
+
+fn advance<R: Scalar, const WIDTH: usize>(
+    tick: &mut Tick<R, u32, WIDTH>,
+    assembled: &Assembled<R>,
+    data: &certify::Data<R>,
+    budget: &Budget,
+) -> std::result::Result<Report<R>, KernelError> {
+    let given = data.given(assembled)?;
+    let (lower, dirichlet) = (assembled.lower(), assembled.dirichlet());
+    let mut running = tick.begin(Data { given, lower, dirichlet })?;
+    running.advance(budget.limits(), &mut Deadline::never())
+}
+
+fn answer<R: Scalar, const WIDTH: usize>(
+    problem: &Problem,
+    assembled: &Assembled<R>,
+    tick: &Tick<R, u32, WIDTH>,
+    report: &Report<R>,
+) -> Answer {
+    let (counts, lower) = (problem.topology.counts, assembled.lower());
+    let touching =
+        (0..counts.contact).filter(|&at| contact::is_active(counts, lower, tick.u(), at));
+    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
+    let tau = wide(tick.tau());
+    Answer {
+        status: ended_name(report.ended),
+        sweeps: report.sweeps,
+        u: wide(tick.u()),
+        flux: tau.clone(),
+        contact_force: report.force.wide(),
+        contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
+        bound: report.verdict.certificate().map(ErrorBound::new),
+        certified: certify::Answer {
+            vertices: wide(tick.vertices()),
+            bubbles: wide(tick.bubbles()),
+            tau,
+            indicators: Vec::new(),
+        },
+    }
+}

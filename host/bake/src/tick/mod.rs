@@ -1,0 +1,232 @@
+//! A scene over time: tick after tick, each started from the answer of the one before.
+//!
+//! ```text
+//!   schedule or log ─► moments (t, inputs) ─► loads at t ─► player ─► Tick ─► ticks.csv, ticks.svg
+//! ```
+//! Mesh, numbering and A are set up once; between ticks only loads, gaps and boundary values change,
+//! which is what happens on a device. The player is the kernel's own tick ([`held`]) wherever D or R holds
+//! every part, and otherwise a warm solve ([`player`]). Where the numbers of the first moment are far from 1 they play
+//! in other units, and all answers are in the scene's.
+
+pub mod baked;
+pub mod coarse;
+pub mod columns;
+pub mod held;
+pub mod log;
+mod picture;
+pub mod player;
+pub mod schedule;
+
+pub use picture::picture;
+
+use signorini_kernel::rows;
+use signorini_kernel::solver::Settings;
+use signorini_kernel::tick::Limits;
+
+use player::{Answer, Player};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+use signorini_solve::certify::ErrorBound;
+use signorini_solve::certify::exact::distance;
+use signorini_solve::outputs::{Reading, declared};
+use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, ScalarKind, choose_units, in_units};
+
+/// When a tick happens, and what the inputs are then.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// t
+    pub time: f64,
+    /// Positions in `scene.inputs` with their values; inputs that are not listed keep theirs.
+    pub inputs: Vec<(usize, f64)>,
+}
+
+impl Moment {
+    /// Brings a scene and its data to this moment.
+    fn set(&self, scene: &mut Scene, problem: &mut Problem) -> Result<()> {
+        for &(input, value) in &self.inputs {
+            scene.inputs[input].default = value;
+        }
+        problem.set_time(scene, self.time).map_err(|error| error.at_time(self.time))
+    }
+}
+
+/// What a tick came to. Numbers that do not exist or are not finite are `None`.
+#[derive(Debug, Clone)]
+pub struct Tick {
+    /// t
+    pub time: f64,
+    /// How its solve ended.
+    pub status: &'static str,
+    /// Sweeps spent.
+    pub sweeps: u32,
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
+    pub contact_force: Option<f64>,
+    /// Σ|E| over the active contact edges.
+    pub contact_length: Option<f64>,
+    /// The bound on the error.
+    pub bound: Option<ErrorBound>,
+    /// The error that it bounds, where the exact solution is known.
+    pub combined: Option<f64>,
+    /// The declared outputs, in the order of the scene.
+    pub outputs: Vec<Option<f64>>,
+}
+
+impl Tick {
+    /// Whether the solve broke down; one that its budget cut off did not.
+    pub fn failed(&self) -> bool {
+        matches!(self.status, "stalled" | "not-finite")
+    }
+
+    /// From `units` to those that the scene had before.
+    fn rescale(&mut self, scene: &Scene, units: &Units) {
+        let times = |number: &mut Option<f64>, unit: f64| {
+            *number = number.map(|x| x * unit).filter(|x| x.is_finite());
+        };
+        times(&mut self.contact_force, units.flux());
+        times(&mut self.combined, units.energy());
+        self.bound = self.bound.map(|bound| bound.times(units.energy()));
+        for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
+            times(output, units.of_output(of.quantity));
+        }
+    }
+}
+
+/// What a tick may take.
+#[derive(Debug, Clone, Copy)]
+pub struct Budget {
+    /// Scalar type.
+    pub scalar: ScalarKind,
+    /// Most sweeps of one tick.
+    pub sweeps: u32,
+    /// The certified error that is small enough; 0: as far as sweeps buy anything.
+    pub error: f64,
+}
+
+impl Budget {
+    /// Whether nobody has asked for a number of sweeps.
+    fn is_open(&self) -> bool {
+        self.sweeps == Options::default().max_sweeps
+    }
+
+    fn settings<R: Scalar>(&self) -> Settings<R> {
+        let options =
+            Options { scalar: self.scalar, max_sweeps: self.sweeps, ..Options::default() };
+        options.settings()
+    }
+
+    fn limits<R: Scalar>(&self) -> Limits<R> {
+        Limits { error: R::narrow(self.error), sweeps: self.sweeps, ..Limits::default() }
+    }
+}
+
+/// Solves `scene` at every moment; calls `done` after each. The first tick starts from the solution on
+/// `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
+/// that of a factor.
+///
+/// # Errors
+/// Data that are not admissible at some time, with that time; numbers that the scalar type cannot
+/// hold; a probe outside the mesh.
+pub fn play(
+    scene: &Scene,
+    problem: &Problem,
+    coarse: Option<&Problem>,
+    moments: &[Moment],
+    budget: &Budget,
+    done: impl FnMut(&Tick),
+) -> Result<Vec<Tick>> {
+    match budget.scalar {
+        ScalarKind::F64 => play_in::<f64>(scene, problem, coarse, moments, budget, done),
+        ScalarKind::F32 => play_in::<f32>(scene, problem, coarse, moments, budget, done),
+    }
+}
+
+fn play_in<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    coarse: Option<&Problem>,
+    moments: &[Moment],
+    budget: &Budget,
+    mut done: impl FnMut(&Tick),
+) -> Result<Vec<Tick>> {
+    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    if let Some(first) = moments.first() {
+        first.set(&mut scene, &mut problem)?;
+    }
+    let mut coarse = coarse.cloned();
+    if let Some(coarse) = &mut coarse {
+        coarse.set_time(&scene, problem.time)?;
+    }
+    let units = choose_units(&scene, &problem)?;
+    if units != Units::default() {
+        let own = scene.clone();
+        (scene, problem) = in_units(&own, &problem, &units)?;
+        if let Some(coarse) = &mut coarse {
+            *coarse = in_units(&own, coarse, &units)?.1;
+        }
+    }
+    let (scene, problem, coarse) = (&scene, &problem, coarse.as_ref());
+    let budget = &Budget { error: budget.error / units.energy(), ..*budget };
+    let mut done = |tick: &mut Tick| {
+        tick.rescale(scene, &units);
+        done(tick);
+    };
+    let parts = Parts::examine(scene, problem)?;
+    let mut all = |engine: &mut held::Engine| {
+        through(scene, problem, moments, budget.scalar, engine, &mut done)
+    };
+    if parts.counts.contact + parts.counts.floating > 0 {
+        let mut player = Player::<R>::new(scene, problem, budget)?;
+        all(&mut |_, problem| player.tick(problem))
+    } else if problem.mesh.quads.is_empty() {
+        held::with::<R, { rows::TRIANGLES }, _>(scene, problem, &parts, coarse, budget, all)?
+    } else {
+        held::with::<R, { rows::QUADS }, _>(scene, problem, &parts, coarse, budget, all)?
+    }
+}
+
+/// Goes through the moments.
+fn through(
+    scene: &Scene,
+    problem: &Problem,
+    moments: &[Moment],
+    scalar: ScalarKind,
+    engine: &mut held::Engine,
+    done: &mut impl FnMut(&mut Tick),
+) -> Result<Vec<Tick>> {
+    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    let ticks = moments.iter().map(|moment| {
+        moment.set(&mut scene, &mut problem)?;
+        let answer = engine(&scene, &problem).map_err(|error| error.at_time(moment.time))?;
+        let mut tick = read_off(&scene, &problem, scalar, answer)?;
+        done(&mut tick);
+        Ok(tick)
+    });
+    ticks.collect()
+}
+
+fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tick> {
+    let Answer { u, flux, .. } = &answer;
+    let bound = answer.bound.filter(|bound| bound.total.is_finite());
+    let units = Units::default();
+    let reading = Reading { scalar, u, flux, units, bound: bound.map(|bound| bound.total) };
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let combined = match (&scene.exact, bound) {
+        (Some(exact), Some(_)) => {
+            Some(distance(scene, exact, problem, &answer.certified.admissible())?.combined)
+        }
+        _ => None,
+    };
+    Ok(Tick {
+        time: problem.time,
+        status: answer.status,
+        sweeps: answer.sweeps,
+        contact_force: finite(answer.contact_force),
+        contact_length: finite(answer.contact_length),
+        bound,
+        combined: combined.and_then(finite),
+        outputs: declared(scene, problem, reading)?,
+    })
+}

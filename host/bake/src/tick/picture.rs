@@ -1,0 +1,32 @@
+//! The ticks as the report draws them: one diagram a quantity, all over the same time.
+
+use super::Tick;
+use signorini_draw::{Curve, History, Strip};
+use signorini_scene::scene::Scene;
+
+/// Collects the picture of `ticks`, with the budget of sweeps where there was one.
+pub fn picture(scene: &Scene, ticks: &[Tick], budget: Option<u32>) -> History {
+    let curve = |label: &str, pick: &dyn Fn(&Tick) -> Option<f64>| Curve {
+        label: label.to_owned(),
+        values: ticks.iter().map(pick).collect(),
+    };
+    let strip = |curve: Curve| Strip { curves: vec![curve], ..Strip::default() };
+    let mut strips = vec![
+        strip(curve("contact force ∫(σ·n − q)", &|tick| tick.contact_force)),
+        strip(curve("contact length", &|tick| tick.contact_length)),
+    ];
+    strips.extend(scene.outputs.iter().enumerate().map(|(at, output)| {
+        strip(curve(&output.name.value, &|tick| tick.outputs.get(at).copied().flatten()))
+    }));
+    let bound = curve("error bound", &|tick| tick.bound.map(|bound| bound.total));
+    let error = curve("true error", &|tick| tick.combined);
+    strips.push(Strip { curves: vec![bound, error], logarithmic: true, limit: None });
+    let sweeps = curve("sweeps a tick", &|tick| Some(f64::from(tick.sweeps)));
+    let limit = budget.map(|sweeps| (format!("budget: {sweeps} sweeps"), f64::from(sweeps)));
+    strips.push(Strip { curves: vec![sweeps], logarithmic: false, limit });
+    History {
+        title: scene.title.clone(),
+        time: ticks.iter().map(|tick| tick.time).collect(),
+        strips,
+    }
+}

@@ -1,0 +1,57 @@
+//! Ticks at t = 0, step, 2·step, … from `[time]` of the scene.
+
+use super::Moment;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::{Scene, Time};
+
+/// Most ticks of one run: each is kept until all are written.
+pub const MOST: u32 = 1_000_000;
+
+/// How far `end` may lie below the last tick, in steps: what rounding leaves of end/step.
+const ROUNDING: f64 = 1e-9;
+
+/// The moments of the scene, or `count` of them; without `[time]` the step is 1.
+///
+/// # Errors
+/// Neither `[time]` nor a count; more than [`MOST`] ticks.
+pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<Moment>> {
+    let step = scene.time.map_or(1.0, |time| time.step);
+    let count = match (count, scene.time) {
+        (Some(count), _) => count,
+        (None, Some(time)) => up_to_end(scene, time)?,
+        (None, None) => {
+            let hint = "add [time] with step and end to the scene, or give --ticks N or --log FILE";
+            let error = InputError::new("time: missing; it says when the ticks are");
+            return Err(error.file(&scene.path).hint(hint).into());
+        }
+    };
+    Ok((0..count).map(|tick| Moment { time: time_of(tick, step), inputs: Vec::new() }).collect())
+}
+
+fn up_to_end(scene: &Scene, Time { step, end }: Time) -> Result<u32> {
+    let ticks = (end / step + ROUNDING).floor() + 1.0;
+    if ticks <= f64::from(MOST) {
+        return Ok(ticks as u32);
+    }
+    let message = format!("time: {end} s in steps of {step} s are more than {MOST} ticks");
+    Err(InputError::new(message).file(&scene.path).hint("give fewer with --ticks N").into())
+}
+
+/// Tick · step; where the step is 1/m, tick/m, which rounds once and reads 0.3 and not
+/// 0.30000000000000004.
+fn time_of(tick: u32, step: f64) -> f64 {
+    let rate = step.recip().round();
+    if rate * step == 1.0 { f64::from(tick) / rate } else { f64::from(tick) * step }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_as_one_would_write_them() {
+        assert_eq!([1, 2, 3].map(|tick| time_of(tick, 0.1)), [0.1, 0.2, 0.3]);
+        assert_eq!(time_of(3, 2.5), 7.5);
+        assert_eq!(time_of(7, f64::MIN_POSITIVE), 7.0 * f64::MIN_POSITIVE);
+    }
+}

@@ -1,0 +1,138 @@
+//! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs near the scene's own.
+
+use signorini_kernel::report::Ended;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+
+use super::dense::Done;
+use super::{condensed, full};
+use signorini_solve::scalar::Scalar;
+
+/// Ticks of a trial after the first.
+const TICKS: usize = 100;
+/// A full model's ticks are long: as many after the first, and all of them where they take fewer updates of unknowns.
+const FULL_TICKS: usize = 10;
+const UPDATES: f64 = 5e7;
+
+/// Work of a tick, the median and the most of all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Trial {
+    /// Exchanges of the exact method.
+    pub pivots: [u32; 2],
+    /// Sweeps.
+    pub sweeps: [u32; 2],
+    /// Substitutions with a factor.
+    pub rounds: [u32; 2],
+    /// Certificates of full models, and their measurements of the residual.
+    pub looks: [[u32; 2]; 2],
+    /// Whether no tick was cut off by its limits, the first one included.
+    pub settled: bool,
+}
+
+/// What one tick did.
+#[derive(Debug, Clone, Copy)]
+struct Tick {
+    pivots: u32,
+    sweeps: u32,
+    rounds: u32,
+    looks: [u32; 2],
+    settled: bool,
+}
+
+/// That of a condensed model, and what `price` makes of its median tick and of the longest.
+pub fn of_condensed<R: Scalar>(
+    baked: &condensed::Baked<R>,
+    defaults: &[f64],
+    price: impl Fn(&Done) -> Option<f64>,
+) -> (Trial, [Option<f64>; 2]) {
+    let mut controller = condensed::Controller::new(baked);
+    let (mut before, mut prices) = (condensed::Visited::default(), Vec::new());
+    let ticks = inputs::<R>(defaults, TICKS).filter_map(|inputs| {
+        let (_, report) = controller.tick(&inputs).ok()?;
+        let (pivots, sweeps) = (report.exchanges, report.sweeps);
+        let now = controller.visited();
+        let visited = [std::mem::replace(&mut before, now), now];
+        prices.push(price(&Done { pivots, sweeps, visited }));
+        let settled = is_settled(report.ended);
+        Some(Tick { pivots, sweeps, rounds: 0, looks: [0, 0], settled })
+    });
+    let trial = summary(ticks);
+    let mut prices: Vec<f64> = prices.into_iter().skip(1).flatten().collect();
+    prices.sort_by(f64::total_cmp);
+    (trial, [prices.get(prices.len() / 2).copied(), prices.last().copied()])
+}
+
+/// That of a full model under the limits that its module has.
+pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+    if baked.has_quads() {
+        with_width::<R, QUADS>(baked, defaults)
+    } else {
+        with_width::<R, TRIANGLES>(baked, defaults)
+    }
+}
+
+fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+    let mut controller = full::Controller::<R, WIDTH>::new(baked);
+    let (mut ticks, mut updates) = (Vec::new(), 0.0);
+    for inputs in inputs::<R>(defaults, TICKS) {
+        if ticks.len() > FULL_TICKS && updates > UPDATES {
+            break;
+        }
+        let Ok((_, report)) = controller.tick(&inputs) else { continue };
+        let (pivots, rounds) =
+            controller.solved().map_or((0, 0), |solved| (solved.pivots, solved.rounds));
+        let (sweeps, settled) = (report.sweeps, is_settled(report.ended));
+        let looks = [controller.certificates(), measurements(sweeps, report.omega.wide())];
+        updates += f64::from(sweeps + rounds) * baked.unknowns() as f64;
+        ticks.push(Tick { pivots, sweeps, rounds, looks, settled });
+    }
+    summary(ticks.into_iter())
+}
+
+/// Measurements of the residual in so many sweeps: one a block, whose length follows ω, and the report's.
+fn measurements(sweeps: u32, omega: f64) -> u32 {
+    let block = (3.0 / (2.0 - omega)).clamp(4.0, 1e6) as u32;
+    1 + sweeps / block.next_power_of_two()
+}
+
+/// Whether a tick came to its end.
+fn is_settled(ended: Ended) -> bool {
+    matches!(ended, Ended::Exact | Ended::Accurate | Ended::Settled)
+}
+
+/// The work of the first tick, which begins cold, is left out.
+fn summary(ticks: impl Iterator<Item = Tick>) -> Trial {
+    let ticks: Vec<Tick> = ticks.collect();
+    let both = |count: fn(&Tick) -> u32| {
+        let mut counts: Vec<u32> = ticks.iter().skip(1).map(count).collect();
+        counts.sort_unstable();
+        let median = counts.get(counts.len() / 2).copied().unwrap_or(0);
+        [median, counts.last().copied().unwrap_or(0)]
+    };
+    Trial {
+        pivots: both(|tick| tick.pivots),
+        sweeps: both(|tick| tick.sweeps),
+        rounds: both(|tick| tick.rounds),
+        looks: [both(|tick| tick.looks[0]), both(|tick| tick.looks[1])],
+        settled: !ticks.is_empty() && ticks.iter().all(|tick| tick.settled),
+    }
+}
+
+/// The scene's own inputs, then such within a tenth of them (within ±0.1 where they are 0), as
+/// `cargo xtask firmware` draws them.
+pub fn inputs<R: Scalar>(defaults: &[f64], ticks: usize) -> impl Iterator<Item = Vec<R>> {
+    let mut state = 0x5169_0e1d_u32;
+    let mut tenth = move || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        f64::from(state >> 8) * (0.2 / f64::from(1 << 24)) - 0.1
+    };
+    (0..=ticks).map(move |tick| {
+        let moved = defaults.iter().map(|&value| match tick {
+            0 => value,
+            _ if value == 0.0 => tenth(),
+            _ => value + value * tenth(),
+        });
+        moved.map(R::narrow).collect()
+    })
+}

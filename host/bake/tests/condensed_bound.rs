@@ -1,0 +1,421 @@
+//! The bound is a bound, for any x ≥ 0, and sharp at convergence.
+
+use std::path::Path;
+
+use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{Curve, Mesh};
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::exact::{Distance, distance};
+use signorini_solve::condense::{Condensate, Recovery, condense, recoverable};
+use signorini_solve::energy_norm::nonconformity;
+use signorini_solve::fixtures::{
+    EVERY_INPUT, PARABOLA, SMOOTH, distorted, full_at, on_grid, scatter, scene, with_four_sides,
+};
+use signorini_solve::norms::errors;
+use signorini_solve::problem::Problem;
+
+struct Model {
+    scene: Scene,
+    problem: Problem,
+    condensate: Condensate,
+    recovery: Recovery,
+}
+
+impl Model {
+    fn new(text: &str, mesh: Mesh) -> Result<Self> {
+        Self::of(scene(text)?, mesh)
+    }
+
+    fn of(scene: Scene, mesh: Mesh) -> Result<Self> {
+        let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
+        let mesh = if four { with_four_sides(mesh) } else { mesh };
+        let problem = Problem::new(&scene, mesh)?;
+        let (condensate, recovery) = recoverable(&scene, &problem)?;
+        Ok(Self { scene, problem, condensate, recovery })
+    }
+
+    fn catalogue(file: &str, mesh: Mesh) -> Result<Self> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue");
+        Self::of(Scene::read(&folder.join(format!("{file}.toml")))?, mesh)
+    }
+
+    /// That of s and the mended τ of (p, x).
+    fn distance(&self, p: &[f64], x: &[f64]) -> Result<Distance> {
+        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
+        let answer = answer.expect("a certificate");
+        let exact = self.scene.exact.as_ref().expect("an exact solution");
+        distance(&self.scene, exact, &self.problem, &answer.admissible())
+    }
+
+    /// x after some sweeps of projected Gauss–Seidel from nothing.
+    fn swept(&self, p: &[f64], sweeps: usize) -> Vec<f64> {
+        let n = self.condensate.contact;
+        let mut x = vec![0.0; n];
+        for _ in 0..sweeps {
+            for i in 0..n {
+                let residual = self.condensate.residual(p, &x);
+                x[i] = (x[i] - residual[i]).max(0.0);
+            }
+        }
+        x
+    }
+
+    /// The bound for u_h of (p, x) is the other one and the distance of s from u_h, or more, and it bounds.
+    fn check_bound_of_u(&self, p: &[f64], x: &[f64]) -> Result<()> {
+        let (u, flux) = self.recovery.field(&self.condensate, p, x);
+        let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
+        let answer = answer.expect("a certificate");
+        let exact = self.scene.exact.as_ref().expect("an exact solution");
+        let energy = errors(&self.scene, exact, &self.problem, &u, &flux)?.energy;
+        let jump = nonconformity(&self.scene, &self.problem, &answer.admissible(), &u)?;
+        let bound = self.condensate.bound(p, x).expect("a bound");
+        let of_u = self.condensate.bound_of_u(p, x).expect("a bound");
+        println!("bound {bound:e}, of u {of_u:e}, jump {jump:e}, error of u {energy:e}");
+        assert!(of_u >= energy * (1.0 - 1e-5), "{of_u:e} {energy:e}");
+        let form = self.condensate.certificate.as_ref().expect("a form");
+        match form.jump {
+            Some(_) => {
+                // The gradient of a lift has no limit at the opposite vertex.
+                assert!(((of_u - bound) / jump - 1.0).abs() < 2e-5, "{of_u:e} {bound:e} {jump:e}")
+            }
+            None => assert!(of_u - bound >= jump * (1.0 - 2e-5), "{of_u:e} {bound:e} {jump:e}"),
+        }
+        Ok(())
+    }
+
+    /// Energy error of u_h, combined error, identity, and the bound at the solution.
+    fn at_solution(&self) -> Result<[f64; 4]> {
+        let p = &self.condensate.defaults;
+        let x = self.condensate.solve(p).expect("a solution");
+        let bound = self.condensate.bound(p, &x).expect("a bound");
+        let (problem, solution, _) = full_at(&self.scene, &self.problem, p)?;
+        let exact = self.scene.exact.as_ref().expect("an exact solution");
+        let energy = errors(&self.scene, exact, &problem, &solution.u, &solution.flux)?.energy;
+        let found = self.distance(p, &x)?;
+        self.check_bound_of_u(p, &x)?;
+        Ok([energy, found.combined, found.identity, bound])
+    }
+}
+
+#[test]
+fn sharp_at_convergence() -> Result<()> {
+    for file in ["h-tri", "j100-tri", "a-tri", "hg-tri", "t-h-tri"] {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            for n in [8, 16] {
+                let model = Model::catalogue(file, grid(n, cells))?;
+                let [energy, combined, identity, bound] = model.at_solution()?;
+                println!(
+                    "{file} {cells:?} n = {n}: bound/energy {:.4} bound/combined {:.5} bound/identity {:.6}",
+                    bound / energy,
+                    bound / combined,
+                    bound / identity
+                );
+                assert!(bound >= combined * (1.0 - 1e-4), "{file} {cells:?} {n}");
+                assert!(bound <= 1.05 * combined || file == "a-tri", "{file} {cells:?} {n}");
+                assert!(bound <= 2.2 * energy || file == "t-h-tri", "{file} {cells:?} {n}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Without oscillation the bound is the identity, to the quadrature of the exact solution.
+#[test]
+fn the_bound_is_the_identity() -> Result<()> {
+    for file in ["h-tri", "hg-tri"] {
+        for mesh in [grid(6, Cells::Mixed), distorted(grid(6, Cells::Quads))] {
+            let [_, _, identity, bound] = Model::catalogue(file, mesh)?.at_solution()?;
+            assert!((bound / identity - 1.0).abs() < 2e-3, "{file}: {bound} {identity}");
+        }
+    }
+    Ok(())
+}
+
+/// Robin, Neumann, full tensor, curved gap and value, corners: the gap, as osc comes on top.
+#[test]
+fn every_term_for_a_smooth_solution() -> Result<()> {
+    for mesh in [grid(6, Cells::Triangles), grid(6, Cells::Quads), distorted(grid(6, Cells::Mixed))]
+    {
+        let mut model = Model::new(SMOOTH, mesh)?;
+        let form = model.condensate.certificate.as_mut().expect("a certificate");
+        let oscillation = std::mem::replace(&mut form.oscillation, vec![0.0]);
+        assert!(oscillation[0] > 0.0);
+        let [_, combined, identity, gap] = model.at_solution()?;
+        println!("combined {combined} identity {identity} gap {gap}");
+        assert!((gap / identity - 1.0).abs() < 1e-5, "{gap} {identity}");
+        model.condensate.certificate.as_mut().expect("a certificate").oscillation = oscillation;
+        let [_, combined, _, bound] = model.at_solution()?;
+        assert!(bound >= combined && bound > gap);
+    }
+    Ok(())
+}
+
+/// Sweeps from nothing, and x that has nothing to do with the solution.
+#[test]
+fn of_any_iterate() -> Result<()> {
+    for file in ["h-tri", "j100-tri", "hg-tri"] {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let model = Model::catalogue(file, grid(6, cells))?;
+            let p = &model.condensate.defaults;
+            let wild: Vec<f64> =
+                (0..model.condensate.contact).map(|i| scatter(i).max(0.0)).collect();
+            let swept = [0, 1, 2, 4, 8, 16].map(|sweeps| model.swept(p, sweeps));
+            for x in swept.into_iter().chain([wild]) {
+                let bound = model.condensate.bound(p, &x).expect("a bound");
+                let found = model.distance(p, &x)?;
+                model.check_bound_of_u(p, &x)?;
+                println!(
+                    "{file} {cells:?}: bound/combined {:.3} identity/combined {:.4}",
+                    bound / found.combined,
+                    found.identity / found.combined
+                );
+                assert!(bound >= found.identity * (1.0 - 1e-3), "{bound} {found:?}");
+                assert!(bound >= found.combined * (1.0 - 1e-3), "{bound} {found:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// u = −y(2 + x), held by contact alone.
+const HELD_BY_CONTACT: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-(2 + x)"
+[boundary.left]
+kind = "neumann"
+flux = "y"
+[boundary.right]
+kind = "neumann"
+flux = "-y"
+[boundary.contact]
+kind = "contact"
+[exact]
+u = "-y*(2 + x)"
+gradient = ["-y", "-(2 + x)"]
+"#;
+
+#[test]
+fn of_a_part_that_contact_alone_holds() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let model = Model::new(HELD_BY_CONTACT, grid(5, cells))?;
+        let p = &model.condensate.defaults;
+        let form = model.condensate.certificate.as_ref().expect("a certificate");
+        assert!(!form.floating.is_empty());
+        let n = model.condensate.contact;
+        let some = |amount: f64| (0..n).map(move |i| (amount * scatter(i)).max(0.0)).collect();
+        for x in [vec![0.0; n], some(1e-3), some(0.1), some(-1.0)] {
+            let bound = model.condensate.bound(p, &x).expect("a bound");
+            let found = model.distance(p, &x)?;
+            println!("{cells:?}: bound {bound:.4} {found:?}, reach {:.3}", form.reach);
+            assert!(bound >= found.combined && bound >= found.identity, "{bound} {found:?}");
+        }
+        assert_eq!(model.condensate.bound(p, &vec![1.0; n]), None, "no way out");
+    }
+    Ok(())
+}
+
+/// A tick in f32, cut off after the gap has moved or led to the end: its total is above the true error.
+#[test]
+fn of_a_tick_in_f32() -> Result<()> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue");
+    let read = |file| std::fs::read_to_string(folder.join(format!("{file}.toml"))).expect("a file");
+    let catalogue = ["h-tri", "j100-tri", "hg-tri"].map(read);
+    let drop =
+        "[input.drop]\nof = \"contact\"\nfield = \"gap\"\npattern = \"-0.2\"\ndefault = 1.0\n";
+    let own = [HELD_BY_CONTACT, SMOOTH].map(str::to_owned);
+    let works = [(Some(100), 0), (Some(1), 0), (Some(3), 2), (None, 1), (None, 6)];
+    let mut cut_off = 0;
+    for text in catalogue.into_iter().chain(own) {
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let mut model = Model::new(&(text.clone() + drop), grid(5, cells))?;
+            // The exact solution is that of the gap as it was.
+            model.scene.inputs.iter_mut().for_each(|input| input.default = 0.0);
+            model.problem.set_time(&model.scene, 0.0)?;
+            for (pivots, sweeps) in works {
+                let work = Work { pivots, sweeps };
+                let baked = Baked::<f32>::new(&model.condensate, work, true).expect("in range");
+                let mut controller = Controller::new(&baked);
+                let (_, report) = controller.tick(&[0.0]).expect("a tick");
+                let x: Vec<f64> = controller.x().iter().map(|&x| f64::from(x)).collect();
+                let Some(&bound) = report.certificate() else { continue };
+                let found = model.distance(&[1.0, 0.0], &x)?;
+                let total = f64::from(bound.total);
+                println!("{cells:?} {work:?}: {total} {found:?}, rounding {}", bound.rounding);
+                assert!(total >= found.combined * (1.0 - 1e-4), "{work:?}: {total} {found:?}");
+                assert!(total >= found.identity * (1.0 - 1e-3), "{work:?}: {total} {found:?}");
+                cut_off += usize::from(bound.algebraic > 0.1 * bound.gap);
+            }
+        }
+    }
+    assert!(cut_off > 10, "{cut_off}");
+    Ok(())
+}
+
+/// A corner whose u_D lies above ψ is felt where its edge touches.
+#[test]
+fn an_input_that_lifts_the_corner() -> Result<()> {
+    let (scene, problem) = on_grid(EVERY_INPUT, grid(4, Cells::Triangles))?;
+    let condensate = condense(&scene, &problem)?;
+    let form = condensate.certificate.as_ref().expect("a certificate");
+    assert!(form.corners.is_empty(), "the sides are Robin and Neumann");
+    let text = EVERY_INPUT.replace("[boundary.dirichlet]\n", "[boundary.dirichlet]\n# all round\n");
+    let text = text
+        .replace(
+            "[boundary.left]\nkind = \"robin\"\ncoefficient = \"2+y\"\nambient = \"y - 0.2\"\n",
+            "",
+        )
+        .replace("[input.wind]\nof = \"left\"\nfield = \"ambient\"\npattern = \"1 - y^2\"\n", "")
+        .replace("[boundary.right]\nkind = \"neumann\"\nflux = \"0.5*y - 0.2\"\n", "")
+        .replace("[input.pull]\nof = \"right\"\nfield = \"flux\"\npattern = \"y\"\n", "")
+        .replace("[output.right]\nkind = \"flux\"\nof = \"right\"\n", "")
+        .replace("[output.left]\nkind = \"flux\"\nof = \"left\"\n", "");
+    let (scene, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let condensate = condense(&scene, &problem)?;
+    let form = condensate.certificate.as_ref().expect("a certificate");
+    assert_eq!(form.corners.len(), 2);
+    // u_D = 0.3 + 0.1 sin(3x) and ψ = 0.35 − 0.4x² + 0.1x³ at x = ±1; level adds 1 + 0.5x, depth nothing.
+    for corner in &form.corners {
+        let d = condensate.opening[corner.edge];
+        let x = (corner.excess[3] * d - 1.0) / 0.5;
+        assert!((x.abs() - 1.0).abs() < 1e-12);
+        let base = 0.35 + 0.1 * (3.0 * x).sin() - 0.1 * x;
+        assert!((corner.excess[0] * d - base).abs() < 1e-12 && corner.excess[1].abs() < 1e-12);
+    }
+    let mut sunk = condensate.defaults.clone();
+    sunk[3] = -2.0;
+    assert_eq!(condensate.bound(&sunk, &vec![0.0; condensate.contact]), None);
+    Ok(())
+}
+
+/// One part held by contact alone beside one that its sides hold: y > 2, where nothing touches the first.
+const BESIDE: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-(2 + x)"
+[boundary.left]
+kind = "neumann"
+flux = "y - 3*max(0, y - 1.5)"
+[boundary.right]
+kind = "neumann"
+flux = "-y + 3*max(0, y - 1.5)"
+[boundary.contact]
+kind = "contact"
+gap = "0"
+[boundary.held]
+kind = "dirichlet"
+value = "0"
+[boundary.above]
+kind = "contact"
+gap = "0"
+flux = "-1"
+"#;
+
+/// `grid` twice, the second time 2 higher: its bottom is `above`, the other sides are `held`.
+fn two_parts(n: u32, cells: Cells) -> Mesh {
+    let mut mesh = with_four_sides(grid(n, cells));
+    let upper = mesh.clone();
+    let shift = mesh.vertices.len() as u32;
+    mesh.vertices.extend(upper.vertices.iter().map(|[x, y]| [*x, y + 2.0]));
+    mesh.triangles.extend(upper.triangles.iter().map(|cell| cell.map(|vertex| vertex + shift)));
+    mesh.quads.extend(upper.quads.iter().map(|cell| cell.map(|vertex| vertex + shift)));
+    for curve in upper.curves {
+        let name = if curve.name == "contact" { "above" } else { "held" };
+        let edges = curve.edges.iter().map(|edge| edge.map(|vertex| vertex + shift));
+        match mesh.curves.iter_mut().find(|known| known.name == name) {
+            Some(known) => known.edges.extend(edges),
+            None => mesh.curves.push(Curve { name: name.to_owned(), edges: edges.collect() }),
+        }
+    }
+    mesh
+}
+
+#[test]
+fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let scene = scene(BESIDE)?;
+        let problem = Problem::new(&scene, two_parts(4, cells))?;
+        let (condensate, _) = recoverable(&scene, &problem)?;
+        let alone = Model::new(HELD_BY_CONTACT, grid(4, cells))?;
+        let form = condensate.certificate.as_ref().expect("a certificate");
+        assert_eq!(form.floating.len(), alone.condensate.contact);
+        let p = &condensate.defaults;
+        let n = condensate.contact;
+        // At the solution the parts add up: that above is u = 0, whose bound is that of q alone.
+        let x = condensate.solve(p).expect("a solution");
+        let bound = condensate.bound(p, &x).expect("a bound");
+        let of_alone = alone.condensate.solve(&[1.0]).expect("a solution");
+        let known = alone.condensate.bound(&[1.0], &of_alone).expect("a bound");
+        assert!((bound / known - 1.0).abs() < 1e-6, "{cells:?}: {bound} {known}");
+        // Cut off in both parts: a bound, as long as something touches in the first.
+        let some: Vec<f64> = (0..n).map(|i| (0.1 * scatter(i)).max(0.0)).collect();
+        let wide = condensate.bound(p, &some).expect("a bound");
+        assert!(wide > bound, "{wide} {bound}");
+        let open: Vec<f64> =
+            (0..n).map(|i| f64::from(u8::from(form.floating.contains(&i)))).collect();
+        assert_eq!(condensate.bound(p, &open), None, "no way out");
+        let mut above: Vec<f64> = vec![1.0; n];
+        form.floating.iter().for_each(|&i| above[i] = 0.0);
+        assert!(condensate.bound(p, &above).is_some(), "the other part has its sides");
+        let baked = Baked::<f64>::new(&condensate, Work { pivots: Some(100), sweeps: 0 }, true);
+        let baked = baked.expect("in range");
+        let (_, report) = Controller::new(&baked).tick(&[]).expect("a tick");
+        let total = report.certificate().expect("a bound").total;
+        assert!((total / bound - 1.0).abs() < 1e-6, "{cells:?}: {total} {bound}");
+    }
+    Ok(())
+}
+
+/// Where the defaults make everything 0, the units are those of the inputs: what a large one makes stays in range.
+#[test]
+fn of_a_large_input_after_defaults_of_zero() -> Result<()> {
+    let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1e-9\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
+                value = \"0\"\n[boundary.contact]\nkind = \"contact\"\n[input.heat]\nof = \"source\"\nfield = \"f\"\n\
+                pattern = \"1e9*x\"\n";
+    let model = Model::new(text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<f32>::new(&model.condensate, Work { pivots: Some(100), sweeps: 0 }, true);
+    let baked = baked.expect("in range");
+    for heat in [1.0_f32, 1e6, -1e6, 1e12] {
+        let (_, report) = Controller::new(&baked).tick(&[heat]).expect("a tick");
+        let bound = report.certificate().expect("a bound").total;
+        assert!(bound.is_finite() && bound > 0.0, "{heat}: {bound}");
+    }
+    Ok(())
+}
+
+/// A kink inside contact edges is integrated where it is, and a jump there has no bound.
+#[test]
+fn of_gaps_with_kinks_and_jumps() -> Result<()> {
+    let smooth = "gap = \"0.35 - 0.4*x^2 + 0.1*x^3\"";
+    let with = |gap: &str| EVERY_INPUT.replace(smooth, &format!("gap = \"{gap}\""));
+    for gap in ["sign(x - 0.3)", "0.01/abs(x - 0.3)", "abs(x - 0.3)^0.1"] {
+        let model = Model::new(&with(gap), grid(3, Cells::Triangles))?;
+        let reason = model.condensate.certificate.expect_err(gap);
+        assert!(reason.contains("boundary.contact near (0.3, 0)"), "{gap}: {reason}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_bound_is_the_identity_for_a_gap_with_a_kink() -> Result<()> {
+    let text = PARABOLA
+        .replace("20 + 1e6*y", "y^2 - x^2 + 1")
+        .replace("\"-x^2\"", "\"-0.5 - 30*max(0, x - 0.85)\"")
+        + "[exact]\nu = \"y^2 - x^2 + 1\"\ngradient = [\"-2*x\", \"2*y\"]\n";
+    for cells in [Cells::Triangles, Cells::Quads] {
+        // Without what panels may miss, which is added to the oscillation.
+        let mut model = Model::new(&text, grid(4, cells))?;
+        model.condensate.certificate.as_mut().expect("a certificate").oscillation = vec![0.0];
+        let [_, _, identity, gap] = model.at_solution()?;
+        assert!((gap / identity - 1.0).abs() < 2e-3, "{cells:?}: {gap} {identity}");
+    }
+    Ok(())
+}

@@ -1,0 +1,265 @@
+//! The report: one HTML file a person wants to look at, complete in itself.
+//!
+//! ```text
+//! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
+//!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
+//!                        │          ├─► contact  λ and the opening along C
+//!                        │          └─► bound    how wrong it can be, and why, in words
+//!                        ├─► convergence  error over mesh width                             ─┬─► loglog
+//!                        ├─► sweeps       error bound over sweeps                           ─┘
+//!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
+//!                        └─► extremes     numbers pushed until something gives ─► outcome_map
+//! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
+//! ```
+//! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
+//! Nothing here knows a solver or a scene: everything is plain data, filled by whoever ran one. Values that are
+//! not finite are never written: what they belong to is left out or shown as "–".
+
+mod arrows;
+mod bound;
+mod colormap;
+mod contact;
+mod convergence;
+mod extremes;
+mod field;
+mod frame;
+mod history;
+mod isobands;
+mod lettering;
+mod loglog;
+mod mosaic;
+mod outcome_map;
+mod outline;
+mod page;
+mod panel;
+mod pareto;
+mod plane;
+mod scale;
+mod simplify;
+mod strip;
+mod svg;
+mod sweeps;
+mod table;
+#[cfg(test)]
+mod tests;
+mod tradeoff;
+mod view;
+
+pub use convergence::measured_rate;
+pub use extremes::{Extremes, ExtremesStudy, extremes_page};
+pub use history::history;
+pub use outcome_map::{OutcomeMap, Square};
+pub use page::html;
+pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
+pub use scale::plain;
+pub use tradeoff::{Listing, TradePanel, TradeStudy, Tradeoff};
+
+/// Everything the page shows, in the order it shows it.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    /// The heading.
+    pub title: String,
+    /// Version, compiler, machine: what made these numbers.
+    pub generated_by: String,
+    /// The main table.
+    pub table: Table,
+    /// Claims that were tested beside the rows of the table.
+    pub checks: Vec<Check>,
+    /// Error over mesh width, a picture each.
+    pub convergence: Vec<ConvergencePlot>,
+    /// What the error bound says of solves that were cut off.
+    pub cut_off: Table,
+    /// The bound over sweeps, a picture each.
+    pub sweeps: Vec<SweepPlot>,
+    /// What settings cost and how wrong they are.
+    pub tradeoff: Option<Tradeoff>,
+    /// What became of scenes whose numbers were pushed.
+    pub extremes: Option<Extremes>,
+    /// The solutions, a panel each.
+    pub scenes: Vec<ScenePanel>,
+}
+
+/// A table in which every row passes or fails.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// The rows; one whose first cell is the name of a panel links to it.
+    pub rows: Vec<TableRow>,
+}
+
+/// A row of the main table.
+#[derive(Debug, Clone)]
+pub struct TableRow {
+    /// A text for each column.
+    pub cells: Vec<String>,
+    /// Whether everything the row claims holds.
+    pub passed: bool,
+}
+
+/// A claim that was tested.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// What should hold.
+    pub claim: String,
+    /// What was found.
+    pub found: String,
+    /// Whether it holds.
+    pub passed: bool,
+}
+
+/// Several errors over the mesh width in one log-log picture.
+#[derive(Debug, Clone)]
+pub struct ConvergencePlot {
+    /// The heading.
+    pub title: String,
+    /// The curves.
+    pub series: Vec<ConvergenceSeries>,
+}
+
+/// One error over the mesh width.
+#[derive(Debug, Clone)]
+pub struct ConvergenceSeries {
+    /// Which error of which scene.
+    pub label: String,
+    /// The mesh widths, from coarse to fine.
+    pub h: Vec<f64>,
+    /// The error on each mesh.
+    pub error: Vec<f64>,
+    /// The exponent p that theory gives in error ~ h^p.
+    pub expected_rate: f64,
+}
+
+/// Several bounds and errors of one scene over the sweeps of a solve, in one log-log picture.
+#[derive(Debug, Clone)]
+pub struct SweepPlot {
+    /// The heading.
+    pub title: String,
+    /// The sweeps after which it was stopped.
+    pub sweeps: Vec<f64>,
+    /// What is drawn: its name and its value at each stop.
+    pub curves: Vec<(String, Vec<f64>)>,
+}
+
+/// One solved scene.
+#[derive(Debug, Clone, Default)]
+pub struct ScenePanel {
+    /// The short name, as in the first column of the main table.
+    pub name: String,
+    /// The title.
+    pub title: String,
+    /// Whether every check on the scene holds.
+    pub passed: bool,
+    /// Vertex coordinates.
+    pub vertices: Vec<[f64; 2]>,
+    /// Vertices of the triangles.
+    pub triangles: Vec<[u32; 3]>,
+    /// Vertices of the quads.
+    pub quads: Vec<[u32; 4]>,
+    /// The conforming u at each vertex.
+    pub vertex_u: Vec<f64>,
+    /// The flux σ = A∇u at the centre of each cell, triangles first.
+    pub cell_flux: Vec<[f64; 2]>,
+    /// Each cell's part of the square of the bound's gap, triangles first.
+    pub indicators: Vec<f64>,
+    /// How wrong u and σ can be, where that is known.
+    pub bound: Option<BoundTerms>,
+    /// Why there is none.
+    pub no_bound: Option<String>,
+    /// How wrong they are, where that is known.
+    pub error: Option<f64>,
+    /// The energy norm of the solution, which makes sizes of both.
+    pub energy: f64,
+    /// The edges of the contact boundary C, by arc length.
+    pub contact: Vec<ContactEdge>,
+    /// The edges of the rest of the boundary.
+    pub boundary: Vec<BoundaryEdge>,
+    /// Numbers worth knowing: name and value.
+    pub facts: Vec<(String, String)>,
+}
+
+/// How wrong u and σ can be, and the parts of that: energy norms.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct BoundTerms {
+    /// Never less than the combined error of the conforming solution and the flux.
+    pub total: f64,
+    /// Never less than the error of the edge means.
+    pub of_u: f64,
+    /// What mesh and solver make of the total.
+    pub gap: f64,
+    /// What more sweeps would remove.
+    pub algebraic: f64,
+    /// What data that vary inside cells add.
+    pub oscillation: f64,
+    /// What rounding adds.
+    pub rounding: f64,
+}
+
+/// What changed over time: diagrams on top of each other.
+#[derive(Debug, Clone, Default)]
+pub struct History {
+    /// The heading.
+    pub title: String,
+    /// The time of each tick, increasing.
+    pub time: Vec<f64>,
+    /// The diagrams.
+    pub strips: Vec<Strip>,
+}
+
+/// One diagram over time.
+#[derive(Debug, Clone, Default)]
+pub struct Strip {
+    /// What it shows.
+    pub curves: Vec<Curve>,
+    /// Whether its axis is logarithmic.
+    pub logarithmic: bool,
+    /// A value that should not be exceeded, and what to call it.
+    pub limit: Option<(String, f64)>,
+}
+
+/// One quantity over time.
+#[derive(Debug, Clone, Default)]
+pub struct Curve {
+    /// Its name.
+    pub label: String,
+    /// Its value at each tick, if it has one there.
+    pub values: Vec<Option<f64>>,
+}
+
+/// An edge of the contact boundary.
+#[derive(Debug, Clone, Default)]
+pub struct ContactEdge {
+    /// Its ends.
+    pub ends: [[f64; 2]; 2],
+    /// The arc length along C at both ends, the smaller first.
+    pub arc_length: [f64; 2],
+    /// Whether u touches the gap here.
+    pub active: bool,
+    /// The multiplier λ = σ·n − q, constant on the edge.
+    pub multiplier: f64,
+    /// The exact λ at equally spaced points from the first to the second arc length (with both
+    /// ends when there are two or more; the midpoint when there is one); empty if unknown.
+    pub exact_multiplier: Vec<f64>,
+    /// The mean of u − ψ over the edge.
+    pub opening: f64,
+}
+
+/// An edge of the boundary outside C.
+#[derive(Debug, Clone)]
+pub struct BoundaryEdge {
+    /// Its ends.
+    pub ends: [[f64; 2]; 2],
+    /// What is prescribed.
+    pub kind: BoundaryKind,
+}
+
+/// What is prescribed on an edge outside C.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundaryKind {
+    /// u itself.
+    Dirichlet,
+    /// The outward flux.
+    Neumann,
+    /// The outward flux in proportion to ambient − u.
+    Robin,
+}

@@ -1,0 +1,59 @@
+//! The host's own solver: a sparse Cholesky factorisation by faer, and an active set on its Schur complement.
+//!
+//! It knows no tolerance and refines to the last digits. Cold, it factors; warm, the factor stands and the
+//! contact set of the tick before is the first guess.
+
+use super::contestant::{Contestant, Run, Start, counted};
+use super::failed;
+use super::quadratic::Quadratic;
+use signorini_scene::error::Result;
+use signorini_solve::reference::Factor;
+
+/// The solver on its problem.
+pub(super) struct ActiveSet<'q> {
+    quadratic: &'q Quadratic,
+    factor: Option<Factor>,
+    /// Whether a cold start may keep the factor.
+    keeps: bool,
+    active: Vec<bool>,
+}
+
+impl<'q> ActiveSet<'q> {
+    /// A cold start factors the matrix.
+    pub fn new(quadratic: &'q Quadratic) -> Self {
+        Self { quadratic, factor: None, keeps: false, active: Vec::new() }
+    }
+
+    /// A cold start finds the matrix factored and knows nothing of the contact set.
+    pub fn with_factor(quadratic: &'q Quadratic) -> Result<Self> {
+        let factor = Some(Factor::new(&quadratic.reference(0)).map_err(failed)?);
+        Ok(Self { quadratic, factor, keeps: true, active: Vec::new() })
+    }
+}
+
+impl Contestant for ActiveSet<'_> {
+    fn run(&mut self, tick: usize, start: Start, _: f64) -> Result<Run> {
+        let (quadratic, data) = (self.quadratic, &self.quadratic.ticks[tick]);
+        if start == Start::Cold && !self.keeps {
+            self.factor = None;
+        }
+        let guess = (start == Start::Warm).then_some(self.active.as_slice());
+        let kept = self.factor.take();
+        let (cycles, result) = counted(|| {
+            let factor = match kept {
+                Some(factor) => factor,
+                None => Factor::new(&quadratic.reference(tick))?,
+            };
+            let solution = factor.solve(&data.load, &data.lower, guess)?;
+            Ok::<_, signorini_solve::reference::ReferenceError>((factor, solution))
+        });
+        let (factor, solution) = result.map_err(failed)?;
+        self.factor = Some(factor);
+        self.active = solution.active;
+        Ok(Run { cycles, iterations: solution.steps as u32, u: solution.u })
+    }
+
+    fn finest(&self) -> i32 {
+        -1
+    }
+}

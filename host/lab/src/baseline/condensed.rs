@@ -1,0 +1,95 @@
+//! The same row of problems on its contact unknowns alone.
+//!
+//! ```text
+//!   S = K_CC − K_CI K_II⁻¹ K_IC,   b̃ = b_C − K_CI K_II⁻¹ b_I,   x = (u_C − ψ)/d,   d_i = 1/√S_ii
+//!   minimise ½ xᵀŜx − b̂ᵀx over x ≥ 0,   Ŝ_ij = d_i S_ij d_j,   b̂ = d (b̃ − Sψ)
+//! ```
+//! S comes from the reference factorisation, so that loads may be any: [`signorini_solve::condense`] takes patterns
+//! with inputs, and its matrix and loads are these, in the same order along the boundary. ‖x − x*‖_Ŝ is the energy distance of the full fields.
+
+use faer::Mat;
+
+use signorini_scene::error::Result;
+use signorini_solve::condense::{Condensate, along_boundary};
+use signorini_solve::problem::Problem;
+use signorini_solve::reference::{Factor, Linear};
+
+use super::failed;
+use super::quadratic::{Matrix, Quadratic, Tick};
+
+/// The condensed problems, and the model that the kernel's exact method is baked from.
+pub(super) fn condensed(
+    problem: &Problem,
+    full: &Quadratic,
+    factor: &Factor,
+) -> Result<(Quadratic, Condensate)> {
+    let (n, free, edges) = (full.contact(), full.free(), along_boundary(problem));
+    let schur = Mat::from_fn(n, n, |i, j| factor.schur()[(edges[i], edges[j])]);
+    let d: Vec<f64> = (0..n).map(|i| 1.0 / schur[(i, i)].sqrt()).collect();
+    let mut matrix = Matrix::new();
+    for i in 0..n {
+        matrix
+            .push_row((0..n).map(|j| (j, if i == j { 1.0 } else { d[i] * schur[(i, j)] * d[j] })));
+    }
+    let mut ticks = Vec::new();
+    for (tick, condensed) in full.ticks.iter().zip(condensed_loads(full)?) {
+        let product = |i: usize| (0..n).map(|j| schur[(i, j)] * tick.lower[edges[j]]).sum::<f64>();
+        let load = (0..n).map(|i| d[i] * (condensed[edges[i]] - product(i))).collect();
+        ticks.push(Tick { load, lower: vec![0.0; n] });
+    }
+    let openings = full.answers.iter().zip(&full.ticks).map(|(u, tick)| {
+        let opening = |i: usize| u[free + edges[i]] - tick.lower[edges[i]];
+        (0..n).map(|i| (opening(i) / d[i]).max(0.0)).collect()
+    });
+    let answers = openings.collect();
+    let held = edges.iter().map(|&edge| full.floating.get(edge) == Some(&true));
+    let floating: Vec<bool> = held.collect();
+    let condensate = Condensate {
+        contact: n,
+        inputs: 1,
+        matrix: matrix.values.clone(),
+        multiplier: d.iter().map(|d| 1.0 / d).collect(),
+        opening: d,
+        load: vec![ticks[0].load.clone()],
+        defaults: vec![1.0],
+        outputs: Vec::new(),
+        certificate: Err("left out".to_owned()),
+        energy_unit: 1.0,
+        held_by_contact: held_by_contact(&floating, &schur),
+        edges,
+    };
+    Ok((Quadratic { matrix, ticks, answers, floating }, condensate))
+}
+
+/// The contact unknowns of each part that contact alone holds: S knows nothing from one part to another.
+fn held_by_contact(floating: &[bool], schur: &Mat<f64>) -> Vec<Vec<usize>> {
+    let mut held: Vec<Vec<usize>> = Vec::new();
+    for i in (0..floating.len()).filter(|&i| floating[i]) {
+        let together = |part: &&mut Vec<usize>| part.iter().any(|&j| schur[(i, j)] != 0.0);
+        match held.iter_mut().find(together) {
+            Some(part) => part.push(i),
+            None => held.push(vec![i]),
+        }
+    }
+    held
+}
+
+/// b̃ of every tick.
+fn condensed_loads(full: &Quadratic) -> Result<Vec<Vec<f64>>> {
+    let (n, free) = (full.contact(), full.free());
+    let mut inner = Matrix::new();
+    (0..free).for_each(|row| inner.push_row(full.matrix.row(row).filter(|&(j, _)| j < free)));
+    let loads: Vec<f64> =
+        full.ticks.iter().flat_map(|tick| tick.load[..free].iter().copied()).collect();
+    let Matrix { row_ptr, col_idx, values } = &inner;
+    let inner = Linear { row_ptr, col_idx, values }.solve(&loads).map_err(failed)?;
+    let of_tick = |(at, tick): (usize, &Tick)| {
+        let z = &inner[at * free..(at + 1) * free];
+        let held = |i: usize| {
+            let row = full.matrix.row(free + i).filter(|&(j, _)| j < free);
+            row.map(|(j, value)| value * z[j]).sum::<f64>()
+        };
+        (0..n).map(|i| tick.load[free + i] - held(i)).collect()
+    };
+    Ok(full.ticks.iter().enumerate().map(of_tick).collect())
+}

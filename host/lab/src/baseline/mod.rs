@@ -1,0 +1,97 @@
+//! Honest baselines: other solvers on the same matrices, cold and warm, at equal error.
+//!
+//! ```text
+//!   scene, moments (t, inputs) ─► full ───────► kernel PSOR · active set · Clarabel · OSQP ─┐
+//!                                  └► condensed ► kernel pivoting · Clarabel · OSQP ────────┼─► Baseline
+//!                                 conforming P1 ► PSOR on vertices ─────────────────────────┘
+//! ```
+//! What is counted and when errors count as equal stands in `contest`. Condensing happens once a scene and
+//! is outside of every count; the notes say how long it takes. Two products: [`of_scene`] and [`sizes()`].
+
+mod active_set;
+mod cascade;
+mod clarabel;
+mod condensed;
+pub mod conforming;
+mod contest;
+mod contestant;
+mod full;
+mod moment;
+mod osqp;
+mod pivots;
+mod psor;
+mod quadratic;
+pub mod record;
+mod ring;
+mod series;
+pub mod sizes;
+mod table;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+use std::fmt::Display;
+
+use crate::baseline::record::Baseline;
+use moment::Moment;
+use ring::Ring;
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_solve::norms;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, SolverKind, solve};
+pub use sizes::{Size, Sizes, sizes};
+pub use table::{findings, table};
+
+/// Warm ticks of a scene.
+const TICKS: usize = 20;
+/// The share of the discretisation error that a solver may leave.
+const SHARE: f64 = 0.01;
+
+/// All solvers on the problem of a scene and on its condensed problem, with remarks: who could not run and
+/// why, and how long condensing takes.
+///
+/// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads multiplied
+/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q) by another 1 ± 0.1. In
+/// most scenes the contact set moves by that.
+///
+/// # Errors
+/// A problem without a solution. A solver that fails is a remark.
+pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
+    if problem.topology.counts.contact == 0 {
+        return Ok((Vec::new(), vec!["without contact there is nothing to compare".to_owned()]));
+    }
+    let mut notes = Vec::new();
+    let program = osqp::program();
+    notes.extend(program.err().map(str::to_owned));
+    let moments = Moment::drawn(scene, problem, TICKS);
+    let error = discretisation_error(scene, problem, &mut notes)?;
+    let ring = Ring {
+        scene,
+        problem,
+        moments: &moments,
+        target: SHARE * error,
+        osqp: program.ok(),
+        coarser: &[],
+    };
+    Ok((ring.hold(&mut notes)?, notes))
+}
+
+/// ‖A^½∇_h(u − u_h)‖ of the discrete solution; where u is not known, the gap of the error bound stands for
+/// it, and where there is no bound a hundredth of the energy.
+fn discretisation_error(scene: &Scene, problem: &Problem, notes: &mut Vec<String>) -> Result<f64> {
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    let solution = solve(scene, problem, &options)?;
+    if let Some(exact) = &scene.exact {
+        return Ok(norms::errors(scene, exact, problem, &solution.u, &solution.flux)?.energy);
+    }
+    if let Some(bound) = solution.bound {
+        return Ok(bound.gap);
+    }
+    notes.push("no error bound: a hundredth of the energy stands for the error".to_owned());
+    Ok(0.01 * solution.energy(problem))
+}
+
+fn failed(why: impl Display) -> Error {
+    InputError::new(format!("a baseline failed: {why}")).into()
+}

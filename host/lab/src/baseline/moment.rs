@@ -1,0 +1,108 @@
+//! What changes from tick to tick.
+//!
+//! * A scene with inputs: these are drawn within a tenth of their defaults, as for its firmware.
+//! * One without: all its loads (f, u_D, g, ambient) take a factor c + s ξ, ξ in [−1, 1] across the domain, and
+//!   what contact asks for (ψ, q) another, c drawn from [0.9, 1.1] and s from [−0.4, 0.4]. One factor alone
+//!   would scale the answer and, without gap, leave the contact set.
+//! * A scene over time: its own t.
+
+use signorini_bake::trial;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::{Loads, Problem};
+
+/// The tilt of loads at most, over the tenth by which inputs are drawn: less would leave the contact set of
+/// a coarse mesh where it is.
+const TILT: f64 = 4.0;
+
+/// The data of one tick: those of a scene at a time, scaled.
+#[derive(Debug, Clone)]
+pub(super) struct Moment {
+    pub scene: Scene,
+    pub time: f64,
+    /// Of f, u_D, g and the ambient.
+    pub loads: Factor,
+    /// Of ψ and q.
+    pub contact: f64,
+}
+
+/// level + slope (x − middle)
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Factor {
+    level: f64,
+    slope: f64,
+    middle: f64,
+}
+
+impl Factor {
+    const ONE: Self = Self { level: 1.0, slope: 0.0, middle: 0.0 };
+
+    /// `tilt` is what it gains from the middle of the domain to its right end.
+    fn across(problem: &Problem, level: f64, tilt: f64) -> Self {
+        let x = || problem.mesh.vertices.iter().map(|vertex| vertex[0]);
+        let (low, high) =
+            (x().fold(f64::INFINITY, f64::min), x().fold(f64::NEG_INFINITY, f64::max));
+        let slope = tilt / (0.5 * (high - low)).max(f64::MIN_POSITIVE);
+        Self { level, slope, middle: 0.5 * (low + high) }
+    }
+
+    pub fn at(self, x: f64) -> f64 {
+        self.level + self.slope * (x - self.middle)
+    }
+
+    /// In the middle of some points.
+    fn among<const N: usize>(self, points: [[f64; 2]; N]) -> f64 {
+        self.at(points.iter().map(|point| point[0]).sum::<f64>() / N as f64)
+    }
+}
+
+impl Moment {
+    /// The scene as it stands.
+    pub fn at(scene: &Scene, time: f64) -> Self {
+        Self { scene: scene.clone(), time, loads: Factor::ONE, contact: 1.0 }
+    }
+
+    /// The scene as it stands, then `ticks` others.
+    pub fn drawn(scene: &Scene, problem: &Problem, ticks: usize) -> Vec<Self> {
+        let here = Self::at(scene, problem.time);
+        if scene.inputs.is_empty() {
+            let factors = trial::inputs::<f64>(&[1.0, 1.0, 0.0], ticks);
+            let moment = |(tick, f): (usize, Vec<f64>)| {
+                let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
+                let loads = Factor::across(problem, f[0], tilt);
+                Self { loads, contact: f[1], ..here.clone() }
+            };
+            return factors.enumerate().map(moment).collect();
+        }
+        let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+        let drawn = trial::inputs::<f64>(&defaults, ticks).map(|values| {
+            let mut moment = here.clone();
+            let inputs = moment.scene.inputs.iter_mut();
+            inputs.zip(values).for_each(|(input, value)| input.default = value);
+            moment
+        });
+        drawn.collect()
+    }
+
+    /// Its integrals on the mesh of `problem`.
+    pub fn integrate(&self, problem: &Problem) -> Result<Loads> {
+        let mut loads = Loads::at_time(&self.scene, problem, self.time)?;
+        let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
+        let factor = self.loads;
+        for (load, cell) in loads.triangles.iter_mut().zip(&problem.mesh.triangles) {
+            *load *= factor.among(cell.map(corner));
+        }
+        for (load, cell) in loads.quads.iter_mut().zip(&problem.mesh.quads) {
+            *load *= factor.among(cell.map(corner));
+        }
+        let on_edge = |edge: usize| factor.among(problem.segment(edge));
+        let first = problem.topology.counts.unknowns();
+        let given = loads.dirichlet.iter_mut().enumerate();
+        given.for_each(|(at, value)| *value *= on_edge(first + at));
+        loads.neumann.iter_mut().for_each(|record| record.flux *= on_edge(record.edge as usize));
+        loads.robin.iter_mut().for_each(|record| record.ambient *= on_edge(record.edge as usize));
+        let of_contact = loads.gap.iter_mut().chain(&mut loads.contact_flux);
+        of_contact.for_each(|value| *value *= self.contact);
+        Ok(loads)
+    }
+}

@@ -1,0 +1,95 @@
+//! The kernel's exact method on the condensed problem.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::condensed::Iterate;
+use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, Progress};
+use signorini_kernel::condensed::tableau::{Start as Begin, Tableau};
+
+use super::contestant::{Contestant, Run, Start, counted};
+use super::failed;
+use super::quadratic::Tick;
+use signorini_bake::condensed::{Baked, Work};
+use signorini_scene::error::Result;
+use signorini_solve::condense::Condensate;
+use signorini_solve::scalar::Scalar;
+
+/// Exchanges of a solve, and sweeps where these do not suffice: no limit that is reached.
+const WORK: Work = Work { pivots: Some(100_000), sweeps: 100_000 };
+
+/// The model, the loads of the ticks, and the memory of a controller.
+pub(super) struct Pivots<R: Scalar> {
+    baked: Baked<R>,
+    loads: Vec<Vec<R>>,
+    x: Vec<R>,
+    residual: Vec<R>,
+    scratch: Vec<R>,
+    open: Vec<bool>,
+    blocks: Vec<Block<R>>,
+    exchanged: Vec<bool>,
+    columns: [Vec<R>; 2],
+}
+
+impl<R: Scalar> Pivots<R> {
+    pub fn new(condensate: &Condensate, ticks: &[Tick]) -> Result<Self> {
+        let baked = Baked::new(condensate, WORK, false).map_err(failed)?;
+        let n = padded(condensate.contact);
+        let zeros = || vec![R::ZERO; n];
+        let narrowed = |tick: &Tick| {
+            let mut load: Vec<R> = tick.load.iter().map(|&b| R::narrow(b)).collect();
+            load.resize(n, R::ZERO);
+            load
+        };
+        Ok(Self {
+            baked,
+            loads: ticks.iter().map(narrowed).collect(),
+            x: zeros(),
+            residual: zeros(),
+            scratch: zeros(),
+            open: vec![false; n],
+            blocks: vec![[[R::ZERO; SIDE]; SIDE]; count(condensate.contact)],
+            exchanged: vec![false; n],
+            columns: [zeros(), zeros()],
+        })
+    }
+
+    /// One solve; a cold one begins with nothing open.
+    fn solve(
+        &mut self,
+        tick: usize,
+        start: Start,
+    ) -> std::result::Result<(f64, Progress), KernelError> {
+        let Self { baked, loads, x, residual, scratch, open, blocks, exchanged, columns } = self;
+        let (sweeps, [column, next]) = (baked.sweeps, columns);
+        let nothing = vec![false; exchanged.len()];
+        baked.with_model(|model| {
+            let matrix = model.matrix()?;
+            let (cycles, progress) = counted(|| {
+                let begin = Begin { blocks: model.matrix, exchanged: &nothing };
+                let mut tableau = Tableau::new(model.contact, blocks, exchanged, [column, next])?;
+                if start == Start::Cold {
+                    x.fill(R::ZERO);
+                    tableau.reset(&begin)?;
+                }
+                let iterate = Iterate { x, residual, scratch, open };
+                let most = WORK.pivots.unwrap_or(0);
+                let mut method = Exchanges { tableau, start: begin, most, sweeps };
+                method.solve(&matrix, &loads[tick], iterate)
+            });
+            progress.map(|progress| (cycles, progress))
+        })
+    }
+}
+
+impl<R: Scalar> Contestant for Pivots<R> {
+    /// Exact: the tolerance has no say.
+    fn run(&mut self, tick: usize, start: Start, _: f64) -> Result<Run> {
+        let (cycles, progress) = self.solve(tick, start).map_err(failed)?;
+        let u = self.x[..self.baked.contact].iter().map(|x| x.wide()).collect();
+        Ok(Run { cycles, iterations: progress.pivots + progress.sweeps, u })
+    }
+
+    fn finest(&self) -> i32 {
+        -1
+    }
+}

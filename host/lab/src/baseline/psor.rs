@@ -1,0 +1,122 @@
+//! The kernel's projected SOR as a contestant: on edges, and on vertices for conforming P1 alike.
+
+use signorini_kernel::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::signorini::System;
+use signorini_kernel::solver::{Outcome, Settings, Solver};
+
+use super::contestant::{Contestant, Run, Start, counted};
+use super::failed;
+use signorini_scene::error::Result;
+use signorini_solve::scalar::Scalar;
+
+/// Sweeps after which a solver is given up.
+const MOST_SWEEPS: u32 = 100_000;
+/// The residual at which trials of ω end.
+const TRIAL: f64 = 1e-6;
+
+/// The data of a tick as [`System`] takes them.
+#[derive(Debug, Clone)]
+pub(super) struct Given<R> {
+    pub load: Vec<R>,
+    pub lower: Vec<R>,
+    /// Given values, behind the unknowns in u.
+    pub dirichlet: Vec<R>,
+    /// Where a cold start begins.
+    pub start: Vec<R>,
+}
+
+/// Sweeps over rows of `WIDTH` entries.
+pub(super) struct Psor<'a, R: Scalar, const WIDTH: usize> {
+    /// Its load and bounds are replaced every tick.
+    system: System<'a, R, u32>,
+    ticks: &'a [Given<R>],
+    /// Where a cold search for ω begins, or the ω itself.
+    relaxation: Relaxation<R>,
+    rows: Vec<Row<R, u32, WIDTH>>,
+    u: Vec<R>,
+    omega: R,
+}
+
+impl<'a, R: Scalar, const WIDTH: usize> Psor<'a, R, WIDTH> {
+    /// With ω found while sweeping; a warm tick goes on from the one of the tick before.
+    pub fn adaptive(system: System<'a, R, u32>, ticks: &'a [Given<R>]) -> Self {
+        let rows = vec![Row::EMPTY; system.counts().unknowns()];
+        let relaxation = Relaxation::Adaptive(R::ONE);
+        Self { system, ticks, relaxation, rows, u: Vec::new(), omega: R::ONE }
+    }
+
+    /// With the best of some fixed ω, tried on the first tick beforehand.
+    pub fn tuned(system: System<'a, R, u32>, ticks: &'a [Given<R>]) -> Result<Self> {
+        let mut psor = Self::adaptive(system, ticks);
+        let lines = (system.counts().unknowns() as f64).sqrt();
+        let mut best = (u32::MAX, R::ONE);
+        for distance in [2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 11.0] {
+            let omega = R::narrow((2.0 - distance / lines).max(1.0));
+            psor.relaxation = Relaxation::Fixed(omega);
+            let run = psor.run(0, Start::Cold, TRIAL)?;
+            if run.iterations < best.0 {
+                best = (run.iterations, omega);
+            }
+        }
+        psor.relaxation = Relaxation::Fixed(best.1);
+        Ok(psor)
+    }
+
+    fn relaxation(&self, start: Start) -> Relaxation<R> {
+        match (start, self.relaxation) {
+            (Start::Warm, Relaxation::Adaptive(_)) => Relaxation::Adaptive(self.omega),
+            (_, relaxation) => relaxation,
+        }
+    }
+}
+
+impl<R: Scalar, const WIDTH: usize> Contestant for Psor<'_, R, WIDTH> {
+    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
+        let given = &self.ticks[tick];
+        let system = self.system.with_data(&given.load, &given.lower).map_err(failed)?;
+        let relaxation = self.relaxation(start);
+        let unknowns = system.counts().unknowns();
+        let (rows, u) = (&mut self.rows, &mut self.u);
+        let (cycles, outcome) = match start {
+            Start::Cold => counted(|| {
+                u.clone_from(&given.start);
+                let mut rows = Rows::of_matrix(system.matrix(), system.counts(), rows)?;
+                solve(&system, &mut rows, relaxation, tolerance, u)
+            }),
+            Start::Warm => {
+                let mut rows =
+                    Rows::of_matrix(system.matrix(), system.counts(), rows).map_err(failed)?;
+                counted(|| {
+                    u[unknowns..].copy_from_slice(&given.dirichlet);
+                    solve(&system, &mut rows, relaxation, tolerance, u)
+                })
+            }
+        };
+        let outcome = outcome.map_err(failed)?;
+        self.omega = outcome.omega;
+        let u = self.u[..unknowns].iter().map(|u| u.wide()).collect();
+        Ok(Run { cycles, iterations: outcome.sweeps, u })
+    }
+
+    fn finest(&self) -> i32 {
+        if R::EPSILON.wide() > 1e-10 { -8 } else { -13 }
+    }
+}
+
+/// Sweeps until the scaled residual is below `tolerance`.
+pub(super) fn solve<R: Scalar, const WIDTH: usize>(
+    system: &System<R, u32>,
+    rows: &mut Rows<R, u32, WIDTH>,
+    relaxation: Relaxation<R>,
+    tolerance: f64,
+    u: &mut [R],
+) -> std::result::Result<Outcome<R>, signorini_kernel::Error> {
+    let settings = Settings {
+        relaxation,
+        tolerance: R::narrow(tolerance),
+        max_sweeps: MOST_SWEEPS,
+        ..Settings::default()
+    };
+    Solver::new(settings)?.run(system, rows, u)
+}

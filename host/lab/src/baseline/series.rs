@@ -1,0 +1,141 @@
+//! The repeats of one solver: the tolerance that will do, passes over the ticks, and what is recorded of them.
+
+use std::time::Instant;
+
+use crate::baseline::record::Baseline;
+use signorini_scene::error::Result;
+
+use super::contestant::{Contest, Contestant, Run, Start};
+
+/// Seconds of a repeat, at least.
+const REPEAT: f64 = 0.1;
+/// Seconds after which no repeat begins.
+const ENOUGH: f64 = 2.0;
+/// Seconds after which the trial itself is the measurement.
+const LONG: f64 = 10.0;
+
+/// Runs over a row of ticks.
+pub(super) struct Pass {
+    /// The median of all ticks.
+    cycles: f64,
+    /// The slowest tick.
+    worst: f64,
+    iterations: u32,
+    /// The largest of all ticks.
+    distance: f64,
+}
+
+/// The repeats of a solver at the loosest tolerance that will do, 10^`exponent`.
+#[derive(Default)]
+pub(super) struct Series {
+    exponent: i32,
+    passes: Vec<Pass>,
+    /// Seconds.
+    spent: f64,
+}
+
+impl Contest<'_> {
+    /// Begins a series: finds its tolerance.
+    pub(super) fn trial(
+        &self,
+        contestant: &mut dyn Contestant,
+        start: Start,
+        series: &mut Series,
+    ) -> Result<()> {
+        let begin = Instant::now();
+        let mut exponent = -1;
+        let mut trial = self.pass(contestant, start, exponent)?;
+        while trial.distance > self.target && exponent > contestant.finest() {
+            exponent -= 1;
+            trial = self.pass(contestant, start, exponent)?;
+        }
+        let spent = begin.elapsed().as_secs_f64();
+        *series = match spent < LONG {
+            true => Series { exponent, ..Series::default() },
+            false => Series { exponent, passes: vec![trial], spent },
+        };
+        Ok(())
+    }
+
+    /// One more: as many passes as time allows, the fastest of them with the largest distance of any.
+    pub(super) fn repeat(
+        &self,
+        contestant: &mut dyn Contestant,
+        start: Start,
+        series: &mut Series,
+    ) -> Result<()> {
+        if series.spent >= ENOUGH {
+            return Ok(());
+        }
+        let (begin, mut passes) = (Instant::now(), Vec::new());
+        while passes.is_empty() || begin.elapsed().as_secs_f64() < REPEAT {
+            passes.push(self.pass(contestant, start, series.exponent)?);
+        }
+        let distance = passes.iter().fold(0.0, |most: f64, pass| pass.distance.max(most));
+        let fastest = passes.into_iter().min_by(|a, b| a.cycles.total_cmp(&b.cycles));
+        series.passes.extend(fastest.map(|fastest| Pass { distance, ..fastest }));
+        series.spent += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn pass(&self, contestant: &mut dyn Contestant, start: Start, exponent: i32) -> Result<Pass> {
+        let tolerance = 10f64.powi(exponent);
+        match start {
+            Start::Cold => self.cold(contestant, tolerance),
+            Start::Warm => self.warm(contestant, tolerance),
+        }
+    }
+
+    pub(super) fn baseline(&self, solver: &str, start: Start, series: &Series) -> Baseline {
+        let Series { exponent, passes, .. } = series;
+        let (cycles, cycles_spread) = median_and_spread(passes.iter().map(|pass| pass.cycles));
+        Baseline {
+            solver: solver.to_owned(),
+            problem: self.problem.to_owned(),
+            unknowns: self.quadratic.matrix.order(),
+            start: start.name().to_owned(),
+            tolerance: 10f64.powi(*exponent),
+            cycles,
+            cycles_spread,
+            worst: median_and_spread(passes.iter().map(|pass| pass.worst)).0,
+            ratio: 1.0,
+            to_condensed: None,
+            algebraic_error: passes.iter().fold(0.0, |most, pass| pass.distance.max(most)),
+            target: self.target,
+            error: None,
+            iterations: passes.last().map_or(0, |pass| pass.iterations),
+        }
+    }
+
+    fn cold(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {
+        let run = contestant.run(0, Start::Cold, tolerance)?;
+        let distance = self.quadratic.distance(0, &run.u);
+        let Run { cycles, iterations, .. } = run;
+        Ok(Pass { cycles, worst: cycles, iterations, distance })
+    }
+
+    /// The ticks after the first.
+    fn warm(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {
+        contestant.run(0, Start::Cold, tolerance)?;
+        let (mut cycles, mut iterations, mut distance) = (Vec::new(), Vec::new(), 0.0_f64);
+        for tick in 1..self.quadratic.ticks.len() {
+            let run = contestant.run(tick, Start::Warm, tolerance)?;
+            distance = distance.max(self.quadratic.distance(tick, &run.u));
+            cycles.push(run.cycles);
+            iterations.push(run.iterations);
+        }
+        iterations.sort_unstable();
+        let iterations = iterations[iterations.len() / 2];
+        let worst = cycles.iter().fold(0.0, |most: f64, &cycles| most.max(cycles));
+        let (cycles, _) = median_and_spread(cycles.into_iter());
+        Ok(Pass { cycles, worst, iterations, distance })
+    }
+}
+
+/// The median, and (largest − smallest)/median.
+fn median_and_spread(cycles: impl Iterator<Item = f64>) -> (f64, f64) {
+    let mut sorted: Vec<f64> = cycles.collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let median = sorted[sorted.len() / 2];
+    (median, (sorted[sorted.len() - 1] - sorted[0]) / median.max(1.0))
+}

@@ -1,0 +1,115 @@
+//! All solvers over the size of the problem: the punch whose contact moves, on grids of 2n × n squares
+//! of triangles, at equal error.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::moment::Moment;
+use super::ring::Ring;
+use super::{SHARE, discretisation_error, osqp};
+use crate::baseline::record::Baseline;
+use crate::checkout::root;
+use crate::cycles::{NARROW, REGISTERS};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+
+/// Squares over the height of the domain: 48 to 18 800 unknowns.
+const GRIDS: [u32; 6] = [3, 4, 8, 16, 32, 56];
+/// The coarsest grid of a start from coarse to fine.
+const COARSEST: u32 = 2;
+/// From tick to tick; the free points move by up to 0.0063.
+const STEP: f64 = 0.01;
+/// Warm ticks.
+const TICKS: usize = 10;
+
+/// The whole study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sizes {
+    /// What is solved, in words.
+    pub title: String,
+    /// The registers that this program was built for; empty in records that do not tell.
+    #[serde(default)]
+    pub registers: String,
+    /// By size.
+    pub rows: Vec<Size>,
+    /// Who could not run and why; how long condensing takes.
+    pub notes: Vec<String>,
+}
+
+/// One grid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Size {
+    /// Squares over the height of the domain.
+    pub n: u32,
+    /// Edges not on D.
+    pub unknowns: usize,
+    /// Contact edges.
+    pub contact: usize,
+    /// ‖A^½∇_h(u − u_h)‖ of the discrete solution in the first tick.
+    pub discretisation_error: f64,
+    /// What a solver may leave of ‖A^½∇_h(u_h − u*_h)‖, in every tick.
+    pub target: f64,
+    /// The solvers.
+    pub baselines: Vec<Baseline>,
+}
+
+/// Measures everybody on every grid; tells `progress` in words what comes next.
+///
+/// # Errors
+/// The scene `meshes/catalogue/moving-tri.toml` is not there.
+pub fn sizes(progress: impl Fn(&str)) -> Result<Sizes> {
+    let scene = Scene::read(&root()?.join("meshes/catalogue/moving-tri.toml"))?;
+    progress("building OSQP");
+    let program = osqp::program();
+    let mut notes: Vec<String> = program.err().map(str::to_owned).into_iter().collect();
+    let mut rows = Vec::new();
+    for n in GRIDS {
+        progress(&format!("all solvers on {} unknowns", 6 * n * n));
+        rows.push(size(&scene, n, TICKS, program.ok(), &mut notes)?);
+    }
+    notes.extend(NARROW.map(str::to_owned));
+    Ok(Sizes { title: scene.title, registers: REGISTERS.to_owned(), rows, notes })
+}
+
+/// One grid with so many warm ticks.
+pub(super) fn size(
+    scene: &Scene,
+    n: u32,
+    ticks: usize,
+    program: Option<&Path>,
+    notes: &mut Vec<String>,
+) -> Result<Size> {
+    let problem = Problem::new(scene, grid(n, Cells::Triangles))?;
+    let coarser = nested(n).into_iter().map(|n| Problem::new(scene, grid(n, Cells::Triangles)));
+    let coarser: Vec<_> = coarser.collect::<Result<_>>()?;
+    let moments: Vec<_> = (0..=ticks).map(|tick| Moment::at(scene, STEP * tick as f64)).collect();
+    let mut remarks = Vec::new();
+    let discretisation_error = discretisation_error(scene, &problem, &mut remarks)?;
+    let target = SHARE * discretisation_error;
+    let ring = Ring {
+        scene,
+        problem: &problem,
+        moments: &moments,
+        target,
+        osqp: program,
+        coarser: &coarser,
+    };
+    let baselines = ring.hold(&mut remarks)?;
+    notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
+    let counts = problem.topology.counts;
+    let (unknowns, contact) = (counts.unknowns(), counts.contact);
+    Ok(Size { n, unknowns, contact, discretisation_error, target, baselines })
+}
+
+/// Grids that this one refines, the coarsest first.
+fn nested(n: u32) -> Vec<u32> {
+    let mut coarser: Vec<u32> =
+        std::iter::successors(Some(n), |&n| (n % 2 == 0 && n / 2 >= COARSEST).then_some(n / 2))
+            .skip(1)
+            .collect();
+    coarser.reverse();
+    coarser
+}

@@ -1,0 +1,104 @@
+//! Everybody agrees on small problems, and the record says so.
+
+use std::path::PathBuf;
+
+use super::condensed::condensed;
+use super::full::quadratic;
+use super::moment::Moment;
+use super::sizes::{Sizes, size};
+use super::table;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::scene::Scene;
+use signorini_solve::condense::condense;
+use signorini_solve::problem::{Parts, Problem};
+
+fn read(file: &str) -> Scene {
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
+    Scene::read(&root.join(file)).unwrap()
+}
+
+pub(super) fn catalogue(name: &str) -> Scene {
+    read(&format!("catalogue/{name}.toml"))
+}
+
+/// Answers are compared inside: whoever is further from the active set's than 1 % of the discretisation
+/// error says so in its record.
+#[test]
+fn all_solvers_agree_on_small_grids() {
+    let scene = catalogue("moving-tri");
+    let mut notes = Vec::new();
+    let rows: Vec<_> =
+        [3, 4, 8].map(|n| size(&scene, n, 3, None, &mut notes).unwrap()).into_iter().collect();
+    for row in &rows {
+        let cascade = usize::from(row.n != 3);
+        assert_eq!(row.baselines.len(), 2 * 12 + cascade, "{:?}", row.baselines);
+        for b in &row.baselines {
+            assert!(b.algebraic_error <= b.target, "n = {}: {b:?}", row.n);
+            assert!(b.cycles > 0.0 && b.ratio > 0.0 && b.to_condensed.is_some(), "{b:?}");
+        }
+        let exact = row.baselines.iter().filter(|b| b.solver == "kernel pivoting f64");
+        exact.for_each(|b| assert!(b.algebraic_error < 1e-11, "{b:?}"));
+    }
+    assert!(notes.iter().all(|note| note.contains("condensing")), "{notes:?}");
+    let study = Sizes { title: scene.title, registers: String::new(), rows, notes };
+    let text = table(&study);
+    assert!(text.contains("Clarabel") && text.contains("conforming P1"), "{text}");
+    let json = serde_json::to_string(&study).unwrap();
+    assert_eq!(serde_json::from_str::<Sizes>(&json).unwrap().rows.len(), 3);
+}
+
+/// Contact moves from tick to tick, so that warm starts have something to do.
+#[test]
+fn contact_moves() {
+    for file in ["catalogue/h-tri.toml", "scenes/benbelgacem.toml"] {
+        let scene = read(file);
+        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+        let parts = Parts::examine(&scene, &problem).unwrap();
+        let moments = Moment::drawn(&scene, &problem, 20);
+        let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
+        let free = full.free();
+        let touching = |(u, tick): (&Vec<f64>, &super::quadratic::Tick)| {
+            tick.lower.iter().zip(&u[free..]).map(|(psi, u)| u <= psi).collect::<Vec<_>>()
+        };
+        let mut sets: Vec<_> = full.answers.iter().zip(&full.ticks).map(touching).collect();
+        sets.dedup();
+        assert!(full.ticks.len() == 21 && sets.len() > 3, "{file}: {} sets", sets.len());
+    }
+}
+
+/// The condensed problem is the one that is baked.
+#[test]
+fn condensed_as_baked() {
+    let scene = read("scenes/slab.toml");
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+    let parts = Parts::examine(&scene, &problem).unwrap();
+    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 2)).unwrap();
+    let (ours, model) = condensed(&problem, &full, &factor).unwrap();
+    let baked = condense(&scene, &problem).unwrap();
+    let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+    for (a, b) in model.matrix.iter().zip(&baked.matrix) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+    for (a, b) in ours.ticks[0].load.iter().zip(baked.load_of(&baked.defaults)) {
+        let b = b * baked.energy_unit;
+        assert!((a - b).abs() < 1e-8 * largest, "{a} {b}");
+    }
+}
+
+/// On a scene of its own mesh.
+#[test]
+fn a_scene_with_every_solver_but_osqp() {
+    let scene = read("scenes/strip.toml");
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+    let found = super::ring::Ring {
+        scene: &scene,
+        problem: &problem,
+        moments: &Moment::drawn(&scene, &problem, 2),
+        target: 1e-2 * super::discretisation_error(&scene, &problem, &mut Vec::new()).unwrap(),
+        osqp: None,
+        coarser: &[],
+    }
+    .hold(&mut Vec::new())
+    .unwrap();
+    assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{found:?}");
+}

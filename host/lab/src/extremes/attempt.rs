@@ -1,0 +1,113 @@
+//! A case as a user would pose it: a scene file and a mesh file, read, checked and solved.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::case::Case;
+use super::grid::msh;
+use signorini_bake::engine;
+use signorini_bake::tick::{Budget, Moment, Tick, play};
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::{Mesh, adapted};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::Precision;
+use signorini_solve::certify::{Answer, ErrorBound};
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, ScalarKind, solve, status_name};
+
+/// What the solver says.
+#[derive(Debug, Clone)]
+pub struct Attempt {
+    /// The mesh as read.
+    pub mesh: Mesh,
+    /// How the solve ended, as `summary.json` says it.
+    pub status: &'static str,
+    /// Sweeps in all.
+    pub sweeps: u32,
+    /// Edges not on D.
+    pub unknowns: usize,
+    /// Mean of u_h over each edge, and ∫σ·n over it; empty where only ticks were asked for.
+    pub u: Vec<f64>,
+    /// See `u`.
+    pub flux: Vec<f64>,
+    /// Its bound.
+    pub bound: Option<ErrorBound>,
+    /// What the bound is about.
+    pub certified: Answer,
+    /// The ticks, where ticks were asked for.
+    pub ticks: Vec<Tick>,
+}
+
+impl Attempt {
+    /// The solver claims to have found the solution; of a tick, that more sweeps would not lower its bound much.
+    pub fn claims_success(&self) -> bool {
+        matches!(self.status, "converged" | "rounding-limit" | "accurate" | "settled")
+    }
+}
+
+/// Writes the files of the case into `folder` and solves what they say.
+///
+/// # Errors
+/// Input that is refused; files that cannot be written.
+pub fn attempt(case: &Case, folder: &Path) -> Result<Attempt> {
+    let (path, mesh) = (folder.join("scene.toml"), folder.join("mesh.msh"));
+    let write = |path: &Path, text: String| std::fs::write(path, text).map_err(Error::io(path));
+    write(&path, case.posed.scene() + &setting(case))?;
+    write(&mesh, msh(&case.posed.mesh()))?;
+    let scene = Scene::read(&path)?;
+    let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+    if case.effort.ticks > 0 {
+        return ticks(case, &scene, problem);
+    }
+    let options =
+        Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
+    let solution = match case.effort.omega {
+        None => solve(&scene, &problem, &options)?,
+        Some(_) => engine::solve(&scene, &problem)?,
+    };
+    Ok(Attempt {
+        status: status_name(solution.status),
+        sweeps: solution.sweeps,
+        unknowns: problem.topology.counts.unknowns(),
+        u: solution.u,
+        flux: solution.flux,
+        bound: solution.bound,
+        certified: solution.certified,
+        ticks: Vec::new(),
+        mesh: problem.mesh,
+    })
+}
+
+/// A fixed ω is a setting of the scene.
+fn setting(case: &Case) -> String {
+    let mut text = String::new();
+    if let Some(omega) = case.effort.omega {
+        let scalar = match case.scalar {
+            ScalarKind::F64 => Precision::F64,
+            ScalarKind::F32 => Precision::F32,
+        };
+        let scalar = serde_json::to_string(&scalar).unwrap_or_default();
+        let _ = write!(text, "[setting]\nomega = {omega:?}\nscalar = {scalar}\nmodel = \"full\"\n");
+    }
+    text
+}
+
+/// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.
+fn ticks(case: &Case, scene: &Scene, problem: Problem) -> Result<Attempt> {
+    let moment = |tick: u32| Moment { time: f64::from(tick), inputs: Vec::new() };
+    let moments: Vec<Moment> = (0..case.effort.ticks).map(moment).collect();
+    let budget = Budget { scalar: case.scalar, sweeps: case.most_sweeps(), error: 0.0 };
+    let ticks = play(scene, &problem, None, &moments, &budget, |_| {})?;
+    let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
+    Ok(Attempt {
+        status: worst.map_or("stalled", |tick| tick.status),
+        sweeps: ticks.iter().map(|tick| tick.sweeps).max().unwrap_or(0),
+        unknowns: problem.topology.counts.unknowns(),
+        u: Vec::new(),
+        flux: Vec::new(),
+        bound: None,
+        certified: Answer::default(),
+        ticks,
+        mesh: problem.mesh,
+    })
+}

@@ -1,0 +1,107 @@
+//! The cases that are finished, kept from the moment they are: the same command goes on where it was interrupted.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use super::case::Case;
+use super::record::Row;
+use crate::trade::case::{digest, program};
+use crate::trade::journal::Journal;
+use crate::trade::shard::Shard;
+use signorini_scene::error::{Error, Result};
+
+/// A finished case, and the seconds that all runs together had taken by then.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Line {
+    row: Row,
+    elapsed: f64,
+}
+
+/// What is finished, in a folder that goes once everything is.
+#[derive(Debug)]
+pub struct Kept {
+    folder: PathBuf,
+    journal: Mutex<Journal>,
+    start: Instant,
+    /// Seconds of the runs before.
+    before: Mutex<f64>,
+}
+
+impl Kept {
+    /// What an interrupted run of this very program left in the folder `out`; another program's is forgotten.
+    ///
+    /// # Errors
+    /// Another run goes on there; files that cannot be read or written.
+    pub fn open(out: &Path) -> Result<Self> {
+        let folder = out.join("unfinished");
+        let journal = Mutex::new(Journal::open(&folder, Shard::WHOLE, &program())?);
+        Ok(Self { folder, journal, start: Instant::now(), before: Mutex::default() })
+    }
+
+    /// The row that is known of a case, or what `work` finds.
+    ///
+    /// # Errors
+    /// Those of `work`; a file that cannot be written.
+    pub(super) fn row(&self, case: &Case, work: impl FnOnce() -> Result<Row>) -> Result<Row> {
+        let key = format!("{}, {:016x}", case.name(), digest(&format!("{case:?}")));
+        if let Some(Line { row, elapsed }) = held(&self.journal).known(&key) {
+            let mut before = held(&self.before);
+            *before = before.max(elapsed);
+            return Ok(row);
+        }
+        let row = work()?;
+        let line = Line { row, elapsed: self.seconds() };
+        match held(&self.journal).add(&key, &line) {
+            // What does not survive being written is worked out again.
+            Ok(()) | Err(Error::Check(_)) => Ok(line.row),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Seconds of all runs.
+    pub fn seconds(&self) -> f64 {
+        *held(&self.before) + self.start.elapsed().as_secs_f64()
+    }
+
+    /// Deletes what only an interrupted run needs.
+    ///
+    /// # Errors
+    /// A file that cannot be deleted.
+    pub fn close(self) -> Result<()> {
+        self.journal.into_inner().unwrap_or_else(PoisonError::into_inner).close()?;
+        // It stays where somebody else keeps something in it.
+        let _ = std::fs::remove_dir(self.folder);
+        Ok(())
+    }
+}
+
+/// What a thread that panicked leaves is whole: every line is written at once.
+fn held<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::fixture;
+    use super::*;
+
+    #[test]
+    fn what_is_finished_is_not_done_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let (cases, row) = (super::super::plan::cases(), fixture().cases.swap_remove(0));
+        let never = || -> Result<Row> { panic!("asked for by a test") };
+        let first = Kept::open(folder.path()).unwrap();
+        assert_eq!(first.row(&cases[0], || Ok(row.clone())).unwrap(), row);
+        // Interrupted here: nothing is closed.
+        drop(first);
+        let second = Kept::open(folder.path()).unwrap();
+        assert_eq!(second.row(&cases[0], never).unwrap(), row);
+        let other = Row { note: "another".to_owned(), ..row.clone() };
+        assert_eq!(second.row(&cases[1], || Ok(other.clone())).unwrap(), other);
+        second.close().unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

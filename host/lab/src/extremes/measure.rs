@@ -1,0 +1,215 @@
+//! How wrong an answer is, at scale 1 and without the solver that gave it.
+//!
+//! The answer is divided by the factors of its scale; the exact solution is evaluated on the mesh at scale 1,
+//! where coordinates are of size 1 and numbers neither overflow nor vanish. There 16×16 points a cell
+//! (`large`: fewer) integrate the distance, and the direct solver says what the grid allows for.
+//! Where ‖u‖ spans more than 16 digits inside a cell (κ = 10⁶ and beyond), or loads are subnormal, the
+//! exact solution is itself good to a few digits only; bounds there are far above that.
+
+use std::path::Path;
+
+use super::attempt::Attempt;
+use super::case::Case;
+use super::grid::Shape;
+use super::large;
+use super::posed::Posed;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::admissible::Admissible;
+use signorini_solve::certify::exact::distance;
+use signorini_solve::norms::errors;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+
+/// An answer beside the truth, in energy norms at scale 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measured {
+    /// The answer's bound.
+    pub bound: Option<f64>,
+    /// The true error that it bounds; without a bound, ‖A^½∇_h(u − u_h)‖.
+    pub error: f64,
+    /// How far that number may be off: what 12×12 points instead of 16×16 change, where it seems above the bound.
+    pub uncertain: f64,
+    /// The same of the exact discrete solution; none where the direct solver finds none.
+    pub reference: Option<Reference>,
+    /// |u − u_h|₁ and ‖σ − σ_h‖ on trapezoids, where they fall at different rates.
+    pub of_fields: Option<[f64; 2]>,
+    /// Whether every number of the answer is finite.
+    pub finite: bool,
+}
+
+/// The exact discrete solution.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reference {
+    /// Its bound, where it has one.
+    pub bound: Option<f64>,
+    /// ‖A^½∇_h(u − u_h)‖; NaN where the answer has a bound, and nobody asks.
+    pub error: f64,
+    /// ‖A^½∇_h u_h‖
+    pub energy: f64,
+}
+
+/// Finer grids get their reference from one of this many rows, times the ratio of the widths.
+const FINEST: u32 = 64;
+/// Points a direction that tell how far 16 are enough.
+const FEWER: usize = 12;
+/// Grids with more rows are integrated with fewer points.
+const LARGE: u32 = 128;
+
+/// The distances of `attempt`.
+///
+/// # Errors
+/// A problem at scale 1 that cannot be posed.
+pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
+    let posed = case.posed.at_scale_one();
+    let mesh = case.posed.scales.unplaced(&attempt.mesh);
+    let (scene, problem) = at_scale_one(&posed, mesh)?;
+    let scales = case.posed.scales;
+    let (load, unit) = (scales.load, scales.energy());
+    let scaled = |numbers: &[f64], factor: f64| -> Vec<f64> {
+        numbers.iter().map(|x| x / load / factor).collect()
+    };
+    let (u, flux) = (scaled(&attempt.u, 1.0), scaled(&attempt.flux, scales.stiffness));
+    let reference = reference(&posed, &scene, &problem, attempt.bound.is_none()).ok();
+    let finite = u.iter().chain(&flux).all(|x| x.is_finite())
+        && attempt.bound.is_none_or(|bound| bound.total.is_finite());
+    let Some(exact) = scene.exact.as_ref().filter(|_| finite) else {
+        return Ok(Measured { reference, ..Measured::default() });
+    };
+    let bound = attempt.bound.map(|bound| bound.total / unit);
+    let mut uncertain = 0.0;
+    let error = match attempt.bound {
+        None => errors(&scene, exact, &problem, &u, &flux)?.energy,
+        Some(_) => {
+            let certified = &attempt.certified;
+            let vertices = scaled(&certified.vertices, 1.0);
+            let bubbles = scaled(&certified.bubbles, 1.0);
+            let tau = scaled(&certified.tau, scales.stiffness);
+            let admissible = Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau };
+            if posed.grid.n > LARGE {
+                large::combined(&scene, exact, &problem, &admissible, large::INSIDE)?
+            } else {
+                let found = distance(&scene, exact, &problem, &admissible)?.combined;
+                let transfers = !problem.loads.robin.is_empty();
+                if bound.is_some_and(|bound| found > bound) && !transfers {
+                    let fewer = large::combined(&scene, exact, &problem, &admissible, FEWER)?;
+                    uncertain = (found - fewer).abs();
+                }
+                found
+            }
+        }
+    };
+    let of_fields = match posed.grid.shape {
+        Shape::Trapezoids => {
+            let errors = errors(&scene, exact, &problem, &u, &flux)?;
+            Some([errors.h1, errors.flux])
+        }
+        _ => None,
+    };
+    Ok(Measured {
+        bound,
+        error,
+        uncertain,
+        reference,
+        of_fields,
+        finite: finite && error.is_finite(),
+    })
+}
+
+/// Of the ticks the one whose bound is worst kept, against the exact discrete solution of its time.
+///
+/// # Errors
+/// As for [`measure`].
+pub fn of_ticks(case: &Case, attempt: &Attempt) -> Result<Measured> {
+    let (scene, mut problem) = at_scale_one(&case.posed, attempt.mesh.clone())?;
+    let mut worst = Measured { finite: true, ..Measured::default() };
+    for tick in &attempt.ticks {
+        problem.set_time(&scene, tick.time)?;
+        let found = solve_directly(&scene, &problem).ok();
+        let measured = Measured {
+            bound: tick.bound.map(|bound| bound.total),
+            error: tick.combined.unwrap_or(f64::NAN),
+            uncertain: 0.0,
+            reference: found.map(|solution| Reference {
+                bound: solution.bound.map(|bound| bound.total),
+                error: f64::NAN,
+                energy: solution.energy(&problem),
+            }),
+            of_fields: None,
+            finite: tick.bound.is_some() && tick.combined.is_some(),
+        };
+        let ratio = |of: &Measured| of.bound.map_or(0.0, |bound| of.error / bound);
+        if !measured.finite {
+            return Ok(measured);
+        }
+        if worst.bound.is_none() || ratio(&measured) > ratio(&worst) {
+            worst = measured;
+        }
+    }
+    Ok(worst)
+}
+
+fn at_scale_one(posed: &Posed, mesh: Mesh) -> Result<(Scene, Problem)> {
+    let scene = Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?;
+    let problem = Problem::new(&scene, mesh)?;
+    Ok((scene, problem))
+}
+
+fn solve_directly(scene: &Scene, problem: &Problem) -> Result<Solution> {
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    solve(scene, problem, &options)
+}
+
+/// The exact discrete solution, its error where that is `needed`.
+fn reference(posed: &Posed, scene: &Scene, problem: &Problem, needed: bool) -> Result<Reference> {
+    if posed.grid.n > FINEST {
+        let mut coarse = *posed;
+        coarse.grid.n = FINEST;
+        let (scene, problem) = at_scale_one(&coarse, coarse.mesh())?;
+        let found = reference(&coarse, &scene, &problem, needed)?;
+        let ratio = f64::from(FINEST) / f64::from(posed.grid.n);
+        let bound = found.bound.map(|bound| ratio * bound);
+        return Ok(Reference { bound, error: ratio * found.error, ..found });
+    }
+    let solution = solve_directly(scene, problem)?;
+    let of_bound = solution.bound.map(|bound| bound.total);
+    let exact = scene.exact.as_ref().filter(|_| needed);
+    let error = exact.map(|exact| errors(scene, exact, problem, &solution.u, &solution.flux));
+    let error = error.transpose()?.map_or(f64::NAN, |errors| errors.energy);
+    Ok(Reference { bound: of_bound, error, energy: solution.energy(problem) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::extremes::grid::Grid;
+    use crate::extremes::posed::{Hold, Scales};
+    use crate::extremes::solution::{Shear, Solution as Exact};
+    use signorini_scene::mesh::structured::Cells;
+
+    /// On the stiff side u is small and its energy is not: u_D there counts by its energy.
+    #[test]
+    fn a_high_contrast_keeps_the_data_of_its_stiff_side() -> Result<()> {
+        for k in [1e9, 7e9, 1e10, 1e12] {
+            let posed = Posed {
+                solution: Exact::Jump(k),
+                shear: Shear::NONE,
+                grid: Grid { n: 12, cells: Cells::Triangles, shape: Shape::Square },
+                scales: Scales::ONE,
+                sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
+                split: None,
+            };
+            let (scene, problem) = at_scale_one(&posed, posed.mesh())?;
+            let solution = solve_directly(&scene, &problem)?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let found = distance(&scene, exact, &problem, &solution.certified.admissible())?;
+            let total = solution.bound.expect("a bound").total;
+            println!("k = {k:e}: total {total:.4e}, combined {:.4e}", found.combined);
+            assert!(total >= found.combined, "k = {k:e}: {total} {found:?}");
+            // Rounding is half of it where the contrast is 1e12.
+            assert!(total <= 1.01 * found.combined || k > 1e10, "k = {k:e}: {total} {found:?}");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,172 @@
+//! `signorini extremes`: every scale pushed until something gives, and what gives said in so many words.
+//!
+//! ```text
+//!   axis, plan ─► Case ─► posed (solution, grid: scene and mesh at that scale) ─► attempt (read, check, solve)
+//!                   └───► the same at scale 1 ─► measure (exact solution, direct solver) ─► judge ─► record
+//!   record ─► section, table
+//! ```
+//! Every case is a scene file and a mesh file that go through the reader, the checks and the default
+//! options of [`signorini_solve::solve`], on a thread of its own that may panic or be left alone after its limit of time. The
+//! outcomes are defined in [`mod@judge`].
+
+mod attempt;
+mod axis;
+mod case;
+mod flush;
+mod grid;
+pub mod judge;
+pub mod kept;
+mod large;
+mod measure;
+mod plan;
+mod posed;
+pub mod random;
+pub mod record;
+pub mod section;
+mod solution;
+mod table;
+mod watch;
+
+use std::time::{Duration, Instant};
+
+use attempt::{Attempt, attempt};
+use case::Case;
+use flush::flushed;
+use judge::{Ended, judge};
+use kept::Kept;
+use measure::{Measured, measure, of_ticks};
+use record::{Record, Row, definitions};
+use watch::{Lost, watched};
+
+pub use table::text;
+
+use signorini_scene::error::{Error, Result};
+use signorini_solve::solve::ScalarKind;
+use signorini_solve::threads::on_two_threads;
+
+/// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
+const LIMIT: Duration = Duration::from_secs(900);
+
+/// Cases of all studies, or of those whose name contains `only`.
+#[derive(Debug)]
+pub struct Plan(Vec<Case>);
+
+impl Plan {
+    /// Everything, or what `only` names.
+    pub fn new(only: Option<&str>) -> Self {
+        let mut cases = plan::cases();
+        cases.retain(|case| only.is_none_or(|only| case.name().contains(only)));
+        Self(cases)
+    }
+
+    /// How many cases there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Runs those that are not yet `kept` in two threads, the largest first; calls `done` after each.
+    ///
+    /// # Errors
+    /// No temporary folder for the scenes; finished cases cannot be kept.
+    pub fn run(&self, kept: &Kept, done: impl Fn() + Sync) -> Result<Record> {
+        let mut order: Vec<usize> = (0..self.0.len()).collect();
+        order.sort_by_key(|&at| std::cmp::Reverse(self.0[at].posed.grid.n));
+        let rows = on_two_threads(
+            &order,
+            |&at| Ok((at, kept.row(&self.0[at], || row(&self.0[at]))?)),
+            done,
+        )?;
+        let mut rows: Vec<(usize, Row)> = rows;
+        rows.sort_by_key(|&(at, _)| at);
+        let cases = rows.into_iter().map(|(_, row)| row).collect();
+        Ok(Record { definitions: definitions(), seconds: kept.seconds(), cases })
+    }
+}
+
+/// What a case left: the answer, how wrong it is, and how long it took.
+type Left = (Result<(Attempt, Measured)>, f64);
+
+/// Solves, measures and judges one case.
+fn row(case: &Case) -> Result<Row> {
+    let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir()))?;
+    let (place, own) = (folder.path().to_owned(), case.clone());
+    let left = watched(LIMIT, move || -> Left {
+        let start = Instant::now();
+        let found = match own.effort.flush {
+            true => flushed(|| attempt(&own, &place)),
+            false => attempt(&own, &place),
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        (found.and_then(|found| measured(&own, found)), seconds)
+    });
+    let (found, seconds, lost) = match left {
+        Ok((found, seconds)) => (Some(found), seconds, None),
+        Err(lost) => (None, LIMIT.as_secs_f64(), Some(lost)),
+    };
+    let ended = match (&found, lost) {
+        (Some(Ok((attempt, measured))), _) => Ended::Answered {
+            success: attempt.claims_success(),
+            status: attempt.status,
+            measured: *measured,
+        },
+        (Some(Err(Error::Input(error))), _) if error.message().starts_with("not-finite") => {
+            Ended::RefusedLate(error.message().to_owned())
+        }
+        (Some(Err(Error::Input(error))), _) => Ended::Refused(error.message().to_owned()),
+        (Some(Err(error)), _) => Ended::Failed(error.to_string()),
+        (None, Some(Lost::TimedOut)) => Ended::TimedOut,
+        (None, _) => Ended::Panicked,
+    };
+    let (outcome, note) = judge(&ended, case.scalar);
+    let answer = found.as_ref().and_then(|found| found.as_ref().ok());
+    Ok(Row { outcome, note, seconds, ..described(case, answer) })
+}
+
+fn measured(case: &Case, attempt: Attempt) -> Result<(Attempt, Measured)> {
+    let found = match case.effort.ticks {
+        0 => measure(case, &attempt),
+        _ => of_ticks(case, &attempt),
+    };
+    // What cannot be posed at scale 1 is a mistake of this study, not of the input.
+    let found = found.map_err(|error| Error::Check(format!("not measured: {error}")))?;
+    Ok((attempt, found))
+}
+
+/// The numbers of a case; those that are not finite are left out.
+fn described(case: &Case, answer: Option<&(Attempt, Measured)>) -> Row {
+    let (attempt, measured) = answer.map(|(attempt, measured)| (attempt, measured)).unzip();
+    let finite = |number: f64| number.is_finite().then_some(number);
+    let bound = measured.and_then(|measured| measured.bound).and_then(finite);
+    let error = measured.map(|measured| measured.error).and_then(finite);
+    let reference = measured.and_then(|measured| measured.reference);
+    let of_fields = measured.and_then(|measured| measured.of_fields);
+    let ratio = |error: f64, bound: f64| if error == 0.0 { 0.0 } else { error / bound };
+    Row {
+        axis: case.axis.clone(),
+        value: case.value,
+        axis2: case.across.as_ref().map(|(axis, _)| axis.clone()),
+        value2: case.across.as_ref().map(|&(_, value)| value),
+        scalar: match case.scalar {
+            ScalarKind::F64 => "f64".to_owned(),
+            ScalarKind::F32 => "f32".to_owned(),
+        },
+        outcome: judge::Outcome::Wrong,
+        error_over_bound: error.zip(bound).map(|(e, b)| ratio(e, b)).and_then(finite),
+        sweeps: attempt.map(|attempt| attempt.sweeps),
+        unknowns: attempt.map(|attempt| attempt.unknowns),
+        status: attempt.map(|attempt| attempt.status.to_owned()),
+        error,
+        bound,
+        reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),
+        energy: reference.map(|reference| reference.energy).and_then(finite),
+        error_u: of_fields.map(|[u, _]| u).and_then(finite),
+        error_flux: of_fields.map(|[_, flux]| flux).and_then(finite),
+        seconds: 0.0,
+        note: String::new(),
+    }
+}

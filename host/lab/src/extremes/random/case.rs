@@ -1,0 +1,182 @@
+//! A scene drawn at random, and how it is to be solved.
+
+use std::fmt::Write;
+
+use super::dice::Random;
+use super::mesh::{Kind, Outline, Plan, Regions};
+use super::posed::Hold;
+use super::{catalogue, data, made};
+use signorini_scene::mesh::Mesh;
+use signorini_solve::solve::ScalarKind;
+
+/// Where its truth comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Truth {
+    /// A solution of the catalogue, at any scale.
+    Catalogue,
+    /// A function was chosen, and the data made for it.
+    Made,
+    /// The data were chosen; the truth is a finer solve with its own bound.
+    Finer,
+}
+
+/// Who solves it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Sweeps of the kernel, as `solve` has them.
+    Sweeps,
+    /// The host's factorisation.
+    Direct,
+    /// The tick of a full controller.
+    Full,
+    /// The tick of a condensed one.
+    Condensed,
+}
+
+/// How it is solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effort {
+    /// Who solves it.
+    pub way: Way,
+    /// In which scalar.
+    pub scalar: ScalarKind,
+    /// A limit on the sweeps that may cut it off.
+    pub sweeps: Option<u32>,
+    /// Inputs of earlier ticks, whatever became of them.
+    pub earlier: Vec<Vec<f64>>,
+    /// Inputs of the tick that is judged.
+    pub inputs: Vec<f64>,
+}
+
+/// One case.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its number in the run.
+    pub number: u32,
+    /// Where its truth comes from.
+    pub truth: Truth,
+    /// What holds it.
+    pub hold: Hold,
+    /// What cells its mesh has.
+    pub kind: Kind,
+    /// The scene, whose mesh is `mesh.msh` beside it.
+    pub scene: String,
+    /// That mesh.
+    pub mesh: Mesh,
+    /// How it is solved.
+    pub effort: Effort,
+}
+
+impl Case {
+    /// Case `number` of the run with this seed.
+    pub fn draw(seed: u64, number: u32) -> Self {
+        let mut random = Random::of_case(seed, number);
+        let truth = match random.below(10) {
+            0..2 => Truth::Catalogue,
+            2..5 => Truth::Made,
+            _ => Truth::Finer,
+        };
+        let way = match random.below(20) {
+            0 => Way::Direct,
+            1..4 => Way::Full,
+            4..7 => Way::Condensed,
+            _ => Way::Sweeps,
+        };
+        let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
+        let plan = plan(&mut random, truth, way, kind);
+        let posed = match truth {
+            Truth::Catalogue => catalogue::draw(&mut random, &plan),
+            Truth::Made => made::draw(&mut random, &plan),
+            Truth::Finer => data::draw(&mut random, &plan, ticks(way)),
+        };
+        let effort = effort(&mut random, way, &posed.inputs);
+        let scene = posed.scene + &setting(&mut random, &effort, kind);
+        Self { number, truth, hold: posed.hold, kind, scene, mesh: posed.mesh, effort }
+    }
+}
+
+/// Whether it is a tick.
+fn ticks(way: Way) -> bool {
+    matches!(way, Way::Full | Way::Condensed)
+}
+
+/// Mostly small: the integrals of an exact solution take long, and so do references and fields of contact edges.
+fn plan(random: &mut Random, truth: Truth, way: Way, kind: Kind) -> Plan {
+    let most = match (truth, random.below(40)) {
+        (Truth::Finer, 0) if !ticks(way) => 5000.0,
+        (_, 0..4) => 500.0,
+        _ => 100.0,
+    };
+    let cells = random.log(2.0, most) as u32;
+    let outline = match (truth, random.below(12)) {
+        (Truth::Catalogue, _) => Outline::Whole,
+        (_, 0..2) => Outline::Corner,
+        (_, 2) => Outline::Apart,
+        _ => Outline::Whole,
+    };
+    Plan {
+        cells,
+        kind,
+        outline,
+        regions: random.pick(&[Regions::Halves, Regions::Layers, Regions::Scattered]),
+        moved: if random.chance(0.6) { random.between(0.0, 0.25) } else { 0.0 },
+        graded: random.chance(0.2),
+        split: random.chance(0.4),
+        map: [[1.0, 0.0], [0.0, 1.0]],
+    }
+}
+
+fn effort(random: &mut Random, way: Way, defaults: &[f64]) -> Effort {
+    let scalar = match way {
+        Way::Direct => ScalarKind::F64,
+        _ => random.pick(&[ScalarKind::F64, ScalarKind::F32]),
+    };
+    let sweeps = match way {
+        Way::Direct => None,
+        Way::Sweeps if random.chance(0.6) => None,
+        Way::Full | Way::Condensed if random.chance(0.5) => None,
+        _ => Some(random.log(1.0, 3000.0) as u32),
+    };
+    let mut values = |size: f64| -> Vec<f64> {
+        defaults.iter().map(|_| f64::from(random.signed_log(1e-3 * size, size) as f32)).collect()
+    };
+    let mut earlier = Vec::new();
+    if ticks(way) && !defaults.is_empty() {
+        for exponent in [0.0, 10.0, 21.0, 37.0] {
+            earlier.push(values(10_f64.powf(exponent)));
+        }
+    }
+    let inputs = values(2.0);
+    if !earlier.is_empty() {
+        let kept = random.below(1 + earlier.len() as u32) as usize;
+        earlier.truncate(kept);
+    }
+    Effort { way, scalar, sweeps, earlier, inputs }
+}
+
+/// The `[setting]` that makes commands do the same.
+fn setting(random: &mut Random, effort: &Effort, kind: Kind) -> String {
+    let mut text = String::from("[setting]\n");
+    let scalar = match effort.scalar {
+        ScalarKind::F64 => "f64",
+        ScalarKind::F32 => "f32",
+    };
+    let _ = writeln!(text, "scalar = \"{scalar}\"");
+    if kind != Kind::Triangles && random.chance(0.3) {
+        text += "element = \"nonparametric\"\n";
+    }
+    let model = match effort.way {
+        Way::Full => "full",
+        Way::Condensed => "condensed",
+        Way::Sweeps | Way::Direct => return text,
+    };
+    let _ = writeln!(text, "model = \"{model}\"");
+    match effort.sweeps {
+        Some(sweeps) => {
+            let _ = writeln!(text, "sweeps = {sweeps}");
+        }
+        None if effort.way == Way::Full && random.chance(0.5) => text += "solver = \"factor\"\n",
+        None => {}
+    }
+    text
+}

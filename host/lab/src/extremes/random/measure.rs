@@ -1,0 +1,203 @@
+//! How wrong an answer is: against the exact solution, or against a finer solve that counts with its own bound.
+//!
+//! With (s, τ) of the answer and (s′, τ′) of a finer one, both bounded by their own totals, the triangle inequality says
+//! ```text
+//!   combined(s′ − s, τ′ − τ) ≤ total + total′,   ‖A^½∇_h(s′ − u_h)‖ ≤ of_u + total′,
+//! ```
+//! whatever the exact solution is: an answer that breaks it, or a finer one, has a bound that is wrong.
+
+use super::attempt::{Answer, Attempt};
+use super::case::{Case, Truth};
+use super::nested::{Apart, Side, apart};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::refine::refined;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+use signorini_solve::certify::ErrorBound;
+use signorini_solve::certify::exact::{Distance, distance_on};
+use signorini_solve::certify::robin::missed;
+use signorini_solve::norms::errors;
+use signorini_solve::problem::Problem;
+use signorini_solve::quadrature::{gauss, on_panels};
+use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, in_units, solve};
+
+/// An answer beside the truth, in units in which its numbers are near 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measured {
+    /// Its bound.
+    pub bound: Option<ErrorBound>,
+    /// The bound on u_h.
+    pub of_u_bound: f64,
+    /// The distance of s and τ from the truth; without a bound NaN.
+    pub combined: f64,
+    /// That of u_h.
+    pub of_u: f64,
+    /// What the bound is up to quadrature, and how far its square may be off by rounding, where the exact solution is
+    /// known.
+    pub identity: Option<[f64; 2]>,
+    /// The bound of the truth: 0 where it is exact.
+    pub total: f64,
+    /// How far `combined` and `of_u` may be off, where they seem above their bounds.
+    pub uncertain: [f64; 2],
+    /// ‖A^½∇s‖ of the truth.
+    pub energy: f64,
+    /// The bound of the exact discrete solution on the same mesh.
+    pub best: Option<f64>,
+}
+
+impl Measured {
+    /// The errors, less what they may be off.
+    pub fn least(&self) -> [f64; 2] {
+        [self.combined - self.uncertain[0], self.of_u - self.uncertain[1]].map(|of| of.max(0.0))
+    }
+}
+
+/// Unknowns of a finer solve: mostly, and at most.
+const UNKNOWNS: [usize; 2] = [12_000, 200_000];
+/// Most refinements of a finer solve.
+const LEVELS: u32 = 3;
+/// Panels, and points on each, in a direction of a cell of the finer mesh: more and more while an error seems above its
+/// bounds.
+const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
+/// Points a direction for the energy of one answer.
+const POINTS: usize = 7;
+/// Panels a direction of a cell beside an exact solution, where one does not seem enough.
+const PANELS: u32 = 4;
+
+/// |gap/identity − 1| up to which the integrals of the exact solution are trusted.
+pub const IDENTITY: f64 = 2e-3;
+/// Part of the gap up to which what 8 points miss of u_ext leaves the identity as it is.
+const RESOLVED: f64 = 1e-4;
+
+/// Measures; `None` where there is no truth to measure by.
+///
+/// # Errors
+/// A scene that cannot be stated in its own units.
+pub fn measure(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
+    let units = choose_units(&attempt.scene, &attempt.problem)?;
+    let answer = attempt.answer.clone().divided(&units);
+    let (scene, problem) = match units == Units::default() {
+        true => (attempt.scene.clone(), attempt.problem.clone()),
+        false => in_units(&attempt.scene, &attempt.problem, &units)?,
+    };
+    let Some(bound) = answer.bound else { return Ok(None) };
+    // An answer without s and τ has nothing to be measured.
+    let held = Held { scene: &scene, problem: &problem, answer: &answer, bound };
+    let mut found = match case.truth {
+        Truth::Finer => held.by_finer(case)?,
+        Truth::Catalogue | Truth::Made => Some(held.by_exact()?),
+    };
+    if let Some(found) = &mut found {
+        found.best = directly(&scene, &problem).ok().and_then(|of| of.bound).map(|of| of.total);
+    }
+    Ok(found)
+}
+
+/// An answer in its units.
+struct Held<'a> {
+    scene: &'a Scene,
+    problem: &'a Problem,
+    answer: &'a Answer,
+    bound: ErrorBound,
+}
+
+impl Held<'_> {
+    fn side(&self) -> Side<'_> {
+        let Answer { u, certified, .. } = self.answer;
+        Side { problem: self.problem, admissible: certified.admissible(), u }
+    }
+
+    fn by_exact(&self) -> Result<Measured> {
+        let (scene, problem) = (self.scene, self.problem);
+        let own = self.side();
+        let within = apart(scene, &own, &own, 0, &gauss(POINTS))?;
+        let mut found = Measured {
+            bound: Some(self.bound),
+            of_u_bound: self.bound.of_u,
+            combined: f64::NAN,
+            of_u: f64::NAN,
+            energy: within.energy,
+            ..Measured::default()
+        };
+        if let Some(exact) = &scene.exact {
+            let by = |panels| distance_on(panels, scene, exact, problem, &own.admissible);
+            let mut distance = by(1)?;
+            // Kinks and layers inside cells take more points.
+            if self.is_off(&distance) {
+                distance = by(PANELS)?;
+            }
+            found.combined = distance.combined;
+            found.of_u = errors(scene, exact, problem, own.u, &self.answer.flux)?.energy;
+            let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
+            found.uncertain = [found.combined, found.of_u].map(rounding);
+            // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
+            let known = self.missed()? <= RESOLVED * self.bound.gap;
+            found.identity = known.then_some([distance.identity, distance.rounding]);
+        }
+        Ok(found)
+    }
+
+    /// Whether the integrals seem to contradict the bound.
+    fn is_off(&self, found: &Distance) -> bool {
+        let of_gap = (self.bound.gap / found.identity - 1.0).abs();
+        found.combined > self.bound.total || of_gap > 0.1 * IDENTITY
+    }
+
+    /// What 8 points of the edges of R miss.
+    fn missed(&self) -> Result<f64> {
+        let (scene, problem) = (self.scene, self.problem);
+        let laws = problem.loads.robin.iter();
+        let squares = laws.map(|law| missed(scene, problem, law.edge as usize, problem.time));
+        let squares = squares.map(|of| of.map(|of| of * of));
+        Ok(squares.sum::<Result<f64>>()?.sqrt())
+    }
+
+    fn by_finer(&self, case: &Case) -> Result<Option<Measured>> {
+        let (scene, problem, own) = (self.scene, self.problem, self.side());
+        // One in so many cases gets the finest that is allowed for.
+        let most = UNKNOWNS[usize::from(case.number.is_multiple_of(97))];
+        let (mut mesh, mut levels) = (refined(&problem.mesh)?, 1);
+        while levels < LEVELS && 8 * mesh.cells() <= most {
+            (mesh, levels) = (refined(&mesh)?, levels + 1);
+        }
+        let mut finer = Problem::new(scene, mesh)?;
+        finer.set_time(scene, problem.time)?;
+        let Ok(solution) = directly(scene, &finer) else { return Ok(None) };
+        let Some(its) = solution.bound else { return Ok(None) };
+        let Solution { u, certified, .. } = &solution;
+        let fine = Side { problem: &finer, admissible: certified.admissible(), u };
+        let most = [self.bound.total + its.total, self.bound.of_u + its.total];
+        let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
+        let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
+        for (panels, points) in RULES {
+            let rule = on_panels(panels, &gauss(points));
+            let next = apart(scene, &own, &fine, levels, &rule)?;
+            uncertain = difference(&found, &next);
+            found = next;
+            if !is_above(&found) {
+                uncertain = [0.0; 2];
+                break;
+            }
+        }
+        Ok(Some(Measured {
+            bound: Some(self.bound),
+            of_u_bound: self.bound.of_u,
+            combined: found.combined,
+            of_u: found.of_u,
+            identity: None,
+            total: its.total,
+            uncertain,
+            energy: found.energy,
+            best: None,
+        }))
+    }
+}
+
+fn difference(one: &Apart, other: &Apart) -> [f64; 2] {
+    [(one.combined - other.combined).abs(), (one.of_u - other.of_u).abs()]
+}
+
+fn directly(scene: &Scene, problem: &Problem) -> Result<Solution> {
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    solve(scene, problem, &options)
+}

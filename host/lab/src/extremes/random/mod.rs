@@ -1,0 +1,191 @@
+//! `signorini extremes --random N --seed S`: whole scenes drawn at random, each judged by a truth of its own.
+//!
+//! ```text
+//!   dice ─► mesh, function ─► catalogue, made, data ─► Case ─► attempt ─► measure (exact, or nested) ─► verdict ─► row ─► record
+//! ```
+//! Case k of a seed depends on nothing but k and the seed, so that each can be had alone.
+
+mod attempt;
+mod case;
+mod catalogue;
+mod data;
+mod dice;
+mod function;
+mod made;
+mod measure;
+mod mesh;
+mod nested;
+mod posed;
+pub mod record;
+mod residual;
+pub mod row;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use attempt::{Attempt, attempt};
+use case::Case;
+use measure::{Measured, measure};
+use record::Record;
+use row::Row;
+use verdict::{broken_by, ended};
+
+use super::grid::msh;
+use super::judge::{Ended, Outcome, judge};
+use super::watch::{Lost, watched};
+use signorini_scene::error::{Error, Result};
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::threads::on_two_threads;
+
+/// What has no answer by then hangs.
+const LIMIT: Duration = Duration::from_secs(1800);
+
+/// Which scenes are drawn.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    seed: u64,
+    cases: Vec<u32>,
+}
+
+/// Called with all rows that are there so far.
+pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
+
+/// Cases between two records of a run that is not over.
+const OFTEN: usize = 250;
+
+impl Plan {
+    /// The first `count` cases of a seed.
+    pub fn new(seed: u64, count: u32) -> Self {
+        Self { seed, cases: (0..count).collect() }
+    }
+
+    /// One case of a seed.
+    pub fn one(seed: u64, case: u32) -> Self {
+        Self { seed, cases: vec![case] }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.cases.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.cases.is_empty()
+    }
+
+    /// Runs them in two threads; calls `done` after each and `keep` now and then.
+    ///
+    /// # Errors
+    /// What `keep` returns.
+    pub fn run(&self, done: impl Fn() + Sync, keep: &Keep) -> Result<(Record, Vec<Row>)> {
+        let start = Instant::now();
+        let rows = Mutex::new(Vec::with_capacity(self.cases.len()));
+        let work = |&number: &u32| {
+            let row = row(self.seed, number);
+            let Ok(mut rows) = rows.lock() else { return Ok(()) };
+            rows.push(row);
+            if rows.len().is_multiple_of(OFTEN) { keep(&rows) } else { Ok(()) }
+        };
+        on_two_threads(&self.cases, work, done)?;
+        let mut rows = rows.into_inner().unwrap_or_default();
+        rows.sort_by_key(|row| row.case);
+        keep(&rows)?;
+        Ok((Record::new(self.seed, start.elapsed().as_secs_f64(), &rows), rows))
+    }
+
+    /// The record of rows that may not be all.
+    pub fn record(&self, seconds: f64, rows: &[Row]) -> Record {
+        Record::new(self.seed, seconds, rows)
+    }
+}
+
+/// Writes the scene and the mesh of a case into `folder`.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
+    let case = Case::draw(seed, number);
+    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+    let effort = case.effort;
+    let how = format!(
+        "# case {number} of seed {seed}: {:?}, {:?}; at most {:?} sweeps\n# earlier ticks {:?}\n# tick {:?}\n",
+        effort.way, effort.scalar, effort.sweeps, effort.earlier, effort.inputs
+    );
+    write_atomically(&folder.join("scene.toml"), (how + &case.scene).as_bytes())?;
+    write_atomically(&folder.join("mesh.msh"), msh(&case.mesh).as_bytes())
+}
+
+/// What a case left: the answer, what was measured, and the seconds of the one.
+type Left = (Result<(Attempt, Result<Option<Measured>>)>, f64);
+
+/// Draws, solves, measures and judges one case.
+fn row(seed: u64, number: u32) -> Row {
+    let start = Instant::now();
+    let left = watched(LIMIT, move || -> (Case, Left) {
+        let case = Case::draw(seed, number);
+        let start = Instant::now();
+        let found = attempt(&case);
+        let seconds = start.elapsed().as_secs_f64();
+        let found = found.map(|attempt| {
+            let measured = measured(&case, &attempt);
+            (attempt, measured)
+        });
+        (case, (found, seconds))
+    });
+    let row = match left {
+        Ok((case, (found, seconds))) => Row { seconds, ..judged(&case, found) },
+        Err(lost) => {
+            let ended = match lost {
+                Lost::TimedOut => Ended::TimedOut,
+                Lost::Panicked => Ended::Panicked,
+            };
+            let (outcome, note) = judge(&ended, signorini_solve::solve::ScalarKind::F64);
+            Row { outcome, note, ..Row::of(&Case::draw(seed, number)) }
+        }
+    };
+    Row { seconds_in_all: start.elapsed().as_secs_f64(), ..row }
+}
+
+/// Nothing is measured where a number is not finite.
+fn measured(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
+    if !attempt.answer.is_finite() {
+        return Ok(None);
+    }
+    measure(case, attempt)
+}
+
+fn judged(case: &Case, found: Result<(Attempt, Result<Option<Measured>>)>) -> Row {
+    let row = Row::of(case);
+    let (attempt, measured) = match found {
+        Ok((attempt, Ok(measured))) => (attempt, measured),
+        Ok((_, Err(error))) => {
+            return concluded(
+                row,
+                case,
+                &Ended::Failed(format!("not measured: {}", error.reason())),
+            );
+        }
+        Err(Error::Input(error)) if error.message().starts_with("not-finite") => {
+            return concluded(row, case, &Ended::RefusedLate(error.message().to_owned()));
+        }
+        Err(Error::Input(error)) => {
+            return concluded(row, case, &Ended::Refused(error.message().to_owned()));
+        }
+        Err(error) => return concluded(row, case, &Ended::Failed(error.to_string())),
+    };
+    let broken = broken_by(case, &attempt, measured.as_ref());
+    let ended = ended(&attempt, measured.as_ref());
+    let row = concluded(row.with(case, &attempt, measured.as_ref()), case, &ended);
+    let outcome = if broken.is_empty() { row.outcome } else { Outcome::Wrong };
+    Row { broken, outcome, ..row }
+}
+
+fn concluded(row: Row, case: &Case, ended: &Ended) -> Row {
+    let (outcome, note) = judge(ended, case.effort.scalar);
+    Row { outcome, note, ..row }
+}

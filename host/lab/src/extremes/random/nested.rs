@@ -1,0 +1,240 @@
+//! How far two answers are from each other, one on a mesh and one on its uniform refinement.
+//!
+//! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
+//! is known at any point of the finer mesh, without a search.
+
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Condition, Scene};
+use signorini_solve::certify::admissible::{Admissible, Chordal};
+use signorini_solve::certify::cell::{Cell, Jet};
+use signorini_solve::certify::conductivity::{Conductivity, inverse, product};
+use signorini_solve::certify::deviation::{Deviations, Lift};
+use signorini_solve::certify::weighed::{minus, on_robin};
+use signorini_solve::field::CellField;
+use signorini_solve::problem::{EdgeKind, Problem, Sum};
+use signorini_solve::quadrature::{Point, gauss};
+
+/// One of the two: its problem, s and τ, and u_h where that is asked for.
+pub struct Side<'a> {
+    /// Its mesh and data.
+    pub problem: &'a Problem,
+    /// s and τ.
+    pub admissible: Admissible<'a>,
+    /// Means of u_h over the edges.
+    pub u: &'a [f64],
+}
+
+/// What lies between them.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Apart {
+    /// (‖A^½∇(s′ − s)‖² + ‖A^{−½}(τ′ − τ)‖² + ∫_R h(s′ − s)² + ∫_R ((τ′ − τ)·n)²/h)^½
+    pub combined: f64,
+    /// ‖A^½∇_h(s′ − u_h)‖
+    pub of_u: f64,
+    /// ‖A^½∇s′‖
+    pub energy: f64,
+}
+
+/// Both with what their boundary data add to s.
+struct Study<'a> {
+    scene: &'a Scene,
+    coarse: Part<'a>,
+    fine: Part<'a>,
+    levels: u32,
+}
+
+struct Part<'a> {
+    side: &'a Side<'a>,
+    deviations: Deviations<'a>,
+}
+
+/// A function on one cell.
+struct OnCell<'a> {
+    cell: Cell,
+    chordal: Chordal,
+    lift: Lift<'a, 'a>,
+    tau: CellField,
+    u: CellField,
+}
+
+/// The distance between `coarse` and `fine`, which has `levels` refinements more, by `rule` in both directions
+/// of a cell of the finer mesh.
+///
+/// # Errors
+/// Data that are not finite at a point.
+pub fn apart(
+    scene: &Scene,
+    coarse: &Side,
+    fine: &Side,
+    levels: u32,
+    rule: &[[f64; 2]],
+) -> Result<Apart> {
+    let (coarse, fine) = (Part::new(scene, coarse)?, Part::new(scene, fine)?);
+    let study = Study { scene, coarse, fine, levels };
+    let fine = study.fine.side;
+    let mut squares = Apart::default();
+    let mut last = None;
+    for at in 0..fine.problem.cells() {
+        let parent = study.parent(at);
+        let own = study.fine.on_cell(at);
+        // Children of one cell follow each other.
+        let of_parent = match last.take() {
+            Some((known, of)) if known == parent => of,
+            _ => study.coarse.on_cell(parent),
+        };
+        study.add_cell(at, &own, &of_parent, rule, &mut squares)?;
+        last = Some((parent, of_parent));
+    }
+    for edge in 0..fine.problem.kinds.len() {
+        if fine.problem.kinds[edge] == EdgeKind::Robin {
+            squares.combined += study.robin(edge)?;
+        }
+    }
+    let Apart { combined, of_u, energy } = squares;
+    Ok(Apart { combined: combined.sqrt(), of_u: of_u.sqrt(), energy: energy.sqrt() })
+}
+
+impl<'a> Part<'a> {
+    fn new(scene: &'a Scene, side: &'a Side<'a>) -> Result<Self> {
+        let deviations = Deviations::at_time(scene, side.problem, side.problem.time)?;
+        Ok(Self { side, deviations })
+    }
+
+    fn on_cell(&'a self, at: usize) -> OnCell<'a> {
+        let Side { problem, admissible, u } = self.side;
+        OnCell {
+            cell: Cell::of(problem, at),
+            chordal: admissible.chordal(problem, at),
+            lift: Lift::on_cell(problem, at, &self.deviations),
+            tau: CellField::new(problem, at, admissible.tau, admissible.tau),
+            u: CellField::new(problem, at, u, u),
+        }
+    }
+}
+
+impl OnCell<'_> {
+    fn s(&self, reference: [f64; 3]) -> Result<Jet> {
+        let local = self.cell.local(reference);
+        let mut s = self.chordal.at(&local);
+        if !self.lift.is_zero() {
+            s.add(1.0, self.lift.at(&local)?);
+        }
+        Ok(s)
+    }
+}
+
+impl Study<'_> {
+    /// The cell of the coarser mesh in which cell `at` of the finer one lies.
+    fn parent(&self, at: usize) -> usize {
+        let shift = 2 * self.levels;
+        let triangles = self.fine.side.problem.mesh.triangles.len();
+        match at.checked_sub(triangles) {
+            None => at >> shift,
+            Some(quad) => self.coarse.side.problem.mesh.triangles.len() + (quad >> shift),
+        }
+    }
+
+    /// Where a point of cell `at` lies in its parent.
+    fn in_parent(&self, at: usize, mut reference: [f64; 3]) -> [f64; 3] {
+        let triangles = self.fine.side.problem.mesh.triangles.len();
+        let (mut number, quad) = match at.checked_sub(triangles) {
+            None => (at, false),
+            Some(quad) => (quad, true),
+        };
+        for _ in 0..self.levels {
+            reference = if quad {
+                of_quarter(number % 4, reference)
+            } else {
+                of_child(number % 4, reference)
+            };
+            number /= 4;
+        }
+        reference
+    }
+
+    fn add_cell(
+        &self,
+        at: usize,
+        own: &OnCell,
+        parent: &OnCell,
+        rule: &[[f64; 2]],
+        squares: &mut Apart,
+    ) -> Result<()> {
+        let conductivity = Conductivity::of(self.scene, self.fine.side.problem, at);
+        for point in own.cell.points(rule) {
+            let there = Point { reference: self.in_parent(at, point.reference), ..point };
+            let (s, of_parent) = (own.s(point.reference)?.gradient, parent.s(there.reference)?);
+            let (tau, other) = (own.tau.sample(&point).flux, parent.tau.sample(&there).flux);
+            let a = conductivity.at(point.x);
+            let broken = minus(s, parent.u.sample(&there).gradient);
+            let (error, flux_error) = (minus(s, of_parent.gradient), minus(tau, other));
+            let of_s = product(&a, error, error);
+            let of_tau = product(&inverse(&a), flux_error, flux_error);
+            squares.combined += point.weight * (of_s + of_tau);
+            squares.of_u += point.weight * product(&a, broken, broken);
+            squares.energy += point.weight * product(&a, s, s);
+        }
+        Ok(())
+    }
+
+    /// ∫[h(s′ − s)² + ((τ′ − τ)·n)²/h] over an edge of R.
+    fn robin(&self, edge: usize) -> Result<f64> {
+        let (fine, coarse) = (self.fine.side, self.coarse.side);
+        let boundary = fine.problem.binding.boundary(fine.problem.ends[edge]);
+        let boundary = boundary.map(|boundary| &self.scene.boundaries[boundary].condition);
+        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
+        let h = Sum::alone(self.scene, coefficient, fine.problem.time);
+        let (at, side) = fine.problem.topology.first_side(edge);
+        let parent = self.parent(at);
+        let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));
+        let middle = self.in_parent(at, own.cell.side_point(side, 0.5, 0.0));
+        let whole = edge_at(coarse.problem, parent, &of_parent.cell, middle);
+        let density =
+            |side: &Side, edge: usize| side.admissible.tau[edge] / side.problem.lengths[edge];
+        let flux = density(fine, edge) - density(coarse, whole);
+        let [a, b] = fine.problem.segment(edge);
+        let mut sum = 0.0;
+        for [t, weight] in gauss(8) {
+            let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+            let reference = own.cell.side_point(side, t, 0.0);
+            let error = own.s(reference)?.value - of_parent.s(self.in_parent(at, reference))?.value;
+            let h = h.finite(h.at(x, y), [x, y])?;
+            sum += weight * fine.problem.lengths[edge] * on_robin(h, error, flux);
+        }
+        Ok(sum)
+    }
+}
+
+/// The edge of a cell on which a point of its boundary lies.
+fn edge_at(problem: &Problem, at: usize, cell: &Cell, [x, y, z]: [f64; 3]) -> usize {
+    let triangles = problem.mesh.triangles.len();
+    let nearest = |away: &[f64]| {
+        let sides = 0..away.len();
+        sides.min_by(|&i, &j| away[i].abs().total_cmp(&away[j].abs())).unwrap_or(0)
+    };
+    let edge = match cell {
+        Cell::Triangle(_) => problem.topology.of_triangles[at][nearest(&[z, x, y])],
+        Cell::Quad(_) => {
+            problem.topology.of_quads[at - triangles][nearest(&[y, 1.0 - x, 1.0 - y, x])]
+        }
+    };
+    edge as usize
+}
+
+/// Barycentric coordinates in the parent of child `number`, in the order of [`signorini_scene::mesh::refine`].
+fn of_child(number: usize, [a, b, c]: [f64; 3]) -> [f64; 3] {
+    let half = [0.5 * a, 0.5 * b, 0.5 * c];
+    match number {
+        0 => [a + half[1] + half[2], half[1], half[2]],
+        1 => [half[0], half[0] + b + half[2], half[2]],
+        2 => [half[0], half[1], half[0] + half[1] + c],
+        // Its corners are the midpoints of bc, ca and ab.
+        _ => [half[1] + half[2], half[0] + half[2], half[0] + half[1]],
+    }
+}
+
+/// (x̂, ŷ) in the parent of quarter `number`.
+fn of_quarter(number: usize, [x, y, _]: [f64; 3]) -> [f64; 3] {
+    let [right, up] = [matches!(number, 1 | 2), matches!(number, 2 | 3)].map(f64::from);
+    [0.5 * (x + right), 0.5 * (y + up), 0.0]
+}

@@ -1,0 +1,171 @@
+//! What became of one random scene.
+
+use serde::Serialize;
+
+use super::attempt::Attempt;
+use super::case::{Case, Truth, Way};
+use super::measure::Measured;
+use super::mesh::Kind;
+use super::posed::Hold;
+use super::verdict::Broken;
+use crate::extremes::judge::Outcome;
+use signorini_scene::error::{Error, Result};
+use signorini_solve::solve::ScalarKind;
+
+/// A line of `random.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Its number.
+    pub case: u32,
+    /// Where its truth comes from.
+    pub truth: &'static str,
+    /// What holds it.
+    pub hold: &'static str,
+    /// Its cells.
+    pub cells: &'static str,
+    /// Its scalar.
+    pub scalar: &'static str,
+    /// Who solved it.
+    pub way: &'static str,
+    /// A limit on the sweeps.
+    pub limit: Option<u32>,
+    /// What the answer is worth.
+    pub outcome: Outcome,
+    /// Edges not on D.
+    pub unknowns: Option<usize>,
+    /// How it ended.
+    pub status: Option<&'static str>,
+    /// Sweeps spent.
+    pub sweeps: Option<u32>,
+    /// The true distance of s and τ over the bounds; as far as it is known where it seems above them.
+    pub error_over_bound: Option<f64>,
+    /// That of u_h over its bounds.
+    pub of_u_over_bound: Option<f64>,
+    /// |gap/identity − 1|
+    pub identity_off: Option<f64>,
+    /// The bound over ‖A^½∇s‖.
+    pub relative_bound: Option<f64>,
+    /// Wall-clock seconds of the answer, and with the truth.
+    pub seconds: f64,
+    /// See `seconds`.
+    pub seconds_in_all: f64,
+    /// Why it is not correct.
+    pub note: String,
+    /// What it breaks.
+    #[serde(skip)]
+    pub broken: Vec<Broken>,
+}
+
+impl Row {
+    /// What was drawn.
+    pub fn of(case: &Case) -> Self {
+        Self {
+            case: case.number,
+            truth: match case.truth {
+                Truth::Catalogue => "catalogue",
+                Truth::Made => "made",
+                Truth::Finer => "finer",
+            },
+            hold: match case.hold {
+                Hold::Dirichlet => "dirichlet",
+                Hold::Robin => "robin",
+                Hold::Contact => "contact alone",
+            },
+            cells: match case.kind {
+                Kind::Triangles => "triangles",
+                Kind::Quads => "quads",
+                Kind::Both => "both",
+            },
+            scalar: match case.effort.scalar {
+                ScalarKind::F64 => "f64",
+                ScalarKind::F32 => "f32",
+            },
+            way: match case.effort.way {
+                Way::Sweeps => "sweeps",
+                Way::Direct => "direct",
+                Way::Full => "full tick",
+                Way::Condensed => "condensed tick",
+            },
+            limit: case.effort.sweeps,
+            outcome: Outcome::Wrong,
+            unknowns: None,
+            status: None,
+            sweeps: None,
+            error_over_bound: None,
+            of_u_over_bound: None,
+            identity_off: None,
+            relative_bound: None,
+            seconds: 0.0,
+            seconds_in_all: 0.0,
+            note: String::new(),
+            broken: Vec::new(),
+        }
+    }
+
+    /// With the numbers of its answer.
+    #[must_use]
+    pub fn with(self, case: &Case, attempt: &Attempt, measured: Option<&Measured>) -> Self {
+        let over = |part: f64, whole: f64| match part == 0.0 {
+            true => Some(0.0),
+            false => Some(part / whole).filter(|ratio| ratio.is_finite()),
+        };
+        let total = |of: &Measured| of.bound.map_or(f64::NAN, |bound| bound.total);
+        let counts = case.effort.scalar == ScalarKind::F64;
+        let identity = |of: &Measured| {
+            let (bound, identity) = (of.bound?, of.identity?);
+            let [identity, rounding] = identity;
+            let off = (bound.gap - identity).abs() - rounding / (bound.gap + identity);
+            let found = off.max(0.0) / identity;
+            (counts && bound.gap > 100.0 * bound.rounding && found.is_finite()).then_some(found)
+        };
+        Self {
+            unknowns: Some(attempt.problem.topology.counts.unknowns()),
+            status: Some(attempt.answer.status),
+            sweeps: Some(attempt.answer.sweeps),
+            error_over_bound: measured.and_then(|of| over(of.least()[0], total(of) + of.total)),
+            of_u_over_bound: measured.and_then(|of| over(of.least()[1], of.of_u_bound + of.total)),
+            identity_off: measured.and_then(identity),
+            relative_bound: measured.and_then(|of| over(total(of), of.energy)),
+            ..self
+        }
+    }
+
+    /// The classes that it counts in.
+    pub fn classes(&self) -> Vec<String> {
+        let cut = if self.limit.is_some() { "with a limit" } else { "to the end" };
+        let names = [self.truth, self.hold, self.cells, self.scalar, self.way, cut];
+        names.map(str::to_owned).to_vec()
+    }
+
+    /// The ratios whose largest is recorded.
+    pub fn ratios(&self) -> Vec<(&'static str, f64)> {
+        let finer = self.truth == "finer";
+        let of = |name, ratio: Option<f64>| ratio.map(|ratio| (name, ratio));
+        let [error, of_u] = match finer {
+            true => [
+                "error over bounds, by a finer solve",
+                "error of u_h over bounds, by a finer solve",
+            ],
+            false => ["error over bound, exact", "error of u_h over bound, exact"],
+        };
+        let all = [
+            of(error, self.error_over_bound),
+            of(of_u, self.of_u_over_bound),
+            of("|gap/identity − 1|", self.identity_off),
+        ];
+        all.into_iter().flatten().collect()
+    }
+}
+
+/// The text of `random.csv`.
+///
+/// # Errors
+/// Never for plain data.
+pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
+    let failed = |error: String| Error::Check(format!("random.csv: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(|error| failed(error.to_string()))?;
+    }
+    writer.into_inner().map_err(|error| failed(error.to_string()))
+}

@@ -1,0 +1,108 @@
+//! Random scenes keep their promises; what they are judged by is itself right.
+
+use std::path::Path;
+
+use super::nested::{Side, apart};
+use super::residual::residual;
+use super::*;
+use signorini_scene::mesh::refine::refined;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::exact::distance;
+use signorini_solve::problem::Problem;
+use signorini_solve::quadrature::gauss;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+
+/// A fixed seed: whatever is mended stays mended.
+#[test]
+fn two_hundred_random_scenes_keep_their_promises() {
+    let plan = Plan::new(21, 200);
+    let (record, rows) = plan.run(|| {}, &|_| Ok(())).unwrap();
+    assert_eq!(rows.len(), 200);
+    assert!(record.violations.is_empty(), "{}", record.text());
+}
+
+#[test]
+fn a_case_is_the_same_alone() {
+    let (all, alone) = (Case::draw(3, 17), Case::draw(3, 17));
+    assert_eq!((all.scene, all.mesh, all.effort), (alone.scene, alone.mesh, alone.effort));
+}
+
+/// A transfer law on one side, given values on another: u_ext is what the test says.
+fn scene(ambient: &str) -> Scene {
+    let text = format!(
+        "mesh = \"grid\"\n[material.default]\nconductivity = [\"2\", \"0.5\", \"1\"]\n[source]\nf = \"x\"\n\
+         [boundary.dirichlet]\nkind = \"robin\"\ncoefficient = \"3\"\nambient = \"{ambient}\"\n\
+         [boundary.contact]\nkind = \"contact\"\ngap = \"-0.1*x^2\"\nflux = \"0\"\n"
+    );
+    Scene::parse(&text, Path::new("test.toml")).unwrap()
+}
+
+fn solved(scene: &Scene, problem: &Problem) -> Solution {
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    solve(scene, problem, &options).unwrap()
+}
+
+/// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
+fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]) {
+    let coarse = Problem::new(scene, grid(2, cells)).unwrap();
+    let mut mesh = coarse.mesh.clone();
+    (0..levels).for_each(|_| mesh = refined(&mesh).unwrap());
+    let fine = Problem::new(scene, mesh).unwrap();
+    let (one, other) = (solved(scene, &coarse), solved(scene, &fine));
+    let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
+    let of = Side { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
+    let its = Side { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
+    (apart(scene, &of, &its, levels, &gauss(4)).unwrap().combined, bounds)
+}
+
+/// The finer answer is nearly the truth: its distance is nearly the error, and never above both bounds.
+#[test]
+fn a_finer_answer_measures_a_coarser_one() {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let (found, [total, finer]) = distance_to_finer(&scene("x + y^2"), cells, 3);
+        assert!(found <= total + finer, "{cells:?}: {found} {total} {finer}");
+        assert!(found >= 0.5 * total && finer < 0.3 * total, "{cells:?}: {found} {total} {finer}");
+    }
+}
+
+/// u_ext jumps inside an edge, between the points at which it is known.
+#[test]
+fn what_eight_points_miss_of_u_ext_is_in_the_bound() {
+    let bump = scene("100*max(0, 1 - abs(x-0.25)/0.03) - 100*max(0, 1 - abs(x+0.75)/0.02)");
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (found, [total, finer]) = distance_to_finer(&bump, cells, 4);
+        assert!(found <= total + finer, "{cells:?}: {found} {total} {finer}");
+    }
+}
+
+#[test]
+fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
+    let scene = scene("x");
+    let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
+    let own = solved(&scene, &problem);
+    let side = || Side { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
+    assert!(apart(&scene, &side(), &side(), 0, &gauss(4)).unwrap().combined < 1e-12);
+    let found = residual(&problem, &own.u).unwrap();
+    assert!(found.scaled < 1e-12 && found.rounding < 1e-13, "{found:?}");
+    let mut wrong = own.u.clone();
+    wrong[0] += 1e-3;
+    assert!(residual(&problem, &wrong).unwrap().scaled > 1e-5);
+}
+
+/// Solutions that are made solve their problem: bound = identity.
+#[test]
+fn made_scenes_are_solved_by_what_they_were_made_for() {
+    let cases = (0..400).map(|number| Case::draw(5, number));
+    let made = cases.filter(|case| case.truth == case::Truth::Made && case.mesh.cells() < 60);
+    for case in made.take(12) {
+        let scene = Scene::parse(&case.scene, Path::new("made.toml")).unwrap();
+        let Ok(problem) = Problem::new(&scene, case.mesh.clone()) else { continue };
+        let options = Options { solver: SolverKind::Direct, ..Options::default() };
+        let Ok(own) = solve(&scene, &problem, &options) else { continue };
+        let (Some(bound), Some(exact)) = (own.bound, &scene.exact) else { continue };
+        let found = distance(&scene, exact, &problem, &own.certified.admissible()).unwrap();
+        let off = (bound.gap / found.identity - 1.0).abs();
+        assert!(off < 2e-3 || bound.gap < 100.0 * bound.rounding, "case {}: {off}", case.number);
+    }
+}

@@ -1,0 +1,139 @@
+//! What an answer breaks of what it promises.
+
+use super::attempt::{Attempt, rounding};
+use super::case::{Case, Way};
+use super::measure::{IDENTITY, Measured};
+use super::residual::residual;
+use crate::extremes::judge::{Ended, INTEGRATED};
+use crate::extremes::measure::{self, Reference};
+use signorini_solve::problem::EdgeKind;
+use signorini_solve::solve::ScalarKind;
+
+/// The identity is asked for where the gap is above so many times its rounding.
+const ROUNDINGS: f64 = 100.0;
+/// Tolerance of a converged solve in f64, with what the check itself may be off.
+const CONVERGED: f64 = 1.01e-13;
+/// Roundings of the residual that a solve may leave which rounding ended.
+const LIMIT: f64 = 64.0;
+/// Roundings that a sum of forces may be off.
+const FORCE: f64 = 16.0;
+/// Part of a load up to which the place of a jump of q inside an edge is known: edges are halved 40 times at most, and the
+/// patterns of the inputs each on their own.
+const JUMP: f64 = 1.0 / (1_u64 << 38) as f64;
+
+/// Something that was promised and is not so.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Broken {
+    /// In one word.
+    pub what: &'static str,
+    /// With its numbers.
+    pub words: String,
+}
+
+fn broken(what: &'static str, words: String) -> Option<Broken> {
+    Some(Broken { what, words })
+}
+
+/// All that `attempt` breaks.
+pub fn broken_by(case: &Case, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
+    let by_measure = measured.map(|found| {
+        [bound(found), of_u(found), identity(case, found)].into_iter().flatten().collect::<Vec<_>>()
+    });
+    let others = [status(case, attempt), forces(case, attempt)];
+    by_measure.unwrap_or_default().into_iter().chain(others.into_iter().flatten()).collect()
+}
+
+/// combined ≤ total + total′.
+fn bound(found: &Measured) -> Option<Broken> {
+    let most = found.bound?.total + found.total;
+    if found.least()[0] <= most * (1.0 + INTEGRATED) {
+        return None;
+    }
+    let Measured { combined, total, .. } = found;
+    broken("bound", format!("combined {combined:.6e}, bounds {:.6e} + {total:.6e}", most - total))
+}
+
+/// ‖A^½∇_h(s′ − u_h)‖ ≤ of_u + total′.
+fn of_u(found: &Measured) -> Option<Broken> {
+    let most = found.of_u_bound + found.total;
+    if found.least()[1] <= most * (1.0 + INTEGRATED) {
+        return None;
+    }
+    let Measured { of_u, total, of_u_bound, .. } = found;
+    broken("of_u", format!("of u_h {of_u:.6e}, bounds {of_u_bound:.6e} + {total:.6e}"))
+}
+
+fn identity(case: &Case, found: &Measured) -> Option<Broken> {
+    let (bound, identity) = (found.bound?, found.identity?);
+    let counts = case.effort.scalar == ScalarKind::F64 && bound.gap > ROUNDINGS * bound.rounding;
+    let [identity, rounding] = identity;
+    // |gap² − identity²| = |gap − identity| (gap + identity)
+    let off = (bound.gap - identity).abs() - rounding / (bound.gap + identity);
+    if !counts || off <= IDENTITY * identity {
+        return None;
+    }
+    broken("identity", format!("gap {:.6e}, identity {identity:.6e}", bound.gap))
+}
+
+/// Converged means converged.
+fn status(case: &Case, attempt: &Attempt) -> Option<Broken> {
+    let asked = matches!(case.effort.way, Way::Sweeps | Way::Direct);
+    if !asked || !attempt.answer.success || case.effort.scalar != ScalarKind::F64 {
+        return None;
+    }
+    let found = residual(&attempt.problem, &attempt.answer.u).ok()?;
+    let by_tolerance = attempt.answer.status == "converged" && case.effort.way == Way::Sweeps;
+    let most = LIMIT * found.rounding + if by_tolerance { CONVERGED } else { 0.0 };
+    if found.scaled <= most {
+        return None;
+    }
+    let (status, residual) = (attempt.answer.status, found.scaled);
+    broken("status", format!("{status}, scaled residual {residual:.3e} above {most:.3e}"))
+}
+
+/// τ·n ≥ q on C, and so is what is told of it.
+fn forces(case: &Case, attempt: &Attempt) -> Option<Broken> {
+    let (problem, answer) = (&attempt.problem, &attempt.answer);
+    answer.bound?;
+    let tau = |edge: usize| answer.certified.tau[edge];
+    let contact = (0..problem.kinds.len()).filter(|&at| problem.kinds[at] == EdgeKind::Contact);
+    let pairs: Vec<_> = contact.map(tau).zip(problem.loads.contact_flux.iter().copied()).collect();
+    let sizes = || pairs.iter().map(|(tau, q)| tau.abs() + q.abs());
+    let (terms, largest) = (sizes().sum::<f64>(), sizes().fold(0.0, f64::max));
+    let epsilon = rounding(case.effort.scalar);
+    // Beside a large one a load may be below the smallest number of its scalar, and a jump of it misplaced.
+    let lost = (f64::from(f32::MIN_POSITIVE) + JUMP) * largest;
+    let within = pairs.iter().zip(sizes());
+    let within = within.map(|((tau, q), size)| tau - q + FORCE * epsilon * size + lost);
+    let worst = within.fold(0.0, f64::min);
+    if worst < 0.0 && case.effort.way != Way::Condensed {
+        return broken("force", format!("τ·n − q = {worst:.3e} on an edge"));
+    }
+    let least = -(FORCE * epsilon + JUMP) * terms;
+    if answer.force >= least {
+        return None;
+    }
+    broken("force", format!("{:.6e} below {least:.3e}", answer.force))
+}
+
+/// The answer as the axes judge theirs.
+pub fn ended(attempt: &Attempt, measured: Option<&Measured>) -> Ended {
+    let answer = &attempt.answer;
+    let finite = answer.is_finite();
+    let measured = measured.filter(|_| finite);
+    let beyond = |of: &Measured| (of.combined - of.total).max(0.0);
+    let reference =
+        |of: &Measured| Reference { bound: of.best, error: f64::NAN, energy: of.energy };
+    Ended::Answered {
+        success: answer.success,
+        status: answer.status,
+        measured: measure::Measured {
+            bound: measured.and_then(|of| of.bound).map(|bound| bound.total),
+            error: measured.map_or(f64::NAN, beyond),
+            uncertain: measured.map_or(0.0, |of| of.uncertain[0]),
+            reference: measured.map(reference),
+            of_fields: None,
+            finite,
+        },
+    }
+}

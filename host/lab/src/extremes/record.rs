@@ -1,0 +1,246 @@
+//! What a run found, as `extremes.json` and `extremes.csv` hold it.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::judge::{DIGITS, FAR, INTEGRATED, Outcome, USEFUL};
+use signorini_scene::error::{Error, Result};
+
+/// The committed record, from the root of the checkout.
+pub const RECORD: &str = "host/benches/extremes/extremes.json";
+
+/// A run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Record {
+    /// What the outcomes mean.
+    pub definitions: Vec<Definition>,
+    /// Wall-clock seconds of the whole run.
+    pub seconds: f64,
+    /// Every case, study by study.
+    pub cases: Vec<Row>,
+}
+
+/// What an outcome means.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Definition {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// In words.
+    pub means: String,
+}
+
+/// A case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// The axis, and which of several studies along it.
+    pub axis: String,
+    /// The place on it.
+    pub value: f64,
+    /// The axis that it is crossed with.
+    pub axis2: Option<String>,
+    /// The place on that.
+    pub value2: Option<f64>,
+    /// `f64`, `f32`.
+    pub scalar: String,
+    /// What the answer is worth.
+    pub outcome: Outcome,
+    /// True error over bound; none without a bound.
+    pub error_over_bound: Option<f64>,
+    /// Sweeps of the solve; of ticks the most that one took; none where nothing was solved.
+    pub sweeps: Option<u32>,
+    /// Edges not on D.
+    pub unknowns: Option<usize>,
+    /// How the solve ended.
+    pub status: Option<String>,
+    /// The true error that the bound is for, at scale 1; without a bound ‖A^½∇_h(u − u_h)‖.
+    pub error: Option<f64>,
+    /// The bound, at scale 1.
+    pub bound: Option<f64>,
+    /// The bound of the exact discrete solution in f64, at scale 1.
+    pub reference_bound: Option<f64>,
+    /// ‖A^½∇_h u_h‖ of the exact discrete solution, at scale 1.
+    pub energy: Option<f64>,
+    /// |u − u_h|₁ on trapezoids.
+    pub error_u: Option<f64>,
+    /// ‖σ − σ_h‖ on trapezoids.
+    pub error_flux: Option<f64>,
+    /// Wall-clock seconds of the attempt alone, files included.
+    pub seconds: f64,
+    /// Why it is not correct.
+    pub note: String,
+}
+
+/// The sentences of the record and of the report.
+pub fn definitions() -> Vec<Definition> {
+    let [double, single] = DIGITS;
+    let far = FAR;
+    let words = [
+        format!(
+            "success is claimed, the true error is at most the bound (to {INTEGRATED:e}, and to what \
+             fewer points change in its integral), \
+             and the bound is at most {USEFUL} times that of the exact discrete solution (or {double:e} of the \
+             energy norm in f64, {single:e} in f32) and no larger than the energy norm itself"
+        ),
+        "the true error is at most the bound, but the bound is wider than that or no success is claimed; or there \
+         is no bound, and the answer says so"
+            .to_owned(),
+        "the input was refused before work began, with a message that says why".to_owned(),
+        format!(
+            "an error above its bound, a number that is not finite, success claimed without a bound for more than \
+             {far} times the error of the exact discrete solution, a refusal after work, a panic, no end"
+        ),
+    ];
+    let both = Outcome::ALL.into_iter().zip(words);
+    both.map(|(outcome, means)| Definition { outcome, means }).collect()
+}
+
+impl Record {
+    /// The text of `extremes.json`: a line a case.
+    pub fn json(&self) -> String {
+        let line = |value: serde_json::Result<String>| value.unwrap_or_default();
+        let definitions: Vec<_> =
+            self.definitions.iter().map(serde_json::to_string).map(line).collect();
+        let cases: Vec<_> = self.cases.iter().map(serde_json::to_string).map(line).collect();
+        format!(
+            "{{\n\"definitions\": [\n{}\n],\n\"seconds\": {},\n\"cases\": [\n{}\n]\n}}\n",
+            definitions.join(",\n"),
+            self.seconds,
+            cases.join(",\n")
+        )
+    }
+
+    /// The text of `extremes.csv`: the same cases, an empty field for what does not exist.
+    ///
+    /// # Errors
+    /// Never for plain data.
+    pub fn csv(&self) -> Result<Vec<u8>> {
+        let failed = |error: String| Error::Check(format!("extremes.csv: {error}"));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for case in &self.cases {
+            writer.serialize(case).map_err(|error| failed(error.to_string()))?;
+        }
+        writer.into_inner().map_err(|error| failed(error.to_string()))
+    }
+
+    /// Reads the record at `path`; none where there is no file.
+    ///
+    /// # Errors
+    /// A file that is no record, with its name.
+    pub fn read(path: &Path) -> Result<Option<Self>> {
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        serde_json::from_str(&text).map(Some).map_err(|cause| {
+            let name = path.display();
+            let hint = "run `signorini extremes` again";
+            Error::Check(format!("{name}: no record of extremes: {cause}; {hint}"))
+        })
+    }
+
+    /// How many cases have this outcome.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        self.cases.iter().filter(|case| case.outcome == outcome).count()
+    }
+
+    /// The studies in their order: the axis, what it is crossed with, and the cases.
+    pub fn studies(&self) -> Vec<(&str, Option<&str>, Vec<&Row>)> {
+        let mut studies: Vec<(&str, Option<&str>, Vec<&Row>)> = Vec::new();
+        for case in &self.cases {
+            let key = (case.axis.as_str(), case.axis2.as_deref());
+            match studies.iter_mut().find(|(axis, across, _)| (*axis, *across) == key) {
+                Some((.., cases)) => cases.push(case),
+                None => studies.push((key.0, key.1, vec![case])),
+            }
+        }
+        studies
+    }
+}
+
+/// Cases for tests: one axis, one pair, all outcomes.
+#[cfg(test)]
+pub(super) fn fixture() -> Record {
+    let row = |at: usize, axis: &str, value: f64, across: Option<f64>, scalar: &str| {
+        let outcome = Outcome::ALL[at % 4];
+        let solved = outcome != Outcome::TypedError;
+        Row {
+            axis: axis.to_owned(),
+            value,
+            axis2: across.map(|_| "load < 1".to_owned()),
+            value2: across,
+            scalar: scalar.to_owned(),
+            outcome,
+            error_over_bound: solved.then_some(0.5 + at as f64 / 64.0),
+            sweeps: solved.then_some(10_u32.pow(at as u32 % 7)),
+            unknowns: solved.then_some(100),
+            status: solved.then(|| "converged".to_owned()),
+            error: solved.then_some(0.1),
+            bound: solved.then_some(0.2),
+            reference_bound: solved.then_some(0.2),
+            energy: solved.then_some(1.0),
+            error_u: None,
+            error_flux: None,
+            seconds: 0.25,
+            note: if at.is_multiple_of(4) { String::new() } else { format!("note {at} & <more>") },
+        }
+    };
+    let mut cases = Vec::new();
+    for (at, scalar) in ["f64", "f32"].into_iter().enumerate() {
+        cases.extend(
+            (0..4).map(|k| row(k + at, "contrast", 10_f64.powi(3 * k as i32), None, scalar)),
+        );
+        cases.extend((0..6).map(|k| {
+            row(k, "unit of length", [1e-15, 1.0][k % 2], Some([1e-30, 1.0, 1e30][k / 2]), scalar)
+        }));
+    }
+    Record { definitions: definitions(), seconds: 12.0, cases }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_survives_its_file_and_a_broken_one_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("extremes.json");
+        assert_eq!(Record::read(&path).unwrap(), None);
+        std::fs::write(&path, fixture().json()).unwrap();
+        assert_eq!(Record::read(&path).unwrap(), Some(fixture()));
+        std::fs::write(&path, "{").unwrap();
+        let error = Record::read(&path).unwrap_err().to_string();
+        assert!(error.contains("extremes.json") && error.contains("again"), "{error}");
+    }
+
+    #[test]
+    fn the_contract_of_the_json() {
+        let json: serde_json::Value = serde_json::from_str(&fixture().json()).unwrap();
+        let case = &json["cases"][1];
+        assert_eq!(
+            (&case["axis"], &case["outcome"]),
+            (&"contrast".into(), &"certified-poor".into())
+        );
+        assert!(case["axis2"].is_null() && case["value2"].is_null());
+        assert!(case["value"].is_number() && case["sweeps"].is_number());
+        assert!(case["error_over_bound"].is_number() && case["scalar"] == "f64");
+    }
+
+    #[test]
+    fn a_line_a_case() {
+        let text = String::from_utf8(fixture().csv().unwrap()).unwrap();
+        assert_eq!(text.lines().count(), 1 + fixture().cases.len());
+        assert!(text.starts_with("axis,value,axis2,value2,scalar,outcome,error_over_bound,sweeps"));
+        assert!(text.contains(",typed-error,,,"));
+    }
+
+    #[test]
+    fn studies_keep_their_order() {
+        let record = fixture();
+        let studies = record.studies();
+        let names: Vec<_> =
+            studies.iter().map(|(axis, across, all)| (*axis, *across, all.len())).collect();
+        assert_eq!(names, [("contrast", None, 8), ("unit of length", Some("load < 1"), 12)]);
+        assert_eq!(Outcome::ALL.map(|outcome| record.count(outcome)).iter().sum::<usize>(), 20);
+    }
+}

@@ -1,0 +1,269 @@
+//! A record as maps and a table of reasons.
+
+use super::judge::Outcome;
+use super::record::{Record, Row};
+use super::table::place;
+use signorini_draw::{Extremes, ExtremesStudy, Listing, OutcomeMap, Square, plain};
+
+/// Everything of the section.
+pub fn section(record: &Record) -> Extremes {
+    let studies = record.studies();
+    let legend = record.definitions.iter();
+    Extremes {
+        summary: summary(record),
+        legend: legend
+            .map(|known| (known.outcome.name().to_owned(), known.means.clone()))
+            .collect(),
+        studies: studies.iter().map(|(axis, across, cases)| study(axis, *across, cases)).collect(),
+        reasons: reasons(record),
+    }
+}
+
+fn summary(record: &Record) -> String {
+    let counts =
+        Outcome::ALL.map(|outcome| format!("{} {}", record.count(outcome), outcome.name()));
+    format!("{} cases in {:.0} s: {}.", record.cases.len(), record.seconds, counts.join(", "))
+}
+
+fn study(axis: &str, across: Option<&str>, cases: &[&Row]) -> ExtremesStudy {
+    let heading = across.map_or(axis.to_owned(), |across| format!("{axis} × {across}"));
+    let maps = match across {
+        None => vec![(String::new(), strip(axis, cases))],
+        Some(across) => ["f64", "f32"]
+            .map(|scalar| (scalar.to_owned(), map(axis, across, scalar, cases)))
+            .into(),
+    };
+    let rates = rates(cases).map_or(String::new(), |rates| format!("; {rates}"));
+    ExtremesStudy { heading, remark: remark(axis, across).to_owned() + &rates, maps }
+}
+
+/// By which powers of the width the errors of u and σ fall between the two finest grids, in f64.
+fn rates(cases: &[&Row]) -> Option<String> {
+    let of = |case: &Row| Some((case.value, case.error_u?, case.error_flux?));
+    let double = cases.iter().filter(|case| case.scalar == "f64");
+    let all: Vec<_> = double.filter_map(|case| of(case)).collect();
+    let [.., coarse, fine] = all[..] else { return None };
+    let rate =
+        |coarse_error: f64, error: f64| (coarse_error / error).ln() / (fine.0 / coarse.0).ln();
+    let (of_u, of_flux) = (rate(coarse.1, fine.1), rate(coarse.2, fine.2));
+    Some(format!(
+        "the error of ∇u falls with rate {of_u:.2}, that of the flux with rate {of_flux:.2}"
+    ))
+}
+
+/// What the picture cannot say.
+fn remark(axis: &str, across: Option<&str>) -> &'static str {
+    match (axis.split(':').next().unwrap_or(axis), across) {
+        ("contrast", None) => "k of J(k): A is k left of x = 0 and 1 right of it",
+        ("anisotropy", None) => {
+            "κ of T(0, κ) with A = diag(κ, 1/κ): layers at C are κ times thinner than the domain"
+        }
+        ("obliqueness", None) => "s of T(s, 1)",
+        ("anisotropy", Some("obliqueness")) => {
+            "beyond s/κ = 2¹² in f32 and 2²⁶ in f64 the stored tensor is singular"
+        }
+        ("aspect ratio", None) => {
+            "width over height of the flattest cells; rows grow from C upwards"
+        }
+        ("slivers", None) => "flat cells with angles near 180°",
+        ("collapsed quads", None) => {
+            "one side over the others; 0 is a triangle with four corners, below it the cell crosses itself"
+        }
+        ("trapezoids", None) => "rows of a grid whose cells never become parallelograms",
+        ("grazing length", None) => "length of the part of C with neither force nor gap",
+        ("length of C", None) => "none, one edge, the lower side, the whole boundary",
+        ("length of D", None) => {
+            "none (contact alone holds the domain), one tiny edge, one side, three sides"
+        }
+        ("transfer coefficient", None) => "the upper side transfers, no side is held",
+        ("switching edges", None) => {
+            "ticks: every contact edge opens or closes from each to the next"
+        }
+        ("fixed relaxation", _) => "an ω from the scene's setting",
+        ("cells", None) => "beyond 10⁵ cells a solve is cut off after 3·10⁸ updates of unknowns",
+        _ => "",
+    }
+}
+
+/// Columns along the axis, a row a scalar.
+fn strip(axis: &str, cases: &[&Row]) -> OutcomeMap {
+    let columns = distinct(cases.iter().map(|case| case.value));
+    let rows = ["f32", "f64"];
+    let square = |case: &&Row| {
+        let column = columns.iter().position(|&value| value == case.value)?;
+        let row = rows.iter().position(|&scalar| scalar == case.scalar)?;
+        Some(square([column, row], case))
+    };
+    OutcomeMap {
+        label: format!("outcomes over {axis}"),
+        across: axis.split(':').next().unwrap_or(axis).to_owned(),
+        columns: columns.iter().map(|&value| tick(value)).collect(),
+        up: String::new(),
+        rows: rows.map(str::to_owned).to_vec(),
+        squares: cases.iter().filter_map(square).collect(),
+    }
+}
+
+/// Columns along the axis, rows along the other.
+fn map(axis: &str, across: &str, scalar: &str, cases: &[&Row]) -> OutcomeMap {
+    let cases: Vec<&Row> = cases.iter().copied().filter(|case| case.scalar == scalar).collect();
+    let columns = distinct(cases.iter().map(|case| case.value));
+    let rows = distinct(cases.iter().filter_map(|case| case.value2));
+    let place = |case: &&Row| {
+        let column = columns.iter().position(|&value| value == case.value)?;
+        let row = rows.iter().position(|&value| Some(value) == case.value2)?;
+        Some(square([column, row], case))
+    };
+    OutcomeMap {
+        label: format!("outcomes over {axis} and {across} in {scalar}"),
+        across: axis.to_owned(),
+        columns: columns.iter().map(|&value| tick(value)).collect(),
+        up: across.to_owned(),
+        rows: rows.iter().map(|&value| tick(value)).collect(),
+        squares: cases.iter().filter_map(place).collect(),
+    }
+}
+
+fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+fn square(at: [usize; 2], case: &Row) -> Square {
+    let ratio = case.error_over_bound.map(|ratio| format!("; error/bound {}", plain(ratio)));
+    let note = if case.note.is_empty() { String::new() } else { format!(": {}", case.note) };
+    Square {
+        at,
+        outcome: case.outcome.name().to_owned(),
+        text: case.sweeps.map_or(String::new(), abridged),
+        words: format!(
+            "{}: {}{note}{}",
+            place(case),
+            case.outcome.name(),
+            ratio.unwrap_or_default()
+        ),
+    }
+}
+
+/// A count in at most four letters.
+fn abridged(count: u32) -> String {
+    match count {
+        0..1000 => count.to_string(),
+        1000..9950 => format!("{:.1}k", f64::from(count) / 1e3),
+        9950..999_500 => format!("{:.0}k", f64::from(count) / 1e3),
+        _ => format!("{:.1}M", f64::from(count) / 1e6),
+    }
+}
+
+/// A place on an axis, as short as it can be told.
+fn tick(value: f64) -> String {
+    if (1.995..2.0).contains(&value) {
+        return format!("2−{}", tick(2.0 - value));
+    }
+    // Too small for `plain`, whose powers of ten are normal numbers; those on the axes are powers of ten.
+    let text = match value.is_subnormal() {
+        true => plain(10_f64.powf(value.log10().round() + 300.0)).replace("10⁻", "10⁻³"),
+        false => plain(two_digits(value)),
+    };
+    let (digits, power) = text.split_once('·').map_or((&*text, None), |(d, p)| (d, Some(p)));
+    let digits = match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.'),
+        false => digits,
+    };
+    match (digits, power) {
+        ("1", Some(power)) => power.to_owned(),
+        (digits, Some(power)) => format!("{digits}·{power}"),
+        (digits, None) => digits.to_owned(),
+    }
+}
+
+/// Far from 1 two digits do.
+fn two_digits(value: f64) -> f64 {
+    let is_near = (1e-3..1e5).contains(&value.abs());
+    if is_near { value } else { format!("{value:.1e}").parse().unwrap_or(value) }
+}
+
+fn reasons(record: &Record) -> Listing {
+    let header = ["case", "outcome", "error/bound", "sweeps", "reason"];
+    let mut cases: Vec<&Row> =
+        record.cases.iter().filter(|case| case.outcome != Outcome::Correct).collect();
+    cases.sort_by_key(|case| std::cmp::Reverse(case.outcome));
+    let row = |case: &&Row| {
+        vec![
+            place(case),
+            case.outcome.name().to_owned(),
+            case.error_over_bound.map_or("–".to_owned(), plain),
+            case.sweeps.map_or("–".to_owned(), |sweeps| sweeps.to_string()),
+            case.note.clone(),
+        ]
+    };
+    Listing {
+        header: header.map(str::to_owned).to_vec(),
+        rows: cases.iter().map(row).collect(),
+        marked: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::fixture;
+    use super::*;
+    use signorini_draw::extremes_page;
+
+    #[test]
+    fn ticks_are_short() {
+        let texts =
+            [1e-12, 1e12, 1.0, 0.25, 1e-3, 2048.0, 1_048_576.0, -0.1, 0.0, 1e-320, 1.999_999]
+                .map(tick);
+        let expected =
+            ["10⁻¹²", "10¹²", "1", "0.25", "0.001", "2048", "10⁶", "−0.1", "0", "10⁻³²⁰", "2−10⁻⁶"];
+        assert_eq!(texts, expected);
+        assert_eq!(
+            [0, 999, 1234, 45_678, 1_000_000].map(abridged),
+            ["0", "999", "1.2k", "46k", "1.0M"]
+        );
+    }
+
+    #[test]
+    fn a_map_a_scalar_for_pairs_and_a_strip_for_an_axis() {
+        let found = section(&fixture());
+        let [axis, pair] = &found.studies[..] else { panic!("{:?}", found.studies) };
+        assert_eq!((axis.maps.len(), pair.maps.len()), (1, 2));
+        assert_eq!(axis.maps[0].1.squares.len(), 8);
+        let map = &pair.maps[1].1;
+        assert_eq!((map.columns.len(), map.rows.len(), map.squares.len()), (2, 3, 6));
+        assert_eq!(map.squares[3].at, [1, 1]);
+        assert_eq!(found.reasons.rows.len(), 14);
+        assert!(
+            found.reasons.rows[0][1] == "wrong" && found.reasons.rows[13][1] == "certified-poor"
+        );
+    }
+
+    #[test]
+    fn rates_of_trapezoids_are_told() {
+        let mut record = fixture();
+        record.cases.truncate(2);
+        for (at, case) in record.cases.iter_mut().enumerate() {
+            let width = 0.5_f64.powi(at as i32);
+            (case.value, case.error_u, case.error_flux) =
+                (8.0 / width, Some(width.sqrt()), Some(3.0 * width));
+        }
+        let remark = section(&record).studies[0].remark.clone();
+        assert!(
+            remark.ends_with("∇u falls with rate 0.50, that of the flux with rate 1.00"),
+            "{remark}"
+        );
+    }
+
+    #[test]
+    fn the_page_stands_alone() {
+        let page = extremes_page(&section(&fixture()), "a test");
+        assert_eq!(page.matches("class=\"outcome ").count(), 20 + 4);
+        assert!(page.contains("note 1 &amp; &lt;more&gt;") && !page.contains("NaN"));
+        for outside in ["<script", "<link", "<img", "url(", "src="] {
+            assert!(!page.contains(outside), "{outside}");
+        }
+    }
+}

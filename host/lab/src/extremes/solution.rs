@@ -1,0 +1,222 @@
+//! Exact solutions as expressions of any two coordinates, and what A = [[κ + s²/κ, s/κ], [s/κ, 1/κ]]
+//! makes of them.
+//!
+//! Contact on y = 0, n = (0, −1), ψ = q = 0. With U any of them, u(x, y) = U(x − s y, κ y) solves the problem
+//! of that A, det A = 1, with f = κ F: anisotropy κ and obliqueness s, exactly.
+
+/// A solution for A = I, or for A = k left of x = 0 and 1 right of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solution {
+    /// x₊³ − y (−x − g)₊³: smooth. Contact for x < −g; for −g < x < 0 neither a force nor a gap.
+    Smooth {
+        /// g
+        grazing: f64,
+    },
+    /// Re\[z s − a² log((z + s)/a)\] with s = √(z² − a²), a = 0.55: contact for |x| ≤ a.
+    Punch,
+    /// J(k): r^α cos αθ right, −k^{−½} r^α sin α(π − θ) left, α = 2 − (2/π) arctan √k; contact for x ≤ 0.
+    Jump(f64),
+    /// y²/2 − y: contact everywhere.
+    Pressed,
+    /// 1 + (x² − y²)/4: contact nowhere.
+    Lifted,
+    /// [`Solution::Pressed`] and [`Solution::Lifted`] + y²/2 in turn, from one whole t to the next.
+    Switching,
+}
+
+/// u, ∇u and f as expressions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texts {
+    /// u
+    pub u: String,
+    /// ∂u/∂x, ∂u/∂y
+    pub gradient: [String; 2],
+    /// −∇·(A∇u)
+    pub f: String,
+}
+
+/// A of a solution turned oblique.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shear {
+    /// s
+    pub obliqueness: f64,
+    /// κ
+    pub anisotropy: f64,
+}
+
+impl Shear {
+    /// A = I.
+    pub const NONE: Self = Self { obliqueness: 0.0, anisotropy: 1.0 };
+
+    /// a_xx, a_xy, a_yy. Exact where s and κ are powers of two and s/κ is at most 2²⁶.
+    pub fn tensor(&self) -> [f64; 3] {
+        let Self { obliqueness: s, anisotropy: kappa } = *self;
+        [kappa + s * s / kappa, s / kappa, 1.0 / kappa]
+    }
+
+    /// `solution` for this A, in the coordinates that `x` and `y` express.
+    pub fn texts(&self, solution: Solution, x: &str, y: &str) -> Texts {
+        if *self == Self::NONE {
+            return solution.texts(x, y);
+        }
+        let Self { obliqueness: s, anisotropy: kappa } = *self;
+        let Texts { u, gradient: [ux, uy], f } =
+            solution.texts(&format!("({x} - {s:e}*{y})"), &format!("({kappa:e}*{y})"));
+        let along_y = format!("(-{s:e}*({ux}) + {kappa:e}*({uy}))");
+        Texts { u, gradient: [ux, along_y], f: format!("{kappa:e}*({f})") }
+    }
+}
+
+impl Solution {
+    /// k left of x = 0.
+    pub fn contrast(self) -> f64 {
+        if let Self::Jump(k) = self { k } else { 1.0 }
+    }
+
+    /// The expressions for A = I, J(k) aside; `x` and `y` are operands: names, or in parentheses.
+    pub fn texts(self, x: &str, y: &str) -> Texts {
+        match self {
+            Self::Smooth { grazing } => smooth(x, y, grazing),
+            Self::Punch => punch(x, y),
+            Self::Jump(k) => jump(x, y, k),
+            Self::Pressed => {
+                texts(format!("{y}^2/2 - {y}"), ["0".to_owned(), format!("{y} - 1")], "-1")
+            }
+            Self::Lifted => {
+                texts(format!("1 + ({x}^2 - {y}^2)/4"), [format!("{x}/2"), format!("-{y}/2")], "0")
+            }
+            Self::Switching => switching(x, y),
+        }
+    }
+}
+
+fn texts(u: String, gradient: [String; 2], f: &str) -> Texts {
+    Texts { u, gradient, f: f.to_owned() }
+}
+
+fn smooth(x: &str, y: &str, grazing: f64) -> Texts {
+    let (right, left) = (format!("max({x},0)"), format!("max(-{x}-{grazing:e},0)"));
+    let gradient = [format!("3*{right}^2 + 3*{y}*{left}^2"), format!("-({left}^3)")];
+    let f = format!("-6*{right} + 6*{y}*{left}");
+    texts(format!("{right}^3 - {y}*{left}^3"), gradient, &f)
+}
+
+/// U' = 2 s(z) with s = √(z − a) √(z + a).
+fn punch(x: &str, y: &str) -> Texts {
+    const A: &str = "0.55";
+    let size = format!("((({x}-{A})^2+{y}^2)^0.25*(({x}+{A})^2+{y}^2)^0.25)");
+    let angle = format!("(0.5*atan2({y},{x}-{A}) + 0.5*atan2({y},{x}+{A}))");
+    let (re, im) = (format!("{size}*cos{angle}"), format!("{size}*sin{angle}"));
+    let log = format!("0.5*ln((({x}+{re})^2 + ({y}+{im})^2)/{A}^2)");
+    let u = format!("{x}*{re} - {y}*{im} - {A}^2*{log}");
+    texts(u, [format!("2*{re}"), format!("-2*{im}")], "0")
+}
+
+/// (1 ± sign x)/2 choose between the halves. On the left the angle is taken from the negative x axis,
+/// so that u and λ keep all digits where they are small.
+fn jump(x: &str, y: &str, k: f64) -> Texts {
+    // β = α − 1 = (2/π) arctan 1/√k, without the cancellation. cos αθ = cos θ cos βθ − sin θ sin βθ, with
+    // cos θ = x/r: where both halves meet, at x = 0, cos αθ alone would be off by ε, which a contrast of
+    // 10¹⁰ turns into a u_D with a jump that is felt.
+    let less = 2.0 / std::f64::consts::PI * (1.0 / k.sqrt()).atan();
+    let (alpha, less, scale) =
+        (format!("{:e}", 1.0 + less), format!("{less:e}"), format!("{:e}", 1.0 / k.sqrt()));
+    let r = format!("sqrt({x}^2 + {y}^2)");
+    let (theta, mirrored) = (format!("atan2({y},{x})"), format!("atan2({y},-{x})"));
+    let (right, left) = (format!("(0.5 + 0.5*sign({x}))"), format!("(0.5 - 0.5*sign({x}))"));
+    let on_right = format!("({x}*cos({less}*{theta}) - {y}*sin({less}*{theta}))");
+    let on_left = format!("({y}*cos({less}*{mirrored}) - {x}*sin({less}*{mirrored}))");
+    let u = format!("{r}^{less}*({right}*{on_right} - {left}*{scale}*{on_left})");
+    let slope = format!("{alpha}*{r}^{less}");
+    let along_x =
+        format!("{slope}*({right}*cos({less}*{theta}) + {left}*{scale}*sin({less}*{mirrored}))");
+    let along_y =
+        format!("{slope}*(-{right}*sin({less}*{theta}) - {left}*{scale}*cos({less}*{mirrored}))");
+    texts(u, [along_x, along_y], "0")
+}
+
+/// c = cos πt is 1 and −1 in turn; u = y²/2 + c₋ y + c₊ (1 + (x² − y²)/4).
+fn switching(x: &str, y: &str) -> Texts {
+    let (open, closed) = ("max(cos(pi*t),0)", "min(cos(pi*t),0)");
+    let u = format!("{y}^2/2 + {closed}*{y} + {open}*(1 + ({x}^2 - {y}^2)/4)");
+    let along_y = format!("{y} + {closed} - {open}*{y}/2");
+    texts(u, [format!("{open}*{x}/2"), along_y], "-1")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_scene::expression::{Expression, Variables};
+
+    const ALL: [Solution; 7] = [
+        Solution::Smooth { grazing: 0.25 },
+        Solution::Punch,
+        Solution::Jump(1e-3),
+        Solution::Jump(1e4),
+        Solution::Pressed,
+        Solution::Lifted,
+        Solution::Switching,
+    ];
+
+    fn parsed(text: &str) -> Expression {
+        Expression::parse(text, Variables::SpaceTime).unwrap_or_else(|e| panic!("{text}: {e}"))
+    }
+
+    /// Differences of u are its gradient, and those of the flux the load.
+    #[test]
+    fn solutions_solve_their_equation() {
+        let shears = [Shear::NONE, Shear { obliqueness: 0.5, anisotropy: 2.0 }];
+        for (solution, shear) in ALL.into_iter().zip(shears.into_iter().cycle()) {
+            let shear = if matches!(solution, Solution::Jump(_)) { Shear::NONE } else { shear };
+            let Texts { u, gradient, f } = shear.texts(solution, "x", "y");
+            let (u, f) = (parsed(&u), parsed(&f));
+            let gradient = gradient.map(|text| parsed(&text));
+            let [axx, axy, ayy] = shear.tensor();
+            for [x, y, t] in [[-0.7, 0.4, 0.0], [0.3, 0.2, 1.0], [0.9, 0.6, 0.0], [-0.2, 0.9, 1.0]]
+            {
+                let step = 1e-5;
+                let slope = |of: &Expression, [dx, dy]: [f64; 2]| {
+                    (of.eval(x + dx, y + dy, t) - of.eval(x - dx, y - dy, t)) / (2.0 * step)
+                };
+                let along = [[step, 0.0], [0.0, step]];
+                for (gradient, along) in gradient.iter().zip(along) {
+                    let error = gradient.eval(x, y, t) - slope(&u, along);
+                    assert!(error.abs() < 1e-7, "{solution:?} at {x}, {y}: {error}");
+                }
+                let second = |at: usize, along| slope(&gradient[at], along);
+                let divergence = axx * second(0, along[0])
+                    + axy * (second(0, along[1]) + second(1, along[0]))
+                    + ayy * second(1, along[1]);
+                let error = divergence + f.eval(x, y, t);
+                assert!(error.abs() < 1e-6, "{solution:?} at {x}, {y}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn contact_holds_on_the_lower_side() {
+        for solution in ALL {
+            let Texts { u, gradient: [_, slope], .. } = solution.texts("x", "y");
+            let (u, slope) = (parsed(&u), parsed(&slope));
+            for (x, t) in (-19..20).map(|k| (f64::from(k) / 20.0, f64::from(k & 1))) {
+                let k = if x < 0.0 { solution.contrast() } else { 1.0 };
+                let (gap, force) = (u.eval(x, 0.0, t), -k * slope.eval(x, 0.0, t));
+                assert!(gap >= -1e-15 && force >= -1e-15, "{solution:?} at {x}: {gap}, {force}");
+                assert!(gap * force < 1e-15, "{solution:?} at {x}: {gap}, {force}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_halves_of_a_jump_meet_whatever_its_size() {
+        for power in (-12..=12).step_by(3) {
+            let k = 10_f64.powi(power);
+            let Texts { u, gradient: [slope, _], .. } = Solution::Jump(k).texts("x", "y");
+            let (u, slope) = (parsed(&u), parsed(&slope));
+            let (left, right) = (u.eval(-1e-300, 0.5, 0.0), u.eval(1e-300, 0.5, 0.0));
+            assert!((left - right).abs() < 1e-9 * right.abs(), "k = {k:e}: {left} {right}");
+            let (left, right) = (k * slope.eval(-1e-300, 0.5, 0.0), slope.eval(1e-300, 0.5, 0.0));
+            assert!((left - right).abs() < 1e-9 * right.abs(), "k = {k:e}: {left} {right}");
+        }
+    }
+}

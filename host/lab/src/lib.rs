@@ -1,0 +1,16 @@
+//! What measures the method: accuracy against cost, other solvers on the same problems, numbers pushed to extremes, and
+//! the study of the main job.
+//!
+//! ```text
+//!   study ──► checks, convergence, pictures of the catalogue ─┐
+//!   trade ──► settings, what they cost ◄── baseline           ├─► report.html
+//!   extremes ─► axes of scales, random scenes ────────────────┘
+//! ```
+//! The only crate that builds other solvers. Nothing that a user's answer needs is here.
+
+pub mod baseline;
+pub mod checkout;
+pub mod cycles;
+pub mod extremes;
+pub mod study;
+pub mod trade;

@@ -1,0 +1,73 @@
+//! One standard scene: kernel in both scalars against the reference, errors, cost, picture.
+
+use std::path::Path;
+
+use super::bound::Certified;
+use super::checks;
+use super::cost;
+use super::known::{Case, Run};
+use super::panel::panel;
+use crate::cycles;
+use signorini_draw::ScenePanel;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+
+/// Solves the scene at `path` three times and compares.
+pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
+    let scene = Scene::read(path)?;
+    let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+    let reference = solve(&scene, &problem, &direct)?;
+    let (double, f64) = run(&scene, &problem, ScalarKind::F64, &reference)?;
+    let (single, f32) = run(&scene, &problem, ScalarKind::F32, &reference)?;
+    let mut checks = Vec::new();
+    for (solution, run) in [(&double, &f64), (&single, &f32)] {
+        checks.extend(checks::of(&name, &problem, solution, &reference));
+        let subject = checks::subject(&name, solution.scalar);
+        checks.extend(run.certified.when_converged(&subject, &problem, solution));
+    }
+    let counts = problem.topology.counts;
+    let case = Case {
+        name,
+        title: scene.title.clone(),
+        cells: [problem.mesh.triangles.len(), problem.mesh.quads.len()],
+        unknowns: counts.unknowns(),
+        contact: [double.contact_active, counts.contact],
+        force: double.contact_force,
+        energy: double.energy(&problem),
+        f64,
+        f32,
+        checks,
+    };
+    let panel = panel(&scene, &problem, &double, &case);
+    Ok((case, panel))
+}
+
+/// The kernel down to the rounding floor.
+fn run(
+    scene: &Scene,
+    problem: &Problem,
+    scalar: ScalarKind,
+    reference: &Solution,
+) -> Result<(Solution, Run)> {
+    let options = Options { scalar, to_the_floor: true, ..Options::default() };
+    let start = cycles::now();
+    let solution = solve(scene, problem, &options)?;
+    let spent = cycles::now().saturating_sub(start) as f64;
+    let cost = match scalar {
+        ScalarKind::F64 => cost::measure::<f64>(problem),
+        ScalarKind::F32 => cost::measure::<f32>(problem),
+    };
+    let run = Run {
+        certified: Certified::new(scene, problem, &solution)?,
+        omega: solution.omega,
+        distance: checks::distance(&solution.u, &reference.u),
+        solve_cycles: spent / problem.topology.counts.unknowns().max(1) as f64,
+        cost: cost.unwrap_or_default(),
+    };
+    Ok((solution, run))
+}

@@ -1,0 +1,220 @@
+//! Rates: the catalogue's scenes on its own grids, refined, and what they become on quads that keep the
+//! shape of trapezoids.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use signorini_kernel::element::QuadElement;
+
+use super::checks::Check;
+use signorini_draw::{ConvergencePlot, ConvergenceSeries, measured_rate};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::Setting;
+use signorini_solve::norms::{Errors, of_solution};
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_solve::threads::on_two_threads;
+
+/// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
+const SCENES: [&str; 4] = ["a", "b", "h", "hg"];
+const LEVELS: [u32; 4] = [8, 16, 32, 64];
+/// That of them which shows what trapezoids do.
+const ON_TRAPEZOIDS: &str = "b";
+
+/// What a scene is refined on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Grid {
+    Squares(Cells),
+    Trapezoids(Trapezoids, QuadElement),
+}
+
+/// One scene on one kind of cells, refined.
+#[derive(Debug, Clone, Serialize)]
+pub struct Study {
+    /// Scene and cells.
+    pub name: String,
+    /// Squares over the height of the domain.
+    pub n: Vec<u32>,
+    /// Errors on each grid.
+    pub errors: Vec<Errors>,
+    /// ∫λ on each grid.
+    pub force: Vec<f64>,
+    /// Measured rates of h1, l2, flux: the least-squares slope over all grids.
+    pub rates: [f64; 3],
+    /// What was checked.
+    pub checks: Vec<Check>,
+    #[serde(skip)]
+    grid: Grid,
+}
+
+/// A scene still to be refined.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    scene: PathBuf,
+    grid: Grid,
+}
+
+/// The studies of the main job, the long ones first.
+pub fn planned(root: &Path) -> Result<Vec<Plan>> {
+    let folder = root.join("meshes/catalogue");
+    let scene = |name: &str| folder.join(format!("{name}-tri.toml"));
+    let plans = SCENES.iter().rev().flat_map(|name| {
+        let on = |cells| Plan { scene: scene(name), grid: Grid::Squares(cells) };
+        [Cells::Triangles, Cells::Quads].map(on)
+    });
+    let places = [Trapezoids::InTwoRows, Trapezoids::Everywhere];
+    let elements = [QuadElement::Parametric, QuadElement::Nonparametric];
+    let bent = places.into_iter().flat_map(|place| {
+        let on = |of| Plan { scene: scene(ON_TRAPEZOIDS), grid: Grid::Trapezoids(place, of) };
+        elements.map(on)
+    });
+    Ok(plans.chain(bent).collect())
+}
+
+/// Runs the studies; calls `done` after each.
+pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<Study>> {
+    let mut studies = on_two_threads(plans, Plan::run, done)?;
+    studies.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(studies)
+}
+
+impl Grid {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Squares(Cells::Triangles) => "triangles",
+            Self::Squares(Cells::Quads) => "quads",
+            Self::Squares(Cells::Mixed) => "mixed",
+            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => {
+                "two rows of trapezoids"
+            }
+            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Nonparametric) => {
+                "two rows of trapezoids, nonparametric"
+            }
+            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => "trapezoids",
+            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Nonparametric) => {
+                "trapezoids, nonparametric"
+            }
+        }
+    }
+
+    fn mesh(self, n: u32) -> Mesh {
+        match self {
+            Self::Squares(cells) => grid(n, cells),
+            Self::Trapezoids(place, _) => trapezoids(n, place),
+        }
+    }
+
+    fn element(self) -> QuadElement {
+        match self {
+            Self::Squares(_) => QuadElement::Parametric,
+            Self::Trapezoids(_, element) => element,
+        }
+    }
+
+    /// The rates of h1, l2 and flux that theory gives. On trapezoids the parametric element lacks a linear
+    /// function: its error is of the size of ∇u there, √h of it where they fill two rows.
+    fn expected(self) -> [f64; 3] {
+        match self {
+            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => [0.5, 1.0, 1.0],
+            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => [0.0; 3],
+            _ => [1.0, 2.0, 1.0],
+        }
+    }
+
+    /// What the rates must be.
+    fn checks(self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
+        let flux = Check::at_least(name, "‖σ − σ_h‖ falls with rate 1", flux, 0.97);
+        match self {
+            Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => {
+                let half = "|u − u_h|₁ of the parametric element falls with rate ½ on two rows of trapezoids";
+                let one = "‖u − u_h‖ of the parametric element falls with rate 1 on two rows of trapezoids";
+                vec![
+                    Check::between(name, half, h1, [0.45, 0.55]),
+                    Check::between(name, one, l2, [0.9, 1.1]),
+                    flux,
+                ]
+            }
+            Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => {
+                let claim =
+                    "the parametric element does not converge on trapezoids: rate of |u − u_h|₁";
+                vec![Check::at_most(name, claim, h1.abs(), 0.1)]
+            }
+            // The free points of H move against the grid, so that l2 scatters around its slope by up to
+            // a twelfth.
+            _ => vec![
+                Check::at_least(name, "|u − u_h|₁ falls with rate 1", h1, 0.97),
+                Check::at_least(name, "‖u − u_h‖ falls with rate 2", l2, 1.85),
+                flux,
+            ],
+        }
+    }
+}
+
+impl Plan {
+    fn run(&self) -> Result<Study> {
+        let Self { scene, grid } = self;
+        let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name());
+        let scene = Scene::read(scene)?;
+        let own = scene.setting.unwrap_or_default();
+        let scene = Scene { setting: Some(Setting { element: grid.element(), ..own }), ..scene };
+        let (mut found, mut force) = (Vec::new(), Vec::new());
+        for n in LEVELS {
+            let problem = Problem::new(&scene, grid.mesh(n))?;
+            let options = Options { solver: SolverKind::Kernel, ..Options::default() };
+            let solution = solve(&scene, &problem, &options)?;
+            found.extend(of_solution(&scene, &problem, &solution)?);
+            force.push(solution.contact_force);
+        }
+        let rate = |at: usize| {
+            let series = QUANTITIES[at].series(&name, *grid, &found);
+            measured_rate(&series).unwrap_or(f64::NAN)
+        };
+        let rates = [0, 1, 2].map(rate);
+        let checks = grid.checks(&name, rates);
+        let (n, grid) = (LEVELS.to_vec(), *grid);
+        Ok(Study { name, n, errors: found, force, rates, checks, grid })
+    }
+}
+
+/// An error that is studied.
+struct Quantity {
+    title: &'static str,
+    /// Its place among the rates.
+    place: usize,
+    pick: fn(&Errors) -> f64,
+}
+
+const QUANTITIES: [Quantity; 3] = [
+    Quantity { title: "Broken energy error |u − u_h|₁", place: 0, pick: |e| e.h1 },
+    Quantity { title: "L² error ‖u − u_h‖", place: 1, pick: |e| e.l2 },
+    Quantity { title: "Flux error ‖σ − σ_h‖", place: 2, pick: |e| e.flux },
+];
+
+impl Quantity {
+    fn series(&self, name: &str, grid: Grid, errors: &[Errors]) -> ConvergenceSeries {
+        ConvergenceSeries {
+            label: name.to_owned(),
+            h: LEVELS.iter().map(|&n| 1.0 / f64::from(n)).collect(),
+            error: errors.iter().map(self.pick).collect(),
+            expected_rate: grid.expected()[self.place],
+        }
+    }
+}
+
+/// The pictures: one an error on squares, one on trapezoids, a curve a study.
+pub fn plots(studies: &[Study]) -> Vec<ConvergencePlot> {
+    let plot = |quantity: &Quantity, bent: bool| {
+        let on = studies.iter().filter(|study| bent == matches!(study.grid, Grid::Trapezoids(..)));
+        let series = on.map(|study| quantity.series(&study.name, study.grid, &study.errors));
+        let place = if bent { ", on trapezoids" } else { "" };
+        ConvergencePlot { title: format!("{}{place}", quantity.title), series: series.collect() }
+    };
+    let both = [false, true].into_iter();
+    both.flat_map(|bent| QUANTITIES.iter().map(move |quantity| (quantity, bent)))
+        .map(|(quantity, bent)| plot(quantity, bent))
+        .collect()
+}

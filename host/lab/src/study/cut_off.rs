@@ -1,0 +1,111 @@
+//! What a solve that was cut off is worth: the bound after a few sweeps, beside the true error.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::bound::Certified;
+use super::checks::Check;
+use signorini_draw::{self as report, SweepPlot, TableRow};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, solve};
+use signorini_solve::threads::on_two_threads;
+
+/// Sweeps from a cold start.
+const STOPS: [u32; 5] = [1, 5, 20, 80, 320];
+/// Scenes that are drawn: triangles, quads, an oblique tensor.
+const DRAWN: [&str; 3] = ["h-tri", "h-quad", "t-h-tri"];
+
+/// A scene, stopped again and again.
+#[derive(Debug, Clone, Serialize)]
+pub struct CutOff {
+    /// The scene file's name.
+    pub name: String,
+    /// After 1, 5, 20, 80 and 320 sweeps, and at convergence.
+    pub stops: Vec<Certified>,
+    /// gap over the energy error of u_h at each stop; `None` where both are rounding.
+    pub efficiency: Vec<Option<f64>>,
+    /// What was checked.
+    pub checks: Vec<Check>,
+}
+
+/// A scene with an exact solution, still to be stopped.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    name: String,
+    scene: Scene,
+}
+
+/// Those of the scenes that have an exact solution.
+pub fn planned(scenes: &[PathBuf]) -> Result<Vec<Plan>> {
+    let read = |path: &PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Plan { name, scene: Scene::read(path)? })
+    };
+    let mut plans = scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
+    plans.retain(|plan| plan.scene.exact.is_some());
+    Ok(plans)
+}
+
+/// Runs the plans; calls `done` after each.
+pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
+    on_two_threads(plans, Plan::run, done)
+}
+
+impl Plan {
+    fn run(&self) -> Result<CutOff> {
+        let (name, scene) = (self.name.clone(), &self.scene);
+        let problem = Problem::new(scene, adapted::of_scene(scene)?)?;
+        let converged = solve(scene, &problem, &Options::default())?;
+        let energy = converged.energy(&problem);
+        let (mut stops, mut checks) = (Vec::new(), Vec::new());
+        for max_sweeps in STOPS {
+            let options = Options { max_sweeps, ..Options::default() };
+            let stop = Certified::new(scene, &problem, &solve(scene, &problem, &options)?)?;
+            let subject = format!("{name} after {} sweeps", stop.sweeps);
+            checks.extend(stop.when_cut_off(&subject, energy));
+            stops.push(stop);
+        }
+        stops.push(Certified::new(scene, &problem, &converged)?);
+        let efficiency = stops.iter().map(|stop| stop.efficiency(energy)).collect();
+        Ok(CutOff { name, stops, efficiency, checks })
+    }
+}
+
+/// gap over the energy error of u_h: a row a scene, a column a stop.
+pub fn table(studies: &[CutOff]) -> report::Table {
+    let stops = STOPS.iter().map(u32::to_string);
+    let header = ["scene".to_owned()].into_iter().chain(stops).chain(["converged".to_owned()]);
+    let row = |study: &CutOff| {
+        let ratio =
+            |ratio: &Option<f64>| ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
+        let cells = [study.name.clone()].into_iter().chain(study.efficiency.iter().map(ratio));
+        TableRow { cells: cells.collect(), passed: study.checks.iter().all(|check| check.passed) }
+    };
+    report::Table { header: header.collect(), rows: studies.iter().map(row).collect() }
+}
+
+/// The pictures: the bound, the truth and what more sweeps would remove.
+pub fn plots(studies: &[CutOff]) -> Vec<SweepPlot> {
+    let drawn = DRAWN.iter().filter_map(|name| studies.iter().find(|study| study.name == *name));
+    drawn.map(plot).collect()
+}
+
+fn plot(study: &CutOff) -> SweepPlot {
+    let curve = |label: &str, pick: fn(&Certified) -> Option<f64>| {
+        let values = study.stops.iter().map(|stop| pick(stop).unwrap_or(f64::NAN));
+        (label.to_owned(), values.collect())
+    };
+    SweepPlot {
+        title: format!("{}, stopped after some sweeps", study.name),
+        sweeps: study.stops.iter().map(|stop| f64::from(stop.sweeps)).collect(),
+        curves: vec![
+            curve("guaranteed bound", |stop| stop.bound.map(|bound| bound.total)),
+            curve("true error", Certified::error),
+            curve("algebraic part of the bound", |stop| stop.bound.map(|bound| bound.algebraic)),
+        ],
+    }
+}

@@ -1,0 +1,110 @@
+//! The main job: every standard scene, checked, measured and shown.
+
+mod bound;
+mod case;
+mod checks;
+mod contact_line;
+mod convergence;
+mod cost;
+mod cut_off;
+mod known;
+mod panel;
+mod table;
+
+use serde::Serialize;
+
+use crate::checkout::{root, scenes};
+use crate::extremes::record as extremes;
+use crate::extremes::section::section as extremes_section;
+use crate::trade::records::{self, RECORD};
+use crate::trade::section::section;
+use crate::trade::verdict::{KnobValue, knob_values};
+use checks::Check;
+use convergence::Study;
+use cut_off::CutOff;
+use known::Case;
+use signorini_draw::{Report, html};
+use signorini_scene::error::Result;
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::progress::{say, steps};
+
+/// Everything that `results.json` holds.
+#[derive(Debug, Serialize)]
+struct Results<'r> {
+    cycles: &'static str,
+    scenes: &'r [Case],
+    convergence: &'r [Study],
+    cut_off: &'r [CutOff],
+    knobs: &'r [KnobValue],
+    passed: bool,
+}
+
+/// Runs every scene under `meshes/`, prints the table, writes the report; exit status 0 only when every
+/// check holds.
+///
+/// # Errors
+/// No checkout; scenes that cannot be read, files that cannot be written.
+pub fn run() -> Result<u8> {
+    let root = &root()?;
+    let scenes = scenes(&root.join("meshes"))?;
+    let trades = records::read(&root.join(RECORD))?;
+    let pushed = extremes::Record::read(&root.join(extremes::RECORD))?.unwrap_or_default();
+    let studies = convergence::planned(root)?;
+    let stopped = cut_off::planned(&scenes)?;
+    let bar = steps(scenes.len() + studies.len() + stopped.len());
+    let (mut cases, mut panels) = (Vec::new(), Vec::new());
+    for path in &scenes {
+        bar.set_message(format!("{}", path.strip_prefix(root).unwrap_or(path).display()));
+        let (case, panel) = case::study(path)?;
+        cases.push(case);
+        panels.push(panel);
+        bar.inc(1);
+    }
+    bar.set_message("convergence on refined grids");
+    let studies = convergence::run(&studies, || bar.inc(1))?;
+    bar.set_message("cut off");
+    let stopped = cut_off::run(&stopped, || bar.inc(1))?;
+    bar.finish_and_clear();
+
+    say(format_args!("{}", table::scenes(&cases)));
+    say(format_args!("{}", table::convergence(&studies)));
+    let checks: Vec<&Check> = (cases.iter().flat_map(|case| &case.checks))
+        .chain(studies.iter().flat_map(|study| &study.checks))
+        .chain(stopped.iter().flat_map(|study| &study.checks))
+        .collect();
+    let failed: Vec<_> = checks.iter().filter(|check| !check.passed).collect();
+    let folder = root.join("target/report");
+    let results = Results {
+        cycles: crate::cycles::METHOD,
+        scenes: &cases,
+        convergence: &studies,
+        cut_off: &stopped,
+        knobs: &knob_values(trades.host.iter().chain(&trades.m4f)),
+        passed: failed.is_empty(),
+    };
+    let json = serde_json::to_string_pretty(&results).unwrap_or_default() + "\n";
+    let report = Report {
+        title: "Signorini: standard scenes".to_owned(),
+        generated_by: format!(
+            "signorini {}; cycles: {}",
+            env!("CARGO_PKG_VERSION"),
+            crate::cycles::METHOD
+        ),
+        table: table::for_report(&cases),
+        checks: table::checks(&checks),
+        convergence: convergence::plots(&studies),
+        cut_off: cut_off::table(&stopped),
+        sweeps: cut_off::plots(&stopped),
+        tradeoff: Some(section(&trades)),
+        extremes: Some(extremes_section(&pushed)),
+        scenes: panels,
+    };
+    write_atomically(&folder.join("results.json"), json.as_bytes())?;
+    write_atomically(&folder.join("index.html"), html(&report).as_bytes())?;
+    say(format_args!("report: {}", folder.join("index.html").display()));
+    for check in &failed {
+        eprintln!("failed: {}: {}: {}", check.subject, check.claim, check.found);
+    }
+    say(format_args!("{} of {} checks hold", checks.len() - failed.len(), checks.len()));
+    Ok(u8::from(!failed.is_empty()))
+}

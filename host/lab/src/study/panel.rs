@@ -1,0 +1,134 @@
+//! A solved scene as the report draws it.
+
+use super::contact_line::{Place, walk};
+use super::known::Case;
+use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::ErrorBound;
+use signorini_solve::field::CellField;
+use signorini_solve::problem::{EdgeKind, Problem};
+use signorini_solve::solve::Solution;
+
+/// Points an edge at which the exact multiplier is drawn.
+const SAMPLES: usize = 9;
+
+/// Collects the picture of one scene.
+pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel {
+    let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
+    let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
+    ScenePanel {
+        name: case.name.clone(),
+        title: case.title.clone(),
+        passed: case.checks.iter().all(|check| check.passed),
+        vertices: problem.mesh.vertices.clone(),
+        triangles: problem.mesh.triangles.clone(),
+        quads: problem.mesh.quads.clone(),
+        vertex_u: solution.certified.vertices.clone(),
+        cell_flux: cells.map(flux).collect(),
+        indicators: solution.certified.indicators.clone(),
+        bound: solution.bound.map(terms),
+        no_bound: solution.no_bound.as_ref().map(ToString::to_string),
+        error: case.f64.certified.error(),
+        energy: case.energy,
+        contact: walk(problem)
+            .iter()
+            .map(|place| contact_edge(scene, problem, solution, place))
+            .collect(),
+        boundary: boundary(problem),
+        facts: facts(case),
+    }
+}
+
+fn terms(bound: ErrorBound) -> BoundTerms {
+    let ErrorBound { total, of_u, gap, algebraic, oscillation, rounding } = bound;
+    BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
+}
+
+fn contact_edge(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+    place: &Place,
+) -> ContactEdge {
+    let edge = problem.topology.counts.free + place.contact;
+    let opening = solution.u[edge] - solution.gap(problem, place.contact);
+    let mut ends = problem.segment(edge);
+    if place.reversed {
+        ends.reverse();
+    }
+    ContactEdge {
+        ends,
+        arc_length: [place.start, place.start + problem.lengths[edge]],
+        active: opening == 0.0,
+        multiplier: solution.multiplier(problem, place.contact),
+        exact_multiplier: exact_multiplier(scene, problem, edge, ends).unwrap_or_default(),
+        opening,
+    }
+}
+
+/// A∇u·n − q of the exact solution along an edge walked from `ends`\[0\].
+fn exact_multiplier(
+    scene: &Scene,
+    problem: &Problem,
+    edge: usize,
+    ends: [[f64; 2]; 2],
+) -> Option<Vec<f64>> {
+    let exact = scene.exact.as_ref()?;
+    let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+    let signorini_scene::scene::Condition::Contact { flux, .. } = &boundary.condition else {
+        return None;
+    };
+    let half = problem.topology.half_edges[edge][0] as usize;
+    let triangles = problem.mesh.triangles.len();
+    let cell = if half < 3 * triangles { half / 3 } else { triangles + (half - 3 * triangles) / 4 };
+    let material = &scene.materials[problem.binding.materials[cell] as usize];
+    let ([a, b], length) = (problem.segment(edge), problem.lengths[edge]);
+    let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
+    let at = |sample: usize| {
+        let t = sample as f64 / (SAMPLES - 1) as f64;
+        let [x, y] = [0, 1].map(|k| ends[0][k] + t * (ends[1][k] - ends[0][k]));
+        let [ux, uy] = exact.gradient.each_ref().map(|entry| entry.value.eval(x, y, problem.time));
+        let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
+        let outward = (xx * ux + xy * uy) * normal[0] + (xy * ux + yy * uy) * normal[1];
+        outward - flux.value.eval(x, y, problem.time)
+    };
+    Some((0..SAMPLES).map(at).collect())
+}
+
+fn boundary(problem: &Problem) -> Vec<BoundaryEdge> {
+    let edges = problem.kinds.iter().enumerate();
+    let drawn = edges.filter_map(|(edge, kind)| {
+        let kind = match kind {
+            EdgeKind::Dirichlet => BoundaryKind::Dirichlet,
+            EdgeKind::Neumann => BoundaryKind::Neumann,
+            EdgeKind::Robin => BoundaryKind::Robin,
+            EdgeKind::Interior | EdgeKind::Contact => return None,
+        };
+        Some(BoundaryEdge { ends: problem.segment(edge), kind })
+    });
+    drawn.collect()
+}
+
+fn facts(case: &Case) -> Vec<(String, String)> {
+    let [triangles, quads] = case.cells;
+    let certified = &case.f64.certified;
+    let sweeps = format!("{}, {}", certified.sweeps, case.f32.certified.sweeps);
+    let mut facts = vec![
+        ("unknowns".to_owned(), case.unknowns.to_string()),
+        ("triangles, quads".to_owned(), format!("{triangles}, {quads}")),
+        ("contact force ∫(σ·n − q)".to_owned(), format!("{:.6e}", case.force)),
+        ("active contact edges".to_owned(), format!("{} of {}", case.contact[0], case.contact[1])),
+        ("sweeps f64, f32".to_owned(), sweeps),
+        ("u against faer, f64".to_owned(), format!("{:.1e}", case.f64.distance)),
+        ("u against faer, f32".to_owned(), format!("{:.1e}", case.f32.distance)),
+    ];
+    if let Some(errors) = &certified.errors {
+        facts.push(("|u − u_h|₁".to_owned(), format!("{:.4e}", errors.h1)));
+        facts.push(("‖u − u_h‖".to_owned(), format!("{:.4e}", errors.l2)));
+        facts.push(("‖σ − σ_h‖".to_owned(), format!("{:.4e}", errors.flux)));
+    }
+    if let Some(ratio) = certified.efficiency(case.energy) {
+        facts.push(("gap / energy error of u_h".to_owned(), format!("{ratio:.3}")));
+    }
+    facts
+}

@@ -1,0 +1,73 @@
+//! What a journal keeps of a study: its cases, and what is known of the truth.
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::journal::Journal;
+use super::record::Point;
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Scene;
+
+/// A setting measured, or why it could not be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) enum Case {
+    Point(Box<Point>),
+    Left(String),
+}
+
+/// What is known of the truth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Facts {
+    pub words: String,
+    pub energy: f64,
+    pub force: f64,
+    pub length: f64,
+}
+
+impl Case {
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Point(point) => &point.name,
+            Self::Left(reason) => reason,
+        }
+    }
+}
+
+/// What the journal knows under `key`, or what `work` finds, where it is this process's to find.
+pub(super) fn once<T: Serialize + DeserializeOwned + PartialEq>(
+    journal: &mut Journal,
+    key: &str,
+    mine: bool,
+    work: impl FnOnce() -> Result<T>,
+) -> Result<Option<T>> {
+    if let Some(known) = journal.known(key) {
+        return Ok(Some(known));
+    }
+    if !mine {
+        return Ok(None);
+    }
+    let found = work()?;
+    journal.add(key, &found)?;
+    Ok(Some(found))
+}
+
+pub(super) fn overflow(scene: &Scene) -> Error {
+    InputError::new("the energy or the contact force of the solution overflows")
+        .file(&scene.path)
+        .hint("scale the data so that they are neither tiny nor huge")
+        .into()
+}
+
+/// This very program: another build measures anew.
+pub(crate) fn program() -> String {
+    let bytes = std::env::current_exe().and_then(std::fs::read);
+    let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));
+    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
+}
+
+pub(crate) fn digest<T: std::hash::Hash + ?Sized>(of: &T) -> u64 {
+    use std::hash::{DefaultHasher, Hasher};
+    let mut hasher = DefaultHasher::new();
+    of.hash(&mut hasher);
+    hasher.finish()
+}

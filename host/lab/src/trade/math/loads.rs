@@ -1,0 +1,116 @@
+//! Functions in the load data: u_D, ψ, f, g, q and the ambient, as a controller evaluates them.
+//!
+//! The patterns of inputs have no t and are tables on a device; their functions are not counted.
+
+use super::super::record::FunctionCost;
+use super::change::{Change, State};
+use signorini_bake::costs::Costs;
+use signorini_scene::error::Result;
+use signorini_scene::expression::{Arithmetic, Elementary, Expression};
+use signorini_scene::scene::term::each_load;
+use signorini_scene::scene::{Field, Located, Scene};
+use signorini_solve::problem::{Assembled, EdgeKind, Problem};
+use signorini_solve::solve::{Options, Solution, SolverKind, solve, unfit};
+
+const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambient];
+
+/// The function's name in the row of f32 alone.
+const SINGLE: &str = "f32 with libm";
+
+/// A row for each function that the loads call, after one for f32 with libm, which any of them adds to.
+pub(super) fn rows(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>> {
+    let loads = loads(scene, problem);
+    let mut uses: Vec<Use> =
+        Elementary::ALL.into_iter().filter_map(|function| Use::of(&loads, function)).collect();
+    if uses.is_empty() {
+        return Ok(Vec::new());
+    }
+    uses.insert(
+        0,
+        Use { name: SINGLE, arithmetic: Arithmetic::Single, keys: all(&uses), calls: 0 },
+    );
+    let unfit = unfit::<f64>(scene);
+    let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+    let before = State::from(solved(scene, problem)?);
+    let costs = Costs::measured();
+    let row = |used: Use| -> Result<FunctionCost> {
+        let mut row = FunctionCost {
+            function: used.name.to_owned(),
+            used_in: used.keys.join(", "),
+            calls: used.calls,
+            saved: costs.saved_by(used.name).unwrap_or_default(),
+            ..FunctionCost::default()
+        };
+        match replaced(scene, problem, used.arithmetic) {
+            Ok(solution) => {
+                let after = State::from(solution);
+                let change = Change::between(&assembled, &before, &after).map_err(&unfit)?;
+                (row.energy, row.force, row.length) = (change.energy, change.force, change.length);
+            }
+            Err(error) => row.note = Some(error.reason()),
+        }
+        Ok(row)
+    };
+    uses.into_iter().map(row).collect()
+}
+
+/// Where a function is called, and how often a tick.
+struct Use<'s> {
+    name: &'static str,
+    arithmetic: Arithmetic,
+    keys: Vec<&'s str>,
+    calls: u64,
+}
+
+impl<'s> Use<'s> {
+    fn of(loads: &[(&'s Located<Expression>, usize)], function: Elementary) -> Option<Self> {
+        let called = loads.iter().filter(|(load, _)| load.value.calls(function) > 0);
+        let keys: Vec<_> = called.clone().map(|(load, _)| load.key.as_str()).collect();
+        let calls = called.map(|(load, places)| load.value.calls(function) * places).sum::<usize>();
+        let arithmetic = Arithmetic::Fast(function);
+        let found = Self { name: function.name(), arithmetic, keys, calls: calls as u64 };
+        (!found.keys.is_empty()).then_some(found)
+    }
+}
+
+/// The places of all uses, each once.
+fn all<'s>(uses: &[Use<'s>]) -> Vec<&'s str> {
+    let mut keys: Vec<_> = uses.iter().flat_map(|used| &used.keys).copied().collect();
+    keys.sort_unstable();
+    keys.dedup();
+    keys
+}
+
+/// Every load, and the number of cells or edges that it stands on.
+fn loads<'s>(scene: &'s Scene, problem: &Problem) -> Vec<(&'s Located<Expression>, usize)> {
+    let mut edges = vec![0; scene.boundaries.len()];
+    for (&ends, &kind) in problem.ends.iter().zip(&problem.kinds) {
+        if let (Some(at), true) = (problem.binding.boundary(ends), kind != EdgeKind::Interior) {
+            edges[at] += 1;
+        }
+    }
+    let on_boundaries = scene.boundaries.iter().zip(edges).flat_map(|(boundary, edges)| {
+        FIELDS.iter().filter_map(move |&field| Some((boundary.condition.load(field)?, edges)))
+    });
+    std::iter::once((&scene.source, problem.cells())).chain(on_boundaries).collect()
+}
+
+/// The solution with all loads evaluated in `arithmetic`.
+fn replaced(scene: &Scene, problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
+    let mut scene = scene.clone();
+    each_load(&mut scene, |load| load.value = load.value.with_arithmetic(arithmetic));
+    let mut problem = problem.clone();
+    problem.set_time(&scene, problem.time)?;
+    solved(&scene, &problem)
+}
+
+fn solved(scene: &Scene, problem: &Problem) -> Result<Solution> {
+    solve(scene, problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+}
+
+impl From<Solution> for State {
+    fn from(solution: Solution) -> Self {
+        let Solution { u, contact_force: force, contact_length: length, .. } = solution;
+        Self { u, force, length }
+    }
+}

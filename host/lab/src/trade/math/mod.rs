@@ -1,0 +1,27 @@
+//! What each function of micromath costs in the solution, where libm's is replaced by it.
+//!
+//! A function is used in two places: in the load data that a controller evaluates itself (`loads`), and,
+//! the square root alone, by the kernel (`roots`): in the search for ω and in the lengths of edges. Each
+//! is replaced by itself, everything else stays, and `change` says how far the answer moves.
+
+mod change;
+mod loads;
+mod roots;
+#[cfg(test)]
+mod tests;
+
+use super::record::FunctionCost;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+
+/// A row for every function that the loads of `scene` call, one for f32 alone where they call any, and
+/// those of the kernel's square root; at the time of `problem`, which is that of `scene`.
+///
+/// # Errors
+/// A scene that has no solution as it stands, or none in f32.
+pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>> {
+    let mut rows = loads::rows(scene, problem)?;
+    rows.extend(roots::rows(scene, problem)?);
+    Ok(rows)
+}

@@ -1,0 +1,215 @@
+//! One setting measured: what a tick costs, and how far its answer is from the truth.
+
+use super::record::Point;
+use super::truth::{Answer as Measured, Truth};
+use crate::baseline::record::PointError;
+use signorini_kernel::solver::Status;
+
+use crate::cycles;
+use signorini_bake::engine::{self, Answer, Engine};
+use signorini_bake::trial::inputs;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
+use signorini_solve::problem::Problem;
+
+/// Repeats of a cold solve; of those that take long, fewer.
+const REPEATS: usize = 5;
+/// Cycles beyond which a solve takes long.
+const LONG: u64 = 1_000_000_000;
+/// Warm ticks, as many as `cargo xtask firmware` plays after the first.
+const TICKS: usize = 100;
+/// Runs of all warm ticks.
+const RUNS: usize = 3;
+
+/// What was timed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Timing {
+    cycles: f64,
+    spread: f64,
+    sweeps: u32,
+}
+
+/// Measures `scene`, which has its setting, on its mesh; `level` and cells are told by the setting.
+///
+/// # Errors
+/// A setting that the scene does not allow for.
+pub fn measure(scene: &Scene, problem: &Problem, truth: &Truth) -> Result<Point> {
+    let mut setting = engine::completed(scene);
+    // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
+    if scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
+        setting.start = Start::Cold;
+    }
+    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    let (timing, answer) = engine::with(scene, problem, |engine| {
+        let timing = match setting.start {
+            Start::Cold => cold(engine, &defaults)?,
+            Start::Warm => warm(engine, &defaults)?,
+        };
+        Ok((timing, engine.answer(problem)?))
+    })?;
+    let error = errors(scene, problem, truth, &answer)?;
+    Ok(point(problem, &setting, timing, &answer, error))
+}
+
+/// Ticks that each begin anew.
+fn cold(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
+    let mut costs = Vec::new();
+    let mut sweeps = 0;
+    while costs.len() < REPEATS {
+        engine.restart();
+        let start = cycles::now();
+        sweeps = engine.tick(defaults)?;
+        costs.push(cycles::now().saturating_sub(start));
+        if costs.last().is_some_and(|&cost| cost > LONG) && costs.len() > 1 {
+            break;
+        }
+    }
+    Ok(Timing { cycles: median(&mut costs), spread: spread(&costs), sweeps })
+}
+
+/// Ticks with inputs drawn around the defaults, and a last one at the defaults, whose answer is kept.
+fn warm(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
+    let mut medians = Vec::new();
+    let mut sweeps = Vec::new();
+    for _ in 0..RUNS {
+        engine.restart();
+        engine.tick(defaults)?;
+        let (mut costs, mut all) = (Vec::new(), 0);
+        sweeps.clear();
+        for inputs in inputs::<f64>(defaults, TICKS).skip(1) {
+            let start = cycles::now();
+            sweeps.push(u64::from(engine.tick(&inputs)?));
+            let cost = cycles::now().saturating_sub(start);
+            costs.push(cost);
+            all += cost;
+        }
+        medians.push(median(&mut costs) as u64);
+        if all > LONG {
+            break;
+        }
+    }
+    engine.tick(defaults)?;
+    let cycles = median(&mut medians);
+    Ok(Timing { cycles, spread: spread(&medians), sweeps: median(&mut sweeps) as u32 })
+}
+
+fn median(numbers: &mut [u64]) -> f64 {
+    numbers.sort_unstable();
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0) as f64
+}
+
+/// (largest − smallest)/median of sorted numbers.
+fn spread(sorted: &[u64]) -> f64 {
+    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return 0.0 };
+    (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
+}
+
+fn errors(scene: &Scene, problem: &Problem, truth: &Truth, answer: &Answer) -> Result<PointError> {
+    let certified = answer.bound.is_some().then(|| answer.certified.admissible());
+    truth.errors(
+        scene,
+        problem,
+        &Measured {
+            u: &answer.u,
+            flux: &answer.flux,
+            force: answer.force,
+            length: answer.length(problem),
+            certified,
+        },
+    )
+}
+
+fn point(
+    problem: &Problem,
+    setting: &Setting,
+    timing: Timing,
+    answer: &Answer,
+    error: PointError,
+) -> Point {
+    let unknowns = problem.topology.counts.unknowns();
+    let cells = match (problem.mesh.triangles.is_empty(), problem.mesh.quads.is_empty()) {
+        (false, true) => "triangles",
+        (true, false) => "quads",
+        _ => "mixed",
+    };
+    let omega = match (setting.model, setting.omega) {
+        (Some(ModelKind::Condensed), _) => "tuned",
+        (_, Omega::Auto) => "auto",
+        (_, Omega::Fixed(1.0)) => "unit",
+        (_, Omega::Fixed(_)) => "tuned",
+    };
+    let stop = match (setting.model, setting.sweeps, setting.share) {
+        (_, Some(sweeps), _) => format!("{sweeps} sweeps"),
+        (Some(ModelKind::Condensed), None, _) if answer.status != Status::Converged => {
+            "out of exchanges".to_owned()
+        }
+        (Some(ModelKind::Condensed), ..) if setting.solver == Some(Method::Sweeps) => {
+            "sweeps to a tolerance".to_owned()
+        }
+        (Some(ModelKind::Condensed), None, _) => "exact".to_owned(),
+        _ if setting.solver == Some(Method::Factor) => "factor".to_owned(),
+        (_, None, share) => format!("share {}", share.unwrap_or(signorini_bake::full::SHARE)),
+    };
+    let contact = problem.topology.counts.contact;
+    let mut point = Point {
+        name: String::new(),
+        scalar: scalar_name(setting).to_owned(),
+        math: if setting.math == MathKind::Libm { "libm" } else { "micromath" }.to_owned(),
+        cells: cells.to_owned(),
+        level: setting.refine,
+        unknowns,
+        stop,
+        sweeps: timing.sweeps,
+        start: if setting.start == Start::Warm { "warm" } else { "cold" }.to_owned(),
+        omega: omega.to_owned(),
+        model: if setting.model == Some(ModelKind::Condensed) { "condensed" } else { "full" }
+            .to_owned(),
+        certificate: setting.certificate,
+        error,
+        bound: answer.bound.map(|bound| bound.total).filter(|bound| bound.is_finite()),
+        bound_of_u: answer.bound.map(|bound| bound.of_u).filter(|bound| bound.is_finite()),
+        cycles: timing.cycles,
+        cycles_spread: timing.spread,
+        cycles_per_unknown: timing.cycles / unknowns.max(1) as f64,
+        instructions: None,
+        ram_bytes: None,
+        flash_bytes: None,
+        pareto: false,
+        setting: *setting,
+    };
+    point.name = name(&point, contact);
+    point
+}
+
+fn scalar_name(setting: &Setting) -> &'static str {
+    match setting.scalar {
+        Some(Precision::F32) => "f32",
+        Some(Precision::Mixed) => "f32+f64",
+        _ => "f64",
+    }
+}
+
+/// All that tells it from the other points of its study; numbers are unknowns, n those of a condensed model.
+fn name(point: &Point, contact: usize) -> String {
+    let Point { model, cells, unknowns, scalar, stop, start, .. } = point;
+    let mut words = vec![match model.as_str() {
+        "condensed" => format!("condensed n = {contact} ({cells} {unknowns})"),
+        _ => format!("{cells} {unknowns}"),
+    }];
+    words.push(scalar.clone());
+    match (model.as_str(), stop.as_str()) {
+        ("condensed", "exact" | "out of exchanges") => words.push(stop.clone()),
+        _ => words.push(format!("{start}, {stop}")),
+    }
+    if point.omega != "auto" && model != "condensed" {
+        words.push(format!("ω {}", point.omega));
+    }
+    if point.math != "libm" {
+        words.push(point.math.clone());
+    }
+    if !point.certificate {
+        words.push("no bound".to_owned());
+    }
+    words.join(", ")
+}

@@ -1,0 +1,53 @@
+//! The meshes of a study: the scene's own, refined, cut or paired.
+
+use std::collections::HashMap;
+
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted::adapted;
+use signorini_scene::mesh::{Mesh, gmsh};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{CellKind, Setting};
+use signorini_solve::problem::Problem;
+
+/// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
+const FINEST: usize = 16_000;
+/// Refinements at most.
+const LEVELS: u32 = 2;
+
+/// How often the scene's mesh is refined at most.
+pub(super) fn finest(problem: &Problem) -> u32 {
+    let unknowns = problem.topology.counts.unknowns();
+    (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
+}
+
+/// The meshes of a study, each made once.
+pub(super) struct Meshes {
+    scene: Scene,
+    pub own: Mesh,
+    made: HashMap<(Option<CellKind>, u32), Problem>,
+}
+
+impl Meshes {
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let own = gmsh::read(&scene.mesh.value)?;
+        let of = |own: Setting| Setting { element: own.element, ..Setting::default() };
+        let scene = Scene { setting: scene.setting.map(of), ..scene.clone() };
+        Ok(Self { scene, own, made: HashMap::new() })
+    }
+
+    /// The kind of cells that the mesh is not yet made of, where it can be brought to them.
+    pub fn other_cells(&self) -> Result<Option<CellKind>> {
+        let kind =
+            if self.own.triangles.is_empty() { CellKind::Triangles } else { CellKind::Quads };
+        let other = adapted(self.own.clone(), Some(kind), 0)?;
+        Ok((other.triangles.len() != self.own.triangles.len()).then_some(kind))
+    }
+
+    pub fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {
+        if !self.made.contains_key(&(cells, level)) {
+            let mesh = adapted(self.own.clone(), cells, level)?;
+            self.made.insert((cells, level), Problem::new(&self.scene, mesh)?);
+        }
+        Ok(&self.made[&(cells, level)])
+    }
+}

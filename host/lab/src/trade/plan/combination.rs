@@ -1,0 +1,202 @@
+//! What of the full product of knobs makes sense, is in reach, and is measured.
+
+use super::{Combination, Factor, Ground, Stop};
+use crate::trade::target::Target;
+use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
+
+impl Combination {
+    /// Why it is left out; `None`: it is measured.
+    pub fn reason(&self, ground: &Ground) -> Option<&'static str> {
+        self.senseless(ground).or_else(|| self.out_of_reach(ground)).or_else(|| {
+            let measured = match self.model {
+                ModelKind::Condensed => self.is_condensed_point(),
+                ModelKind::Full if self.stop == Stop::Exact => self.is_factored_point(ground),
+                ModelKind::Full => self.is_crossed(ground) || self.is_single(ground),
+            };
+            (!measured).then_some("knobs that do not act on each other are turned one at a time")
+        })
+    }
+
+    /// What means nothing.
+    fn senseless(&self, ground: &Ground) -> Option<&'static str> {
+        let condensed = self.model == ModelKind::Condensed;
+        if condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)) {
+            return Some("shares and other sweeps than 12 are for full models");
+        }
+        if !condensed && self.stop == Stop::Sweeps(12) {
+            return Some("12 sweeps are for condensed models");
+        }
+        let exact = self.stop == Stop::Exact;
+        if exact && !condensed && (self.omega != Factor::Auto || self.math != MathKind::Libm) {
+            return Some("a factor has no ω");
+        }
+        if condensed && self.omega != Factor::Auto {
+            return Some("a condensed model has its best ω from the host");
+        }
+        if self.math == MathKind::Micromath && self.scalar != Precision::F32 {
+            return Some("micromath is for f32");
+        }
+        if self.math == MathKind::Micromath && (self.omega != Factor::Auto || condensed) {
+            return Some("micromath serves the search for ω alone");
+        }
+        if matches!(self.stop, Stop::Share(_)) && !self.certificate {
+            return Some("a share of the bound needs the bound");
+        }
+        if self.start == Start::Warm && !ground.has_inputs {
+            return Some("no inputs: nothing changes between ticks");
+        }
+        None
+    }
+
+    /// What there is no code for, or no room.
+    fn out_of_reach(&self, ground: &Ground) -> Option<&'static str> {
+        /// Unknowns of the largest mesh that is put on a microcontroller for a study.
+        const LARGEST: usize = 4500;
+        let condensed = self.model == ModelKind::Condensed;
+        if ground.uses_time && ground.target != Target::Host {
+            return Some("the data change with t, which firmware does not know");
+        }
+        if condensed && !ground.has_inputs {
+            return Some("no inputs: a condensed answer is a constant");
+        }
+        if condensed && self.start == Start::Cold {
+            return Some("a condensed model starts at its default inputs");
+        }
+        if self.scalar == Precision::Mixed && self.start == Start::Warm {
+            return Some("f32+f64 is for single solves on the host");
+        }
+        if condensed && self.scalar == Precision::Mixed {
+            return Some("f32+f64 is for the full model on the host");
+        }
+        if self.scalar == Precision::Mixed && self.stop == Stop::Exact {
+            return Some("f32+f64 is for sweeps");
+        }
+        if !condensed && ground.is_loose {
+            if self.stop == Stop::Exact {
+                return Some("contact alone holds the domain: no factor");
+            }
+            if ground.target != Target::Host {
+                return Some("contact alone holds the domain: the full model needs shifts");
+            }
+            if self.start == Start::Warm || self.scalar == Precision::Mixed {
+                return Some("contact alone holds the domain: every full solve starts cold");
+            }
+            if matches!(self.stop, Stop::Share(share) if share != 0.01) {
+                return Some("contact alone holds the domain: no share of the bound to stop at");
+            }
+            if self.math == MathKind::Micromath {
+                return Some("contact alone holds the domain: solved with libm");
+            }
+        }
+        if ground.target != Target::Host {
+            if self.scalar == Precision::Mixed {
+                return Some("f32+f64 is for the host");
+            }
+            if self.scalar == Precision::F64 && ground.target == Target::M4f {
+                return Some("an M4F computes f64 in software: 45 times the instructions");
+            }
+            if !condensed && ground.unknowns << (2 * self.level) > LARGEST {
+                return Some("the full model of so fine a mesh is no model for a microcontroller");
+            }
+        }
+        None
+    }
+
+    /// Sweeps and shares on every mesh.
+    fn is_crossed(&self, ground: &Ground) -> bool {
+        let stop = match self.stop {
+            Stop::Share(share) => {
+                self.scalar == Precision::F32 && (share != 0.3 || ground.target == Target::Host)
+                    || self.scalar == Precision::F64 && share == 0.01
+            }
+            Stop::Sweeps(10 | 40) => {
+                !self.certificate
+                    && self.scalar == Precision::F32
+                    && (ground.target == Target::Host || self.cells.is_none())
+            }
+            _ => false,
+        };
+        stop && self.math == MathKind::Libm
+            && self.omega == Factor::Auto
+            && self.start == main_start(ground)
+    }
+
+    /// One knob away from the base.
+    fn is_single(&self, ground: &Ground) -> bool {
+        if self.cells.is_some() || self.level > 0 {
+            return false;
+        }
+        let plain = self.math == MathKind::Libm && self.omega == Factor::Auto;
+        let base = self.stop == Stop::Share(0.1);
+        let single = self.scalar == Precision::F32;
+        let usual = self.start == main_start(ground);
+        let other_start =
+            plain && single && !usual && matches!(self.stop, Stop::Share(s) if s < 0.3);
+        let other_omega = self.math == MathKind::Libm && single && usual && base;
+        let swept = plain
+            && single
+            && usual
+            && self.certificate
+            && matches!(self.stop, Stop::Sweeps(5 | 20 | 80));
+        let double = plain && usual && base && self.scalar == Precision::F64;
+        let cold = self.start == Start::Cold;
+        let mixed =
+            plain && cold && self.scalar == Precision::Mixed && self.stop == Stop::Share(0.01);
+        let fast = self.math == MathKind::Micromath && usual && base;
+        let host = ground.target == Target::Host;
+        other_start
+            || other_omega && (host || self.omega == Factor::Tuned)
+            || host && (swept || double || mixed)
+            || fast
+    }
+
+    /// The condensed models: exact on every mesh; on the scene's own also what else there is.
+    fn is_condensed_point(&self) -> bool {
+        let usual = self.scalar == Precision::F32 && self.certificate && self.stop == Stop::Exact;
+        let own = self.cells.is_none() && self.level == 0;
+        let others = [self.scalar != Precision::F32, !self.certificate, self.stop != Stop::Exact];
+        usual || own && others.into_iter().filter(|other| *other).count() == 1
+    }
+
+    /// The factor of the full model: on the scene's cells, of whatever size, and on the others once; on the scene's
+    /// own mesh also without its bound.
+    fn is_factored_point(&self, ground: &Ground) -> bool {
+        let usual = self.scalar == Precision::F32 && self.start == main_start(ground);
+        let own = self.cells.is_none() && self.level == 0;
+        let everywhere = self.cells.is_none() || self.level == 0;
+        usual && if self.certificate { everywhere } else { own }
+    }
+
+    pub fn setting(&self, ground: &Ground) -> Setting {
+        let omega = match self.omega {
+            Factor::Auto => Omega::Auto,
+            Factor::Tuned => ground.tuned.map_or(Omega::Auto, Omega::Fixed),
+            Factor::Unit => Omega::Fixed(1.0),
+        };
+        let (share, sweeps) = match self.stop {
+            Stop::Share(share) => (Some(share), None),
+            Stop::Sweeps(sweeps) => (None, Some(sweeps)),
+            Stop::Exact => (None, None),
+        };
+        let factored = self.model == ModelKind::Full && self.stop == Stop::Exact;
+        Setting {
+            refine: self.level,
+            cells: self.cells,
+            scalar: Some(self.scalar),
+            math: self.math,
+            model: Some(self.model),
+            solver: factored.then_some(Method::Factor),
+            start: self.start,
+            omega,
+            sweeps,
+            share,
+            certificate: self.certificate,
+            ..Setting::default()
+        }
+    }
+}
+
+/// What most points start from.
+fn main_start(ground: &Ground) -> Start {
+    if ground.has_inputs && !ground.is_loose { Start::Warm } else { Start::Cold }
+}

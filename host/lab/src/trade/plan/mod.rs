@@ -1,0 +1,204 @@
+//! Which settings are measured: knobs that act on each other are crossed, the others are turned one at a time.
+//!
+//! ```text
+//!   crossed     cells × level × {share 0.3, 0.1, 0.01 in f32; 0.01 in f64; 10, 40 sweeps without certificate}
+//!               cells × level × condensed
+//!   one at a time, from f32, the scene's cells and mesh, share 0.1:
+//!               the other start │ ω tuned, unit │ 5, 20, 80 sweeps with certificate │ share 0.1 in f64
+//!               micromath │ f32+f64 │ condensed: f64, without certificate, 12 sweeps
+//!               factor: finer meshes, the other cells, without certificate
+//! ```
+//! Everything else of the full product of knobs is counted with the reason why it is left out.
+
+mod combination;
+
+use std::collections::BTreeMap;
+
+use super::record::Skipped;
+use super::target::Target;
+use signorini_scene::setting::{CellKind, MathKind, ModelKind, Precision, Setting, Start};
+
+/// The most settings of one scene.
+pub const MOST: usize = 60;
+
+/// ω as a knob; what `Tuned` is has to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Factor {
+    Auto,
+    Tuned,
+    Unit,
+}
+
+/// When a tick ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stop {
+    Share(f64),
+    Sweeps(u32),
+    /// With the solution: the exchanges of a condensed model, the factor of a full one.
+    Exact,
+}
+
+const STOPS: [Stop; 10] = [
+    Stop::Share(0.3),
+    Stop::Share(0.1),
+    Stop::Share(0.01),
+    Stop::Sweeps(5),
+    Stop::Sweeps(10),
+    Stop::Sweeps(12),
+    Stop::Sweeps(20),
+    Stop::Sweeps(40),
+    Stop::Sweeps(80),
+    Stop::Exact,
+];
+
+/// What a scene allows for.
+#[derive(Debug, Clone, Copy)]
+pub struct Ground {
+    /// Whose cost decides.
+    pub target: Target,
+    /// The cells that the scene's mesh can be brought to beside its own.
+    pub other_cells: Option<CellKind>,
+    /// The finest refinement.
+    pub finest: u32,
+    /// Whether inputs change from tick to tick.
+    pub has_inputs: bool,
+    /// Whether the data change with t.
+    pub uses_time: bool,
+    /// Whether contact alone or nothing holds a part.
+    pub is_loose: bool,
+    /// Unknowns of the scene's mesh.
+    pub unknowns: usize,
+    /// The best fixed ω on the scene's mesh.
+    pub tuned: Option<f64>,
+}
+
+/// The settings to measure, and what is left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// In the order of measurement.
+    pub settings: Vec<Setting>,
+    /// Why the others are not among them.
+    pub skipped: Vec<Skipped>,
+}
+
+/// One combination of all knobs.
+#[derive(Debug, Clone, Copy)]
+struct Combination {
+    cells: Option<CellKind>,
+    level: u32,
+    scalar: Precision,
+    math: MathKind,
+    model: ModelKind,
+    start: Start,
+    omega: Factor,
+    stop: Stop,
+    certificate: bool,
+}
+
+impl Plan {
+    /// The plan for a scene.
+    pub fn new(ground: &Ground) -> Self {
+        let mut settings = Vec::new();
+        let mut skipped = BTreeMap::<&str, usize>::new();
+        for combination in combinations(ground) {
+            match combination.reason(ground) {
+                None if settings.len() < MOST => settings.push(combination.setting(ground)),
+                None => *skipped.entry("more than 60 points").or_default() += 1,
+                Some(reason) => *skipped.entry(reason).or_default() += 1,
+            }
+        }
+        let skipped = skipped.into_iter();
+        let skipped = skipped.map(|(reason, count)| Skipped { reason: reason.to_owned(), count });
+        Self { settings, skipped: skipped.collect() }
+    }
+}
+
+/// The full product.
+fn combinations(ground: &Ground) -> impl Iterator<Item = Combination> {
+    let cells = [None, ground.other_cells];
+    let cells = cells.into_iter().take(if ground.other_cells.is_some() { 2 } else { 1 });
+    let finest = ground.finest;
+    let meshes = cells.flat_map(move |cells| (0..=finest).map(move |level| (cells, level)));
+    let models = [ModelKind::Full, ModelKind::Condensed];
+    let meshes = meshes.flat_map(move |mesh| models.map(|model| (mesh, model)));
+    let formats = meshes.flat_map(|of| {
+        [Precision::F32, Precision::F64, Precision::Mixed].map(|scalar| (of, scalar))
+    });
+    let stops = formats.flat_map(|of| STOPS.map(|stop| (of, stop)));
+    let maths = stops.flat_map(|of| [MathKind::Libm, MathKind::Micromath].map(|math| (of, math)));
+    let starts = maths.flat_map(|of| [Start::Warm, Start::Cold].map(|start| (of, start)));
+    let factors =
+        starts.flat_map(|of| [Factor::Auto, Factor::Tuned, Factor::Unit].map(|omega| (of, omega)));
+    let all = factors.flat_map(|of| [true, false].map(|certificate| (of, certificate)));
+    all.map(|((((((((cells, level), model), scalar), stop), math), start), omega), certificate)| {
+        Combination { cells, level, scalar, math, model, start, omega, stop, certificate }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_scene::setting::{Method, Omega};
+
+    const GROUND: Ground = Ground {
+        target: Target::Host,
+        other_cells: Some(CellKind::Quads),
+        finest: 2,
+        has_inputs: true,
+        uses_time: false,
+        is_loose: false,
+        unknowns: 900,
+        tuned: Some(1.9),
+    };
+
+    fn product(plan: &Plan) -> usize {
+        plan.settings.len() + plan.skipped.iter().map(|skipped| skipped.count).sum::<usize>()
+    }
+
+    #[test]
+    fn every_combination_is_measured_or_counted() {
+        let plan = Plan::new(&GROUND);
+        assert_eq!(product(&plan), 2 * 3 * 2 * 3 * 10 * 2 * 2 * 3 * 2);
+        assert!(plan.settings.len() > 40 && plan.settings.len() <= MOST, "{}", plan.settings.len());
+        assert!(!plan.skipped.iter().any(|skipped| skipped.reason.contains("60")), "{plan:?}");
+    }
+
+    #[test]
+    fn no_setting_twice() {
+        for target in [Target::Host, Target::M4f, Target::M7] {
+            for has_inputs in [true, false] {
+                for is_loose in [true, false] {
+                    let plan = Plan::new(&Ground { target, has_inputs, is_loose, ..GROUND });
+                    let settings = &plan.settings;
+                    let twice =
+                        (1..settings.len()).find(|&at| settings[..at].contains(&settings[at]));
+                    assert_eq!(twice, None, "{target:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_knob_is_turned() {
+        let settings = Plan::new(&GROUND).settings;
+        let has = |what: &dyn Fn(&Setting) -> bool| settings.iter().any(what);
+        assert!(has(&|s| s.scalar == Some(Precision::Mixed)));
+        assert!(has(&|s| s.scalar == Some(Precision::F64)));
+        assert!(has(&|s| s.math == MathKind::Micromath));
+        assert!(has(&|s| s.refine == 2 && s.cells == Some(CellKind::Quads)));
+        assert!(has(&|s| s.omega == Omega::Fixed(1.0)) && has(&|s| s.omega == Omega::Fixed(1.9)));
+        assert!(has(&|s| s.start == Start::Cold) && has(&|s| s.start == Start::Warm));
+        assert!(has(&|s| s.model == Some(ModelKind::Condensed)) && has(&|s| !s.certificate));
+        let factored = settings.iter().filter(|s| s.solver == Some(Method::Factor));
+        assert!(factored.clone().all(|s| s.sweeps.is_none() && s.share.is_none()));
+        // Three levels, the other cells, and without the bound.
+        assert_eq!(factored.count(), 5);
+    }
+
+    #[test]
+    fn nothing_moves_without_inputs() {
+        let plan = Plan::new(&Ground { has_inputs: false, ..GROUND });
+        assert!(plan.settings.iter().all(|setting| setting.start == Start::Cold));
+        assert!(plan.settings.iter().all(|setting| setting.model == Some(ModelKind::Full)));
+    }
+}

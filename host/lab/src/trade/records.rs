@@ -1,0 +1,108 @@
+//! The committed records, as `signorini trade` without arguments writes them.
+//!
+//! ```text
+//! host/SCENE/trade.json    on this machine
+//! m4f/SCENE/trade.json     on the Cortex-M4F
+//! sizes.json               other solvers over the size of the problem
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+
+use super::record::Trade;
+use crate::baseline::Sizes;
+use signorini_scene::error::{Error, Result};
+
+/// The folder of all records, from the root of the checkout.
+pub const RECORD: &str = "host/benches/trade";
+
+/// The study of sizes, in that folder.
+pub const SIZES: &str = "sizes.json";
+
+/// What was found in it, by the names of the scenes.
+#[derive(Debug, Clone, Default)]
+pub struct Records {
+    /// Costs on the host.
+    pub host: Vec<Trade>,
+    /// Costs on the Cortex-M4F.
+    pub m4f: Vec<Trade>,
+    /// Other solvers over the size of the problem.
+    pub sizes: Option<Sizes>,
+}
+
+/// Reads whatever records there are in `folder`.
+///
+/// # Errors
+/// A record that cannot be read, with its name.
+pub fn read(folder: &Path) -> Result<Records> {
+    let sizes = folder.join(SIZES);
+    Ok(Records {
+        host: read_folder(&folder.join("host"))?,
+        m4f: read_folder(&folder.join("m4f"))?,
+        sizes: if sizes.is_file() { Some(read_record(&sizes)?) } else { None },
+    })
+}
+
+fn read_folder(folder: &Path) -> Result<Vec<Trade>> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
+    let paths =
+        entries.map(|entry| Ok(entry.map_err(Error::io(folder))?.path().join("trade.json")));
+    let mut paths: Vec<PathBuf> = paths.collect::<Result<_>>()?;
+    paths.retain(|path| path.is_file());
+    paths.sort();
+    paths.iter().map(|path| read_record(path)).collect()
+}
+
+fn read_record<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+    serde_json::from_str(&text).map_err(|cause| {
+        let name = path.display();
+        Error::Check(format!(
+            "{name}: no record of a trade study: {cause}; run `signorini trade` again"
+        ))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::trade;
+    use super::*;
+
+    fn write(folder: &Path, trade: &Trade) -> PathBuf {
+        let path = folder.join(&trade.scene).join("trade.json");
+        let text = serde_json::to_string(trade).unwrap();
+        signorini_solve::output::atomic::write_atomically(&path, text.as_bytes()).unwrap();
+        path
+    }
+
+    #[test]
+    fn what_is_there_is_read_by_target_and_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let none = read(folder.path()).unwrap();
+        assert!(none.host.is_empty() && none.m4f.is_empty());
+        let (pit, levee) = (trade("pit", 3), trade("levee", 5));
+        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 2) };
+        write(&folder.path().join("host"), &pit);
+        write(&folder.path().join("host"), &levee);
+        write(&folder.path().join("m4f"), &board);
+        std::fs::write(folder.path().join("host/sizes.json"), "{}").unwrap();
+        let found = read(folder.path()).unwrap();
+        let known = |trades: &[Trade]| {
+            let known = trades.iter().map(|t| (t.scene.clone(), t.target.clone(), t.points.len()));
+            known.collect::<Vec<_>>()
+        };
+        assert_eq!(known(&found.host), known(&[levee, pit]));
+        assert_eq!(known(&found.m4f), known(&[board]));
+    }
+
+    #[test]
+    fn a_broken_record_fails_with_its_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = write(&folder.path().join("host"), &trade("pit", 1));
+        std::fs::write(&path, "{\"scene\": \"pit\"").unwrap();
+        let error = read(folder.path()).unwrap_err();
+        assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
+        assert_eq!(error.exit_status(), 1);
+    }
+}

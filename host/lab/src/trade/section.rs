@@ -1,0 +1,174 @@
+//! The records of all scenes as the main report shows them.
+
+use std::collections::BTreeSet;
+
+use super::digits::{or_dash, percent};
+use super::front::sentence;
+use super::listings::{baselines, costs, front, math, skipped};
+use super::picture::{picture, target_name};
+use super::record::{Point, Trade};
+use super::records::Records;
+use super::verdict::{certificate, knob_values, sentences};
+use crate::baseline;
+use crate::baseline::record::Baseline;
+use signorini_draw::{Listing, TradePanel, TradeStudy, Tradeoff, plain};
+
+/// Everything of the section.
+pub fn section(records: &Records) -> Tradeoff {
+    let all = || records.host.iter().chain(&records.m4f);
+    let mut findings = sentences(&knob_values(all()));
+    findings.extend(certificate(&records.host));
+    let scenes = scenes(records);
+    Tradeoff {
+        summary: summary(&scenes),
+        findings,
+        sizes: records.sizes.as_ref().map(baseline::table).unwrap_or_default(),
+        of_sizes: records.sizes.as_ref().map(baseline::findings).unwrap_or_default(),
+        scenes: scenes.iter().map(panel).collect(),
+    }
+}
+
+/// One scene: its study on the host and that on the M4F.
+type Scene<'r> = [Option<&'r Trade>; 2];
+
+/// The scenes of both targets by name.
+fn scenes(records: &Records) -> Vec<Scene<'_>> {
+    let all = records.host.iter().chain(&records.m4f);
+    let names: BTreeSet<&str> = all.map(|trade| trade.scene.as_str()).collect();
+    let both = |name| [named(&records.host, name), named(&records.m4f, name)];
+    names.into_iter().map(both).collect()
+}
+
+fn named<'t>(trades: &'t [Trade], name: &str) -> Option<&'t Trade> {
+    trades.iter().find(|trade| trade.scene == name)
+}
+
+const HEADER: [&str; 12] = [
+    "scene",
+    "take on the host",
+    "error of u_h %",
+    "error of s, τ %",
+    "bound of s, τ %",
+    "cycles/unknown",
+    "take on the M4F",
+    "instructions",
+    "RAM, bytes",
+    "flash, bytes",
+    "Clarabel",
+    "OSQP",
+];
+
+/// A row a scene: what to take, and how much longer general solvers take.
+fn summary(scenes: &[Scene]) -> Listing {
+    let rows = scenes.iter().map(|scene| {
+        let name = scene.iter().flatten().next().map(|trade| trade.scene.clone());
+        let mut row: Vec<String> = name.into_iter().collect();
+        row.extend(on_host(scene[0]));
+        row.extend(on_board(scene[1]));
+        row.extend(["Clarabel", "OSQP"].map(|solver| or_dash(warm_ratio(scene[0], solver), times)));
+        row
+    });
+    Listing { header: HEADER.map(str::to_owned).to_vec(), rows: rows.collect(), marked: None }
+}
+
+fn taken(trade: Option<&Trade>) -> Option<(&Trade, &Point)> {
+    trade.and_then(|trade| Some((trade, trade.recommendation.point.as_ref()?)))
+}
+
+fn on_host(trade: Option<&Trade>) -> Vec<String> {
+    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 5] };
+    vec![
+        point.name.clone(),
+        percent(point.error.energy, trade.energy),
+        or_dash(point.error.combined, |error| percent(error, trade.energy)),
+        or_dash(point.bound, |bound| percent(bound, trade.energy)),
+        plain(point.cycles_per_unknown),
+    ]
+}
+
+fn on_board(trade: Option<&Trade>) -> Vec<String> {
+    let Some((trade, point)) = taken(trade) else { return vec!["–".to_owned(); 4] };
+    let mut row = vec![point.name.clone()];
+    row.extend(costs(&trade.target, point));
+    row
+}
+
+/// Cycles of a warm solve of the condensed problem over those of the kernel.
+fn warm_ratio(trade: Option<&Trade>, solver: &str) -> Option<f64> {
+    let same = |found: &&Baseline| {
+        found.solver == solver && found.problem == "condensed" && found.start == "warm"
+    };
+    trade?.baselines.iter().find(same).map(|found| found.ratio)
+}
+
+fn times(ratio: f64) -> String {
+    format!("{}×", super::digits::cost(ratio))
+}
+
+fn panel(scene: &Scene) -> TradePanel {
+    let trades = || scene.iter().flatten();
+    TradePanel {
+        name: trades().next().map(|trade| trade.scene.clone()).unwrap_or_default(),
+        title: trades().next().map(|trade| trade.title.clone()).unwrap_or_default(),
+        studies: trades().map(|trade| study(trade)).collect(),
+    }
+}
+
+fn study(trade: &Trade) -> TradeStudy {
+    let truth = format!("Errors are distances to {}", trade.truth);
+    let taken = trade.recommendation.point.as_ref().map(|point| sentence(trade, point));
+    TradeStudy {
+        heading: format!("On the {}", target_name(&trade.target)),
+        recommendation: taken.unwrap_or_else(|| trade.recommendation.text.clone()),
+        notes: [truth].into_iter().chain(skipped(trade)).collect(),
+        picture: picture(trade),
+        front: front(trade),
+        further: vec![
+            ("Other solvers on the same matrices".to_owned(), baselines(trade)),
+            ("What micromath does to the solution".to_owned(), math(trade)),
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::trade;
+    use super::*;
+    use signorini_draw::{Report, html};
+
+    #[test]
+    fn a_row_a_scene_with_both_targets() {
+        let board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        let records = Records {
+            host: vec![trade("levee", 8), trade("pit", 8)],
+            m4f: vec![board],
+            sizes: None,
+        };
+        let found = section(&records);
+        let [levee, pit] = &found.summary.rows[..] else { panic!("{:?}", found.summary) };
+        assert_eq!((levee.len(), &*levee[0], &*levee[6]), (HEADER.len(), "levee", "–"));
+        assert_eq!((&*pit[10], &*pit[11]), ("24.0×", "150×"));
+        assert_ne!(pit[6], "–");
+        assert_eq!(found.scenes[1].studies.len(), 2);
+        let page = html(&Report { tradeoff: Some(found), ..Report::default() });
+        assert_eq!(page.matches("<details").count(), 2);
+        assert!(page.contains("On the Cortex-M4F") && page.contains("Speed for accuracy"));
+        assert!(!page.contains("NaN"));
+    }
+
+    #[test]
+    fn what_would_not_fit_a_board_has_no_numbers_there() {
+        let mut board = Trade { target: "m4f".to_owned(), ..trade("pit", 8) };
+        board.recommendation.point = None;
+        board.baselines.clear();
+        let found = section(&Records { m4f: vec![board], ..Records::default() });
+        assert_eq!(found.summary.rows[0][1..], vec!["–"; HEADER.len() - 1]);
+    }
+
+    #[test]
+    fn without_a_record_the_section_says_how_to_get_one() {
+        let found = section(&Records::default());
+        let page = html(&Report { tradeoff: Some(found), ..Report::default() });
+        assert!(page.contains("No committed trade record: run <code>signorini trade</code>"));
+    }
+}

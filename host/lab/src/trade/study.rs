@@ -1,0 +1,340 @@
+//! The study of one scene: plan, truth, points, other solvers; interrupted, it goes on where it was.
+
+use std::path::{Path, PathBuf};
+
+use super::board::{self, Measured};
+use super::case::{Case, Facts, digest, once, overflow, program};
+use super::front::{Wish, mark, recommend};
+use super::journal::Journal;
+use super::meshes::{Meshes, finest};
+use super::plan::{Ground, Plan};
+use super::record::{FunctionCost, Recommendation, Skipped, Trade};
+use super::shard::Shard;
+use super::target::Target;
+use super::truth::Truth;
+use super::{fragment, math, measure};
+use crate::baseline;
+use crate::baseline::record::Baseline;
+use crate::checkout::root;
+use crate::cycles::{NARROW, REGISTERS};
+use signorini_bake::face::Face;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::adapted::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::term::at_rest_warning;
+use signorini_scene::setting::{Precision, Setting};
+use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::solve::tuned_omega;
+
+/// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The scene, its data at t = 0.
+    pub scene: Scene,
+    /// Its name.
+    pub name: String,
+    /// Whose cost decides.
+    pub target: Target,
+    /// The folder of its files.
+    pub folder: PathBuf,
+    /// Whether other solvers and micromath are studied too.
+    pub with_peers: bool,
+    /// What is left out where the scene depends on t.
+    at_rest: Option<String>,
+}
+
+/// What of a study is known.
+#[derive(Debug)]
+pub enum Progress {
+    /// All of it.
+    Whole(Box<Trade>),
+    /// This process's cases; others have the rest.
+    Part,
+}
+
+/// What a tuned ω brings the algebraic error down to, from a cold start.
+const GOAL: f64 = 1e-3;
+
+impl Study {
+    /// Opens the scene at `path`.
+    ///
+    /// # Errors
+    /// A scene that cannot be read; a board, and no checkout with its images.
+    pub fn open(path: &Path, target: Target, folder: PathBuf, with_peers: bool) -> Result<Self> {
+        if target.board().is_some() {
+            // A board without the sources is no reason to leave a setting out, but all of them.
+            root()?;
+        }
+        let read = Scene::read(path)?;
+        let at_rest = at_rest_warning(&read);
+        let mut scene = read.at_rest();
+        // What a scene declares of its device is no limit here.
+        scene.target = scene.target.filter(|_| target != Target::Host);
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { scene, name, target, folder, with_peers, at_rest })
+    }
+
+    /// What of the scene may not be meant; none where it is wrong.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let problem =
+            Meshes::new(&self.scene).and_then(|meshes| Problem::new(&self.scene, meshes.own));
+        let warnings = problem.map(|problem| problem.warnings).unwrap_or_default();
+        let named = |warning| format!("{}: {warning}", self.name);
+        warnings.into_iter().chain(self.at_rest.clone()).map(named).collect()
+    }
+
+    /// Measures what no journal knows, and puts it together. Where cases are shared `by_scene`, all of this one are
+    /// this process's. `done` hears of every case: how many there are, and what it was.
+    ///
+    /// # Errors
+    /// Wrong input, files that cannot be written.
+    pub fn run(
+        &self,
+        shard: Shard,
+        by_scene: bool,
+        wish: &Wish,
+        done: &mut dyn FnMut(usize, &str),
+    ) -> Result<Progress> {
+        let mut meshes = Meshes::new(&self.scene)?;
+        let fingerprint = self.fingerprint(&mut meshes)?;
+        let mut journal = Journal::open(&self.unfinished(), shard, &fingerprint)?;
+        let plan = self.plan(&mut meshes, &mut journal)?;
+        let mine = |case: usize| by_scene || shard.takes(case);
+        let extras = if self.is_alone() || !self.with_peers { 0 } else { 2 };
+        let all = plan.settings.len() + extras;
+        let mut truth = None;
+        let mut cases = Vec::new();
+        for (at, setting) in plan.settings.iter().enumerate() {
+            let case = self.case(setting, mine(at), &mut meshes, &mut truth, &mut journal)?;
+            done(all, case.as_ref().map_or("", Case::name));
+            cases.extend(case);
+        }
+        let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
+        if extras > 0 {
+            let problem = meshes.problem(None, 0)?;
+            let solvers = || baseline::of_scene(&self.scene, problem);
+            baselines = once(&mut journal, "baselines", mine(all - 2), solvers)?;
+            done(all, "other solvers");
+            let of_math = || math::of_scene(&self.scene, problem);
+            functions = once(&mut journal, "math", mine(all - 1), of_math)?;
+            done(all, "micromath");
+        }
+        if cases.is_empty() && plan.settings.is_empty() && shard.is_whole() {
+            self.known_truth(&meshes, &mut truth, &mut journal)?;
+        }
+        let facts = journal.known::<Facts>("truth");
+        let whole = (cases.len() == plan.settings.len(), facts, baselines, functions);
+        let (true, Some(facts), Some(baselines), Some(functions)) = whole else {
+            return Ok(Progress::Part);
+        };
+        if !shard.is_whole() {
+            return Ok(Progress::Part);
+        }
+        let trade = self.together(plan.skipped, facts, cases, baselines, functions, wish);
+        super::files::write(&self.folder, &self.scene, &trade)?;
+        Ok(Progress::Whole(Box::new(trade)))
+    }
+
+    /// Deletes what only an interrupted study needs.
+    ///
+    /// # Errors
+    /// A journal that cannot be deleted.
+    pub fn close(&self) -> Result<()> {
+        let mut meshes = Meshes::new(&self.scene)?;
+        let fingerprint = self.fingerprint(&mut meshes)?;
+        Journal::open(&self.unfinished(), Shard::WHOLE, &fingerprint)?.close()?;
+        let _ = std::fs::remove_dir_all(self.fragments());
+        // It stays where somebody else keeps something in it, such as a shard that still runs.
+        let _ = std::fs::remove_dir(self.unfinished());
+        Ok(())
+    }
+
+    /// The folder of the journals: each target has its own.
+    fn unfinished(&self) -> PathBuf {
+        self.folder.join(format!("unfinished-{}", self.target))
+    }
+
+    /// Where the fragments go that boards are measured with.
+    fn fragments(&self) -> PathBuf {
+        self.unfinished().join("fragments")
+    }
+
+    /// The fragment of a point, and the folder for what its board says: of processes that share a study none reads what
+    /// another has measured.
+    fn fragment(&self, name: &str) -> (PathBuf, PathBuf) {
+        let out = self.fragments().join(format!("{:016x}", digest(name)));
+        (out.with_extension("toml"), out)
+    }
+
+    /// A scene with a setting of its own is measured in that alone.
+    fn is_alone(&self) -> bool {
+        self.scene.setting.is_some()
+    }
+
+    fn fingerprint(&self, meshes: &mut Meshes) -> Result<String> {
+        let hash = Face::new(&self.scene, meshes.problem(None, 0)?).hash();
+        Ok(format!("{hash:016x} {} {}", self.target, program()))
+    }
+
+    fn plan(&self, meshes: &mut Meshes, journal: &mut Journal) -> Result<Plan> {
+        if let Some(setting) = self.scene.setting {
+            return Ok(Plan { settings: vec![setting], skipped: Vec::new() });
+        }
+        let other_cells = meshes.other_cells()?;
+        let problem = meshes.problem(None, 0)?;
+        let parts = Parts::examine(&self.scene, problem)?.counts;
+        let is_loose = parts.contact + parts.floating > 0;
+        let tuned = || match is_loose {
+            true => Ok(None),
+            false => tuned_omega(&self.scene, problem, Precision::F64, GOAL).map(Some),
+        };
+        let tuned: Option<f64> = once(journal, "tuned", true, tuned)?.flatten();
+        Ok(Plan::new(&Ground {
+            target: self.target,
+            other_cells,
+            finest: finest(problem),
+            has_inputs: !self.scene.inputs.is_empty(),
+            uses_time: self.at_rest.is_some(),
+            is_loose,
+            unknowns: problem.topology.counts.unknowns(),
+            tuned,
+        }))
+    }
+
+    /// What is known of a setting, measured now where it is this process's; `None`: another has it.
+    fn case(
+        &self,
+        setting: &Setting,
+        mine: bool,
+        meshes: &mut Meshes,
+        truth: &mut Option<Truth>,
+        journal: &mut Journal,
+    ) -> Result<Option<Case>> {
+        let key = serde_json::to_string(setting).unwrap_or_default();
+        if let Some(known) = journal.known(&key) {
+            return Ok(Some(known));
+        }
+        if !mine {
+            return Ok(None);
+        }
+        self.known_truth(meshes, truth, journal)?;
+        let Some(truth) = truth else { return Ok(None) };
+        let case = match self.measured(setting, meshes, truth) {
+            Ok(case) => case,
+            // What one setting does not allow for is no reason to leave the others.
+            Err(Error::Input(error)) if !self.is_alone() => Case::Left(error.message().to_owned()),
+            Err(error) => return Err(error),
+        };
+        if journal.add(&key, &case).is_ok() {
+            return Ok(Some(case));
+        }
+        let case = Case::Left("the numbers found overflow".to_owned());
+        journal.add(&key, &case)?;
+        Ok(Some(case))
+    }
+
+    /// Works out the truth, where that is not yet done, and keeps what the record says of it.
+    fn known_truth(
+        &self,
+        meshes: &Meshes,
+        truth: &mut Option<Truth>,
+        journal: &mut Journal,
+    ) -> Result<()> {
+        if truth.is_none() {
+            let found = self.truth(meshes)?;
+            let facts = Facts {
+                words: found.words(),
+                energy: found.energy(),
+                force: found.force(),
+                length: found.length(),
+            };
+            let kept = journal.add("truth", &facts);
+            kept.map_err(|_| overflow(&self.scene))?;
+            *truth = Some(found);
+        }
+        Ok(())
+    }
+
+    fn truth(&self, meshes: &Meshes) -> Result<Truth> {
+        let level = finest(&Problem::new(&self.scene, meshes.own.clone())?);
+        let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
+        Truth::new(&self.scene, &meshes.own, level, refined)
+    }
+
+    fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
+        let scene = Scene { setting: Some(*setting), ..self.scene.clone() };
+        let mut point =
+            measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
+        if let Some(board) = self.target.board() {
+            let (file, out) = self.fragment(&point.name);
+            fragment::write(&file, &scene, setting, &point.name)?;
+            match board::measure(&file, board, &out)? {
+                Measured::Runs(footprint) => {
+                    point.instructions = Some(footprint.instructions);
+                    point.ram_bytes = Some(footprint.ram);
+                    point.flash_bytes = Some(footprint.flash);
+                }
+                Measured::Impossible(reason) => return Ok(Case::Left(reason)),
+            }
+        }
+        Ok(Case::Point(Box::new(point)))
+    }
+
+    fn together(
+        &self,
+        mut skipped: Vec<Skipped>,
+        facts: Facts,
+        cases: Vec<Case>,
+        (baselines, mut notes): (Vec<Baseline>, Vec<String>),
+        math: Vec<FunctionCost>,
+        wish: &Wish,
+    ) -> Trade {
+        let mut points = Vec::new();
+        for case in cases {
+            match case {
+                Case::Point(point) => points.push(*point),
+                Case::Left(reason) => match skipped.iter_mut().find(|known| known.reason == reason)
+                {
+                    Some(known) => known.count += 1,
+                    None => skipped.push(Skipped { reason, count: 1 }),
+                },
+            }
+        }
+        mark(&mut points);
+        notes.extend(NARROW.filter(|_| self.target == Target::Host).map(str::to_owned));
+        let mut trade = Trade {
+            scene: self.name.clone(),
+            title: self.scene.title.clone(),
+            target: self.target.to_string(),
+            registers: REGISTERS.to_owned(),
+            truth: facts.words,
+            energy: facts.energy,
+            force: facts.force,
+            length: facts.length,
+            points,
+            skipped: skipped.iter().map(|skipped| skipped.count).sum(),
+            skipped_reasons: skipped,
+            baselines,
+            notes,
+            math,
+            recommendation: Recommendation { text: String::new(), point: None },
+        };
+        trade.recommendation = recommend(&trade, wish);
+        trade
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_of_a_board_has_files_of_its_own() {
+        let file = root().unwrap().join("meshes/scenes/levee.toml");
+        let study = Study::open(&file, Target::M4f, "out/levee".into(), false).unwrap();
+        let ((one, of_one), (other, of_other)) = (study.fragment("one"), study.fragment("other"));
+        assert!(one != other && of_one != of_other && one != of_one);
+        assert!([one, of_one].iter().all(|path| path.starts_with("out/levee/unfinished-m4f")));
+    }
+}

@@ -1,0 +1,97 @@
+//! Norms of the difference between a reference and an answer, over the points of the reference.
+//!
+//! The answer is evaluated in the cell of its own mesh that holds the point, so that the two meshes need
+//! not be nested: quads may be measured against triangles.
+
+use super::Answer;
+use super::places::Places;
+use super::reference::Reference;
+use crate::baseline::record::PointError;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::admissible::{Admissible, OnCell};
+use signorini_solve::certify::cell::Cell;
+use signorini_solve::certify::conductivity::{apply, dot, product};
+use signorini_solve::certify::deviation::Deviations;
+use signorini_solve::certify::weighed::{in_cell, minus, on_robin};
+use signorini_solve::field::CellField;
+use signorini_solve::problem::Problem;
+use signorini_solve::quadrature::Point;
+use signorini_solve::search::Place;
+
+/// S and τ of an answer on one of its cells.
+struct Certified<'d, 's> {
+    cell: Cell,
+    s: OnCell<'d, 's>,
+    tau: CellField,
+}
+
+impl Reference {
+    /// The norms over the domain; force and length are left 0.
+    pub(super) fn errors(
+        &self,
+        scene: &Scene,
+        problem: &Problem,
+        answer: &Answer,
+    ) -> Result<PointError> {
+        let inside = self.points.iter().map(|point| point.x);
+        let places = self.places.of(problem, inside, self.robin.iter().map(|point| point.x))?;
+        let combined = |of| self.combined(scene, problem, &places, of);
+        let combined = answer.certified.as_ref().map(combined).transpose()?;
+        Ok(PointError { combined, ..self.broken(problem, &places, answer) })
+    }
+
+    /// Energy, L2 and flux, of u_h and σ_h.
+    fn broken(&self, problem: &Problem, places: &Places, answer: &Answer) -> PointError {
+        let on_cell = |cell| CellField::new(problem, cell, answer.u, answer.flux);
+        let fields: Vec<_> = (0..problem.cells()).map(on_cell).collect();
+        let (mut energy, mut l2, mut flux) = (0.0, 0.0, 0.0);
+        for (known, place) in self.points.iter().zip(&places.cells) {
+            let found = fields[place.cell as usize].sample(&here(known.x, place));
+            let error = minus(known.gradient, found.gradient);
+            let sigma = minus(apply(&known.conductivity, known.gradient), found.flux);
+            energy += known.weight * product(&known.conductivity, error, error);
+            l2 += known.weight * (known.u - found.u).powi(2);
+            flux += known.weight * dot(sigma, sigma);
+        }
+        let [energy, l2, flux] = [energy, l2, flux].map(f64::sqrt);
+        PointError { energy, l2, flux, ..PointError::default() }
+    }
+
+    /// The distance of S and τ, as [`signorini_solve::certify::exact`] has it.
+    fn combined(
+        &self,
+        scene: &Scene,
+        problem: &Problem,
+        places: &Places,
+        admissible: &Admissible,
+    ) -> Result<f64> {
+        let deviations = Deviations::at_time(scene, problem, problem.time)?;
+        let certified = |at| Certified {
+            cell: Cell::of(problem, at),
+            s: admissible.on_cell(problem, at, &deviations),
+            // Of this field only the flux is read, so that any numbers do for the means of u.
+            tau: CellField::new(problem, at, admissible.tau, admissible.tau),
+        };
+        let certified: Vec<_> = (0..problem.cells()).map(certified).collect();
+        let mut square = 0.0;
+        for (known, place) in self.points.iter().zip(&places.cells) {
+            let at = &certified[place.cell as usize];
+            let s = at.s.at(&at.cell.local(place.reference))?;
+            let tau = at.tau.sample(&here(known.x, place)).flux;
+            square += known.weight * in_cell(&known.conductivity, known.gradient, s.gradient, tau);
+        }
+        for (known, place) in self.robin.iter().zip(&places.edges) {
+            let edge = place.edge;
+            let s = admissible.on_edge(problem, edge, deviations.on(edge), place.t)?;
+            let tau = admissible.tau[edge] / problem.lengths[edge];
+            square += known.weight * on_robin(known.transfer, known.u - s, known.sigma - tau);
+        }
+        Ok(square.sqrt())
+    }
+}
+
+/// A point of the reference as a cell of the answer sees it.
+fn here(x: [f64; 2], place: &Place) -> Point {
+    Point { x, reference: place.reference, weight: 0.0 }
+}

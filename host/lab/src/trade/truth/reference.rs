@@ -1,0 +1,174 @@
+//! The scene solved on a fine mesh, as values at quadrature points.
+//!
+//! The solve gives two gradients, ∇s of a continuous function and A⁻¹τ of an equilibrated flux, with
+//! errors that are nearly orthogonal. Their mean has a certified error,
+//! ```text
+//!   p = (∇s + A⁻¹τ)/2,   ‖A^½(∇u − p)‖ ≤ combined/√2 ≤ total/√2,
+//! ```
+//! and [`recovery`] brings it nearer: ∇u ≈ G, σ ≈ AG, ‖A^½(∇u − G)‖ ≤ total/√2 + ‖A^½(p − G)‖.
+//! Of u itself the mean of u_h and s is taken, nearer to it than u_h by a third or more.
+
+use super::exact::Contact;
+use super::places::Known;
+use super::points::{Inside, points};
+use super::recovery;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::{Condition, Field, Scene};
+use signorini_solve::certify::admissible::Admissible;
+use signorini_solve::certify::cell::Cell;
+use signorini_solve::certify::conductivity::{Conductivity, apply, inverse, product};
+use signorini_solve::certify::deviation::Deviations;
+use signorini_solve::field::CellField;
+use signorini_solve::problem::{EdgeKind, Problem, Sum};
+use signorini_solve::quadrature::gauss;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+
+const ON_EDGES: usize = 3;
+
+/// The solution on a fine mesh.
+#[derive(Debug)]
+pub(super) struct Reference {
+    pub(super) points: Vec<Inside>,
+    pub(super) robin: Vec<OnRobin>,
+    pub(super) places: Known,
+    pub(super) contact: Contact,
+    unknowns: usize,
+    /// What its own error is at most, in the energy norm.
+    certified: Option<f64>,
+}
+
+/// The solution at a point of the Robin boundary.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnRobin {
+    pub(super) x: [f64; 2],
+    /// An element of length.
+    pub(super) weight: f64,
+    /// The coefficient h.
+    pub(super) transfer: f64,
+    pub(super) u: f64,
+    /// σ·n
+    pub(super) sigma: f64,
+}
+
+impl Reference {
+    /// Solves `scene` on `mesh` by the direct solver.
+    pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<Self> {
+        let problem = Problem::new(scene, mesh)?;
+        let options = Options { solver: SolverKind::Direct, ..Options::default() };
+        let solution = solve(scene, &problem, &options)?;
+        let (mut points, robin) = sampled(scene, &problem, &solution)?;
+        let change = recovery::smooth(&problem, &mut points);
+        let certified = |total| total * std::f64::consts::FRAC_1_SQRT_2 + change;
+        let Solution { contact_force: force, contact_length: length, bound, .. } = solution;
+        Ok(Self {
+            points,
+            robin,
+            places: Known::default(),
+            contact: Contact { force, length },
+            unknowns: problem.topology.counts.unknowns(),
+            certified: bound.map(|bound| certified(bound.total)),
+        })
+    }
+
+    /// ‖A^½∇u‖
+    pub(super) fn energy(&self) -> f64 {
+        let square = |at: &Inside| at.weight * product(&at.conductivity, at.gradient, at.gradient);
+        self.points.iter().map(square).sum::<f64>().sqrt()
+    }
+
+    pub(super) fn words(&self) -> String {
+        let own = match self.certified {
+            Some(error) => format!("its own certified error is at most {error:.1e}"),
+            None => "its own error has no certified bound".to_owned(),
+        };
+        let unknowns = grouped(self.unknowns);
+        format!(
+            "the faer reference on {unknowns} unknowns, two refinements finer than the finest mesh; {own}"
+        )
+    }
+}
+
+/// Values at the points of all cells and of the Robin boundary.
+fn sampled(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+) -> Result<(Vec<Inside>, Vec<OnRobin>)> {
+    let deviations = Deviations::at_time(scene, problem, problem.time)?;
+    let certified = solution.certified.admissible();
+    // Without a bound nobody mended τ.
+    let tau = if solution.bound.is_some() { certified.tau } else { &solution.flux };
+    let sampler =
+        Sampler { scene, problem, u: &solution.u, s: Admissible { tau, ..certified }, deviations };
+    let mut inside = Vec::new();
+    for at in 0..problem.cells() {
+        sampler.add_cell(at, &mut inside)?;
+    }
+    let mut robin = Vec::new();
+    for (edge, _) in problem.kinds.iter().enumerate().filter(|(_, kind)| **kind == EdgeKind::Robin)
+    {
+        sampler.add_robin(edge, &mut robin)?;
+    }
+    Ok((inside, robin))
+}
+
+struct Sampler<'a> {
+    scene: &'a Scene,
+    problem: &'a Problem,
+    u: &'a [f64],
+    s: Admissible<'a>,
+    deviations: Deviations<'a>,
+}
+
+impl Sampler<'_> {
+    fn add_cell(&self, at: usize, inside: &mut Vec<Inside>) -> Result<()> {
+        let (scene, problem) = (self.scene, self.problem);
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        let field = CellField::new(problem, at, self.u, self.s.tau);
+        let s = self.s.on_cell(problem, at, &self.deviations);
+        for point in points(&cell) {
+            let conductivity = conductivity.at(point.x);
+            let (sample, s) = (field.sample(&point), s.at(&cell.local(point.reference))?);
+            let other = apply(&inverse(&conductivity), sample.flux);
+            let gradient = [0, 1].map(|k| 0.5 * (s.gradient[k] + other[k]));
+            let (x, weight, u) = (point.x, point.weight, 0.5 * (sample.u + s.value));
+            inside.push(Inside { x, weight, u, gradient, conductivity });
+        }
+        Ok(())
+    }
+
+    /// σ·n = h(u_ext − u) there, with u = s.
+    fn add_robin(&self, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
+        let (scene, problem) = (self.scene, self.problem);
+        let boundary = problem.binding.boundary(problem.ends[edge]);
+        let boundary = boundary.map(|boundary| &scene.boundaries[boundary].condition);
+        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(()) };
+        let transfer = Sum::alone(scene, coefficient, problem.time);
+        let ambient = Sum::on_edge(scene, problem, edge, Field::Ambient, problem.time);
+        let Some(ambient) = ambient else { return Ok(()) };
+        let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
+        for [t, weight] in gauss(ON_EDGES) {
+            let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+            let transfer = transfer.finite(transfer.at(x[0], x[1]), x)?;
+            let ambient = ambient.finite(ambient.at(x[0], x[1]), x)?;
+            let u = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
+            let (weight, sigma) = (weight * length, transfer * (ambient - u));
+            robin.push(OnRobin { x, weight, transfer, u, sigma });
+        }
+        Ok(())
+    }
+}
+
+/// 103424 as 103 424.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut grouped = String::new();
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            grouped.push(' ');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}

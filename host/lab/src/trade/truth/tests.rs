@@ -1,0 +1,222 @@
+//! The truth by one source against the truth by another.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use super::points::Inside;
+use super::reference::Reference;
+use super::{Answer, Truth};
+use crate::baseline::record::PointError;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{Mesh, gmsh};
+use signorini_scene::scene::Scene;
+use signorini_solve::certify::conductivity::product;
+use signorini_solve::certify::weighed::minus;
+use signorini_solve::fixtures::{SMOOTH, on_grid, with_four_sides};
+use signorini_solve::norms::of_solution;
+use signorini_solve::pointwise::exact_at;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+
+fn read(path: &str) -> Scene {
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
+    Scene::read(&meshes.join(path)).unwrap()
+}
+
+fn solved(scene: &Scene, mesh: Mesh) -> (Problem, Solution) {
+    let problem = Problem::new(scene, mesh).unwrap();
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    let solution = solve(scene, &problem, &options).unwrap();
+    (problem, solution)
+}
+
+/// By the scene's exact solution, known on `mesh`.
+fn exact(scene: &Scene, mesh: &Mesh) -> Truth {
+    Truth::new(scene, mesh, 0, |_, _| panic!("nothing to refine")).unwrap()
+}
+
+/// By a solution on `mesh`, as if the scene had no exact one.
+fn reference(scene: &Scene, mesh: &Mesh) -> Truth {
+    let scene = Scene { exact: None, ..scene.clone() };
+    Truth::new(&scene, mesh, 0, |mesh, times| {
+        assert_eq!(times, 2);
+        Ok(mesh.clone())
+    })
+    .unwrap()
+}
+
+fn assert_close(found: f64, expected: f64, part: f64, what: &str) {
+    let message = format!("{what}: {found} instead of {expected}");
+    assert!((found - expected).abs() <= part * expected.abs(), "{message}");
+}
+
+#[test]
+fn the_catalogue_has_its_forces_and_lengths() {
+    let cases = [
+        ("a-tri", 0.25, 1.0),
+        ("b-tri", 1.0, 1.0),
+        ("h-quad", PI * 0.3025, 1.1),
+        ("hg-tri", PI * 0.3025, 1.1),
+        ("moving-tri", PI * 0.3025, 1.1),
+        ("j001-tri", 0.1, 1.0),
+        ("t-h-tri", PI * 0.3025, 1.1),
+        ("patch-mixed", 4.0, 2.0),
+    ];
+    for (name, force, length) in cases {
+        let scene = read(&format!("catalogue/{name}.toml"));
+        let truth = exact(&scene, &grid(16, Cells::Quads));
+        assert_eq!(truth.words(), "the exact solution");
+        assert_close(truth.force(), force, 2e-5, name);
+        assert_close(truth.length(), length, 1e-3, name);
+    }
+}
+
+#[test]
+fn the_exact_solution_gives_the_norms_of_the_catalogue() {
+    let scene = read("catalogue/h-tri.toml");
+    let mesh = grid(16, Cells::Triangles);
+    let truth = exact(&scene, &mesh);
+    let (problem, solution) = solved(&scene, mesh);
+    let found = truth.errors(&scene, &problem, &Answer::from(&solution)).unwrap();
+    assert_close(found.energy, 9.74473e-2, 5e-4, "energy");
+    assert_close(found.flux, 9.74473e-2, 5e-4, "flux");
+    assert_close(found.l2, 1.97915e-3, 5e-4, "L2");
+    assert_close(found.force, 0.952483 - PI * 0.3025, 1e-3, "force");
+    assert_close(found.length, 18.0 / 16.0 - 1.1, 2e-2, "length");
+    let errors = of_solution(&scene, &problem, &solution).unwrap().unwrap();
+    assert_eq!(found.combined, errors.combined);
+    // ‖∇u‖² = ‖∇_h u_h‖² + ‖∇u − ∇_h u_h‖² up to what is of higher order.
+    let energy = solution.energy(&problem).hypot(errors.energy);
+    assert_close(truth.energy(), energy, 1e-3, "energy of the solution");
+}
+
+#[test]
+fn answers_on_other_meshes_in_between_change_nothing() {
+    let scene = read("catalogue/ag-mixed.toml");
+    let meshes = [grid(16, Cells::Triangles), grid(9, Cells::Quads), grid(7, Cells::Mixed)];
+    let truth = exact(&scene, &meshes[0]);
+    let solved = meshes.map(|mesh| solved(&scene, mesh));
+    for at in [0, 1, 2, 2, 0, 1] {
+        let (problem, solution) = &solved[at];
+        let found = truth.errors(&scene, problem, &Answer::from(solution)).unwrap();
+        let expected = of_solution(&scene, problem, solution).unwrap().unwrap();
+        assert_close(found.energy, expected.energy, 1e-12, "energy");
+        assert_close(found.l2, expected.l2, 1e-12, "L2");
+        assert_close(found.flux, expected.flux, 1e-12, "flux");
+        assert_close(found.combined.unwrap(), expected.combined.unwrap(), 1e-12, "combined");
+    }
+}
+
+/// Errors of the answer on `coarse` by the exact solution and by the reference on `fine`; `in_l2` is how
+/// far apart they may be in L2.
+fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: f64) {
+    let (exact, reference) = (exact(scene, &coarse), reference(scene, fine));
+    assert_close(reference.energy(), exact.energy(), 5e-3, "energy of the solution");
+    let (problem, solution) = solved(scene, coarse);
+    let answer = Answer::from(&solution);
+    let expected = exact.errors(scene, &problem, &answer).unwrap();
+    let found = reference.errors(scene, &problem, &answer).unwrap();
+    println!("{}\n  exact     {expected:?}\n  reference {found:?}", scene.title);
+    for (found, expected, most, what) in [
+        (found.energy, expected.energy, 0.005, "energy"),
+        (found.flux, expected.flux, 0.005, "flux"),
+        (found.l2, expected.l2, in_l2, "L2"),
+        (found.combined.unwrap(), expected.combined.unwrap(), 0.005, "combined"),
+    ] {
+        assert_close(found, expected, most, &format!("{}: {what}", scene.title));
+    }
+    assert_close(reference.force(), exact.force(), 5e-3, "force");
+    assert!((reference.length() - exact.length()).abs() < 2.5 / 32.0);
+}
+
+#[test]
+fn a_reference_measures_what_the_exact_solution_does() {
+    let fine = grid(32, Cells::Triangles);
+    for name in ["h-tri", "j001-tri", "hg-tri", "ag-mixed"] {
+        let scene = read(&format!("catalogue/{name}.toml"));
+        compare(&scene, grid(8, Cells::Triangles), &fine, 0.03);
+    }
+}
+
+#[test]
+fn the_answer_may_have_other_cells_than_the_reference() {
+    let scene = read("catalogue/h-tri.toml");
+    compare(&scene, grid(8, Cells::Quads), &grid(32, Cells::Triangles), 0.05);
+    compare(&scene, grid(8, Cells::Triangles), &grid(32, Cells::Quads), 0.03);
+    compare(&scene, grid(7, Cells::Mixed), &grid(32, Cells::Mixed), 0.03);
+}
+
+#[test]
+fn transfer_counts_on_the_robin_boundary() {
+    let (scene, problem) = on_grid(SMOOTH, grid(4, Cells::Mixed)).unwrap();
+    compare(&scene, problem.mesh, &with_four_sides(grid(32, Cells::Triangles)), 0.03);
+}
+
+#[test]
+fn the_recovered_gradient_is_much_nearer_than_the_broken_one() {
+    let cases = [
+        ("h-tri", Cells::Triangles, 0.15),
+        ("a-tri", Cells::Triangles, 0.15),
+        ("j001-tri", Cells::Triangles, 0.1),
+        ("h-tri", Cells::Quads, 0.4),
+    ];
+    for (name, cells, part) in cases {
+        let scene = read(&format!("catalogue/{name}.toml"));
+        let exact = scene.exact.as_ref().unwrap();
+        let mesh = grid(16, cells);
+        let reference = Reference::new(&scene, mesh.clone()).unwrap();
+        let square = |at: &Inside| {
+            let (_, gradient) = exact_at(&scene, exact, at.x, 0.0).unwrap();
+            let error = minus(at.gradient, gradient);
+            at.weight * product(&at.conductivity, error, error)
+        };
+        let recovered = reference.points.iter().map(square).sum::<f64>().sqrt();
+        let (problem, solution) = solved(&scene, mesh);
+        let errors = of_solution(&scene, &problem, &solution).unwrap().unwrap();
+        let total = solution.bound.unwrap().total;
+        println!("{name}: recovered {recovered:.3e}, mean <= {:.3e}, {errors:?}", total / 2.0);
+        assert!(recovered < part * errors.energy, "{name}");
+    }
+}
+
+#[test]
+fn a_worse_answer_is_farther_away() {
+    let scene = read("catalogue/h-tri.toml");
+    let truth = reference(&scene, &grid(16, Cells::Triangles));
+    let (problem, mut solution) = solved(&scene, grid(4, Cells::Quads));
+    let before = truth.errors(&scene, &problem, &Answer::from(&solution)).unwrap();
+    for (at, u) in solution.u.iter_mut().enumerate() {
+        *u += 0.02 * (at as f64).sin();
+    }
+    solution.flux.iter_mut().for_each(|flux| *flux *= 1.05);
+    solution.certified.vertices.iter_mut().for_each(|s| *s *= 1.05);
+    solution.contact_force += 0.1;
+    solution.contact_length += 0.5;
+    let after = truth.errors(&scene, &problem, &Answer::from(&solution)).unwrap();
+    let numbers = |error: PointError| {
+        [error.energy, error.l2, error.flux, error.combined.unwrap(), error.force, error.length]
+    };
+    let pairs = numbers(before).into_iter().zip(numbers(after));
+    assert!(pairs.clone().all(|(before, after)| after > before), "{:?}", pairs.collect::<Vec<_>>());
+    let bare = Answer { certified: None, ..Answer::from(&solution) };
+    assert_eq!(truth.errors(&scene, &problem, &bare).unwrap().combined, None);
+}
+
+#[test]
+fn every_scene_can_be_its_own_reference() {
+    for name in ["benbelgacem", "levee", "membrane", "pit", "slab", "strip"] {
+        let scene = read(&format!("scenes/{name}.toml"));
+        let mesh = gmsh::read(&scene.mesh.value).unwrap();
+        let truth = reference(&scene, &mesh);
+        let (problem, solution) = solved(&scene, mesh);
+        let found = truth.errors(&scene, &problem, &Answer::from(&solution)).unwrap();
+        println!("{name}: {}\n  {found:?}", truth.words());
+        let largest = solution.u.iter().fold(0.0f64, |most, u| most.max(u.abs()));
+        assert!(found.l2 <= 1e-2 * largest, "{name}: {found:?}");
+        assert!(found.force <= 1e-9 * truth.force().abs() && found.length == 0.0, "{name}");
+        // ∇s and A⁻¹τ are equally far from their mean, and the recovered gradient is not far from it.
+        let total = 2.0 * solution.bound.unwrap().total;
+        assert!(found.combined.unwrap() <= total && found.energy <= total, "{name}: {found:?}");
+        assert!(found.energy > 0.0 && truth.energy() > found.energy, "{name}: {found:?}");
+    }
+}

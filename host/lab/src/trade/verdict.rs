@@ -1,0 +1,211 @@
+//! What pays over all scenes: how often each value of a knob stands on a Pareto front.
+//!
+//! A value is judged only where there was a choice: in studies that measured another value of the same
+//! knob as well. One that was measured so, and is on no front, never pays.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::digits::grouped;
+use super::picture::target_name;
+use super::record::{Point, Trade};
+use signorini_draw::plain;
+
+/// A name and how to read it off a point.
+type Knob = (&'static str, fn(&Point) -> String);
+
+/// What can be turned. The certificate is no such knob: it adds to the cost and buys the bound, no
+/// accuracy; [`certificate`] says how much.
+const KNOBS: [Knob; 8] = [
+    ("scalar", |point| point.scalar.clone()),
+    ("math", |point| point.math.clone()),
+    ("cells", |point| point.cells.clone()),
+    ("level", |point| point.level.to_string()),
+    ("stop", stop),
+    ("start", |point| point.start.clone()),
+    ("omega", |point| point.omega.clone()),
+    ("model", |point| point.model.clone()),
+];
+
+/// Numbers of sweeps are a scene's own: they count as one value.
+fn stop(point: &Point) -> String {
+    if point.stop.ends_with(" sweeps") { "fixed sweeps".to_owned() } else { point.stop.clone() }
+}
+
+/// One value of a knob.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct KnobValue {
+    /// Of which target's studies.
+    pub target: String,
+    /// The knob: `scalar`, `level`, …
+    pub knob: &'static str,
+    /// Its value.
+    pub value: String,
+    /// Studies in which it could be chosen.
+    pub studies: usize,
+    /// Points measured with it there.
+    pub points: usize,
+    /// How many of them are on a front.
+    pub on_front: usize,
+}
+
+/// Every value of every knob that was a choice somewhere, target by target, in the order of the knobs.
+pub fn knob_values<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Vec<KnobValue> {
+    let mut found: BTreeMap<(String, usize, String), [usize; 3]> = BTreeMap::new();
+    for trade in trades {
+        for (at, (_, read)) in KNOBS.iter().enumerate() {
+            let values: BTreeSet<String> = trade.points.iter().map(read).collect();
+            for value in values.iter().filter(|_| values.len() > 1) {
+                let points = || trade.points.iter().filter(|point| read(point) == *value);
+                let on_front = points().filter(|point| point.pareto).count();
+                let key = (trade.target.clone(), at, value.clone());
+                let sums = found.entry(key).or_default();
+                *sums = [sums[0] + 1, sums[1] + points().count(), sums[2] + on_front];
+            }
+        }
+    }
+    let value = |(key, sums): ((String, usize, String), [usize; 3])| {
+        let ((target, at, value), [studies, points, on_front]) = (key, sums);
+        let (knob, _) = KNOBS[at];
+        KnobValue { target, knob, value, studies, points, on_front }
+    };
+    found.into_iter().map(value).collect()
+}
+
+/// A sentence a target and knob: `On the host, scalar: f32 is on a front with 31 of 80 points; f64 never
+/// pays (0 of 40 points in 12 scenes)`.
+pub fn sentences(values: &[KnobValue]) -> Vec<String> {
+    let groups = values.chunk_by(|a, b| (&a.target, a.knob) == (&b.target, b.knob));
+    groups.map(sentence).collect()
+}
+
+fn sentence(values: &[KnobValue]) -> String {
+    let (paying, never): (Vec<_>, Vec<_>) = values.iter().partition(|value| value.on_front > 0);
+    let paying = paying.iter().enumerate().map(|(at, value)| {
+        let (on_front, points) = (grouped(value.on_front as u64), grouped(value.points as u64));
+        match at {
+            0 => format!("{} is on a front with {on_front} of {points} points", value.value),
+            _ => format!("{} with {on_front} of {points}", value.value),
+        }
+    });
+    let never = never.iter().map(|value| {
+        let plural = if value.studies == 1 { "" } else { "s" };
+        let points = grouped(value.points as u64);
+        format!(
+            "{} never pays (0 of {points} points in {} scene{plural})",
+            value.value, value.studies
+        )
+    });
+    let parts = [paying.collect::<Vec<_>>().join(", "), never.collect::<Vec<_>>().join(", ")];
+    let parts: Vec<&str> =
+        parts.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
+    let (target, knob) = values.first().map_or(("", ""), |value| (&*value.target, value.knob));
+    format!("On the {}, {knob}: {}", target_name(target), parts.join("; "))
+}
+
+/// What the certificate takes: the median of cycles with it over cycles without, of points that differ in
+/// nothing else.
+pub fn certificate<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Option<String> {
+    let mut ratios: Vec<f64> = trades.into_iter().flat_map(certificate_ratios).collect();
+    ratios.retain(|ratio| ratio.is_finite());
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios.get(ratios.len() / 2)?;
+    let (percent, count) = (plain(100.0 * (median - 1.0)), ratios.len());
+    Some(format!(
+        "The certificate adds {percent} % to the cycles of a tick (median of {count}); it buys the bound, \
+         no accuracy"
+    ))
+}
+
+fn certificate_ratios(trade: &Trade) -> Vec<f64> {
+    let knobs =
+        |point: &Point| KNOBS.map(|(_, read)| read(point)).into_iter().chain([point.stop.clone()]);
+    let (with, without): (Vec<_>, Vec<_>) =
+        trade.points.iter().partition(|point| point.certificate);
+    let other = |point: &&Point| {
+        let bare = without.iter().find(|bare| knobs(bare).eq(knobs(point)))?;
+        Some(point.cycles / bare.cycles)
+    };
+    with.iter().filter_map(other).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::point;
+    use super::*;
+
+    fn trade(target: &str, points: &[(&str, &str, bool)]) -> Trade {
+        let points = points.iter().enumerate().map(|(at, &(scalar, stop, pareto))| {
+            let (scalar, stop) = (scalar.to_owned(), stop.to_owned());
+            Point { scalar, stop, pareto, ..point(at) }
+        });
+        let points = points.map(|p| Point {
+            math: String::new(),
+            cells: String::new(),
+            level: 0,
+            start: String::new(),
+            model: String::new(),
+            ..p
+        });
+        Trade { points: points.collect(), ..super::super::fixtures::trade(target, 0) }
+    }
+
+    #[test]
+    fn what_is_on_no_front_never_pays() {
+        let trades = [
+            trade("a", &[("f32", "exact", true), ("f64", "exact", false), ("f64", "exact", false)]),
+            trade("b", &[("f32", "exact", false), ("f64", "exact", false), ("f32", "exact", true)]),
+        ];
+        let values = knob_values(&trades);
+        assert_eq!(
+            sentences(&values),
+            ["On the host, scalar: f32 is on a front with 2 of 3 points; \
+              f64 never pays (0 of 3 points in 2 scenes)"]
+        );
+    }
+
+    #[test]
+    fn a_value_without_an_alternative_is_not_judged() {
+        let trades = [
+            trade("a", &[("f64", "exact", false), ("f64", "12 sweeps", true)]),
+            trade("b", &[("f32", "40 sweeps", true), ("f64", "7 sweeps", false)]),
+        ];
+        let values = knob_values(&trades);
+        let counted: Vec<_> = (values.iter())
+            .map(|value| (value.knob, &*value.value, value.studies, value.points, value.on_front))
+            .collect();
+        assert_eq!(
+            counted,
+            [
+                ("scalar", "f32", 1, 1, 1),
+                ("scalar", "f64", 1, 1, 0),
+                ("stop", "exact", 1, 1, 0),
+                ("stop", "fixed sweeps", 1, 1, 1)
+            ]
+        );
+        assert!(knob_values(&[]).is_empty());
+    }
+
+    #[test]
+    fn targets_are_judged_apart() {
+        let host = trade("a", &[("f32", "exact", true), ("f64", "exact", false)]);
+        let mut board = trade("a", &[("f32", "exact", false), ("f64", "exact", true)]);
+        board.target = "m4f".to_owned();
+        let found = sentences(&knob_values([&host, &board]));
+        assert!(found[0].contains("host") && found[0].contains("f64 never"), "{found:?}");
+        assert!(found[1].contains("Cortex-M4F") && found[1].contains("f32 never"), "{found:?}");
+    }
+
+    #[test]
+    fn the_certificate_costs_what_pairs_say() {
+        let mut trade = trade("a", &[("f32", "exact", true); 2]);
+        trade.points[0].certificate = true;
+        trade.points[0].cycles = 150.0;
+        trade.points[1].certificate = false;
+        trade.points[1].cycles = 100.0;
+        assert!(certificate([&trade]).unwrap().contains("adds 50.0 %"));
+        trade.points[1].scalar = "f64".to_owned();
+        assert_eq!(certificate([&trade]), None);
+    }
+}

@@ -1,0 +1,14 @@
+//! What is to be solved: scene files, their expressions, meshes, settings, and what can be wrong with any of them.
+//!
+//! ```text
+//!   scene.toml ─► scene ─┬─► expression   values as text, with derivatives
+//!                        ├─► setting      which solver, how far
+//!                        └─► mesh         Gmsh, VTU, or made here: vertices, cells, named curves
+//! ```
+//! Nothing here solves anything. The first crate of the host: it knows the kernel and none of the others.
+
+pub mod error;
+pub mod expression;
+pub mod mesh;
+pub mod scene;
+pub mod setting;

@@ -1,0 +1,116 @@
+//! Meshes refined, paired and cut: what must stay, and what must come out.
+
+mod pairing;
+mod refine;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use super::check::edges;
+use super::gmsh::read;
+use super::shape::{Orientation, orientation};
+use super::{Mesh, Surface};
+
+/// The files of this extension in a folder of standard scenes, in the order of their names.
+fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes").join(folder);
+    let entries = std::fs::read_dir(&folder).expect("a folder");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|found| found == extension));
+    files.sort();
+    files
+}
+
+/// Every mesh of the standard scenes.
+fn meshes() -> Vec<(String, Mesh)> {
+    let files = ["catalogue", "scenes"].into_iter().flat_map(|folder| files(folder, "msh"));
+    let named = files.map(|path| (path.display().to_string(), read(&path).expect("a mesh")));
+    let meshes: Vec<_> = named.collect();
+    assert!(meshes.len() >= 8);
+    meshes
+}
+
+fn catalogue(name: &str) -> Mesh {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue");
+    read(&folder.join(name)).expect("a mesh")
+}
+
+fn cells(mesh: &Mesh) -> Vec<Vec<u32>> {
+    let triangles = mesh.triangles.iter().map(|cell| cell.to_vec());
+    triangles.chain(mesh.quads.iter().map(|cell| cell.to_vec())).collect()
+}
+
+fn points(mesh: &Mesh, cell: &[u32]) -> Vec<[f64; 2]> {
+    cell.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect()
+}
+
+/// The signed area by Gauss's formula.
+fn area(corners: &[[f64; 2]]) -> f64 {
+    let after = corners.iter().cycle().skip(1);
+    corners.iter().zip(after).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
+}
+
+/// The areas of the surfaces, the lengths of the curves, and the area of the whole.
+fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
+    let areas: Vec<_> = cells(mesh).iter().map(|cell| area(&points(mesh, cell))).collect();
+    let of_surface = |surface: &Surface| {
+        let area = surface.cells.iter().map(|&cell| areas[cell as usize]).sum();
+        (surface.name.clone(), area)
+    };
+    let of_edge = |edge: &[u32; 2]| {
+        let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
+        (a[0] - b[0]).hypot(a[1] - b[1])
+    };
+    let curves =
+        mesh.curves.iter().map(|curve| (curve.name.clone(), curve.edges.iter().map(of_edge).sum()));
+    let surfaces = mesh.surfaces.iter().map(of_surface);
+    surfaces.chain(curves).chain([(String::new(), areas.iter().sum())]).collect()
+}
+
+/// The mesh keeps its contract, and everything in `before` has kept its size.
+fn assert_same_domain(what: &str, before: &Mesh, after: &Mesh) {
+    let edges = edges(after).expect("a conforming mesh");
+    for cell in cells(after) {
+        let sense = orientation(&points(after, &cell));
+        assert_eq!(sense, Ok(Orientation::Counterclockwise), "{what}: {cell:?}");
+    }
+    let used: BTreeSet<_> = cells(after).into_iter().flatten().collect();
+    assert!(used.into_iter().eq(0..after.vertices.len() as u32), "{what}");
+    for surface in &after.surfaces {
+        assert!(surface.cells.is_sorted_by(|a, b| a < b), "{what}: {}", surface.name);
+    }
+    for curve in &after.curves {
+        assert!(curve.edges.is_sorted_by(|a, b| a < b), "{what}: {}", curve.name);
+        let known = |edge| edges.binary_search(edge).is_ok();
+        assert!(curve.edges.iter().all(known), "{what}: {}", curve.name);
+    }
+    let (before, after) = (measures(before), measures(after));
+    assert_eq!(before.len(), after.len(), "{what}");
+    for (before, after) in before.iter().zip(&after) {
+        assert_eq!(before.0, after.0, "{what}");
+        assert!((before.1 - after.1).abs() < 1e-12 * before.1, "{what}: {before:?} {after:?}");
+    }
+}
+
+type Place = [i64; 2];
+
+/// A mesh whatever its numbering: cells from their least corner on with their surfaces, edges with
+/// their curves; in multiples of 2⁻²⁰.
+fn shape(mesh: &Mesh) -> [BTreeSet<(Vec<Place>, Vec<String>)>; 2] {
+    let place = |[x, y]: [f64; 2]| [x, y].map(|x| (x * f64::from(1 << 20)).round() as i64);
+    let cell = |(number, corners): (u32, &Vec<u32>)| {
+        let mut corners: Vec<_> = points(mesh, corners).into_iter().map(place).collect();
+        let least = (0..corners.len()).min_by_key(|&k| corners[k]).expect("corners");
+        corners.rotate_left(least);
+        let surfaces = mesh.surfaces.iter().filter(|surface| surface.cells.contains(&number));
+        (corners, surfaces.map(|surface| surface.name.clone()).collect())
+    };
+    let curves = mesh.curves.iter().flat_map(|curve| {
+        curve.edges.iter().map(|edge| {
+            let mut ends: Vec<_> = points(mesh, edge).into_iter().map(place).collect();
+            ends.sort_unstable();
+            (ends, vec![curve.name.clone()])
+        })
+    });
+    [(0..).zip(&cells(mesh)).map(cell).collect(), curves.collect()]
+}

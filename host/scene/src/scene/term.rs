@@ -1,0 +1,82 @@
+//! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
+
+use super::{Condition, Located, Scene};
+use crate::error::Result;
+use crate::expression::Expression;
+
+/// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
+pub type Term = usize;
+
+/// `scene` with one unit of each of these terms and nothing else.
+pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
+    let mut scene = scene.clone();
+    for (at, input) in scene.inputs.iter_mut().enumerate() {
+        input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
+    }
+    if !terms.contains(&0) {
+        each_load(&mut scene, |load| load.value = Expression::constant(0.0));
+    }
+    scene
+}
+
+impl Scene {
+    /// The scene as it stands at t = 0, for whoever knows no time.
+    #[must_use]
+    pub fn at_rest(mut self) -> Self {
+        let rest = |load: &mut Located<Expression>| load.value = load.value.at_time(0.0);
+        each_load(&mut self, rest);
+        if let Some(exact) = &mut self.exact {
+            rest(&mut exact.u);
+            exact.gradient.iter_mut().for_each(rest);
+        }
+        self
+    }
+}
+
+/// Visits the load f, then the loads of every boundary in the order of the file.
+pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
+    each(&mut scene.source);
+    for boundary in &mut scene.boundaries {
+        match &mut boundary.condition {
+            Condition::Dirichlet { value } => each(value),
+            Condition::Neumann { flux } => each(flux),
+            Condition::Robin { ambient, .. } => each(ambient),
+            Condition::Contact { gap, flux } => {
+                each(gap);
+                each(flux);
+            }
+        }
+    }
+}
+
+/// Refuses loads that change with t: firmware has no clock of the scene's.
+///
+/// # Errors
+/// The first load that does.
+pub fn refuse_time(scene: &Scene) -> Result<()> {
+    let Some(culprit) = first_in_time(scene) else { return Ok(()) };
+    let message = format!("{} depends on t, which firmware does not know", culprit.value);
+    let hint =
+        "declare an [input.…] with the part in x and y as its pattern, and set it every tick";
+    Err(scene.error(&culprit, message).hint(hint).into())
+}
+
+/// The sentence for whoever takes a scene that changes with t at rest.
+pub fn at_rest_warning(scene: &Scene) -> Option<String> {
+    let load = first_in_time(scene)?;
+    let Located { key, value, .. } = load;
+    Some(format!(
+        "{key} = \"{value}\" depends on t: all data are those of t = 0 (`signorini tick` plays the scene over time)"
+    ))
+}
+
+/// The first load that depends on t.
+fn first_in_time(scene: &Scene) -> Option<Located<Expression>> {
+    let mut first = None;
+    each_load(&mut scene.clone(), |load| {
+        if load.value.uses_time() && first.is_none() {
+            first = Some(load.clone());
+        }
+    });
+    first
+}

@@ -1,0 +1,220 @@
+//! The kernel's certificate on a scene: its memory, and what of it depends on the mesh and A alone.
+
+use signorini_kernel::certificate::{self, Buffers, Certificate, Ground, Verdict};
+use signorini_kernel::components::Support;
+use signorini_kernel::conforming;
+use signorini_kernel::equilibrium::Iterate;
+use signorini_kernel::{Error as KernelError, averages};
+
+use super::admissible::Admissible;
+use super::cell::Cell;
+use super::data::Data;
+use super::metric::Metric;
+use super::no_bound::NoBound;
+use super::ways::Ways;
+use crate::problem::{Assembled, Parts, Problem};
+use crate::scalar::Scalar;
+use signorini_scene::scene::Scene;
+
+/// A certificate in the making: one for each problem and scalar.
+#[derive(Debug)]
+pub struct Certifier<R: Scalar> {
+    metric: Metric<R>,
+    ways: Ways<R>,
+    /// Where contact alone holds a part, its way out leads through edges that are active.
+    follows_contact: bool,
+    vertices: Vec<R>,
+    bubbles: Vec<R>,
+    tau: Vec<R>,
+    indicators: Vec<R>,
+    refusal: Option<Refusal>,
+}
+
+/// Why the last iterate has no bound, apart from its data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Refusal {
+    /// A part without a way out, by a cell in it.
+    NothingActive(usize),
+    /// A part held by nothing.
+    HeldByNothing,
+    /// A contact edge that would be pulled at.
+    Pulled(usize),
+    Overflow,
+    NotAsked,
+}
+
+/// What was certified, in f64.
+#[derive(Debug, Clone, Default)]
+pub struct Answer {
+    /// s at the vertices.
+    pub vertices: Vec<f64>,
+    /// The bubbles of s, one an edge.
+    pub bubbles: Vec<f64>,
+    /// ∫_E τ·n of every edge, along its direction.
+    pub tau: Vec<f64>,
+    /// Each cell's part of gap², triangles first.
+    pub indicators: Vec<f64>,
+}
+
+impl Answer {
+    /// S and τ as the exact norms take them.
+    pub fn admissible(&self) -> Admissible<'_> {
+        Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau }
+    }
+}
+
+/// A cell of a part that nothing holds.
+fn floating(parts: &Parts) -> usize {
+    let held_by_nothing = |&part: &usize| parts.support(part) == Support::None;
+    parts.roots().find(held_by_nothing).unwrap_or(0)
+}
+
+impl<R: Scalar> Certifier<R> {
+    /// Prepares certificates for `problem`.
+    ///
+    /// # Errors
+    /// Never for a problem that was assembled.
+    pub fn new(
+        scene: &Scene,
+        problem: &Problem,
+        parts: &Parts,
+        assembled: &Assembled<R>,
+    ) -> Result<Self, KernelError> {
+        let edges = problem.topology.counts.edges();
+        let vertices = problem.mesh.vertices.len();
+        let mut certifier = Self {
+            metric: Metric::new(scene, problem),
+            ways: Ways::new(problem),
+            follows_contact: parts.counts.contact > 0,
+            vertices: vec![R::ZERO; vertices],
+            bubbles: vec![R::ZERO; edges],
+            tau: vec![R::ZERO; edges],
+            indicators: vec![R::ZERO; problem.cells()],
+            refusal: None,
+        };
+        if !certifier.follows_contact && parts.counts.floating == 0 {
+            certifier.ways.find(assembled, &certifier.metric, |_| false)?;
+        }
+        Ok(certifier)
+    }
+
+    /// Bounds the error of the iterate `u`; `None` where there is no bound.
+    ///
+    /// # Errors
+    /// Never for data of this problem.
+    pub fn certify(
+        &mut self,
+        parts: &Parts,
+        assembled: &Assembled<R>,
+        data: &Data<R>,
+        u: &[R],
+    ) -> Result<Option<Certificate<R>>, KernelError> {
+        if !self.has_ways(parts, assembled, u)? || !data.has_bound() {
+            self.average(assembled, data, u)?;
+            return Ok(None);
+        }
+        let ground = self.ways.ground(assembled, &self.metric)?;
+        let buffers = Buffers {
+            vertices: &mut self.vertices,
+            bubbles: &mut self.bubbles,
+            tau: &mut self.tau,
+            indicators: &mut self.indicators,
+        };
+        let iterate = Iterate { u, lower: assembled.lower() };
+        let verdict = certificate::certify(&ground, &data.given(assembled)?, iterate, buffers)?;
+        self.refusal = match verdict {
+            Verdict::Certified(_) => None,
+            Verdict::Pulled { edge } => Some(Refusal::Pulled(edge)),
+            Verdict::NotAsked => Some(Refusal::NotAsked),
+            _ => Some(Refusal::Overflow),
+        };
+        Ok(verdict.certificate().copied())
+    }
+
+    /// Why the last iterate has no bound, given these data.
+    pub fn no_bound(
+        &self,
+        scene: &Scene,
+        problem: &Problem,
+        parts: &Parts,
+        data: &Data<R>,
+    ) -> Option<NoBound> {
+        let middle = |cell| Cell::of(problem, cell).middle();
+        let refused = self.refusal.map(|refusal| match refusal {
+            Refusal::NothingActive(cell) => NoBound::NothingActive { at: middle(cell) },
+            Refusal::HeldByNothing => NoBound::HeldByNothing { at: middle(floating(parts)) },
+            Refusal::Pulled(edge) => NoBound::pulled(scene, problem, edge),
+            Refusal::Overflow => NoBound::Overflow { scalar: R::NAME },
+            Refusal::NotAsked => NoBound::NotAsked,
+        });
+        data.no_bound().cloned().or(refused)
+    }
+
+    /// What the last certificate was about.
+    pub fn answer(&self) -> Answer {
+        let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
+        Answer {
+            vertices: wide(&self.vertices),
+            bubbles: wide(&self.bubbles),
+            tau: wide(&self.tau),
+            indicators: wide(&self.indicators),
+        }
+    }
+
+    /// What a tick stands on, where surplus can leave whatever the iterate.
+    ///
+    /// # Errors
+    /// Never for a problem that was assembled.
+    pub fn ground<'a>(
+        &'a self,
+        assembled: &'a Assembled<R>,
+    ) -> Result<Ground<'a, R, u32>, KernelError> {
+        self.ways.ground(assembled, &self.metric)
+    }
+
+    /// Whether surplus can leave everywhere; finds the ways where they depend on u.
+    fn has_ways(
+        &mut self,
+        parts: &Parts,
+        assembled: &Assembled<R>,
+        u: &[R],
+    ) -> Result<bool, KernelError> {
+        self.refusal = None;
+        if parts.counts.floating > 0 {
+            self.refusal = Some(Refusal::HeldByNothing);
+            return Ok(false);
+        }
+        if !self.follows_contact {
+            return Ok(true);
+        }
+        let edges = assembled.edges();
+        let (free, lower) = (edges.counts().free, assembled.lower());
+        let active = |edge: usize| {
+            let gap = edge.checked_sub(free).and_then(|at| lower.get(at));
+            let alone = || parts.support(parts.of_edge(edges, edge)) == Support::Contact;
+            gap.is_some_and(|gap| u[edge] == *gap && alone())
+        };
+        match self.ways.find(assembled, &self.metric, active) {
+            Err(KernelError::NoWayOut { cell }) => {
+                self.refusal = Some(Refusal::NothingActive(cell));
+                Ok(false)
+            }
+            found => found.map(|()| true),
+        }
+    }
+
+    /// s alone, for the picture of a solution without a bound.
+    fn average(
+        &mut self,
+        assembled: &Assembled<R>,
+        data: &Data<R>,
+        u: &[R],
+    ) -> Result<(), KernelError> {
+        self.ways.find(assembled, &self.metric, |_| true)?;
+        let ground = self.ways.ground(assembled, &self.metric)?;
+        let (s, lower, given) = (&mut self.vertices, assembled.lower(), data.given(assembled)?);
+        let bends = ground.metric.bends;
+        averages::fill(&ground.cells, assembled.cells(), bends, u, s, &mut self.tau)?;
+        conforming::impose(&ground.mesh, &ground.edges, u, lower, given.ends, s).map(|_| ())
+    }
+}

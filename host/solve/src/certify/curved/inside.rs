@@ -1,0 +1,82 @@
+//! Points inside a cell for what its extensions make as rough as their edges' data.
+
+use super::cross::{between_rays, of_square};
+use super::panels::Panels;
+use crate::certify::cell::Cell;
+use crate::certify::deviation::Deviations;
+use crate::problem::Problem;
+use crate::quadrature::Point;
+use signorini_scene::error::Result;
+
+/// The points of `rule`'s square on cell `at` (triangles first); where data on its sides need finer panels than
+/// smooth ones, the points of those.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn points(
+    problem: &Problem,
+    at: usize,
+    deviations: &Deviations,
+    rule: &[[f64; 2]],
+) -> Result<Vec<Point>> {
+    let cell = Cell::of(problem, at);
+    let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
+        return Ok(cell.points(rule));
+    };
+    let point = |(reference, weight)| {
+        let local = cell.local(reference);
+        Point { x: local.x, reference, weight: weight * local.determinant }
+    };
+    Ok(found.into_iter().map(point).collect())
+}
+
+/// Reference coordinates, and weights that lack the area element.
+pub type ReferencePoints = Vec<([f64; 3], f64)>;
+
+/// Reference points with weights that lack the area element, on cell `at`; `None` where smooth data's points will do
+/// for `all` data on its sides.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn of_rough_sides(
+    problem: &Problem,
+    at: usize,
+    all: &[Deviations],
+    rule: &[[f64; 2]],
+) -> Result<Option<ReferencePoints>> {
+    let cell = Cell::of(problem, at);
+    let mut sides: Vec<(usize, Panels)> = Vec::new();
+    for deviations in all {
+        for (side, deviation) in deviations.of_cell(problem, at).into_iter().enumerate() {
+            let Some(deviation) = deviation else { continue };
+            let panels = Panels::along(deviation)?;
+            match sides.iter_mut().find(|(other, _)| *other == side) {
+                Some((_, known)) => *known = known.clone().with(&panels.ends),
+                None => sides.push((side, panels)),
+            }
+        }
+    }
+    // The roughest first: the third side of a triangle has no panels of its own.
+    sides.sort_by_key(|(_, panels)| std::cmp::Reverse(panels.ends.len()));
+    Ok(Some(match (&cell, &sides[..]) {
+        (_, sides) if sides.iter().all(|(_, panels)| panels.is_regular()) => {
+            return Ok(None);
+        }
+        (Cell::Triangle(_), [(one, panels), (other, others), ..]) => {
+            between_rays([*one, *other], [panels, others])
+        }
+        (Cell::Triangle(_), sides) => {
+            sides.iter().flat_map(|(side, panels)| on_side(&cell, *side, panels, rule)).collect()
+        }
+        (Cell::Quad(_), sides) => of_square(sides.iter().map(|(side, panels)| (*side, panels))),
+    }))
+}
+
+/// The panels of one side of a triangle times `rule` away from it, collapsed at the apex.
+fn on_side(cell: &Cell, side: usize, panels: &Panels, rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let point = |[t, weight]: [f64; 2], [eta, away]: [f64; 2]| {
+        (cell.side_point(side, t, eta), weight * away * (1.0 - eta))
+    };
+    let along = panels.rule();
+    along.iter().flat_map(|&along| rule.iter().map(move |&away| point(along, away))).collect()
+}

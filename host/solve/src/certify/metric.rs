@@ -1,0 +1,145 @@
+//! A in reference coordinates, as the kernel's certificate takes it ([`signorini_kernel::certificate`]).
+
+use signorini_kernel::certificate::{POINTS, of_quad, of_triangle};
+use signorini_kernel::element::QuadElement;
+use signorini_kernel::element::nonparametric::axes;
+use signorini_kernel::element::rannacher_turek::place;
+use signorini_kernel::{Real, Tensor};
+
+use super::conductivity::Conductivity;
+use crate::problem::{Problem, QuadCoefficient};
+use crate::quadrature::{on_quad, on_triangle};
+use crate::scalar::Scalar;
+use signorini_scene::scene::Scene;
+
+/// B at the 64 points of a cell.
+pub type Points<R> = [Tensor<R>; POINTS * POINTS];
+
+/// Owned arrays of a [`signorini_kernel::certificate::Metric`], and ½ tr A of the cells.
+#[derive(Debug, Clone)]
+pub struct Metric<R: Scalar> {
+    compliance: Vec<R>,
+    at_points: Vec<Points<R>>,
+    place: Vec<u32>,
+    bends: Vec<[R; 2]>,
+    alpha: Vec<R>,
+}
+
+impl<R: Scalar> Metric<R> {
+    /// Evaluates A where it varies inside a cell, and where a quad is no parallelogram or too thin for
+    /// its element matrix to tell B.
+    pub fn new(scene: &Scene, problem: &Problem) -> Self {
+        let coefficients = &problem.coefficients;
+        let compliance = coefficients.triangles.iter().map(|a| {
+            let determinant = a.xx * a.yy - a.xy * a.xy;
+            R::narrow(0.25 / determinant)
+        });
+        let mut metric = Self {
+            compliance: compliance.collect(),
+            at_points: Vec::new(),
+            place: Vec::new(),
+            bends: bends(problem),
+            alpha: Vec::new(),
+        };
+        for cell in 0..problem.cells() {
+            let points = metric.varying(scene, problem, cell);
+            metric.place.push(points.as_ref().map_or(u32::MAX, |_| metric.at_points.len() as u32));
+            metric.at_points.extend(points);
+            metric.alpha.push(R::narrow(half_trace(problem, cell)));
+        }
+        metric
+    }
+
+    /// The kernel's view of it.
+    pub fn view(&self) -> signorini_kernel::certificate::Metric<'_, R> {
+        signorini_kernel::certificate::Metric {
+            at_points: &self.at_points,
+            place: &self.place,
+            bends: &self.bends,
+        }
+    }
+
+    /// 1/(4 det A) of every triangle, A its mean.
+    pub fn compliance(&self) -> &[R] {
+        &self.compliance
+    }
+
+    /// ½ tr A of every cell, triangles first.
+    pub fn alpha(&self) -> &[R] {
+        &self.alpha
+    }
+
+    /// B at the points, where it is not the same in the whole cell.
+    fn varying(&self, scene: &Scene, problem: &Problem, cell: usize) -> Option<Points<R>> {
+        let mesh = &problem.mesh;
+        let corner = |vertex: u32| mesh.vertices[vertex as usize];
+        let rule = f64::GAUSS[POINTS - 1];
+        let a = Conductivity::of(scene, problem, cell);
+        let tensors: Vec<Tensor<f64>> = match cell.checked_sub(mesh.triangles.len()) {
+            None if a.is_constant() => return None,
+            None => {
+                let corners = mesh.triangles[cell].map(corner);
+                let points = on_triangle(corners, rule);
+                points.map(|point| of_triangle(corners, a.at(point.x))).collect()
+            }
+            Some(quad) => {
+                let corners = mesh.quads[quad].map(corner);
+                let here = |reference: [f64; 3]| place(corners, [reference[0], reference[1]]);
+                if a.is_constant() && is_parallelogram(corners) {
+                    let middle = here([0.5, 0.5, 0.0]);
+                    if is_told::<R>(&of_quad(&middle, a.at(middle.x))) {
+                        return None;
+                    }
+                }
+                let points = on_quad(corners, rule);
+                points.map(|p| of_quad(&here(p.reference), a.at(p.x))).collect()
+            }
+        };
+        let narrow = |b: &Tensor<f64>| Tensor {
+            xx: R::narrow(b.xx),
+            xy: R::narrow(b.xy),
+            yy: R::narrow(b.yy),
+        };
+        Some(std::array::from_fn(|point| narrow(&tensors[point])))
+    }
+}
+
+/// The bend of every quad, where u_h is nonparametric and there is a quad on which that matters.
+fn bends<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
+    let mesh = &problem.mesh;
+    let corners = |quad: &[u32; 4]| quad.map(|vertex| mesh.vertices[vertex as usize]);
+    let straight = mesh.quads.iter().all(|quad| is_parallelogram(corners(quad)));
+    if straight || problem.element == QuadElement::Parametric {
+        return Vec::new();
+    }
+    mesh.quads.iter().map(|quad| axes(corners(quad)).bend().map(R::narrow)).collect()
+}
+
+/// The diagonals halve each other, up to rounding of the coordinates.
+fn is_parallelogram([a, b, c, d]: [[f64; 2]; 4]) -> bool {
+    let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
+    let twist = [0, 1].map(|k| (a[k] + c[k]) - (b[k] + d[k]));
+    twist[0].abs() + twist[1].abs() <= 1e-12 * (size(a, c) + size(b, d))
+}
+
+/// Whether the element matrix tells B: it holds sums of B's entries, in which the small one of a thin
+/// cell or of an oblique A is lost to rounding.
+fn is_told<R: Scalar>(b: &Tensor<f64>) -> bool {
+    const ENOUGH: f64 = 1e-3;
+    let spread = b.xx + b.yy;
+    let condition = spread * (spread / (b.xx * b.yy - b.xy * b.xy));
+    R::EPSILON.wide() * condition <= ENOUGH
+}
+
+/// ½ tr A of a cell: of its mean on triangles, of its middle on quads.
+fn half_trace(problem: &Problem, cell: usize) -> f64 {
+    let triangles = &problem.coefficients.triangles;
+    let tensor = match triangles.get(cell) {
+        Some(tensor) => tensor,
+        None => match &problem.coefficients.quads[cell - triangles.len()] {
+            QuadCoefficient::Constant(tensor) => tensor,
+            QuadCoefficient::AtPoints(tensors) => &tensors[tensors.len() / 2],
+        },
+    };
+    0.5 * (tensor.xx + tensor.yy)
+}

@@ -1,0 +1,42 @@
+//! The guaranteed error bound on a scene, and the exact norms that it is checked by.
+//!
+//! The kernel bounds the error of any iterate ([`signorini_kernel::certificate`]) from vertex values, edge
+//! fluxes and element integrals. Here are the numbers that only the scene's expressions can give:
+//! ```text
+//!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐
+//!   ends         ψ and u_D at the ends of edges      ─┐                                        │
+//!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
+//!   energy       what is left out of either, by A    ─┤                                        │
+//!   oscillation  what the means of f, g, q leave out  ─┤                                       │
+//!   robin        h and u_ext at points of edges       ─┘                                     bound
+//!   admissible ─┬► exact   the true distance to s and τ, from an exact solution
+//! ```
+
+pub mod admissible;
+mod bound;
+pub mod cell;
+mod certifier;
+pub mod conductivity;
+pub mod curved;
+mod data;
+pub mod deviation;
+pub mod ends;
+pub mod energy;
+pub mod exact;
+#[cfg(test)]
+mod identity;
+pub mod metric;
+mod no_bound;
+pub mod oscillation;
+pub mod robin;
+#[cfg(test)]
+mod rounding;
+pub mod sampled;
+pub mod ways;
+pub mod weighed;
+
+pub use bound::{Certified, ErrorBound};
+pub use certifier::{Answer, Certifier};
+pub use conductivity::eigenvalues;
+pub use data::Data;
+pub use no_bound::{NoBound, Spot};

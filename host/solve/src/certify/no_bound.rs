@@ -1,0 +1,211 @@
+//! Why a scene's answer has no error bound.
+
+use std::fmt;
+
+use signorini_kernel::certificate::Verdict;
+
+use crate::problem::Problem;
+use crate::scalar::Scalar;
+use signorini_scene::scene::{Field, Scene};
+
+/// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
+/// beyond 8 points, and infinite where it does.
+pub(super) const VARYING: f64 = 10.0;
+
+/// Why there is no bound; its text is one sentence that names boundary and place.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoBound {
+    /// u_D has two values where two Dirichlet edges meet: no function of finite energy has both.
+    ValuesDiffer {
+        /// The vertex.
+        at: [f64; 2],
+        /// u_D there, from one edge and from the other.
+        values: [f64; 2],
+    },
+    /// u_D or ψ jumps inside an edge: no function of finite energy follows it.
+    Jump {
+        /// Where.
+        of: Spot,
+    },
+    /// u_D or ψ rises too steeply inside an edge: the function s that follows it into the cell has infinite energy.
+    Steep {
+        /// Where.
+        of: Spot,
+    },
+    /// A transfer coefficient nearly vanishes on a part of an edge, where it divides the square of a flux.
+    TransferVanishes {
+        /// The Robin boundary.
+        boundary: String,
+        /// The middle of the edge.
+        at: [f64; 2],
+    },
+    /// u_D lies below ψ where Dirichlet and contact boundary meet: no u has both.
+    BelowGap {
+        /// The vertex.
+        at: [f64; 2],
+    },
+    /// Neither a Dirichlet, Robin nor contact edge belongs to a part, so that nothing can take its surplus.
+    HeldByNothing {
+        /// A point in the part.
+        at: [f64; 2],
+    },
+    /// Contact alone holds a part, and no edge of it is active in this iterate.
+    NothingActive {
+        /// A point in the part.
+        at: [f64; 2],
+    },
+    /// Contact alone holds a part, and the surplus of this iterate would pull at a contact edge.
+    Pulled {
+        /// The contact boundary.
+        boundary: String,
+        /// The middle of the edge.
+        at: [f64; 2],
+    },
+    /// Numbers of the bound overflow the scalar.
+    Overflow {
+        /// `f32` or `f64`.
+        scalar: &'static str,
+    },
+    /// Nobody asked for a bound.
+    NotAsked,
+    /// A condensed model's own reason.
+    Condensed(String),
+}
+
+/// A place on a boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    /// The boundary's name in the scene.
+    pub boundary: String,
+    /// [`Field::Gap`] or [`Field::Value`].
+    pub field: Field,
+    /// The place.
+    pub at: [f64; 2],
+}
+
+impl Spot {
+    /// That at the part `t` of an edge on C or D.
+    pub fn on_edge(scene: &Scene, problem: &Problem, edge: usize, t: f64) -> Self {
+        let [a, b] = problem.segment(edge);
+        let is_contact = edge < problem.topology.counts.unknowns();
+        Self {
+            boundary: boundary(scene, problem, edge),
+            field: if is_contact { Field::Gap } else { Field::Value },
+            at: [0, 1].map(|k| a[k] + t * (b[k] - a[k])),
+        }
+    }
+}
+
+impl NoBound {
+    /// A transfer coefficient that varies too much along an edge.
+    pub fn transfer_vanishes(scene: &Scene, problem: &Problem, edge: usize) -> Self {
+        let at = middle(problem, edge);
+        Self::TransferVanishes { boundary: boundary(scene, problem, edge), at }
+    }
+
+    /// The kernel's reason; `data` gives that of data which never allow for a bound.
+    pub fn of_verdict<R: Scalar>(
+        verdict: &Verdict<R>,
+        scene: &Scene,
+        problem: &Problem,
+        data: impl FnOnce() -> Option<Self>,
+    ) -> Option<Self> {
+        let condensed = |reason: &str| Self::Condensed(reason.to_owned());
+        Some(match verdict {
+            Verdict::Certified(_) => return None,
+            Verdict::Pulled { edge } => Self::pulled(scene, problem, *edge),
+            Verdict::Unpressed => condensed(
+                "contact alone holds a part of the mesh, and no edge is pressed hard enough to take what its fluxes \
+                 leave unbalanced",
+            ),
+            Verdict::BelowGap => condensed(
+                "a Dirichlet value lies below the gap where both boundaries meet: no solution has both",
+            ),
+            Verdict::Unavailable => return data().or(Some(Self::NotAsked)),
+            Verdict::NotFinite => Self::Overflow { scalar: R::NAME },
+            Verdict::NotAsked => Self::NotAsked,
+        })
+    }
+
+    /// A contact edge that would be pulled at.
+    pub fn pulled(scene: &Scene, problem: &Problem, edge: usize) -> Self {
+        Self::Pulled { boundary: boundary(scene, problem, edge), at: middle(problem, edge) }
+    }
+}
+
+fn middle(problem: &Problem, edge: usize) -> [f64; 2] {
+    let [a, b] = problem.segment(edge);
+    [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+}
+
+/// The name of the boundary that an edge lies on.
+fn boundary(scene: &Scene, problem: &Problem, edge: usize) -> String {
+    let found = problem.binding.boundary(problem.ends[edge]);
+    found.map_or_else(|| "default".to_owned(), |at| scene.boundaries[at].name.value.clone())
+}
+
+/// A point with six digits: where data are rough is not known better.
+fn place(at: &[f64; 2]) -> String {
+    let [x, y] = at.map(|x| format!("{:.5e}", x + 0.0).parse().unwrap_or(x));
+    format!("({x}, {y})")
+}
+
+impl fmt::Display for NoBound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ValuesDiffer { at, values: [a, b] } => write!(
+                f,
+                "the Dirichlet value jumps from {a} to {b} at {}: no function of finite energy has both values",
+                place(at)
+            ),
+            Self::Jump { of } => {
+                write!(f, "{of} jumps: no function of finite energy follows it")
+            }
+            Self::Steep { of } => {
+                write!(
+                    f,
+                    "{of} rises too steeply: what follows it along the edge has infinite energy"
+                )
+            }
+            Self::TransferVanishes { boundary, at } => write!(
+                f,
+                "the transfer coefficient of boundary.{boundary} varies by more than a factor of {VARYING} along the edge \
+                 around {}: the bound divides by it where it nearly vanishes",
+                place(at)
+            ),
+            Self::BelowGap { at } => write!(
+                f,
+                "the Dirichlet value lies below the gap at {}, where both boundaries meet: no solution has both",
+                place(at)
+            ),
+            Self::HeldByNothing { at } => write!(
+                f,
+                "the part of the mesh around {} has neither a dirichlet, a robin nor a contact edge: nothing can take \
+                 what its fluxes leave unbalanced",
+                place(at)
+            ),
+            Self::NothingActive { at } => write!(
+                f,
+                "contact alone holds the part of the mesh around {}, and nothing touches there: no edge can take what \
+                 its fluxes leave unbalanced",
+                place(at)
+            ),
+            Self::Pulled { boundary, at } => write!(
+                f,
+                "contact alone holds a part of the mesh, and what its fluxes leave unbalanced would pull at \
+                 boundary.{boundary} around {}: more sweeps may give a bound",
+                place(at)
+            ),
+            Self::Overflow { scalar } => write!(f, "the numbers of the bound overflow {scalar}"),
+            Self::NotAsked => write!(f, "no bound was asked for"),
+            Self::Condensed(reason) => write!(f, "{reason}"),
+        }
+    }
+}
+
+impl fmt::Display for Spot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let field = if self.field == Field::Gap { "gap" } else { "value" };
+        write!(f, "the {field} of boundary.{} near {}", self.boundary, place(&self.at))
+    }
+}

@@ -1,0 +1,164 @@
+//! The certificate as a quadratic form in (p, x, d).
+
+use std::collections::BTreeSet;
+
+use faer::Mat;
+
+use super::Form;
+use super::best::{Table, complete};
+use super::chain::Chain;
+use super::elimination::{Field, failed};
+use super::factor::{energies, triangular};
+use super::functions::Functions;
+use super::patterns::Pattern;
+use super::reach::{Source, reach};
+use super::residual::{Block, blocks, jumps};
+use crate::certify::ends::of_moved;
+use crate::problem::{Parts, Problem};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+
+/// What the certificate is made from.
+pub(super) struct Ground<'g> {
+    pub scene: &'g Scene,
+    pub problem: &'g Problem,
+    pub parts: &'g Parts,
+    /// The contact edge of each unknown.
+    pub edges: &'g [usize],
+    pub patterns: &'g [Pattern],
+    /// Columns of p, then those of x.
+    pub fields: &'g [Field],
+    /// d_i
+    pub openings: &'g [f64],
+    /// Ŝ
+    pub matrix: &'g Mat<f64>,
+    /// The field of a source that adds up to 1 on the one part that contact alone holds, and its condensed load.
+    pub source: Option<(&'g Field, Vec<f64>)>,
+    /// The unknowns of that part.
+    pub floating: Vec<usize>,
+}
+
+/// s and τ in every column.
+pub(super) struct Admissibles {
+    pub s: Table,
+    pub fluxes: Table,
+    pub functions: Functions,
+}
+
+/// Either the form with the functions behind it, or a sentence why there is none.
+pub(super) type Found = std::result::Result<(Form, Admissibles), String>;
+
+impl Ground<'_> {
+    /// The form with U = 1.
+    ///
+    /// # Errors
+    /// Data that are not finite, a normal matrix that is singular to working precision.
+    pub fn form(&self) -> Result<Found> {
+        let (problem, patterns) = (self.problem, self.patterns);
+        if let Some(reason) = self.obstacle()? {
+            return Ok(Err(reason));
+        }
+        let chain = match Chain::new(self.scene, problem, patterns, self.edges, self.openings) {
+            Ok(chain) => chain,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let functions = Functions::of(problem);
+        let blocks = blocks(self.scene, problem, patterns, &functions)?;
+        let fluxes = table(problem.ends.len(), self.fields, |field| &field.flux);
+        let mut s = self.boundary_values(&chain, &functions);
+        let at_boundary = chain.fixed();
+        let mut fixed = vec![false; functions.count()];
+        at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
+        fix_unused(&blocks, &mut fixed);
+        complete(&blocks, &fixed, &fluxes, &mut s).map_err(failed(self.scene))?;
+        let Some(reach) = self.reach(&blocks) else {
+            return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
+        };
+        let jump = jumps(self.scene, problem, patterns, &functions)?.map(|blocks| {
+            let means = table(problem.ends.len(), self.fields, |field| &field.u);
+            packed(&triangular(&blocks, &s, &means))
+        });
+        // As in `certify::Data`: for s, and for u_h beside it.
+        let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(self.scene, problem, moved));
+        let oscillation =
+            patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
+        let form = Form {
+            factor: packed(&triangular(&blocks, &s, &fluxes)),
+            lost: self.lost(&blocks, &s, &fluxes, reach)?,
+            jump,
+            vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
+            reach,
+            corners: chain.corners,
+            oscillation,
+            floating: self.floating.clone(),
+        };
+        Ok(Ok((form, Admissibles { s, fluxes, functions })))
+    }
+
+    /// Why these data allow for no bound.
+    fn obstacle(&self) -> Result<Option<String>> {
+        let counts = self.parts.counts;
+        if counts.contact > 1 {
+            let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
+            return Ok(Some(reason.to_owned()));
+        }
+        let reason = self.patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
+        Ok(reason.map(ToString::to_string))
+    }
+
+    /// s where it is fixed, in all columns: p, x, d.
+    fn boundary_values(&self, chain: &Chain, functions: &Functions) -> Table {
+        let (inputs, contact) = (self.patterns.len(), self.openings.len());
+        let columns = inputs + contact + chain.contact.len();
+        let mut s = Table::new(functions.count(), columns);
+        for (&vertex, values) in &chain.dirichlet {
+            s.row_mut(vertex as usize)[..inputs].copy_from_slice(values);
+        }
+        for (at, ((vertex, place), gap)) in chain.contact.iter().zip(&chain.gap).enumerate() {
+            let row = s.row_mut(*vertex as usize);
+            row[..inputs].copy_from_slice(gap);
+            for (edge, weight) in place.edges.into_iter().zip(place.weights) {
+                row[inputs + edge] += weight;
+            }
+            row[inputs + contact + at] = 1.0;
+        }
+        s
+    }
+
+    fn reach(&self, blocks: &[Block]) -> Option<f64> {
+        let of_contact = &self.fields[self.patterns.len()..];
+        let (mut columns, mut source) = (of_contact.to_vec(), None);
+        if let Some((field, load)) = &self.source {
+            columns.push((*field).clone());
+            let mut inverse = vec![0.0; self.openings.len()];
+            self.floating.iter().for_each(|&at| inverse[at] = 1.0 / self.openings[at]);
+            source = Some(Source { inverse, load: load.clone() });
+        }
+        let fluxes = table(self.problem.ends.len(), &columns, |field| &field.flux);
+        reach(self.matrix, &energies(blocks, &fluxes), source.as_ref())
+    }
+}
+
+/// The upper triangle by columns.
+fn packed(factor: &Mat<f64>) -> Vec<f64> {
+    (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
+}
+
+/// What `of` gives of fields, edge by edge.
+fn table(edges: usize, fields: &[Field], of: impl Fn(&Field) -> &[f64]) -> Table {
+    let mut table = Table::new(edges, fields.len());
+    for (column, field) in fields.iter().enumerate() {
+        for (edge, number) in of(field).iter().enumerate() {
+            table.row_mut(edge)[column] = *number;
+        }
+    }
+    table
+}
+
+/// A vertex of no cell has no value.
+fn fix_unused(blocks: &[Block], fixed: &mut [bool]) {
+    let used: BTreeSet<u32> = blocks.iter().flat_map(|block| block.functions.clone()).collect();
+    for (function, fixed) in fixed.iter_mut().enumerate() {
+        *fixed |= !used.contains(&(function as u32));
+    }
+}

@@ -1,0 +1,10 @@
+//! Condensed models against the full solver, and what has none.
+
+mod equality;
+mod rejected;
+
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+
+use crate::fixtures::{EVERY_INPUT as ALL, full_at, on_grid, scatter};
+use crate::problem::Problem;

@@ -1,0 +1,104 @@
+//! Energy norms of the bound's S: how large it is, and how far the discontinuous u_h lies from it.
+//!
+//! ```text
+//!   energy norm    (‖A^½∇S‖² + ∫_R h S²)^½            what a bound is compared with
+//!   nonconformity  ‖A^½∇_h(S − u_h)‖                  what the bound for u_h adds to that for S
+//! ```
+
+use crate::certify::admissible::Admissible;
+use crate::certify::cell::Cell;
+use crate::certify::conductivity::{Conductivity, product};
+use crate::certify::curved;
+use crate::certify::deviation::Deviations;
+use crate::certify::robin::robin;
+use crate::field::CellField;
+use crate::pointwise::POINTS;
+use crate::problem::Problem;
+use crate::quadrature::{DATA_POINTS, gauss};
+use crate::solve;
+use signorini_kernel::Real;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+
+/// The energy norm of a solution's S; `None` where it has no bound, and S is a picture alone.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn of_solution(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &solve::Solution,
+) -> Result<Option<f64>> {
+    if solution.bound.is_none() {
+        return Ok(None);
+    }
+    let units = solution.units;
+    if units == Units::default() {
+        return norm(scene, problem, &solution.certified.admissible()).map(Some);
+    }
+    // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
+    let (scene, problem) = solve::in_units(scene, problem, &units)?;
+    let solution = solve::times(&units.inverse(), solution.clone());
+    let norm = norm(&scene, &problem, &solution.certified.admissible())?;
+    Ok(Some(norm * units.energy()))
+}
+
+/// (‖A^½∇S‖² + ∫_R h S²)^½ at the time of the problem.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn norm(scene: &Scene, problem: &Problem, s: &Admissible) -> Result<f64> {
+    let deviations = Deviations::at_time(scene, problem, problem.time)?;
+    let mut square = squares(scene, problem, s, &deviations, None)?;
+    let transfer = robin(scene, problem, problem.time)?;
+    for (record, points) in problem.loads.robin.iter().zip(&transfer) {
+        for (&[t, weight], [h, _]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
+            square += weight * h * s.on_edge(problem, record.edge as usize, None, t)?.powi(2);
+        }
+    }
+    Ok(square.sqrt())
+}
+
+/// ‖A^½∇_h(S − u_h)‖ for the edge means `u`.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn nonconformity(scene: &Scene, problem: &Problem, s: &Admissible, u: &[f64]) -> Result<f64> {
+    let deviations = Deviations::at_time(scene, problem, problem.time)?;
+    Ok(squares(scene, problem, s, &deviations, Some(u))?.sqrt())
+}
+
+/// Σ_T ∫_T |A^½∇(S − u_h)|², without `u` that of S alone.
+fn squares(
+    scene: &Scene,
+    problem: &Problem,
+    s: &Admissible,
+    deviations: &Deviations,
+    u: Option<&[f64]>,
+) -> Result<f64> {
+    let mut square = 0.0;
+    for at in 0..problem.cells() {
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        let s = s.on_cell(problem, at, deviations);
+        let field = u.map(|u| CellField::new(problem, at, u, u));
+        let is_lifted = deviations.of_cell(problem, at).iter().any(Option::is_some);
+        let rule = gauss(if is_lifted { POINTS } else { points(&cell, &conductivity) });
+        for point in curved::points(problem, at, deviations, &rule)? {
+            let [x, y] = s.at(&cell.local(point.reference))?.gradient;
+            let [of_x, of_y] = field.map_or([0.0; 2], |field| field.sample(&point).gradient);
+            let difference = [x - of_x, y - of_y];
+            square += point.weight * product(&conductivity.at(point.x), difference, difference);
+        }
+    }
+    Ok(square)
+}
+
+/// Points a direction where s has no lift: gradients are constant on triangles, of degree 2 on quads.
+fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
+    match cell {
+        Cell::Triangle(_) if conductivity.is_constant() => 1,
+        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
+        _ => DATA_POINTS,
+    }
+}

@@ -1,0 +1,100 @@
+//! The quantities that a scene declares in `[output.…]`: what a controller reads.
+
+use std::collections::BTreeMap;
+
+use signorini_kernel::contact::within_law;
+
+use crate::field::CellField;
+use crate::functional::Functional;
+use crate::problem::{EdgeKind, Problem};
+use crate::solve::{ScalarKind, Solution};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+
+/// What outputs are read off.
+#[derive(Debug, Clone, Copy)]
+pub struct Reading<'a> {
+    /// The scalar type it was computed in.
+    pub scalar: ScalarKind,
+    /// Mean of u_h over each edge.
+    pub u: &'a [f64],
+    /// ∫_E σ·n of each edge, by (15) or balanced.
+    pub flux: &'a [f64],
+    /// What 1 stands for in `scalar`.
+    pub units: Units,
+    /// The bound on its error, where there is one.
+    pub bound: Option<f64>,
+}
+
+/// Every declared output; without any, contact force and length. `None` where a quantity has no value.
+///
+/// # Errors
+/// A probe outside the mesh.
+pub fn outputs(
+    scene: &Scene,
+    problem: &Problem,
+    solution: &Solution,
+) -> Result<BTreeMap<String, Option<f64>>> {
+    if scene.outputs.is_empty() {
+        let force = ("contact_force".to_owned(), Some(solution.contact_force));
+        let length = ("contact_length".to_owned(), Some(solution.contact_length));
+        return Ok([force, length].into());
+    }
+    let Solution { scalar, ran, u, flux, units, bound, .. } = solution;
+    let bound = bound.map(|bound| bound.total);
+    let reading = Reading { scalar: ran.scalar_of_u(*scalar), u, flux, units: *units, bound };
+    let values = declared(scene, problem, reading)?;
+    let names = scene.outputs.iter().map(|output| output.name.value.clone());
+    Ok(names.zip(values).collect())
+}
+
+/// The values of the declared outputs, in the order of the scene.
+///
+/// # Errors
+/// A probe outside the mesh.
+pub fn declared(scene: &Scene, problem: &Problem, reading: Reading) -> Result<Vec<Option<f64>>> {
+    let evaluated = scene.outputs.iter().map(|output| {
+        let value = evaluate(problem, reading, &Functional::of(scene, problem, output)?);
+        Ok(value.filter(|value| value.is_finite()))
+    });
+    evaluated.collect()
+}
+
+fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Option<f64> {
+    let free = problem.topology.counts.free;
+    match functional {
+        Functional::Flux(edges) => {
+            Some(edges.iter().fold(0.0, |sum, &edge| sum + reading.flux(problem, edge)))
+        }
+        Functional::Force(edges) => Some(edges.iter().fold(0.0, |sum, &edge| {
+            sum + (reading.flux(problem, edge) - problem.loads.contact_flux[edge - free])
+        })),
+        Functional::Probe(cell, point) => {
+            Some(CellField::new(problem, *cell, reading.u, reading.flux).sample(point).u)
+        }
+        Functional::Length(lengths) => {
+            let touches = |edge: usize| reading.u[edge] == reading.gap(problem, edge - free);
+            let active = lengths.iter().filter(|(edge, _)| touches(*edge));
+            Some(active.fold(0.0, |sum, (_, length)| sum + length))
+        }
+        Functional::Bound => reading.bound,
+    }
+}
+
+impl Reading<'_> {
+    /// Mean of ψ over a contact edge as the scalar holds it, so that u_E = ψ_E can be asked.
+    fn gap(&self, problem: &Problem, contact: usize) -> f64 {
+        self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u
+    }
+
+    /// ∫_E τ·n, within the law of contact on a contact edge.
+    fn flux(&self, problem: &Problem, edge: usize) -> f64 {
+        if problem.kinds[edge] != EdgeKind::Contact {
+            return self.flux[edge];
+        }
+        let at = edge - problem.topology.counts.free;
+        let (lower, given) = (self.gap(problem, at), problem.loads.contact_flux[at]);
+        within_law(self.u[edge], lower, self.flux[edge], given)
+    }
+}

@@ -1,0 +1,41 @@
+//! Where Dirichlet and contact boundary meet, u_D may not lie below the gap: no u could satisfy both.
+
+use std::collections::HashMap;
+
+use super::{Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Scene};
+
+/// What rounding may leave of u_D = ψ, relative to the range of the boundary data: cos(1.5π) in an
+/// expression is −1.8e−16.
+const ROUNDING: f64 = 1e-9;
+
+/// Checks every vertex between a Dirichlet and a contact edge at the time of the problem.
+///
+/// # Errors
+/// The first vertex where u_D < ψ beyond rounding, with both values.
+pub(super) fn check(scene: &Scene, problem: &Problem) -> Result<()> {
+    let counts = problem.topology.counts;
+    let contact = counts.free..counts.unknowns();
+    let touched: HashMap<u32, usize> =
+        contact.flat_map(|edge| problem.ends[edge].map(|vertex| (vertex, edge))).collect();
+    let given = problem.loads.dirichlet.iter().chain(&problem.loads.gap);
+    let (low, high) =
+        given.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
+    for edge in counts.unknowns()..counts.edges() {
+        for vertex in problem.ends[edge] {
+            let Some(&neighbour) = touched.get(&vertex) else { continue };
+            let [x, y] = problem.mesh.vertices[vertex as usize];
+            let given = Sum::on_edge(scene, problem, edge, Field::Value, problem.time);
+            let gap = Sum::on_edge(scene, problem, neighbour, Field::Gap, problem.time);
+            let (Some(given), Some(gap)) = (given, gap) else { continue };
+            let (value, gap) = (given.at(x, y), gap.at(x, y));
+            if gap - value > ROUNDING * (high - low) {
+                let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
+                let hint = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
+                return Err(scene.error(given.key(), message).hint(hint).into());
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! Loads, gaps and boundary values as integrals over cells and edges, at one time.
+
+use signorini_kernel::Real;
+use signorini_kernel::boundary::{Neumann, Robin};
+
+use super::{EdgeKind, Problem, Sum};
+use crate::quadrature::{DATA_POINTS, mean_on_edge};
+use signorini_scene::error::Result;
+use signorini_scene::expression::Expression;
+use signorini_scene::scene::{Condition, Field, Located, Scene};
+
+/// Everything on the right-hand side.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loads {
+    /// ∫_T f of each triangle.
+    pub triangles: Vec<f64>,
+    /// ∫_T f of each quad.
+    pub quads: Vec<f64>,
+    /// Edges with a flux other than 0.
+    pub neumann: Vec<Neumann<f64, u32>>,
+    /// Edges with a transfer law.
+    pub robin: Vec<Robin<f64, u32>>,
+    /// ∫_E q of each contact edge.
+    pub contact_flux: Vec<f64>,
+    /// Mean of ψ on each contact edge.
+    pub gap: Vec<f64>,
+    /// Mean of u_D on each Dirichlet edge.
+    pub dirichlet: Vec<f64>,
+}
+
+impl Loads {
+    /// Integrates all data of `scene` at time `time`.
+    ///
+    /// # Errors
+    /// Data that are not finite, a negative Robin coefficient.
+    pub fn at_time(scene: &Scene, problem: &Problem, time: f64) -> Result<Self> {
+        let source = Sum::source(scene, time);
+        let mut loads = Self::default();
+        if !source.is_zero() {
+            loads.integrate_source(&source, problem)?;
+        }
+        for edge in 0..problem.ends.len() {
+            if problem.kinds[edge] != EdgeKind::Interior {
+                loads.add_edge(scene, problem, edge, time)?;
+            }
+        }
+        Ok(loads)
+    }
+
+    /// ∫_T f of a cell, triangles first.
+    pub fn of_cell(&self, cell: usize) -> f64 {
+        let all = self.triangles.iter().chain(&self.quads);
+        all.copied().nth(cell).unwrap_or(0.0)
+    }
+
+    fn integrate_source(&mut self, f: &Sum, problem: &Problem) -> Result<()> {
+        let mesh = &problem.mesh;
+        let corner = |vertex: u32| mesh.vertices[vertex as usize];
+        for vertices in &mesh.triangles {
+            self.triangles.push(f.over_triangle(vertices.map(corner))?);
+        }
+        for vertices in &mesh.quads {
+            self.quads.push(f.over_quad(vertices.map(corner))?);
+        }
+        Ok(())
+    }
+
+    /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.
+    fn add_edge(&mut self, scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<()> {
+        let Some(boundary) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
+        let boundary = &scene.boundaries[boundary];
+        let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
+        let name = &boundary.name.value;
+        let mean = |field, base| Sum::new(scene, name, field, base, time).mean(segment);
+        let index = edge as u32;
+        match &boundary.condition {
+            Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
+            Condition::Neumann { flux } => {
+                let flux = length * mean(Field::Flux, flux)?;
+                if flux != 0.0 {
+                    self.neumann.push(Neumann { edge: index, flux });
+                }
+            }
+            Condition::Robin { coefficient, ambient } => {
+                let (h, outside) = (
+                    Sum::alone(scene, coefficient, time),
+                    Sum::new(scene, name, Field::Ambient, ambient, time),
+                );
+                nowhere_negative(scene, coefficient, segment, &h)?;
+                let both = mean_on_edge(segment, |x, y| h.at(x, y) * outside.at(x, y));
+                let robin = Robin {
+                    edge: index,
+                    coefficient: length * h.mean(segment)?,
+                    ambient: length * outside.finite(both, segment[0])?,
+                };
+                self.robin.push(robin);
+            }
+            Condition::Contact { gap, flux } => {
+                self.gap.push(mean(Field::Gap, gap)?);
+                self.contact_flux.push(length * mean(Field::Flux, flux)?);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn nowhere_negative(
+    scene: &Scene,
+    coefficient: &Located<Expression>,
+    [a, b]: [[f64; 2]; 2],
+    h: &Sum,
+) -> Result<()> {
+    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
+    for t in inside.chain([0.0, 1.0]) {
+        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let value = h.at(x, y);
+        if value < 0.0 {
+            let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
+            let hint =
+                "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
+            return Err(scene.error(coefficient, message).hint(hint).into());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! Whether a problem has a solution, part by part, before any sweep is spent on it.
+
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::boundary::Boundary;
+use signorini_kernel::components::{Part, PartCounts, Support, examine};
+use signorini_kernel::edges::{Edges, Side};
+
+use super::Problem;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+
+/// Loads whose sum is this small against their sizes are in balance: what quadrature leaves.
+const BALANCE: f64 = 1e-9;
+
+/// The connected parts of a problem that has a solution.
+#[derive(Debug, Clone)]
+pub struct Parts {
+    /// How many there are of each kind.
+    pub counts: PartCounts,
+    cells: Vec<Part<f64, u32>>,
+    triangles: usize,
+}
+
+impl Parts {
+    /// Finds the connected parts of `problem`.
+    ///
+    /// # Errors
+    /// A part without a solution, or with more than one where contact could decide, named by a
+    /// point in it.
+    pub fn examine(scene: &Scene, problem: &Problem) -> Result<Self> {
+        let triangles = problem.mesh.triangles.len();
+        let mut cells = vec![Part::default(); triangles + problem.mesh.quads.len()];
+        let counts =
+            Self::counts(problem, &mut cells).map_err(|error| refused(scene, problem, error))?;
+        Ok(Self { counts, cells, triangles })
+    }
+
+    fn counts(
+        problem: &Problem,
+        cells: &mut [Part<f64, u32>],
+    ) -> std::result::Result<PartCounts, signorini_kernel::Error> {
+        let (edges, loads) = (problem.topology.edges()?, &problem.loads);
+        let boundary = Boundary::new(&edges, &loads.neumann, &loads.robin, &loads.contact_flux)?;
+        let mut load = vec![0.0; edges.counts().unknowns()];
+        let integrals = CellLoads { triangles: &loads.triangles, quads: &loads.quads };
+        assembly::load(&edges, integrals, &boundary, &mut load)?;
+        examine(&edges, &boundary, &load, BALANCE, cells)
+    }
+
+    /// The part that an edge belongs to, by the number of a cell in it.
+    pub fn of_edge(&self, edges: &Edges<u32>, edge: usize) -> usize {
+        let cell = match edges.first_side(edge) {
+            Side::Triangle(at, _) => at,
+            Side::Quad(at, _) => self.triangles + at,
+        };
+        self.of_cell(cell)
+    }
+
+    /// The part that a cell belongs to, by the number of a cell in it.
+    pub fn of_cell(&self, cell: usize) -> usize {
+        self.cells[cell].root as usize
+    }
+
+    /// One cell of each part, by which the part is numbered.
+    pub fn roots(&self) -> impl Iterator<Item = usize> {
+        (0..self.cells.len()).filter(|&cell| self.of_cell(cell) == cell)
+    }
+
+    /// What holds a part.
+    pub fn support(&self, part: usize) -> Support {
+        self.cells[part].support
+    }
+}
+
+/// The sentence for parts that nothing holds, if there are any and their loads balance.
+pub(super) fn floating(scene: &Scene, problem: &Problem) -> Option<String> {
+    let parts = Parts::examine(scene, problem).ok()?;
+    let first =
+        (0..problem.cells()).find(|&cell| parts.support(parts.of_cell(cell)) == Support::None)?;
+    let more = match parts.counts.floating {
+        0 | 1 => String::new(),
+        count => format!(", nor {} more", count - 1),
+    };
+    Some(format!(
+        "no Dirichlet, Robin or contact boundary holds {}{more}: u is determined up to a constant there",
+        near(problem, first)
+    ))
+}
+
+/// The part of a cell in words.
+fn near(problem: &Problem, cell: usize) -> String {
+    let mesh = &problem.mesh;
+    let vertex = match cell.checked_sub(mesh.triangles.len()) {
+        None => mesh.triangles[cell][0],
+        Some(quad) => mesh.quads[quad][0],
+    };
+    let [x, y] = mesh.vertices[vertex as usize];
+    format!("the connected part of the mesh around ({x}, {y})")
+}
+
+fn refused(scene: &Scene, problem: &Problem, error: signorini_kernel::Error) -> InputError {
+    use signorini_kernel::Error as E;
+    let near = |cell| near(problem, cell);
+    let size = format!("{BALANCE:e} of the sum of their sizes, edge by edge");
+    let (message, hint) = match error {
+        E::NoSolution { cell } => (
+            format!("no solution: nothing holds {} against its loads", near(cell)),
+            format!(
+                "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0 where there is contact, and 0 where \
+                 there is none (0: at most {size})"
+            ),
+        ),
+        E::NotUnique { cell } => (
+            format!(
+                "no unique solution: the loads on {} balance by themselves (their sum is at most {size})",
+                near(cell)
+            ),
+            "without a Dirichlet or Robin boundary ∫f + ∫g + ∫q must be < 0, so that contact holds it"
+                .to_owned(),
+        ),
+        other => (other.to_string(), "see the numbers of the scene".to_owned()),
+    };
+    InputError::new(format!("boundary: {message}")).file(&scene.path).hint(hint)
+}

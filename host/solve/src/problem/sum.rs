@@ -1,0 +1,140 @@
+//! A field of the scene at one time: its own expression plus, for every `[input.…]` that refers to
+//! it, the input's value times its pattern.
+
+use super::Problem;
+use crate::quadrature::{bisected, mean_on_edge};
+use signorini_scene::error::Result;
+use signorini_scene::expression::Expression;
+use signorini_scene::scene::{Condition, Field, Input, Located, Scene};
+
+/// A field with its inputs: Σ weight · expression.
+pub struct Sum<'s> {
+    scene: &'s Scene,
+    /// Whether its means are loads: fluxes and sources.
+    is_load: bool,
+    base: &'s Located<Expression>,
+    inputs: Vec<(f64, &'s Located<Expression>)>,
+    time: f64,
+}
+
+impl<'s> Sum<'s> {
+    /// `field` of the boundary `of`, or of the source.
+    pub fn new(
+        scene: &'s Scene,
+        of: &str,
+        field: Field,
+        base: &'s Located<Expression>,
+        time: f64,
+    ) -> Self {
+        let refers = |input: &&'s Input| {
+            input.of.value == of && input.field.value == field && input.default != 0.0
+        };
+        let inputs = scene.inputs.iter().filter(refers);
+        let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
+        let is_load = matches!(field, Field::Flux | Field::Source);
+        Self { scene, is_load, base, inputs, time }
+    }
+
+    /// An expression to which no input adds.
+    pub fn alone(scene: &'s Scene, base: &'s Located<Expression>, time: f64) -> Self {
+        Self { scene, is_load: false, base, inputs: Vec::new(), time }
+    }
+
+    /// The load f.
+    pub fn source(scene: &'s Scene, time: f64) -> Self {
+        Self::new(scene, "source", Field::Source, &scene.source, time)
+    }
+
+    /// `field` of the boundary that an edge lies on, where its condition has such a field.
+    pub fn on_edge(
+        scene: &'s Scene,
+        problem: &Problem,
+        edge: usize,
+        field: Field,
+        time: f64,
+    ) -> Option<Self> {
+        let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+        let base = match (&boundary.condition, field) {
+            (Condition::Dirichlet { value }, Field::Value) => value,
+            (Condition::Contact { gap, .. }, Field::Gap) => gap,
+            (Condition::Neumann { flux } | Condition::Contact { flux, .. }, Field::Flux) => flux,
+            (Condition::Robin { ambient, .. }, Field::Ambient) => ambient,
+            _ => return None,
+        };
+        Some(Self::new(scene, &boundary.name.value, field, base, time))
+    }
+
+    /// Where the field stands in the scene file.
+    pub fn key(&self) -> &'s Located<Expression> {
+        self.base
+    }
+
+    /// Whether it is 0 everywhere, whatever the inputs.
+    pub fn is_zero(&self) -> bool {
+        self.base.value.is_zero() && self.inputs.is_empty()
+    }
+
+    /// The value, if it is the same everywhere.
+    pub fn constant(&self) -> Option<f64> {
+        let inputs = self.inputs.iter().map(|(weight, at)| Some(weight * at.value.is_constant()?));
+        inputs.fold(self.base.value.is_constant(), |sum, input| Some(sum? + input?))
+    }
+
+    /// The value at a point.
+    pub fn at(&self, x: f64, y: f64) -> f64 {
+        let base = self.base.value.eval(x, y, self.time);
+        self.inputs
+            .iter()
+            .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
+    }
+
+    /// (∂/∂x, ∂/∂y)
+    pub fn gradient_at(&self, x: f64, y: f64) -> [f64; 2] {
+        let (_, base) = self.base.value.gradient(x, y, self.time);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            let (_, slope) = pattern.value.gradient(x, y, self.time);
+            [sum[0] + weight * slope[0], sum[1] + weight * slope[1]]
+        })
+    }
+
+    /// The derivative along `direction`. Across a line on which the field does not change, it may be infinite: √x on x = 0.
+    pub fn slope_at(&self, [x, y]: [f64; 2], direction: [f64; 2]) -> f64 {
+        let base = self.base.value.slope(x, y, self.time, direction);
+        self.inputs.iter().fold(base, |sum, (weight, pattern)| {
+            sum + weight * pattern.value.slope(x, y, self.time, direction)
+        })
+    }
+
+    /// The mean over a segment, by the rule for edge data; that of a load on parts of it where it is not smooth.
+    pub fn mean(&self, segment: [[f64; 2]; 2]) -> Result<f64> {
+        if let (Some(constant), true) = (self.base.value.is_constant(), self.inputs.is_empty()) {
+            return self.finite(constant, segment[0]);
+        }
+        let middle = [0, 1].map(|k| 0.5 * (segment[0][k] + segment[1][k]));
+        let mean = match self.is_load {
+            true => bisected::mean_on_edge(segment, &|x, y| self.at(x, y)),
+            false => mean_on_edge(segment, |x, y| self.at(x, y)),
+        };
+        self.finite(mean, middle)
+    }
+
+    /// The integral over a triangle, by the rule for its data, on parts of it where they are not smooth.
+    pub fn over_triangle(&self, corners: [[f64; 2]; 3]) -> Result<f64> {
+        self.finite(bisected::over_triangle(corners, &|x, y| self.at(x, y)), corners[0])
+    }
+
+    /// The integral over a quad, in the same way.
+    pub fn over_quad(&self, corners: [[f64; 2]; 4]) -> Result<f64> {
+        self.finite(bisected::over_quad(corners, &|x, y| self.at(x, y)), corners[0])
+    }
+
+    /// `value`, found near a point; an error at the field's place in the file if it is not finite.
+    pub fn finite(&self, value: f64, [x, y]: [f64; 2]) -> Result<f64> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let message = format!("{} is not finite near ({x}, {y})", self.base.value);
+        let hint = "the expression must be finite wherever it is used";
+        Err(self.scene.error(self.base, message).hint(hint).into())
+    }
+}

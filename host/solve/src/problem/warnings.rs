@@ -1,0 +1,81 @@
+//! What a scene does on its mesh that may not be meant, though it is no error.
+
+use super::solvability::floating;
+use super::{EdgeKind, Problem};
+use signorini_scene::mesh::coincident::{Segment, coincident};
+use signorini_scene::scene::{Condition, Field, Scene};
+
+/// The sentences, the gravest first.
+pub(super) fn warnings(scene: &Scene, problem: &Problem) -> Vec<String> {
+    slit(problem)
+        .into_iter()
+        .chain(floating(scene, problem))
+        .chain(idle_default(scene, problem))
+        .chain(idle_loads(scene, problem))
+        .collect()
+}
+
+/// Edges that lie on each other and have no more than the default between them.
+///
+/// Nodes that were not merged leave two edges where one was meant, and a condition on each that nobody
+/// asked for. A slit that is meant has a table of its own.
+fn slit(problem: &Problem) -> Option<String> {
+    let edges: Vec<_> = outer(problem).collect();
+    let segments = edges.iter().map(|&edge| Segment {
+        ends: problem.segment(edge),
+        cell: problem.topology.first_side(edge).0 as u32,
+    });
+    let found = coincident(&segments.collect::<Vec<_>>());
+    let found = edges.iter().zip(found).filter(|&(_, found)| found).map(|(&edge, _)| edge);
+    let unnamed: Vec<_> =
+        found.filter(|&edge| !problem.binding.is_named(problem.ends[edge])).collect();
+    let (&first, count) = (unnamed.first()?, unnamed.len());
+    let points = unnamed.iter().flat_map(|&edge| problem.segment(edge));
+    let [[left, bottom], [right, top]] = points
+        .fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], [x, y]| {
+            [[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]
+        });
+    let [[x0, y0], [x1, y1]] = problem.segment(first);
+    Some(format!(
+        "{count} boundary edges lie on others without being joined to them, the first ({x0}, {y0})–({x1}, {y1}), all \
+         between ({left}, {bottom}) and ({right}, {top}): a slit that only [boundary.default] covers. Merge the nodes \
+         there (in Gmsh `Coherence Mesh`); or, if the slit is meant, give it a physical curve and a table"
+    ))
+}
+
+/// A default that somebody wrote a condition into, on a boundary that is all named.
+fn idle_default(scene: &Scene, problem: &Problem) -> Option<String> {
+    let default = scene.boundaries.iter().find(|boundary| boundary.name.value == "default")?;
+    let kind = match &default.condition {
+        Condition::Neumann { .. } => return None,
+        condition => condition.kind(),
+    };
+    is_idle(scene, problem, "default").then(|| {
+        format!("[boundary.default] ({kind}) acts nowhere: every boundary edge lies in a curve with a table of its own")
+    })
+}
+
+/// Inputs and outputs of a default that covers no edge.
+fn idle_loads(scene: &Scene, problem: &Problem) -> Vec<String> {
+    let inputs = scene.inputs.iter().filter(|input| input.field.value != Field::Source);
+    let inputs = inputs.map(|input| (&input.name, &input.of));
+    let outputs =
+        scene.outputs.iter().filter_map(|output| Some((&output.name, output.of.as_ref()?)));
+    let idle = inputs.chain(outputs).filter(|(_, of)| is_idle(scene, problem, &of.value));
+    idle.map(|(name, of)| {
+        format!("[{}] is about no edge: [boundary.{}] covers none", name.key, of.value)
+    })
+    .collect()
+}
+
+/// Whether a boundary of the scene covers no edge; only a default can.
+fn is_idle(scene: &Scene, problem: &Problem, name: &str) -> bool {
+    let of = |edge: usize| problem.binding.boundary(problem.ends[edge]);
+    name == "default"
+        && !outer(problem).filter_map(of).any(|at| scene.boundaries[at].name.value == name)
+}
+
+/// The edges on the boundary.
+fn outer(problem: &Problem) -> impl Iterator<Item = usize> {
+    (0..problem.kinds.len()).filter(|&edge| problem.kinds[edge] != EdgeKind::Interior)
+}

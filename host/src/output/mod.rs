@@ -1,8 +1,0 @@
-//! Files that other programs read: written whole or not at all.
-
-pub mod atomic;
-pub mod digits;
-pub mod edges;
-pub mod summary;
-pub mod ticks;
-pub mod vtu;
