@@ -132,6 +132,20 @@ pub fn load_of_triangles<R: Real, I: Index>(
     Ok(())
 }
 
+/// What the cell of a boundary edge adds to the load there.
+pub(crate) fn share_of_cell<R: Real, I: Index>(
+    edges: &Edges<I>,
+    cells: CellLoads<R>,
+    edge: usize,
+) -> R {
+    let half = read(edges.half_edges(), edge)[0];
+    R::ZERO
+        + match edges.side(half.at()) {
+            Side::Triangle(at, _) => read(cells.triangles, at) * R::THIRD,
+            Side::Quad(at, _) => read(cells.quads, at) * R::QUARTER,
+        }
+}
+
 // Not inlined, so that an image's symbols tell whether it holds code for quads.
 #[inline(never)]
 fn add_quads<R: Real, I: Index>(quads: &[[I; 4]], loads: &[R], load: &mut [R]) {

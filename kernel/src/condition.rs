@@ -12,10 +12,15 @@ use crate::real::Real;
 /// The condition on one boundary edge; n points outward, flux is A∇u·n.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Condition<R> {
-    /// u = `value`.
+    /// u = `value` all along the edge.
     Dirichlet {
-        /// Mean of u_D.
+        /// u_D
         value: R,
+    },
+    /// u goes from one of `values` to the other.
+    DirichletBetween {
+        /// u_D at the [`BoundaryEdge::ends`].
+        values: [R; 2],
     },
     /// A∇u·n = `flux`.
     Neumann {
@@ -31,20 +36,38 @@ pub enum Condition<R> {
     },
     /// u ≥ `gap`, A∇u·n ≥ `flux`, and one of both is an equality.
     Contact {
-        /// Mean of ψ.
+        /// ψ, the same all along the edge.
         gap: R,
+        /// Mean of q.
+        flux: R,
+    },
+    /// The same with a gap that goes from one of `gaps` to the other.
+    ContactBetween {
+        /// ψ at the [`BoundaryEdge::ends`].
+        gaps: [R; 2],
         /// Mean of q.
         flux: R,
     },
 }
 
-impl<R> Condition<R> {
+impl<R: Real> Condition<R> {
+    /// u_D or ψ at the ends of the edge, or nothing where neither is given.
+    pub(crate) fn ends(&self) -> Option<[R; 2]> {
+        match *self {
+            Self::Dirichlet { value } | Self::Contact { gap: value, .. } => Some([value; 2]),
+            Self::DirichletBetween { values } | Self::ContactBetween { gaps: values, .. } => {
+                Some(values)
+            }
+            Self::Neumann { .. } | Self::Robin { .. } => None,
+        }
+    }
+
     /// Where an edge with this condition stands among the unknowns.
     pub fn block(&self) -> Block {
         match self {
             Self::Neumann { .. } | Self::Robin { .. } => Block::Free,
-            Self::Contact { .. } => Block::Contact,
-            Self::Dirichlet { .. } => Block::Dirichlet,
+            Self::Contact { .. } | Self::ContactBetween { .. } => Block::Contact,
+            Self::Dirichlet { .. } | Self::DirichletBetween { .. } => Block::Dirichlet,
         }
     }
 }

@@ -106,6 +106,7 @@ pub enum Array {
     Coefficients,
     Stiffness,
     CellLoads,
+    Boundary,
     Neumann,
     Robin,
     Contact,

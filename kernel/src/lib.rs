@@ -24,11 +24,11 @@
 //! use signorini_kernel::condition::Condition;
 //! use signorini_kernel::solver::{Settings, Status};
 //! use signorini_kernel::stiffness::Coefficient;
-//! use signorini_kernel::{Libm, Mesh, Tensor, Workspace};
+//! use signorini_kernel::{Libm, Mesh, Tensor, workspace};
 //!
 //! let vertices = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 //! let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[])?;
-//! let mut bar = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25, 4>::new();
+//! let mut bar = <workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4)>::new();
 //! bar.build(&mesh, Coefficient::Uniform(Tensor::scalar(3.0)), |edge| {
 //!     Some(match edge.middle() {
 //!         [x, _] if x == 0.0 => Condition::Dirichlet { value: 0.0 },

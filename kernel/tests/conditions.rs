@@ -8,17 +8,22 @@ use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Libm, Math, Mesh, Micromath, Real, Relaxation, Tensor, Workspace};
+use signorini_kernel::{
+    Error, Libm, Math, Mesh, Micromath, Real, Relaxation, Tensor, Workspace, workspace,
+};
 
 /// 2 wide, 3 high; the right side in two edges.
 const CORNERS: [[f64; 2]; 5] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
 const CELLS: [[u16; 3]; 3] = [[0, 1, 2], [0, 2, 4], [2, 3, 4]];
 const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
 
+/// Room for all of it.
+type Bar = workspace!(f64, u16: vertices 5, triangles 3, quads 0, boundary 5);
+
 /// u = x with 0 on the left, given what happens on the right.
 fn bar(right: Condition<f64>) -> Result<(), Error> {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
-    let mut bar = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    let mut bar = Bar::new();
     bar.build(&mesh, UNIT, |edge| {
         Some(match edge.middle() {
             [0.0, _] => Condition::Dirichlet { value: 0.0 },
@@ -47,7 +52,7 @@ fn laws_are_integrated_over_their_edges() -> Result<(), Error> {
 fn a_condition_is_asked_for_at_the_middle_of_every_boundary_edge() -> Result<(), Error> {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
     let mut middles = Vec::new();
-    let mut bar = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    let mut bar = Bar::new();
     bar.build(&mesh, UNIT, |edge: &BoundaryEdge<f64, u16>| {
         middles.push(edge.middle());
         Some(Condition::Dirichlet { value: 0.0 })
@@ -61,9 +66,10 @@ fn a_condition_is_asked_for_at_the_middle_of_every_boundary_edge() -> Result<(),
 #[test]
 fn too_many_records_are_counted() {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[]).expect("valid");
-    let mut tight = Workspace::<f64, u16, 5, 3, 0, 2, 8, 40, 4>::new();
+    type Tight = Workspace<f64, u16, 5, 3, 0, 2, 3, 8, 40, 4>;
+    let mut tight = Tight::new();
     let refused = tight.build(&mesh, UNIT, |_| Some(Condition::Neumann { flux: 0.0 }));
-    assert_eq!(refused, Err(Error::Capacity { of: Array::Neumann, needed: 3, limit: 2 }));
+    assert_eq!(refused, Err(Error::Capacity { of: Array::Boundary, needed: 5, limit: 2 }));
     assert_eq!(mesh.cells(), 3);
     let square = Mesh::new(&CORNERS, &[[0_u16, 1, 2]], &[[0_u16, 2, 3, 4]]).expect("valid");
     assert_eq!(square.cells(), 2);
@@ -73,7 +79,7 @@ fn too_many_records_are_counted() {
 #[test]
 fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
     let mesh = Mesh::new(&CORNERS, &CELLS, &[])?;
-    let mut bar = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    let mut bar = Bar::new();
     let given = |value: f64, flux: f64, coefficient: f64| {
         move |edge: &BoundaryEdge<f64, u16>| {
             let [x, y] = edge.middle();
@@ -85,7 +91,7 @@ fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
         }
     };
     bar.build(&mesh, UNIT, given(1.0, 0.5, 2.0))?;
-    let bits = |bar: &Workspace<f64, u16, 5, 3, 0, 5, 7, 30, 4>| {
+    let bits = |bar: &Bar| {
         let numbers = bar.u().iter().chain(bar.flux());
         numbers.map(|x| x.to_bits()).collect::<Vec<_>>()
     };
@@ -116,7 +122,7 @@ fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
         }
     }
     bar.solve(Settings::default())?;
-    let mut other = Workspace::<f64, u16, 5, 3, 0, 5, 7, 30, 4>::new();
+    let mut other = Bar::new();
     other.build(&mesh, UNIT, given(1.0, 0.5, 2.0))?;
     other.solve(Settings::default())?;
     other.solve(Settings::default())?;

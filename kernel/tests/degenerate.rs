@@ -10,9 +10,9 @@ use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Solver, Status};
 use signorini_kernel::stiffness::{Coefficient, Stiffness};
-use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, Workspace, psor};
+use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, psor, workspace};
 
-type Small = Workspace<f64, u16, 16, 16, 16, 16, 40, 200, 6>;
+type Small = workspace!(f64, u16: vertices 16, triangles 16, quads 16, boundary 16);
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
@@ -133,7 +133,7 @@ fn bad_topology_is_named() {
 #[test]
 fn a_workspace_that_is_too_small_says_by_how_much() {
     let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
-    let mut tight = Workspace::<f64, u16, 4, 1, 0, 4, 6, 25, 4>::new();
+    let mut tight = <workspace!(f64, u16: vertices 4, triangles 1, quads 0, boundary 7)>::new();
     let error = tight.build(&mesh, UNIT, |_| Some(OPEN));
     assert_eq!(error, Err(Error::Capacity { of: Array::Triangles, needed: 2, limit: 1 }));
 }
@@ -276,7 +276,7 @@ fn every_way_to_end() {
 fn fast_math_costs_what_it_says() {
     let vertices = SQUARE.map(|v| v.map(|x| x as f32));
     let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
-    let mut plate = Workspace::<f32, u16, 4, 2, 0, 4, 6, 25, 4>::new();
+    let mut plate = <workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4)>::new();
     let unit = Coefficient::Uniform(Tensor::scalar(1.0));
     let sides = |edge: &BoundaryEdge<f32, u16>| match edge.middle() {
         [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),

@@ -15,7 +15,7 @@ use signorini_kernel::contact::within_law;
 use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Mesh, Real, Relaxation, Tensor, Workspace};
+use signorini_kernel::{Error, Mesh, Real, Relaxation, Tensor, workspace};
 use strip::{Random, Strip};
 
 #[test]
@@ -31,7 +31,7 @@ fn the_law_of_an_edge() {
 /// Cells along a side of the plate.
 const N: usize = 8;
 
-type Plate<R> = Workspace<R, u16, 81, 128, 1, 32, 209, 1100, 4>;
+type Plate<R> = workspace!(R, u16: vertices 81, triangles 128, quads 1, boundary 32);
 
 /// Heat into the top of a plate that a heater at its bottom keeps above a gap that bends.
 fn plate<R: Real>(vertices: &[[R; 2]], triangles: &[[u16; 3]]) -> Result<Box<Plate<R>>, Error> {

@@ -1,4 +1,5 @@
-//! `cargo xtask imports`: no two files import each other, and no two folders at the top of a crate.
+//! `cargo xtask imports`: no two files import each other, and no two folders at the top of a crate; each crate depends on
+//! those before it alone.
 //!
 //! A file and its own folder, `a.rs` or `a/mod.rs` and `a/b.rs`, may name each other. Tests may name everything.
 
@@ -9,8 +10,18 @@ use std::path::Path;
 use crate::cargo::root;
 use crate::steps::Steps;
 
-/// The crates that are looked at.
-const CRATES: [&str; 4] = ["kernel/src", "host/src", "tests/src", "xtask/src"];
+/// The crates, each with those of this project that it may depend on.
+const CRATES: [(&str, &[&str]); 9] = [
+    ("kernel", &[]),
+    ("host/draw", &[]),
+    ("host/scene", &["kernel"]),
+    ("host/solve", &["kernel", "scene"]),
+    ("host/bake", &["kernel", "scene", "solve", "draw"]),
+    ("host/lab", &["kernel", "scene", "solve", "draw", "bake"]),
+    ("host", &["scene", "solve", "draw", "bake", "lab"]),
+    ("tests", &["kernel", "scene", "solve", "bake"]),
+    ("xtask", &[]),
+];
 
 /// The path of a module in its crate.
 type Module = Vec<String>;
@@ -18,16 +29,35 @@ type Module = Vec<String>;
 /// Files with what they hold, tests and comments left out.
 type Files = BTreeMap<Module, String>;
 
-/// A step a crate.
+/// Two steps per crate.
 pub fn run(steps: &mut Steps) {
-    for of in CRATES {
+    for (of, before) in CRATES {
         steps.check(&format!("no circle of imports in {of}"), || {
             let mut files = Files::new();
-            read(&root().join(of), &[], &mut files)?;
+            read(&root().join(of).join("src"), &[], &mut files)?;
             let circles = circles(&files);
             if circles.is_empty() { Ok(()) } else { Err(circles.join("; ")) }
         });
+        steps.check(&format!("{of} depends on the crates before it alone"), || {
+            let path = root().join(of).join("Cargo.toml");
+            let manifest = fs::read_to_string(&path)
+                .map_err(|error| format!("{}: {error}", path.display()))?;
+            match beyond(&manifest, before) {
+                found if found.is_empty() => Ok(()),
+                found => Err(format!("{of} depends on {}", found.join(", "))),
+            }
+        });
     }
+}
+
+/// The crates of this project under `[dependencies]` of a manifest that are none of `before`.
+fn beyond(manifest: &str, before: &[&str]) -> Vec<String> {
+    let section = manifest.split("\n[").find(|section| section.starts_with("dependencies]"));
+    let names = section.unwrap_or_default().lines().filter_map(|line| {
+        let name = line.strip_prefix("signorini-")?.split(['.', ' ', '=']).next()?;
+        (!before.contains(&name)).then(|| name.to_owned())
+    });
+    names.collect()
 }
 
 /// The files below `folder`, which is the module `at`.
@@ -183,6 +213,15 @@ mod tests {
         assert_eq!(of(&[mesh, ("solve", "use crate::scene;\n")]), Vec::<String>::new());
         let found = of(&[mesh, ("solve", "fn f() { crate::mesh::read(); }\n")]);
         assert_eq!(found, ["mesh and solve import each other"]);
+    }
+
+    #[test]
+    fn a_crate_that_comes_later_is_found() {
+        let manifest = "[package]\nname = \"a\"\n\n[dependencies]\nsignorini-scene.workspace = true\n\
+                        signorini-lab = { path = \"lab\" }\ncsv = \"1\"\n\n\
+                        [dev-dependencies]\nsignorini-bake.workspace = true\n";
+        assert_eq!(beyond(manifest, &["scene"]), ["lab"]);
+        assert_eq!(beyond(manifest, &["scene", "lab"]), Vec::<String>::new());
     }
 
     #[test]

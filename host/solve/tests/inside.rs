@@ -13,7 +13,7 @@ boundary.default = { kind = 'dirichlet', value = 1 }
 ";
 const DRAIN: &str = "boundary.drain = { kind = 'dirichlet', value = 0 }\n";
 
-/// A grid of 2 × 2 quads on the unit square with a curve along these edges; vertex 4 is the centre.
+/// A grid of 4 × 2 quads on (−1, 1) × (0, 1) with a curve along these edges.
 fn with_drain(edges: &[[u32; 2]]) -> Mesh {
     let mut mesh = grid(2, Cells::Quads);
     mesh.curves.push(Curve { name: "drain".into(), edges: edges.to_vec() });
@@ -33,9 +33,9 @@ fn posed(text: &str, mesh: Mesh) -> Result<Vec<String>, String> {
 
 #[test]
 fn a_table_for_a_curve_between_two_cells() {
-    let mesh = with_drain(&[[1, 4]]);
+    let mesh = with_drain(&[[2, 7]]);
     let refused = "a.toml:4: boundary.drain: the physical curve \"drain\" lies inside the domain, where no condition \
-         acts: 1 of its 1 edges have cells on both sides, the first (0.5, 0)–(0.5, 0.5)";
+         acts: 1 of its 1 edges have cells on both sides, the first (0, 0)–(0, 0.5)";
     assert_eq!(posed(&format!("{SCENE}{DRAIN}"), mesh.clone()), Err(refused.to_owned()));
     // The default says nothing about it.
     assert_eq!(posed(SCENE, mesh), Ok(Vec::new()));
@@ -43,7 +43,7 @@ fn a_table_for_a_curve_between_two_cells() {
 
 #[test]
 fn a_table_for_a_curve_that_goes_inside() {
-    let mesh = with_drain(&[[0, 1], [1, 4]]);
+    let mesh = with_drain(&[[1, 2], [2, 7]]);
     let refused = posed(&format!("{SCENE}{DRAIN}"), mesh).expect_err("a part lies inside");
     assert!(refused.contains("lies partly inside the domain"), "{refused}");
     assert!(refused.contains("1 of its 2 edges"), "{refused}");

@@ -2,7 +2,7 @@
 
 use super::{Row, Rows};
 use crate::edges::{EdgeCounts, Edges};
-use crate::error::Error;
+use crate::error::{Array, Error};
 use crate::index::Index;
 use crate::real::Real;
 
@@ -38,6 +38,28 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
             self.laid_out = counts;
         }
         Ok(Rows { rows: &mut self.rows, counts, omega: R::ONE })
+    }
+
+    /// The same where there is room for more rows than `edges` has unknowns.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`]; too little room.
+    pub(crate) fn within(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        let counts = edges.counts();
+        let (of, needed) = (Array::Rows, counts.unknowns());
+        let rows = self.rows.get_mut(..needed);
+        let rows = rows.ok_or(Error::Capacity { of, needed, limit: UNKNOWNS })?;
+        if self.laid_out != counts {
+            self.laid_out = EdgeCounts::default();
+            Rows::new(edges, rows)?;
+            self.laid_out = counts;
+        }
+        Ok(Rows { rows, counts, omega: R::ONE })
+    }
+
+    /// Forgets the mesh: the next one has a numbering of its own.
+    pub(crate) fn forget(&mut self) {
+        self.laid_out = EdgeCounts::default();
     }
 }
 

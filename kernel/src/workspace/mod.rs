@@ -1,39 +1,47 @@
 //! Owned storage of fixed capacity, and the short way through the layers.
 //!
 //! A [`Workspace`] is a `static` or a local of the size that its type says; nothing is allocated. Build
-//! it once for a mesh, then, as often as loads change, set them and solve: pattern, element matrices
-//! and the last iterate stay, so that every solve starts warm. Who needs another arrangement takes the
+//! it once for a mesh, then, as often as loads change, set them and tick or solve: pattern, element matrices
+//! and the last iterate stay, so that every one starts warm. Who needs another arrangement takes the
 //! layers themselves: they work on slices.
 
-mod data;
+mod bound;
+mod conditions;
+mod sizes;
+mod ticks;
+
+pub use sizes::{edges, entries, width};
 
 use heapless::Vec;
 
 use crate::assembly::{self, CellLoads};
 use crate::boundary::{Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
+use crate::conforming::VertexData;
 use crate::csr::Csr;
 use crate::edges::{EdgeCounts, Edges};
 use crate::error::{Array, Error, all_moderate};
-use crate::index::Index;
-use crate::math::Math;
+use crate::index::{Index, read};
+use crate::math::{Libm, Math};
 use crate::mesh::Mesh;
 use crate::numbering::{NumberingBuffers, number};
 use crate::real::Real;
-use crate::rows::{Row, Rows};
+use crate::rows::OwnedRows;
 use crate::signorini::Shifts;
 use crate::signorini::System;
 use crate::solver::{Outcome, Settings, Solver};
 use crate::stiffness::{self, Coefficient, Stiffness};
+use crate::tick::Progress;
 use crate::{contact, flux};
 
-/// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles,
-/// quads, boundary edges, edges **plus one**, matrix entries, and entries a packed row
-/// ([`crate::rows::TRIANGLES`] = 4, with quads [`crate::rows::QUADS`] = 6).
+use bound::{Allowed, Equilibration};
+
+/// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles, quads, boundary
+/// edges, cells, edges plus one, matrix entries, and entries of a packed row. [`workspace!`](crate::workspace) works
+/// out the last four from the others.
 ///
-/// A mesh of T triangles and Q quads with B boundary edges has (3T + 4Q + B)/2 edges, and at most
-/// 5 (triangles) or 7 (quads) matrix entries an edge. Too small a capacity is an error that names the
-/// array and the number that it needs.
+/// Too small a capacity is an error that names the array and the number that it needs. Without room for matrix entries
+/// it [`tick`](Workspace::tick)s and does not [`solve`](Workspace::solve).
 #[derive(Debug)]
 pub struct Workspace<
     R,
@@ -42,6 +50,7 @@ pub struct Workspace<
     const TRIANGLES: usize,
     const QUADS: usize,
     const BOUNDARY: usize,
+    const CELLS: usize,
     const EDGES: usize,
     const ENTRIES: usize,
     const WIDTH: usize,
@@ -51,6 +60,10 @@ pub struct Workspace<
     of_quads: Vec<[I; 4], QUADS>,
     half_edges: Vec<[I; 2], EDGES>,
     counts: EdgeCounts,
+    /// The boundary edges, ascending.
+    boundary: Vec<I, BOUNDARY>,
+    /// Their lengths.
+    lengths: Vec<R, BOUNDARY>,
     triangles: Vec<[R; 3], TRIANGLES>,
     quads: Vec<[R; 6], QUADS>,
     source_triangles: Vec<R, TRIANGLES>,
@@ -59,13 +72,25 @@ pub struct Workspace<
     robin: Vec<Robin<R, I>, BOUNDARY>,
     contact_flux: Vec<R, BOUNDARY>,
     gap: Vec<R, BOUNDARY>,
+    gap_ends: Vec<[R; 2], BOUNDARY>,
+    dirichlet: Vec<R, BOUNDARY>,
+    dirichlet_ends: Vec<[R; 2], BOUNDARY>,
+    /// Whether matrix and ways out are those of `robin`.
+    has_matrix: bool,
     row_ptr: Vec<u32, EDGES>,
     col_idx: Vec<I, ENTRIES>,
     values: Vec<R, ENTRIES>,
-    rows: Vec<Row<R, I, WIDTH>, EDGES>,
+    rows: OwnedRows<R, I, WIDTH, EDGES>,
     load: Vec<R, EDGES>,
     u: Vec<R, EDGES>,
     flux: Vec<R, EDGES>,
+    equilibration: Equilibration<R, I, VERTICES, TRIANGLES, QUADS, CELLS, EDGES>,
+    /// What the boundary data allow for.
+    allowed: Allowed,
+    active: Vec<bool, BOUNDARY>,
+    vertices: Vec<R, VERTICES>,
+    bubbles: Vec<R, EDGES>,
+    progress: Progress<R>,
 }
 
 impl<
@@ -75,10 +100,11 @@ impl<
     const T: usize,
     const Q: usize,
     const B: usize,
+    const C: usize,
     const E: usize,
     const N: usize,
     const W: usize,
-> Default for Workspace<R, I, V, T, Q, B, E, N, W>
+> Default for Workspace<R, I, V, T, Q, B, C, E, N, W>
 {
     fn default() -> Self {
         Self::new()
@@ -92,10 +118,11 @@ impl<
     const T: usize,
     const Q: usize,
     const B: usize,
+    const C: usize,
     const E: usize,
     const N: usize,
     const W: usize,
-> Workspace<R, I, V, T, Q, B, E, N, W>
+> Workspace<R, I, V, T, Q, B, C, E, N, W>
 {
     /// An empty workspace; can initialise a `static`.
     pub const fn new() -> Self {
@@ -105,6 +132,8 @@ impl<
             of_quads: Vec::new(),
             half_edges: Vec::new(),
             counts: EdgeCounts { free: 0, contact: 0, dirichlet: 0 },
+            boundary: Vec::new(),
+            lengths: Vec::new(),
             triangles: Vec::new(),
             quads: Vec::new(),
             source_triangles: Vec::new(),
@@ -113,18 +142,28 @@ impl<
             robin: Vec::new(),
             contact_flux: Vec::new(),
             gap: Vec::new(),
+            gap_ends: Vec::new(),
+            dirichlet: Vec::new(),
+            dirichlet_ends: Vec::new(),
+            has_matrix: false,
             row_ptr: Vec::new(),
             col_idx: Vec::new(),
             values: Vec::new(),
-            rows: Vec::new(),
+            rows: OwnedRows::new(),
             load: Vec::new(),
             u: Vec::new(),
             flux: Vec::new(),
+            equilibration: Equilibration::new(),
+            allowed: Allowed::Bound,
+            active: Vec::new(),
+            vertices: Vec::new(),
+            bubbles: Vec::new(),
+            progress: Progress::NONE,
         }
     }
 
     /// Numbers the edges, computes element matrices and assembles. `condition` is asked for every
-    /// boundary edge; the iterate starts at 0, on the gap and at the Dirichlet values.
+    /// boundary edge; the iterate starts at 0, on the gap and at the Dirichlet values. It takes an index per edge of stack.
     ///
     /// # Errors
     /// Capacities that are too small, meshes, coefficients or conditions that are not admissible.
@@ -134,26 +173,17 @@ impl<
         coefficient: Coefficient<R>,
         mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
     ) -> Result<EdgeCounts, Error> {
+        self.has_matrix = false;
+        self.progress = Progress::NONE;
         self.number_edges(mesh, &mut condition)?;
         fit(&mut self.triangles, mesh.triangles().len(), Array::Stiffness)?;
         fit(&mut self.quads, mesh.quads().len(), Array::Stiffness)?;
         stiffness::fill(mesh, coefficient, POINTS, &mut self.triangles, &mut self.quads)?;
-        let nonzeros = self.edges()?.nonzeros();
-        fit(&mut self.row_ptr, self.counts.unknowns() + 1, Array::RowPointers)?;
-        fit(&mut self.col_idx, nonzeros, Array::MatrixValues)?;
-        fit(&mut self.values, nonzeros, Array::MatrixValues)?;
-        let (triangles, quads) = (&self.of_triangles, &self.of_quads);
-        let edges = Edges::new(triangles, quads, &self.half_edges, self.counts)?;
-        assembly::pattern(&edges, &mut self.row_ptr, &mut self.col_idx)?;
-        fit(&mut self.rows, self.counts.unknowns(), Array::Rows)?;
-        fit(&mut self.load, self.counts.unknowns(), Array::Load)?;
-        fit(&mut self.u, self.counts.edges(), Array::Unknowns)?;
-        fit(&mut self.flux, self.counts.edges(), Array::Fluxes)?;
-        fit(&mut self.source_triangles, mesh.triangles().len(), Array::CellLoads)?;
-        fit(&mut self.source_quads, mesh.quads().len(), Array::CellLoads)?;
-        self.u.fill(R::ZERO);
-        self.source_triangles.fill(R::ZERO);
-        self.source_quads.fill(R::ZERO);
+        if N > 0 {
+            self.lay_out_matrix()?;
+        }
+        self.fit_answer(mesh)?;
+        self.equilibration.build(mesh, coefficient, POINTS, self.counts.edges())?;
         self.set_conditions(mesh, condition)?;
         Ok(self.counts)
     }
@@ -168,19 +198,59 @@ impl<
         fit(&mut self.of_quads, mesh.quads().len(), Array::Quads)?;
         let most = E.min(mesh.half_edges());
         fit(&mut self.half_edges, most, Array::Edges)?;
-        // The column indices are not needed yet: they lend their memory to the numbering.
-        fit(&mut self.col_idx, most, Array::MatrixValues)?;
+        let mut next = Vec::<I, E>::new();
+        fit(&mut next, most, Array::Edges)?;
         let buffers = NumberingBuffers {
             of_triangles: &mut self.of_triangles,
             of_quads: &mut self.of_quads,
             half_edges: &mut self.half_edges,
             at_vertex: &mut self.at_vertex,
-            next: &mut self.col_idx,
+            next: &mut next,
         };
         let block = |ends| condition(&BoundaryEdge::new(mesh, ends)).map(|found| found.block());
         self.counts = number(mesh, buffers, block)?.counts();
         self.half_edges.truncate(self.counts.edges());
+        self.list_boundary(mesh)
+    }
+
+    fn list_boundary(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
+        let Self { of_triangles, of_quads, half_edges, boundary, lengths, .. } = self;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, self.counts);
+        let is_outer = |at: &usize| read(edges.half_edges(), *at)[1] == I::NONE;
+        let needed = (0..self.counts.edges()).filter(is_outer).count();
+        fit(boundary, needed, Array::Boundary)?;
+        fit(lengths, needed, Array::Boundary)?;
+        let places = boundary.iter_mut().zip(lengths.iter_mut());
+        for (at, (edge, length)) in (0..self.counts.edges()).filter(is_outer).zip(places) {
+            *edge = I::new(at).unwrap_or(I::NONE);
+            *length = edges.length::<R, Libm>(mesh, at);
+        }
         Ok(())
+    }
+
+    fn lay_out_matrix(&mut self) -> Result<(), Error> {
+        let nonzeros = self.numbered().nonzeros();
+        fit(&mut self.row_ptr, self.counts.unknowns() + 1, Array::RowPointers)?;
+        fit(&mut self.col_idx, nonzeros, Array::MatrixValues)?;
+        fit(&mut self.values, nonzeros, Array::MatrixValues)?;
+        let (triangles, quads) = (&self.of_triangles, &self.of_quads);
+        let edges = Edges::baked(triangles, quads, &self.half_edges, self.counts);
+        assembly::pattern(&edges, &mut self.row_ptr, &mut self.col_idx)
+    }
+
+    /// Room for data and answer, all of it 0.
+    fn fit_answer(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
+        let counts = self.counts;
+        self.rows.forget();
+        fit(&mut self.load, counts.unknowns(), Array::Load)?;
+        fit(&mut self.u, counts.edges(), Array::Unknowns)?;
+        fit(&mut self.flux, counts.edges(), Array::Fluxes)?;
+        fit(&mut self.source_triangles, mesh.triangles().len(), Array::CellLoads)?;
+        fit(&mut self.source_quads, mesh.quads().len(), Array::CellLoads)?;
+        fit(&mut self.active, counts.contact, Array::Contact)?;
+        fit(&mut self.vertices, mesh.vertices().len(), Array::Vertices)?;
+        let bubbles = if mesh.quads().is_empty() { 0 } else { counts.edges() };
+        fit(&mut self.bubbles, bubbles, Array::Scratch)
     }
 
     /// Solves from the present iterate and recovers the flux. Look at the outcome's status: the
@@ -188,11 +258,15 @@ impl<
     ///
     /// # Errors
     /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
-    /// b_i/K_ii); a relaxation factor outside (0, 2). The last answer stays then, bit for bit.
+    /// b_i/K_ii); a relaxation factor outside (0, 2); a workspace for ticks only. The last answer stays then, bit for bit.
     pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
+        if N == 0 {
+            let needed = self.numbered().nonzeros();
+            return Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 });
+        }
         // Borrowed apart, since moving an array out of the workspace would pass through the stack.
         let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
-        let edges = Edges::new(of_triangles, of_quads, half_edges, *counts)?;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
         let system = System::new(matrix, &self.load, &self.gap, *counts)?.with_shifts(shifts)?;
@@ -207,11 +281,14 @@ impl<
             // An overflow of the last solve: start anew.
             unknowns.fill(R::ZERO);
         }
-        let mut rows = Rows::new(&edges, &mut self.rows)?;
+        let mut rows = self.rows.within(&edges)?;
         let outcome = solver.run(&system, &mut rows, u)?;
-        let stiffness = Stiffness { triangles: &self.triangles, quads: &self.quads };
+        let stiffness = stiffness_of(&self.triangles, &self.quads);
         let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
         flux::recover(&edges, stiffness, cells, u, &[], flux)?;
+        for (at, active) in self.active.iter_mut().enumerate() {
+            *active = contact::is_active(*counts, &self.gap, u, at);
+        }
         Ok(outcome)
     }
 
@@ -223,12 +300,18 @@ impl<
         Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
     }
 
+    /// The same, as [`Workspace::build`] has numbered them.
+    fn numbered(&self) -> Edges<'_, I> {
+        Edges::baked(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+
     /// Means of u over the edges.
     pub fn u(&self) -> &[R] {
         &self.u
     }
 
-    /// ∫_E σ·n of every edge, outward on the boundary.
+    /// ∫_E σ·n of every edge, outward on the boundary: the flux (15) after a solve, the equilibrated τ of the bound after
+    /// a tick.
     pub fn flux(&self) -> &[R] {
         &self.flux
     }
@@ -255,6 +338,14 @@ impl<
 /// Gauss points a direction for quads: exact on parallelograms, a relative error of 2e−6 in the flux
 /// on moderately distorted ones, at a quarter of the host's work.
 const POINTS: usize = 4;
+
+fn stiffness_of<'a, R>(triangles: &'a [[R; 3]], quads: &'a [[R; 6]]) -> Stiffness<'a, R> {
+    Stiffness { triangles, quads }
+}
+
+fn ends<'a, R>(gap: &'a [[R; 2]], given: &'a [[R; 2]]) -> VertexData<'a, R> {
+    VertexData { gap, given }
+}
 
 fn fit<T: Copy + Default, const N: usize>(
     storage: &mut Vec<T, N>,

@@ -1,5 +1,5 @@
 //! OSQP on the problems that `signorini` sends, timed here by the same counter: one line of JSON with
-//! the problem, then a line for each solve. `host/src/baseline/osqp.rs` has the other end.
+//! the problem, then a line for each solve. `host/lab/src/baseline/osqp.rs` has the other end.
 //!
 //! minimise ½ uᵀPu − bᵀu over u ≥ ψ on the last unknowns. Cold: set up and solved; warm: new b and ψ go
 //! into the workspace, and it starts from its last answer. Settings are OSQP's own but for the tolerance,
@@ -10,7 +10,7 @@ use std::io::{BufRead, Write};
 use osqp::{CscMatrix, Problem, Settings};
 use serde::{Deserialize, Serialize};
 
-#[path = "../../../host/src/cycles.rs"]
+#[path = "../../../host/lab/src/cycles.rs"]
 #[allow(dead_code)]
 mod cycles;
 

@@ -12,7 +12,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Settings, Status};
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::tick::Progress;
-use signorini_kernel::{Error, Libm, Relaxation, Tensor, Workspace};
+use signorini_kernel::{Error, Libm, Relaxation, Tensor, workspace};
 
 use super::bytes::{Bits, Bytes};
 use super::plate::{NONE, Plate};
@@ -179,7 +179,7 @@ fn of_matrix<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
 fn in_a_workspace<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let plate = Plate::<R>::arbitrary(bytes)?;
     let mesh = plate.mesh()?;
-    let mut workspace = Workspace::<R, u16, 10, 8, 6, 24, 40, 200, 6>::new();
+    let mut workspace = <workspace!(R, u16: vertices 10, triangles 8, quads 6, boundary 24)>::new();
     let tensor = Tensor { xx: bytes.real(), xy: bytes.real(), yy: bytes.real() };
     let kinds: Vec<u8> = (0..48).map(|_| bytes.byte()).collect();
     let numbers: Vec<R> = bytes.reals(16);

@@ -66,7 +66,7 @@ mod tests {
     use signorini_scene::scene::Scene;
 
     fn problem(name: &str) -> Problem {
-        let path = format!("../meshes/scenes/{name}.toml");
+        let path = format!("../../meshes/scenes/{name}.toml");
         let scene = Scene::read(Path::new(&path)).expect("a standard scene");
         let mesh = adapted::of_scene(&scene).expect("its mesh");
         Problem::new(&scene, mesh).expect("a sound problem")

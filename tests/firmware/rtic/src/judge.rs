@@ -46,7 +46,6 @@ impl Judge {
         let ended = log.accurate + log.settled + log.cut + log.spent;
         show(log);
         line::<10>("sweep, instructions", costs.sweep * INSTRUCTIONS);
-        line::<10>("certificate, instructions", costs.certificate * INSTRUCTIONS);
         line::<10>("wrong", self.wrong);
         line::<10>("worst bound, thousandths", self.worst);
         line::<10>("mean bound, thousandths", self.sum / log.ticks.max(1));

@@ -19,7 +19,6 @@ mod log;
 mod mesh;
 mod plant;
 mod sensor;
-mod start;
 
 use signorini_kernel::Error;
 use signorini_kernel::tick::Deadline;
@@ -40,7 +39,7 @@ mod app {
     use crate::budget::Costs;
     use crate::judge::Judge;
     use crate::log::Log;
-    use crate::start::Memory;
+    use crate::plant::Skin;
 
     #[shared]
     struct Shared {
@@ -55,10 +54,10 @@ mod app {
         costs: Costs,
     }
 
-    #[init(local = [memory: Memory = Memory::new()])]
+    #[init(local = [skin: Skin = Skin::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let mut systick = cx.core.SYST;
-        let built = Plant::new(cx.local.memory).and_then(|mut plant| {
+        let built = Plant::new(cx.local.skin).and_then(|mut plant| {
             let costs = Costs::measure(&mut systick, &mut plant)?;
             Ok((plant, costs))
         });
@@ -108,7 +107,8 @@ fn answer(plant: &mut Plant, losses: &[f32; COLUMNS]) -> Result<(Answer, Times),
         BUDGET.saturating_sub(looked)
     };
     let mut deadline = Deadline { remaining, sweep: SWEEP, certificate: CERTIFICATE };
-    let answer = plant.answer(losses, LIMITS, &mut deadline)?;
+    plant.set(losses)?;
+    let answer = plant.answer(LIMITS, &mut deadline)?;
     let answered = elapsed();
     Ok((answer, Times { looked, answered, ended: answered }))
 }

@@ -8,8 +8,6 @@
 //!   y = 0 └──┴──┴──┴──┘   Dirichlet
 //! ```
 
-use signorini_kernel::edges::Block;
-
 /// Squares along the surface and across the skin; each is cut into two triangles.
 pub const COLUMNS: usize = 16;
 const ROWS: usize = 8;
@@ -18,9 +16,12 @@ pub const SIDE: f32 = 0.0025;
 
 pub const TRIANGLES: usize = 2 * COLUMNS * ROWS;
 pub const NODES: usize = (COLUMNS + 1) * (ROWS + 1);
-pub const EDGES: usize = (3 * TRIANGLES + 2 * (COLUMNS + ROWS)) / 2;
-/// All edges but those at the structure.
-pub const UNKNOWNS: usize = EDGES - COLUMNS;
+pub const BOUNDARY: usize = 2 * (COLUMNS + ROWS);
+
+/// Of the skin, in m.
+pub const WIDTH: f32 = SIDE * COLUMNS as f32;
+/// Of the skin, in m.
+pub const HEIGHT: f32 = SIDE * ROWS as f32;
 
 /// In m.
 pub static VERTICES: [[f32; 2]; NODES] = {
@@ -48,13 +49,3 @@ pub static CELLS: [[u16; 3]; TRIANGLES] = {
     }
     cells
 };
-
-/// What a boundary edge between these vertices is.
-pub fn block(ends: [u16; 2]) -> Block {
-    let row = |vertex: u16| usize::from(vertex) / (COLUMNS + 1);
-    match ends.map(row) {
-        [0, 0] => Block::Dirichlet,
-        [ROWS, ROWS] => Block::Contact,
-        _ => Block::Free,
-    }
-}

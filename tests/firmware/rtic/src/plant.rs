@@ -11,20 +11,21 @@
 //! A is the same everywhere, and loss and gap are constant along each segment: the bound of the error
 //! leaves nothing out.
 
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::certificate::{Given, Verdict};
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::edges::{Block, Edges};
-use signorini_kernel::rows;
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Tick};
-use signorini_kernel::{Error, Relaxation};
+use signorini_kernel::certificate::Verdict;
+use signorini_kernel::condition::{BoundaryEdge, Condition};
+use signorini_kernel::edges::{Block, EdgeCounts};
+use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::tick::{Deadline, Ended, Limits};
+use signorini_kernel::{Error, Mesh, Relaxation, Tensor, workspace};
 
-use crate::mesh::{COLUMNS, SIDE};
-use crate::start::{self, Memory};
+use crate::mesh::{CELLS, COLUMNS, HEIGHT, NODES, SIDE, TRIANGLES, VERTICES, WIDTH};
+
+/// Memory of the skin.
+pub type Skin = workspace!(f32, u16: vertices NODES, triangles TRIANGLES, quads 0,
+                           boundary crate::mesh::BOUNDARY, ticks only);
 
 /// W/mK
-pub const CONDUCTIVITY: f32 = 15.0;
+const CONDUCTIVITY: f32 = 15.0;
 /// °C
 const STRUCTURE: f32 = 5.0;
 /// °C
@@ -37,11 +38,6 @@ const OMEGA: f32 = 1.8;
 /// hundredth of what the energy norm mostly is: a surface that the heater holds everywhere is solved
 /// exactly, and there a share would never be small. Sweeps end a tick only should the clock stand still.
 pub const LIMITS: Limits<f32> = Limits { error: 0.1, share: 0.1, sweeps: 256 };
-
-static GAP: [f32; COLUMNS] = [MINIMUM; COLUMNS];
-static GAP_AT_ENDS: [[f32; 2]; COLUMNS] = [[MINIMUM; 2]; COLUMNS];
-static GIVEN: [f32; COLUMNS] = [STRUCTURE; COLUMNS];
-static GIVEN_AT_ENDS: [[f32; 2]; COLUMNS] = [[STRUCTURE; 2]; COLUMNS];
 
 /// The result of one tick.
 #[derive(Clone, Copy)]
@@ -62,33 +58,33 @@ pub struct Answer {
 
 /// The skin with its present losses and temperatures.
 pub struct Plant {
-    tick: Tick<'static, f32, u16, { rows::TRIANGLES }>,
-    edges: Edges<'static, u16>,
+    mesh: Mesh<'static, f32, u16>,
+    skin: &'static mut Skin,
+    counts: EdgeCounts,
 }
 
 impl Plant {
     /// Numbers and fills in all that stays: once, before the ticks.
-    pub fn new(memory: &'static mut Memory) -> Result<Self, Error> {
-        let (ground, memory) = start::build(memory)?;
-        let tick = Tick::new(ground, memory, Relaxation::Fixed(OMEGA))?;
-        Ok(Self { tick, edges: ground.edges })
+    pub fn new(skin: &'static mut Skin) -> Result<Self, Error> {
+        let mesh = Mesh::new(&VERTICES, &CELLS, &[])?;
+        let steel = Coefficient::Uniform(Tensor::scalar(CONDUCTIVITY));
+        let counts = skin.build(&mesh, steel, |edge| Some(condition(edge, &[0.0; COLUMNS])))?;
+        skin.set_relaxation(Relaxation::Fixed(OMEGA))?;
+        Ok(Self { mesh, skin, counts })
     }
 
-    /// Nothing but the start of an answer.
-    pub fn begin(&mut self, losses: &[f32; COLUMNS]) -> Result<(), Error> {
-        let flux = fluxes(losses);
-        self.tick.begin(data(&self.edges, &flux)?).map(drop)
+    /// Takes new losses in W/m², one a segment.
+    pub fn set(&mut self, losses: &[f32; COLUMNS]) -> Result<(), Error> {
+        self.skin.set_conditions(&self.mesh, |edge| Some(condition(edge, losses)))
     }
 
-    /// The answer to new losses in W/m², one a segment, from where the last one was.
+    /// The answer to the losses, from where the last one was.
     pub fn answer(
         &mut self,
-        losses: &[f32; COLUMNS],
         limits: Limits<f32>,
         deadline: &mut Deadline<impl FnMut() -> u32>,
     ) -> Result<Answer, Error> {
-        let flux = fluxes(losses);
-        let report = self.tick.begin(data(&self.edges, &flux)?)?.advance(limits, deadline)?;
+        let report = self.skin.tick(&self.mesh, limits, deadline)?;
         Ok(Answer {
             ended: report.ended,
             sweeps: report.sweeps,
@@ -102,8 +98,8 @@ impl Plant {
     /// Temperatures of the heated segments.
     fn surface(&self) -> [f32; COLUMNS] {
         let mut surface = [f32::NAN; COLUMNS];
-        let first = self.edges.counts().start(Block::Contact);
-        for (mean, &u) in surface.iter_mut().zip(self.tick.u().iter().skip(first)) {
+        let first = self.counts.start(Block::Contact);
+        for (mean, &u) in surface.iter_mut().zip(self.skin.u().iter().skip(first)) {
             *mean = u;
         }
         surface
@@ -112,28 +108,20 @@ impl Plant {
     /// By Green's formula: nothing is lost inside or at the sides, so that all heat from the
     /// structure leaves through the surface.
     fn energy(&self) -> f32 {
-        let first = self.edges.counts().start(Block::Contact);
-        let on_surface = self.tick.u().iter().zip(self.tick.tau()).skip(first).take(COLUMNS);
+        let first = self.counts.start(Block::Contact);
+        let on_surface = self.skin.u().iter().zip(self.skin.flux()).skip(first).take(COLUMNS);
         on_surface.fold(0.0, |sum, (&u, &tau)| sum + (u - STRUCTURE) * tau)
     }
 }
 
-/// ∫q of the contact edges, which are numbered as the cells are: from left to right.
-fn fluxes(losses: &[f32; COLUMNS]) -> [f32; COLUMNS] {
-    losses.map(|loss| -SIDE * loss)
-}
-
-fn data<'a>(
-    edges: &Edges<'static, u16>,
-    flux: &'a [f32; COLUMNS],
-) -> Result<Data<'a, f32, u16>, Error> {
-    let given = Given {
-        loads: CellLoads { triangles: &[], quads: &[] },
-        boundary: Boundary::new(edges, &[], &[], flux)?,
-        ends: VertexData { gap: &GAP_AT_ENDS, given: &GIVEN_AT_ENDS },
-        curved: &[],
-        transfer: &[],
-        oscillation: 0.0,
-    };
-    Ok(Data { given, lower: &GAP, dirichlet: &GIVEN })
+/// What holds on a boundary edge.
+fn condition(edge: &BoundaryEdge<f32, u16>, losses: &[f32; COLUMNS]) -> Condition<f32> {
+    match edge.middle() {
+        [x, _] if x <= 0.0 || x >= WIDTH => Condition::Neumann { flux: 0.0 },
+        [_, y] if y < 0.5 * HEIGHT => Condition::Dirichlet { value: STRUCTURE },
+        [x, _] => {
+            let loss = losses.get((x / SIDE) as usize).copied().unwrap_or_default();
+            Condition::Contact { gap: MINIMUM, flux: -loss }
+        }
+    }
 }
