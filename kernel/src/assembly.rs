@@ -133,6 +133,7 @@ pub fn load_of_triangles<R: Real, I: Index>(
 }
 
 /// What the cell of a boundary edge adds to the load there.
+#[cfg(feature = "workspace")]
 pub(crate) fn share_of_cell<R: Real, I: Index>(
     edges: &Edges<I>,
     cells: CellLoads<R>,

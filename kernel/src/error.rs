@@ -200,6 +200,7 @@ pub(crate) fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(),
 }
 
 /// max |x| of numbers whose answer has room in the scalar: 1/ε² times as large they are still finite.
+#[cfg(feature = "mesh")]
 pub(crate) fn all_moderate<R: crate::Real>(
     of: Array,
     numbers: impl Iterator<Item = R>,

@@ -19,3 +19,5 @@ pub const ROBIN: bool = cfg!(feature = "robin");
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.
 pub const INDICATORS: bool = cfg!(feature = "indicators");
+/// Whether there is the fast square root.
+pub const MICROMATH: bool = cfg!(feature = "micromath");

@@ -61,60 +61,118 @@
 //! subtracts, multiplies, divides, compares and takes correctly rounded square roots, in one fixed
 //! order: the same bits on every machine.
 
+#[cfg(feature = "mesh")]
 pub mod assembly;
+#[cfg(feature = "mesh")]
 pub mod averages;
+#[cfg(feature = "mesh")]
 pub mod boundary;
+#[cfg(feature = "mesh")]
 pub mod cells;
+#[cfg(feature = "mesh")]
 pub mod certificate;
+#[cfg(feature = "mesh")]
 pub mod components;
 pub mod condensed;
+#[cfg(feature = "workspace")]
 pub mod condition;
+#[cfg(feature = "mesh")]
 pub mod conforming;
+#[cfg(feature = "mesh")]
 pub mod conjugate;
+#[cfg(feature = "mesh")]
 pub mod contact;
+#[cfg(feature = "mesh")]
 pub mod csr;
+#[cfg(feature = "mesh")]
 pub mod edges;
+#[cfg(feature = "mesh")]
 pub mod element;
+#[cfg(feature = "mesh")]
 pub mod equilibrium;
 pub mod error;
 pub mod features;
+#[cfg(feature = "mesh")]
 pub mod flux;
+#[cfg(feature = "mesh")]
 pub mod forest;
+#[cfg(feature = "mesh")]
 pub mod full;
+#[cfg(feature = "mesh")]
 pub mod geometry;
 mod index;
 pub mod limits;
 mod math;
+#[cfg(feature = "mesh")]
 pub mod mesh;
+#[cfg(feature = "mesh")]
 pub mod model;
+#[cfg(feature = "mesh")]
 pub mod numbering;
+#[cfg(feature = "mesh")]
 pub mod prolongation;
+#[cfg(feature = "mesh")]
 pub mod psor;
 pub mod quadrature;
 mod real;
+#[cfg(feature = "mesh")]
 pub mod refinement;
+#[cfg(feature = "mesh")]
 mod relaxation;
 pub mod report;
+#[cfg(feature = "mesh")]
 pub mod rows;
+#[cfg(feature = "mesh")]
 pub mod shift;
+#[cfg(feature = "mesh")]
 pub mod signorini;
+#[cfg(feature = "mesh")]
 pub mod solver;
+#[cfg(feature = "mesh")]
 pub mod sparse;
+#[cfg(feature = "mesh")]
 pub mod stiffness;
+#[cfg(feature = "mesh")]
 mod tensor;
+#[cfg(feature = "mesh")]
 pub mod tick;
+pub mod verdict;
+#[cfg(feature = "workspace")]
 pub mod workspace;
 
 pub use error::Error;
 pub use index::Index;
-pub use math::{Libm, Math, Micromath};
+#[cfg(feature = "micromath")]
+pub use math::Micromath;
+pub use math::{Libm, Math};
+#[cfg(feature = "mesh")]
 pub use mesh::Mesh;
+#[cfg(feature = "mesh")]
 pub use model::Model;
 pub use real::Real;
+#[cfg(feature = "mesh")]
 pub use relaxation::Relaxation;
 pub use report::Report;
+#[cfg(feature = "mesh")]
 pub use tensor::Tensor;
+#[cfg(feature = "workspace")]
 pub use workspace::Workspace;
+
+/// The version of this crate.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Whether this is the version: what a module that `signorini bake` wrote asks at compile time, since its data are laid
+/// out for the kernel that it was written for.
+pub const fn is_version(version: &str) -> bool {
+    let (mut own, mut other) = (VERSION.as_bytes(), version.as_bytes());
+    while let ([a, rest @ ..], [b, others @ ..]) = (own, other) {
+        if *a != *b {
+            return false;
+        }
+        (own, other) = (rest, others);
+    }
+    own.is_empty() && other.is_empty()
+}
 
 /// The example of the page on embedding is compiled and run.
 #[cfg(doctest)]

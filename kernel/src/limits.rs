@@ -1,7 +1,8 @@
 //! How long a tick may go on.
 
-use crate::certificate::Certificate;
 use crate::real::Real;
+#[cfg(feature = "mesh")]
+use crate::verdict::Certificate;
 
 /// When enough is enough; whichever comes first.
 ///
@@ -27,6 +28,7 @@ impl<R: Real> Default for Limits<R> {
 }
 
 impl<R: Real> Limits<R> {
+    #[cfg(feature = "mesh")]
     pub(crate) fn are_settled(&self, now: &Certificate<R>) -> bool {
         let hidden = self.share > R::ZERO && now.algebraic <= now.rounding;
         hidden || now.algebraic <= self.share * now.total
@@ -63,12 +65,14 @@ impl<F: FnMut() -> u32> Deadline<F> {
     }
 
     /// Whether there is time for a certificate, a sweep and the certificate after it.
+    #[cfg(feature = "mesh")]
     pub(crate) fn allows_to_look(&mut self) -> bool {
         let both = self.certificate.saturating_mul(2);
         (self.remaining)() >= self.sweep.saturating_add(both)
     }
 
     /// Sweeps that take as long as a certificate; 0 where nobody has told what either costs.
+    #[cfg(feature = "mesh")]
     pub(crate) fn sweeps_a_certificate(&self) -> u32 {
         self.certificate.checked_div(self.sweep).unwrap_or(0)
     }

@@ -4,16 +4,12 @@
 //! arithmetic. Comparisons are written out (`if a > b`), since `min` and `max` of the standard
 //! library leave the result for `-0.0` and NaN to the platform.
 
-use nalgebra::RealField;
+mod field;
 
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for f64 {}
-}
+pub use field::Field;
 
 /// A scalar of the kernel: `f32` or `f64`, and nothing else.
-pub trait Real: RealField + Copy + Default + sealed::Sealed {
+pub trait Real: Field + Copy + Default {
     /// 0
     const ZERO: Self;
     /// 1

@@ -6,8 +6,8 @@
 //! ```
 //! One type, so that who reads it need not know which model `signorini bake` has chosen.
 
-use crate::certificate::{Certificate, Verdict};
 use crate::real::Real;
+use crate::verdict::{Certificate, Verdict};
 
 /// What ended a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

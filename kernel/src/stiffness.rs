@@ -28,6 +28,7 @@ impl<R: Real> Coefficient<'_, R> {
     }
 
     /// That of a cell, of a quad at its first point; `triangles` come first.
+    #[cfg(feature = "workspace")]
     pub(crate) fn of_cell(&self, cell: usize, triangles: usize, points: usize) -> Tensor<R> {
         let of_quad = cell.checked_sub(triangles).map(|quad| triangles + quad * points * points);
         self.at(cell, of_quad.unwrap_or(cell))

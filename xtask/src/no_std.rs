@@ -12,6 +12,7 @@ use std::process::Command;
 use crate::cargo::{cargo, run as run_cargo, target_dir};
 use crate::steps::Steps;
 use crate::symbols::{allocates, symbols};
+use crate::toolchain::output;
 
 /// The crate that links the kernel.
 pub const MANIFEST: &str = "tests/no_std/Cargo.toml";
@@ -24,6 +25,32 @@ pub fn run(steps: &mut Steps) {
     steps.check("kernel without std and allocator", || {
         run_cargo(build(None))?;
         inspect()
+    });
+    steps.check("the kernel of a condensed scene needs libm alone", || {
+        let tree = ["tree", "--package", "signorini-kernel", "--no-default-features"];
+        let mut command = cargo(&tree);
+        let said = output(command.args(["--edges", "normal", "--prefix", "none", "--locked"]))?;
+        let names = said.lines().filter_map(|line| line.split(' ').next());
+        match names.skip(1).collect::<Vec<_>>()[..] {
+            ["libm"] => Ok(()),
+            ref others => Err(format!("it needs {}", others.join(", "))),
+        }
+    });
+    steps.check("no warning whatever the kernel leaves out", || {
+        ["", "mesh", "triangles", "quads,contact", "workspace", "micromath"].iter().try_for_each(
+            |of| {
+                let what = [
+                    "clippy",
+                    "--package",
+                    "signorini-kernel",
+                    "--locked",
+                    "--no-default-features",
+                ];
+                let mut command = cargo(&what);
+                command.args(["--features", of, "--", "-D", "warnings"]);
+                run_cargo(command)
+            },
+        )
     });
     steps.check("a kernel with std is caught", || refused("broken-std", "panic_impl"));
     steps.check("a kernel with alloc is caught", || {

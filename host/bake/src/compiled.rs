@@ -40,6 +40,11 @@ fn main() {
 
 /// What a module with a `main` prints when it runs.
 pub fn printed(text: &str) -> String {
+    ran(text).unwrap_or_else(|said| panic!("{said}"))
+}
+
+/// The same, or what the compiler says against it.
+pub fn ran(text: &str) -> Result<String, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let (file, program) = (folder.path().join("scene.rs"), folder.path().join("scene"));
     std::fs::write(&file, text).expect("a file");
@@ -59,9 +64,9 @@ pub fn printed(text: &str) -> String {
             .expect("a compiler");
         if compiled.status.success() {
             let ran = Command::new(&program).output().expect("a program");
-            return String::from_utf8_lossy(&ran.stdout).into_owned();
+            return Ok(String::from_utf8_lossy(&ran.stdout).into_owned());
         }
         said = String::from_utf8_lossy(&compiled.stderr).into_owned();
     }
-    panic!("{said}");
+    Err(said)
 }

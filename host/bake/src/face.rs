@@ -122,7 +122,8 @@ impl Face {
         table("output", outputs);
         let lines = lines.iter().map(|line| format!("//! {line}").trim_end().to_owned() + "\n");
         // A firmware needs not read all that a module offers.
-        lines.chain(["\n#![allow(dead_code, unused_imports)]\n".to_owned()]).collect()
+        let allow = "\n#![allow(dead_code, unused_imports)]\n".to_owned();
+        lines.chain([allow, VERSION.to_owned()]).collect()
     }
 
     fn types<R: Scalar>(&self, about: &About) -> String {
@@ -171,6 +172,16 @@ impl Inputs {
         text + "}\n" + ANSWER
     }
 }
+
+/// The module's data are laid out for one version of the kernel.
+const VERSION: &str = concat!(
+    "\n// Written for this kernel: bake the scene again for another one.\n",
+    "const _: () = assert!(signorini_kernel::is_version(\"",
+    env!("CARGO_PKG_VERSION"),
+    "\"), \"baked for signorini-kernel ",
+    env!("CARGO_PKG_VERSION"),
+    "; bake the scene again\");\n"
+);
 
 /// What an input does, in a sentence.
 fn effect(input: &Input) -> String {

@@ -26,10 +26,10 @@
 
 use super::factor::{Factor, Norm};
 use super::outputs::dot;
-use crate::certificate::{Certificate, Verdict};
 use crate::error::{Array, Error, same_length};
 use crate::index::read;
 use crate::real::Real;
+use crate::verdict::{Certificate, Verdict};
 
 /// A contact vertex that no Dirichlet edge ends at.
 #[derive(Debug, Clone, Copy)]

@@ -28,11 +28,11 @@ pub mod sor;
 pub mod storage;
 pub mod tableau;
 
-use crate::certificate::Verdict;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::limits::Deadline;
 use crate::real::Real;
 use crate::report::Report;
+use crate::verdict::Verdict;
 use blocks::{Block, Blocks};
 use certificate::{Answer, Form};
 use method::{Method, Progress};

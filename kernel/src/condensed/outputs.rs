@@ -3,9 +3,9 @@
 //! On a contact edge τ·n − q is its r where it touches and r > 0, and 0 elsewhere, wherever the solver was
 //! stopped: forces are never negative.
 
-use crate::certificate::Certificate;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::real::Real;
+use crate::verdict::Certificate;
 
 /// One output as a function of the inputs p, whose first is the constant 1, of the openings x, and of r = Sx − b.
 #[derive(Debug, Clone, Copy)]

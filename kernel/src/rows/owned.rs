@@ -2,7 +2,7 @@
 
 use super::{Row, Rows};
 use crate::edges::{EdgeCounts, Edges};
-use crate::error::{Array, Error};
+use crate::error::Error;
 use crate::index::Index;
 use crate::real::Real;
 
@@ -44,9 +44,10 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
     ///
     /// # Errors
     /// As for [`Rows::new`]; too little room.
+    #[cfg(feature = "workspace")]
     pub(crate) fn within(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
         let counts = edges.counts();
-        let (of, needed) = (Array::Rows, counts.unknowns());
+        let (of, needed) = (crate::error::Array::Rows, counts.unknowns());
         let rows = self.rows.get_mut(..needed);
         let rows = rows.ok_or(Error::Capacity { of, needed, limit: UNKNOWNS })?;
         if self.laid_out != counts {
@@ -58,6 +59,7 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
     }
 
     /// Forgets the mesh: the next one has a numbering of its own.
+    #[cfg(feature = "workspace")]
     pub(crate) fn forget(&mut self) {
         self.laid_out = EdgeCounts::default();
     }

@@ -232,6 +232,7 @@ impl<R: Scalar> Baked<R> {
             ("contact", self.counts.contact > 0),
             ("robin", !self.data.robin.is_empty()),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
+            ("micromath", self.how.fast),
         ];
         needs.into_iter().filter(|(_, needed)| *needed).map(|(name, _)| name).collect()
     }

@@ -4,7 +4,7 @@ use signorini_kernel::rows;
 
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
-use crate::compiled::{FIRMWARE, printed};
+use crate::compiled::{FIRMWARE, printed, ran};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
@@ -44,6 +44,19 @@ pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
         format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
     });
     assert_eq!(printed(&(source(&baked) + MAIN)), lines.concat());
+    Ok(())
+}
+
+#[test]
+fn a_kernel_of_another_version_is_refused() -> Result<()> {
+    let (scene, problem) = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
+    let text = source(&Baked::<f32>::new(&scene, &problem)?) + "fn main() {}\n";
+    let own = format!("is_version({:?})", signorini_kernel::VERSION);
+    assert!(text.contains(&own), "{}", signorini_kernel::VERSION);
+    assert_eq!(ran(&text), Ok(String::new()));
+    let said = ran(&text.replace(&own, "is_version(\"0.0.9\")")).expect_err("another version");
+    assert!(said.contains("baked for signorini-kernel"), "{said}");
+    assert!(said.contains("bake the scene again"), "{said}");
     Ok(())
 }
 
