@@ -22,7 +22,7 @@
 //! The bound is a statement about numbers that were computed, so it must hold for those:
 //! * s and τ are *defined* by the floating-point numbers at vertices and on edges.
 //! * The walk leaves ∇·τ + f = ρ/|T| with |ρ| of a few ε times the terms of a cell. Sending each ρ
-//!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Reach::largest`] Σ|ρ|, and by [`Reach::weighed`] times a
+//!   along the forest to its root changes ‖A^{−½}τ‖ by at most [`Stability::largest`] Σ|ρ|, and by [`Stability::weighed`] times a
 //!   sum in which each ρ counts as its cell conducts; the smaller of both is added.
 //! * The small difference A∇s − τ is formed from large terms: its error, at most 2 ε times their sum,
 //!   goes through the same quadratic form, and the root of the sum is added.
@@ -30,6 +30,9 @@
 //!   such a ripple on the cells along the boundary is added too.
 //!
 //! * Squares of numbers near the smallest normal one are lost: a root of that number is added.
+//!
+//! * Element matrices are rounded once. What that hides, where shape and A are oblique together, is a share of all that is
+//!   drawn from them: [`Stability::oblique`] of the bound is added.
 //!
 //! All of it is [`Certificate::rounding`]: on well-shaped cells about 1e−12 of the solution in `f64` and 1e−4 in
 //! `f32`, more where u is large against its changes or cells are thin.
@@ -39,7 +42,7 @@ mod extension;
 mod metric;
 mod parts;
 mod quad;
-mod reach;
+mod stability;
 mod sum;
 mod triangle;
 mod walk;
@@ -47,7 +50,7 @@ mod walk;
 pub use crate::verdict::{Certificate, Verdict};
 pub use extension::Curved;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
-pub use reach::{Reach, reach};
+pub use stability::{Stability, stability};
 
 use crate::assembly::CellLoads;
 use crate::averages;
@@ -75,8 +78,8 @@ pub struct Ground<'a, R, I> {
     pub cells: Cells<'a, R, I>,
     /// A in reference coordinates where it varies inside a cell, and the bends of quads.
     pub metric: Metric<'a, R>,
-    /// What it takes to bring surplus from the cells to their roots: [`reach`].
-    pub reach: Reach<R>,
+    /// What rounding can do at most: [`stability`].
+    pub stability: Stability<R>,
 }
 
 /// Loads and boundary data of one tick (borrowed).
@@ -137,7 +140,7 @@ pub fn certify<R: Real, I: Index>(
         return Ok(Verdict::Pulled { edge });
     }
     boundary::add(ground, given, u, s, tau, indicators, &mut parts);
-    Ok(parts.conclude(cells.len(), ground.reach, given.oscillation))
+    Ok(parts.conclude(cells.len(), ground.stability, given.oscillation))
 }
 
 /// The function s: vertex values and bubbles of edges.

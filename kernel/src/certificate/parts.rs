@@ -1,6 +1,6 @@
 //! The sums over the mesh that a certificate is drawn from.
 
-use super::reach::Reach;
+use super::stability::Stability;
 use super::sum::Sum;
 use super::{Certificate, Verdict};
 use crate::real::Real;
@@ -53,7 +53,7 @@ impl<R: Real> Parts<R> {
     }
 
     /// `cells`: how many there are.
-    pub fn conclude(&self, cells: usize, reach: Reach<R>, oscillation: R) -> Verdict<R> {
+    pub fn conclude(&self, cells: usize, stability: Stability<R>, oscillation: R) -> Verdict<R> {
         let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
@@ -61,28 +61,27 @@ impl<R: Real> Parts<R> {
         let doubt = times(4) * root(self.doubt);
         // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
         let all = |squares: R| times(2) * root(R::from_count(cells as u32) * squares);
-        let plainly = reach.largest * all(self.terms);
-        let unbalanced = plainly.or_smaller(reach.weighed * all(self.doubt));
+        let plainly = stability.largest * all(self.terms);
+        let unbalanced = plainly.or_smaller(stability.weighed * all(self.doubt));
         let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
         // Squares below the smallest normal number are lost, some in every cell.
-        let lost = (R::ONE + reach.largest) * root(R::from_count(16 * cells as u32) * R::TINY);
+        let lost = (R::ONE + stability.largest) * root(R::from_count(16 * cells as u32) * R::TINY);
         let rounding = doubt + unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
+        let rounding = rounding + times(4) * oscillation;
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
-        let total = oscillation + both.or_larger(gap) + rounding;
+        let exact = oscillation + both.or_larger(gap);
+        // What rounded element matrices hide, of all that is drawn from them.
+        let rounding = rounding + stability.oblique * (exact + rounding);
+        let total = exact + rounding;
         let algebraic = root(self.algebraic);
         let jump = root(self.nonconforming.or_larger(R::ZERO) + self.direct_of_u);
         // A plain sum over the cells loses half an ε of itself in each, its root half of that.
         let summed = times(16) + R::QUARTER * times(cells as u32);
         let doubt_of_u = times(4) * root(self.doubt_of_u) + summed * jump + lost;
-        let certificate = Certificate {
-            gap,
-            algebraic,
-            oscillation,
-            rounding,
-            total,
-            of_u: total + jump + root(self.lifted) + doubt_of_u,
-        };
+        let apart = jump + root(self.lifted) + doubt_of_u;
+        let of_u = total + (apart + stability.oblique * apart);
+        let certificate = Certificate { gap, algebraic, oscillation, rounding, total, of_u };
         let known = certificate.of_u.finite() && algebraic.finite();
         if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
     }

@@ -108,6 +108,20 @@ pub(super) fn softness<R: Real, I: Index>(
     points.iter().zip(weights).fold(R::ZERO, |sum, (&b, weight)| sum + weight * of(b))
 }
 
+/// B₁₁B₂₂ over det B, what it cancels to; the most of all points.
+pub(super) fn obliqueness<R: Real, I: Index>(
+    cell: &Quad<R, I>,
+    points: Option<&[Tensor<R>; POINTS * POINTS]>,
+) -> R {
+    let of = |b: Tensor<R>| R::ONE / (R::ONE - b.xy / b.xx * (b.xy / b.yy));
+    let Some(points) = points else { return of(of_parallelogram(&cell.k)) };
+    let worse = |most: R, b: &Tensor<R>| {
+        let here = of(*b);
+        if here >= R::ONE { most.or_larger(here) } else { R::ONE / R::ZERO }
+    };
+    points.iter().fold(R::ONE, worse)
+}
+
 /// τ − σ_h through the sides.
 pub(super) fn difference<R: Real, I: Index>(
     cell: &Quad<R, I>,

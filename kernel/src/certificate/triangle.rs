@@ -107,6 +107,14 @@ pub(super) fn softness<R: Real, I: Index>(
     }
 }
 
+/// The terms of 4 det A = ab + bc + ca, with the entries a, b, c of the element matrix, over what they cancel to.
+pub(super) fn obliqueness<R: Real>(k: &[R; 3]) -> R {
+    let size = k.iter().fold(R::ZERO, |most, entry| most.or_larger(entry.magnitude()));
+    let [a, b, c] = k.map(|entry| entry / size);
+    let [ab, bc, ca] = [a * b, b * c, c * a];
+    (ab.magnitude() + bc.magnitude() + ca.magnitude()) / (ab + bc + ca)
+}
+
 /// The share by quadrature over the collapsed square, x̂ = ξ(1 − η), ŷ = η; everything in the order of
 /// the mesh, the element matrix with the compliance of the mean of A.
 #[inline(never)]

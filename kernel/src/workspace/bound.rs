@@ -9,7 +9,7 @@ use heapless::Vec;
 use super::fit;
 use crate::boundary::Boundary;
 use crate::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use crate::certificate::{Ground, Metric, Reach, reach};
+use crate::certificate::{Ground, Metric, Stability, stability};
 use crate::conforming::VertexData;
 use crate::edges::Edges;
 use crate::equilibrium::is_root;
@@ -44,7 +44,7 @@ pub(super) struct Equilibration<
     quads: Vec<Quad<R, I>, QUADS>,
     of_vertices: Vec<R, VERTICES>,
     of_edges: Vec<R, EDGES>,
-    reach: Reach<R>,
+    stability: Stability<R>,
     /// Whether all quads are parallelograms.
     affine: bool,
     /// Behind the cell that has no way out, where there is one; 0 elsewhere, so that an empty workspace is all zeros.
@@ -73,7 +73,7 @@ impl<
             quads: Vec::new(),
             of_vertices: Vec::new(),
             of_edges: Vec::new(),
-            reach: Reach { largest: R::ZERO, weighed: R::ZERO },
+            stability: Stability { largest: R::ZERO, weighed: R::ZERO, oblique: R::ZERO },
             affine: false,
             cut_off: 0,
         }
@@ -138,7 +138,7 @@ impl<
         let (of_vertices, of_edges) = (&mut *self.of_vertices, &mut *self.of_edges);
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let cells = pack(mesh, edges, stiffness, alpha, &self.compliance, &forest, buffers)?;
-        self.reach = reach(edges, &cells, Metric::default(), boundary, &forest, way)?;
+        self.stability = stability(edges, &cells, Metric::default(), boundary, &forest, way)?;
         Ok(())
     }
 
@@ -157,7 +157,14 @@ impl<
         }
         let Self { triangles, quads, of_vertices, of_edges, order, .. } = self;
         let cells = Cells::baked(triangles, quads, of_vertices, of_edges, order);
-        Ok(Ground { mesh, edges, stiffness, cells, metric: Metric::default(), reach: self.reach })
+        Ok(Ground {
+            mesh,
+            edges,
+            stiffness,
+            cells,
+            metric: Metric::default(),
+            stability: self.stability,
+        })
     }
 
     /// Whether A is constant and the map affine on every cell.

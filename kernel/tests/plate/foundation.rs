@@ -34,7 +34,7 @@ pub struct Foundation {
     triangles: Vec<Triangle<f64, u16>>,
     quads: Vec<Quad<f64, u16>>,
     weights: [Vec<f64>; 2],
-    reach: certificate::Reach<f64>,
+    stability: certificate::Stability<f64>,
     pub loads: (Vec<f64>, Vec<f64>),
     gap: Vec<[f64; 2]>,
     given: Vec<[f64; 2]>,
@@ -65,7 +65,7 @@ impl Foundation {
             triangles: vec![Triangle::EMPTY; k.0.len()],
             quads: vec![Quad::EMPTY; k.1.len()],
             weights: [vec![0.0; plate.vertices.len()], vec![0.0; counts.edges()]],
-            reach: certificate::Reach::default(),
+            stability: certificate::Stability::default(),
             loads: (vec![LOAD / 2.0; k.0.len()], vec![LOAD; k.1.len()]),
             gap: vec![[GAP; 2]; counts.contact],
             given: vec![[GIVEN; 2]; counts.dirichlet],
@@ -93,7 +93,8 @@ impl Foundation {
         let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
         let metric = Metric { at_points: points, place, bends: &[] };
         let mut way = vec![0.0; edges.cells()];
-        self.reach = certificate::reach(&edges, &cells, metric, &boundary, &forest, &mut way)?;
+        self.stability =
+            certificate::stability(&edges, &cells, metric, &boundary, &forest, &mut way)?;
         Ok(())
     }
 
@@ -120,7 +121,7 @@ impl Foundation {
             stiffness: self.stiffness(),
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
             metric: self.metric(),
-            reach: self.reach,
+            stability: self.stability,
         })
     }
 

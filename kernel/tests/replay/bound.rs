@@ -4,7 +4,7 @@ use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{
-    Buffers, Curved, Given, Ground, Metric, Reach, certify, of_quad, of_triangle, reach,
+    Buffers, Curved, Given, Ground, Metric, Stability, certify, of_quad, of_triangle, stability,
 };
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::edges::Block;
@@ -30,7 +30,7 @@ pub struct Ways<R> {
     of_edges: Vec<R>,
     points: Vec<[Tensor<R>; 64]>,
     place: Vec<u32>,
-    reach: Reach<R>,
+    stability: Stability<R>,
 }
 
 impl<R: Scalar> Ways<R> {
@@ -49,7 +49,7 @@ impl<R: Scalar> Ways<R> {
             of_edges: vec![R::ONE; edges.counts().edges()],
             points: Vec::new(),
             place: vec![u32::MAX; if every > 0 { cells } else { 0 }],
-            reach: Reach::default(),
+            stability: Stability::default(),
         };
         let alpha: Vec<_> = arrays.tensors.iter().map(|a| (a.xx + a.yy) * R::HALF).collect();
         let determinant = |a: &Tensor<R>| R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
@@ -75,8 +75,14 @@ impl<R: Scalar> Ways<R> {
             ways.points.push(at_points(arrays, at));
         }
         let metric = Metric { at_points: &ways.points, place: &ways.place, bends: &[] };
-        ways.reach =
-            reach(&edges, &cells, metric, &boundary, &forest, &mut vec![R::ZERO; edges.cells()])?;
+        ways.stability = stability(
+            &edges,
+            &cells,
+            metric,
+            &boundary,
+            &forest,
+            &mut vec![R::ZERO; edges.cells()],
+        )?;
         Ok(ways)
     }
 
@@ -90,7 +96,7 @@ impl<R: Scalar> Ways<R> {
             stiffness: arrays.stiffness(),
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
             metric: Metric { at_points: &self.points, place: &self.place, bends: &[] },
-            reach: self.reach,
+            stability: self.stability,
         })
     }
 }
@@ -143,8 +149,9 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         journal.digest("forest", (&ways.order, &ways.parent, &ways.places));
         journal.digest("cells", (&ways.triangles, &ways.quads));
         journal.digest("weights", (&ways.of_vertices, &ways.of_edges));
-        journal.line("reach", ways.reach.largest);
-        journal.line("weighed", ways.reach.weighed);
+        journal.line("reach", ways.stability.largest);
+        journal.line("weighed", ways.stability.weighed);
+        journal.line("oblique", ways.stability.oblique);
         let given = Given {
             loads: arrays.cell_loads(),
             boundary: arrays.boundary()?,

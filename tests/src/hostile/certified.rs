@@ -59,7 +59,7 @@ pub struct Foundation<R> {
     triangles: Vec<Triangle<R, u16>>,
     quads: Vec<Quad<R, u16>>,
     weights: [Vec<R>; 2],
-    reach: certificate::Reach<R>,
+    stability: certificate::Stability<R>,
 }
 
 impl<R: Bits> Foundation<R> {
@@ -83,7 +83,7 @@ impl<R: Bits> Foundation<R> {
             triangles: vec![Triangle::EMPTY; t],
             quads: vec![Quad::EMPTY; q],
             weights: [vec![R::ZERO; mesh.vertices().len()], vec![R::ZERO; edges.counts().edges()]],
-            reach: certificate::Reach::default(),
+            stability: certificate::Stability::default(),
             stiffness,
         };
         if wild && bytes.flag() {
@@ -95,7 +95,7 @@ impl<R: Bits> Foundation<R> {
             foundation.place = (0..cells).map(|_| u32::from(bytes.byte()) % 9).collect();
         }
         let root = |edge| is_root(edges, boundary, edge);
-        let Self { stiffness, points, place: at, ways, triangles, quads, weights, reach } =
+        let Self { stiffness, points, place: at, ways, triangles, quads, weights, stability } =
             &mut foundation;
         let [order, parent, place] = ways;
         let mut distance = vec![R::ZERO; cells];
@@ -106,7 +106,7 @@ impl<R: Bits> Foundation<R> {
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
         let metric = Metric { at_points: points, place: at, bends: &[] };
-        *reach = certificate::reach(
+        *stability = certificate::stability(
             edges,
             &packed,
             metric,
@@ -132,7 +132,7 @@ impl<R: Bits> Foundation<R> {
             stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
             metric: Metric { at_points: &self.points, place: &self.place, bends: &[] },
-            reach: self.reach,
+            stability: self.stability,
         })
     }
 }

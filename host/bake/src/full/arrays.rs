@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use signorini_kernel::cells::{Cells, Quad, Triangle};
-use signorini_kernel::certificate::{Ground, Metric, POINTS, Reach};
+use signorini_kernel::certificate::{Ground, Metric, POINTS, Stability};
 use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::Stiffness;
@@ -50,7 +50,7 @@ pub struct Baked<R: Scalar> {
     pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
     pub(super) metric_place: Vec<u32>,
     pub(super) bends: Vec<[R; 2]>,
-    pub(super) reach: Reach<R>,
+    pub(super) stability: Stability<R>,
     pub(super) data: Data<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) corners: Vec<[u32; 2]>,
@@ -141,7 +141,7 @@ impl<R: Scalar> Baked<R> {
     }
 
     fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>, how: How<R>) -> Self {
-        let Ground { mesh, edges, stiffness, cells, metric, reach } = ground;
+        let Ground { mesh, edges, stiffness, cells, metric, stability } = ground;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = !metric.at_points.is_empty();
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
@@ -165,7 +165,7 @@ impl<R: Scalar> Baked<R> {
             metric: metric.at_points.to_vec(),
             metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
             bends: metric.bends.to_vec(),
-            reach: *reach,
+            stability: *stability,
             data,
             outputs: Vec::new(),
             corners: Vec::new(),
@@ -218,7 +218,7 @@ impl<R: Scalar> Baked<R> {
                 place: &self.metric_place,
                 bends: &self.bends,
             },
-            reach: self.reach,
+            stability: self.stability,
         }
     }
 

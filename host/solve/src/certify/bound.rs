@@ -27,14 +27,6 @@ pub struct ErrorBound {
 }
 
 impl ErrorBound {
-    /// Wider by what rounding of oblique element matrices can hide, `share` of it.
-    #[must_use]
-    pub fn widened(self, share: f64) -> Self {
-        let more = share * self.total;
-        let of_u = self.of_u + share * self.of_u;
-        Self { total: self.total + more, rounding: self.rounding + more, of_u, ..self }
-    }
-
     /// The same in other units.
     #[must_use]
     pub fn times(self, unit: f64) -> Self {

@@ -2,7 +2,7 @@
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{Ground, Reach, reach};
+use signorini_kernel::certificate::{Ground, Stability, stability};
 use signorini_kernel::equilibrium::is_root;
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 
@@ -20,7 +20,7 @@ pub struct Ways<R> {
     quads: Vec<Quad<R, u32>>,
     of_vertices: Vec<R>,
     of_edges: Vec<R>,
-    reach: Reach<R>,
+    stability: Stability<R>,
 }
 
 impl<R: Scalar> Ways<R> {
@@ -35,7 +35,7 @@ impl<R: Scalar> Ways<R> {
             quads: vec![Quad::EMPTY; mesh.quads.len()],
             of_vertices: vec![R::ZERO; mesh.vertices.len()],
             of_edges: vec![R::ZERO; problem.topology.counts.edges()],
-            reach: Reach::default(),
+            stability: Stability::default(),
         }
     }
 
@@ -74,13 +74,13 @@ impl<R: Scalar> Ways<R> {
         let stiffness = assembled.stiffness();
         let mesh = assembled.mesh()?;
         let cells = pack(&mesh, edges, stiffness, alpha, compliance, &forest, buffers)?;
-        self.reach = reach(edges, &cells, metric.view(), &boundary, &forest, &mut numbers)?;
+        self.stability = stability(edges, &cells, metric.view(), &boundary, &forest, &mut numbers)?;
         Ok(())
     }
 
     /// What it takes to bring 1 from the farthest cell to its root.
     pub fn reach(&self) -> R {
-        self.reach.largest
+        self.stability.largest
     }
 
     /// The kernel's view of it.
@@ -101,7 +101,7 @@ impl<R: Scalar> Ways<R> {
             stiffness: assembled.stiffness(),
             cells: Cells::new(triangles, quads, &self.of_vertices, &self.of_edges, &forest)?,
             metric: metric.view(),
-            reach: self.reach,
+            stability: self.stability,
         })
     }
 }

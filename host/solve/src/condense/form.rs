@@ -82,9 +82,10 @@ impl Ground<'_> {
         let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(self.scene, problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
+        let factor = packed(&triangular(&blocks, &s, &fluxes));
         let form = Form {
-            factor: packed(&triangular(&blocks, &s, &fluxes)),
-            lost: self.lost(&blocks, &s, &fluxes, reach)?,
+            lost: self.lost(&blocks, &s, &fluxes, &factor, reach)?,
+            factor,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
             reach,

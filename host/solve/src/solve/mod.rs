@@ -134,9 +134,6 @@ struct Solved<R> {
     clock: Clock,
 }
 
-/// How many roundings of an element matrix the energy of a cell sees at most.
-const HIDDEN: f64 = 64.0;
-
 /// Fluxes, certificate and what is read off.
 fn conclude<R: Scalar>(
     scene: &Scene,
@@ -156,9 +153,6 @@ fn conclude<R: Scalar>(
     let flux = clock.lap();
     let data = Data::new(scene, problem)?;
     let certified = Certified::new(scene, problem, parts, assembled, &data, &u).map_err(&unfit)?;
-    let hidden = HIDDEN * R::EPSILON.wide() * assembled.obliqueness();
-    let bound = certified.bound.map(|bound| bound.widened(hidden));
-    let certified = Certified { bound, ..certified };
     let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
     let found = Found { outcome, ran, factored, u, fluxes, certified, seconds };
     Ok(finish(problem, parts, assembled, found, scalar))

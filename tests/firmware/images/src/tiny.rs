@@ -13,7 +13,7 @@
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Triangle, pack};
-use signorini_kernel::certificate::{Given, Ground, Metric, reach};
+use signorini_kernel::certificate::{Given, Ground, Metric, stability};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::equilibrium::is_root;
 use signorini_kernel::forest::{ForestBuffers, grow};
@@ -78,8 +78,8 @@ fn run(journal: &mut Journal) -> Result<(), Error> {
     // 1 / (4 det A)
     let cells = pack(&mesh, &edges, stiffness, &[], &[0.25; CELLS], &forest, buffers)?;
     let metric = Metric::default();
-    let reach = reach(&edges, &cells, metric, &boundary, &forest, &mut [0.0; CELLS])?;
-    played(&Ground { mesh, edges, stiffness, cells, metric, reach }, journal)
+    let stability = stability(&edges, &cells, metric, &boundary, &forest, &mut [0.0; CELLS])?;
+    played(&Ground { mesh, edges, stiffness, cells, metric, stability }, journal)
 }
 
 #[inline(never)]

@@ -219,8 +219,8 @@ impl Stages for Meter<'_, '_> {
         })?;
         let packed = Cells::new(&triangles, &quads, &of_vertices, of_edges, &forest)?;
         let metric = Metric::default();
-        let reach = certificate::reach(&edges, &packed, metric, &boundary, &forest, way)?;
-        let ground = Ground { mesh, edges, stiffness, cells: packed, metric, reach };
+        let stability = certificate::stability(&edges, &packed, metric, &boundary, &forest, way)?;
+        let ground = Ground { mesh, edges, stiffness, cells: packed, metric, stability };
         let gap = -R::QUARTER * R::QUARTER;
         let (at_gap, given, lower) = ([[gap; 2]; 16], [[R::ZERO; 2]; 16], [gap; 16]);
         let given = Given {

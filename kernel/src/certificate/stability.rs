@@ -1,4 +1,5 @@
-//! How much energy it takes to bring a surplus from a cell to its root.
+//! What rounding can do to a bound at most, for a mesh and its A: how much energy it takes to bring a surplus from a cell to
+//! its root, and how much of itself a rounded element matrix can hide.
 //!
 //! What leaves through a transfer edge counts there too: 1 through an edge with ∫h = H adds ∫(1/|E|)²/h, 1/H where h is
 //! constant.
@@ -18,26 +19,32 @@ use crate::real::Real;
 ///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the doubt, about 1/A.
 /// ```
 /// Where conductivities jump, the second knows that large fluxes stand beside small w_T.
+///
+/// Where shape and A of a cell are oblique together, the entries of its element matrix cancel in det A. Rounded, they carry ε
+/// times κ = (terms of det A, added up)/(det A) of the cell's energy, which each step of the bound sees: all of it is less than
+/// 64 ε κ of the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Reach<R> {
+pub struct Stability<R> {
     /// max w_T
     pub largest: R,
     /// max w_T/√d_T
     pub weighed: R,
+    /// 64 ε max κ
+    pub oblique: R,
 }
 
-/// The [`Reach`] of a forest; `way` is scratch with one entry a cell.
+/// The [`Stability`] of a mesh with this forest; `way` is scratch with one entry a cell.
 ///
 /// # Errors
 /// A scratch of the wrong length.
-pub fn reach<R: Real, I: Index>(
+pub fn stability<R: Real, I: Index>(
     edges: &Edges<I>,
     cells: &Cells<R, I>,
     metric: Metric<R>,
     boundary: &Boundary<R, I>,
     forest: &Forest<I>,
     way: &mut [R],
-) -> Result<Reach<R>, Error> {
+) -> Result<Stability<R>, Error> {
     same_length(Array::Scratch, way.len(), edges.cells())?;
     passing(edges, cells, metric, forest, way);
     for law in boundary.robin() {
@@ -52,25 +59,27 @@ pub fn reach<R: Real, I: Index>(
             write(way, number, sum);
         }
     }
-    let [mut largest, mut weighed] = [R::ZERO; 2];
+    let [mut largest, mut weighed, mut oblique] = [R::ZERO; 3];
     for cell in cells.from_leaves() {
-        let (number, last, softness) = match cell {
+        let (number, last, softness, kappa) = match cell {
             Either::Triangle(cell) => {
                 let points = metric.varying(cell.number.at());
-                (cell.number, 2, triangle::softness(cell, points))
+                (cell.number, 2, triangle::softness(cell, points), triangle::obliqueness(&cell.k))
             }
             Either::Quad(cell) => {
                 let points = metric.varying(cell.number.at());
-                (cell.number, 3, quad::softness(cell, points))
+                (cell.number, 3, quad::softness(cell, points), quad::obliqueness(cell, points))
             }
         };
+        oblique = oblique.or_larger(if kappa >= R::ONE { kappa } else { R::ONE / R::ZERO });
         let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
         let whole = read(way, number.at()) + energy(metric, cell, out);
         largest = largest.or_larger(whole);
         let quotient = whole / softness;
         weighed = weighed.or_larger(if quotient.finite() { quotient } else { R::ONE / R::ZERO });
     }
-    Ok(Reach { largest: largest.rounded_sqrt(), weighed: weighed.rounded_sqrt() })
+    let oblique = R::from_count(64) * R::EPSILON * oblique;
+    Ok(Stability { largest: largest.rounded_sqrt(), weighed: weighed.rounded_sqrt(), oblique })
 }
 
 /// Fills in for every cell what it costs to pass the next one on its way: 1 comes in through the side
