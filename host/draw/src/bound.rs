@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::ScenePanel;
+use super::prose::list;
 use super::scale::plain;
 use super::svg::escape;
 
@@ -17,29 +18,33 @@ pub fn bound(panel: &ScenePanel) -> String {
         let (value, words) = (plain(value), escape(words));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}<span>{words}</span></dd></div>");
     };
-    entry("total", bound.total, &total(panel, bound.total));
-    entry(
-        "of u_h",
-        bound.of_u,
-        "guaranteed: the means over the edges, cell by cell, are no further off than this",
-    );
+    entry("total", bound.total, TOTAL);
+    entry("of u_h", bound.of_u, OF_U);
     entry("gap", bound.gap, "of the total, from mesh and solver together");
     entry("algebraic", bound.algebraic, "the part of the total that more sweeps would remove");
     entry("oscillation", bound.oscillation, "loads vary inside cells, the method sees their means");
     entry("rounding", bound.rounding, "the most that the processor’s arithmetic can hide");
-    html + "</dl>\n"
+    html + "</dl>\n" + &list("notes", &beside(panel, bound.total))
 }
 
-/// What the total means, as a part of the solution and beside the truth.
-fn total(panel: &ScenePanel, total: f64) -> String {
-    let mut words =
-        "guaranteed: the continuous s and the flux τ are no further off than this".to_owned();
+/// What is guaranteed.
+const TOTAL: &str =
+    "guaranteed: the continuous s and the flux τ, in the energy norm, are no further off than this";
+const OF_U: &str = "guaranteed: the means over the edges, in the energy norm, cell by cell, are no further off than this";
+
+/// How errors are weighed.
+const NORMS: [&str; 3] = [
+    "The energy norm of errors of s and u_h weighs the gradient by A: ‖A^½∇(u − s)‖, ‖A^½∇(u − u_h)‖.",
+    "The energy norm of errors of τ weighs the flux by A⁻¹: ‖A^−½(σ − τ)‖.",
+    "The total counts those of s and τ together, with what Robin edges add.",
+];
+
+/// How the terms are weighed, the total as a part of the solution, and the truth.
+fn beside(panel: &ScenePanel, total: f64) -> Vec<String> {
     let part = 100.0 * total / panel.energy;
-    if part.is_finite() {
-        let _ = write!(words, ", {} % of the solution’s ‖A^½∇u‖", plain(part));
-    }
-    if let Some(error) = panel.error {
-        let _ = write!(words, "; in truth it is {} off", plain(error));
-    }
-    words
+    let size = part
+        .is_finite()
+        .then(|| format!("The total is {} % of the solution’s energy norm ‖A^½∇u‖.", plain(part)));
+    let truth = panel.error.map(|error| format!("In truth s and τ are {} off.", plain(error)));
+    NORMS.map(str::to_owned).into_iter().chain(size).chain(truth).collect()
 }

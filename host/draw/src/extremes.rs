@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::Listing;
 use super::frame::frame;
 use super::outcome_map::{OutcomeMap, key, outcome_map};
+use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::listing;
 
@@ -38,7 +39,8 @@ pub fn extremes(found: &Extremes) -> String {
         return "<p class=\"lead\">No committed record of extremes: run <code>signorini extremes</code></p>\n"
             .to_owned();
     }
-    let mut html = format!("<p class=\"lead\">{LEAD} {}</p>\n", escape(&found.summary));
+    let mut html = format!("<p class=\"lead\">{LEAD}</p>\n{}", list("notes", &SQUARES));
+    let _ = writeln!(html, "<div class=\"lead\">{}</div>", unrolled(&found.summary));
     html += "<ul class=\"card series outcomes\">\n";
     for (outcome, means) in &found.legend {
         let (key, outcome, means) = (key(outcome), escape(outcome), escape(means));
@@ -56,15 +58,19 @@ pub fn extremes(found: &Extremes) -> String {
     html
 }
 
-const LEAD: &str = "Scenes with exact solutions, whose numbers are pushed until something gives. A square is a \
-                    case, with the sweeps that it took; pointed at, it says more. Errors are integrated at \
-                    scale 1, where no number overflows, and compared with what a direct solver in f64 reaches \
-                    on the same grid.";
+const LEAD: &str = "Scenes with exact solutions had their numbers pushed until something gave.";
+
+/// How to read the maps.
+const SQUARES: [&str; 3] = [
+    "A square is a case, with the sweeps that it took; pointed at, it says more.",
+    "Errors are integrated at scale 1, where no number overflows.",
+    "They are compared with what a direct solver in f64 reaches on the same grid.",
+];
 
 fn study(study: &ExtremesStudy) -> String {
     let mut html = format!("<div class=\"card\">\n<h3>{}</h3>\n", escape(&study.heading));
     if !study.remark.is_empty() {
-        let _ = writeln!(html, "<p class=\"caption\">{}</p>", escape(&study.remark));
+        html += &list("caption", &study.remark.split("; ").collect::<Vec<_>>());
     }
     html += "<div class=\"maps\">\n";
     for (heading, map) in &study.maps {

@@ -2,7 +2,8 @@
 //! picture that stands by itself.
 
 use super::frame::STYLE;
-use super::loglog::{MARKER, marker};
+use super::lettering::{shortened, width};
+use super::look::Look;
 use super::scale::{Scale, extent};
 use super::simplify::simplify;
 use super::strip::{across, frame, heading, vertical};
@@ -18,12 +19,15 @@ const HEIGHT: f64 = 96.0;
 const STEP: f64 = 136.0;
 /// Below the last diagram: its axis.
 const FOOT: f64 = 48.0;
-/// From one entry of a legend to the next.
+/// From one entry of a legend to the next, at most, and the part of it that its marker takes.
 const ENTRY: f64 = 120.0;
-/// Ticks have markers on curves that are no longer than this.
+const KEY: f64 = 14.0;
+/// Size of the letters of its names.
+const LETTERS: f64 = 11.5;
+/// Each tick has a marker on curves that are no longer than this.
 const MARKED: usize = 64;
-/// Looks of the curves in one diagram.
-const LOOKS: [usize; 3] = [0, 2, 3];
+/// On longer ones so many ticks have one, where there is another curve to tell apart.
+const SPARSE: usize = 12;
 
 /// The picture; diagrams without a value to show are left out.
 pub fn history(history: &History) -> String {
@@ -77,16 +81,12 @@ fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]
     let shown = |curve: &&Curve| curve.values.iter().any(Option::is_some);
     let curves: Vec<&Curve> = strip.curves.iter().filter(shown).collect();
     for (at, curve) in curves.iter().enumerate() {
-        let look = LOOKS[at % LOOKS.len()];
-        draw_curve(svg, curve, time, [along, &up], look);
-        let left = LEFT + ENTRY * at as f64;
-        if curves.len() == 1 {
-            heading(svg, left, top, &curve.label);
-        } else {
-            markers(svg, look, &[[left + 4.0, top - 12.0]]);
-            heading(svg, left + 14.0, top, &curve.label);
-        }
+        let look = Look::beside_limits(at);
+        let pixels = draw_curve(svg, curve, time, [along, &up], look);
+        look.markers(svg, &marked(&pixels, curves.len()));
     }
+    let limit = strip.limit.iter().map(|(name, _)| width(name, LETTERS) + KEY).sum::<f64>();
+    legend(svg, &curves, [LEFT, RIGHT - limit], top);
     if let Some((name, value)) = &strip.limit {
         let y = up.at(*value);
         svg.line("limit", [LEFT, y], [RIGHT, y]);
@@ -94,8 +94,29 @@ fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]
     }
 }
 
-/// The curve, interrupted where it has no value.
-fn draw_curve(svg: &mut Svg, curve: &Curve, time: &[f64], [along, up]: [&Scale; 2], look: usize) {
+/// What the diagram shows: its only curve by name, more of them with their markers.
+fn legend(svg: &mut Svg, curves: &[&Curve], [start, end]: [f64; 2], top: f64) {
+    if let [curve] = curves {
+        return heading(svg, start, top, &curve.label);
+    }
+    let entry = ENTRY.min((end - start) / curves.len() as f64);
+    for (at, curve) in curves.iter().enumerate() {
+        let left = start + entry * at as f64;
+        Look::beside_limits(at).markers(svg, &[[left + 4.0, top - 12.0]]);
+        let text = shortened(&curve.label, LETTERS, entry - KEY - 4.0);
+        let place = [left + KEY, top - 8.0];
+        svg.abridged("quantity", place, Anchor::Start, &text, &curve.label);
+    }
+}
+
+/// The curve, interrupted where it has no value; the pixels of its ticks.
+fn draw_curve(
+    svg: &mut Svg,
+    curve: &Curve,
+    time: &[f64],
+    [along, up]: [&Scale; 2],
+    look: Look,
+) -> Vec<Option<[f64; 2]>> {
     let at = |(time, value): (&f64, &Option<f64>)| {
         let point = [along.at(*time), up.at((*value)?)];
         point.iter().all(|pixel| pixel.is_finite()).then_some(point)
@@ -105,16 +126,18 @@ fn draw_curve(svg: &mut Svg, curve: &Curve, time: &[f64], [along, up]: [&Scale; 
     for run in points.split(Option::is_none) {
         line.line(&simplify(run.iter().flatten().copied().collect()));
     }
-    svg.path(&format!("curve series-{look}"), &line);
-    if points.len() <= MARKED {
-        markers(svg, look, &points.into_iter().flatten().collect::<Vec<_>>());
-    }
+    svg.path(&look.class("curve"), &line);
+    points
 }
 
-fn markers(svg: &mut Svg, look: usize, points: &[[f64; 2]]) {
-    let mut path = Path::default();
-    points.iter().for_each(|&point| path.polygon(&marker(look, point, MARKER)));
-    svg.path(&format!("marker series-{look}"), &path);
+/// The ticks that have a marker: all of a short curve, a few of a long one that is not alone.
+fn marked(ticks: &[Option<[f64; 2]>], curves: usize) -> Vec<[f64; 2]> {
+    let drawn: Vec<[f64; 2]> = ticks.iter().flatten().copied().collect();
+    match ticks.len() {
+        0..=MARKED => drawn,
+        _ if curves == 1 => Vec::new(),
+        _ => drawn.iter().copied().step_by(drawn.len().div_ceil(SPARSE).max(1)).collect(),
+    }
 }
 
 #[cfg(test)]

@@ -1,16 +1,18 @@
 //! The report: one HTML file a person wants to look at, complete in itself.
 //!
 //! ```text
-//! Report ─► page (HTML) ─┬─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
+//! Report ─► page (HTML) ─┬─► section  a heading each, and the contents that link to them
+//!                        ├─► panel ─┬─► field    u as colour ◄ isobands; the flux ◄ arrows  ─┬─► plane
 //!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
 //!                        │          ├─► contact  λ and the opening along C
 //!                        │          └─► bound    how wrong it can be, and why, in words
-//!                        ├─► convergence  error over mesh width                             ─┬─► loglog
-//!                        ├─► sweeps       error bound over sweeps                           ─┘
+//!                        ├─► figures ─┬─► convergence  error over mesh width                ─┬─► loglog
+//!                        │            └─► sweeps       error bound over sweeps              ─┘
 //!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //!                        └─► extremes     numbers pushed until something gives ─► outcome_map
 //! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
 //! ```
+//! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`prose`).
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
 //! Nothing here knows a solver or a scene: everything is plain data, filled by whoever ran one. Values that are
 //! not finite are never written: what they belong to is left out or shown as "–".
@@ -22,11 +24,13 @@ mod contact;
 mod convergence;
 mod extremes;
 mod field;
+mod figures;
 mod frame;
 mod history;
 mod isobands;
 mod lettering;
 mod loglog;
+mod look;
 mod mosaic;
 mod outcome_map;
 mod outline;
@@ -34,7 +38,9 @@ mod page;
 mod panel;
 mod pareto;
 mod plane;
+mod prose;
 mod scale;
+mod section;
 mod simplify;
 mod strip;
 mod svg;
@@ -61,6 +67,8 @@ pub struct Report {
     pub title: String,
     /// Version, compiler, machine: what made these numbers.
     pub generated_by: String,
+    /// The solutions, a panel each.
+    pub scenes: Vec<ScenePanel>,
     /// The main table.
     pub table: Table,
     /// Claims that were tested beside the rows of the table.
@@ -75,8 +83,6 @@ pub struct Report {
     pub tradeoff: Option<Tradeoff>,
     /// What became of scenes whose numbers were pushed.
     pub extremes: Option<Extremes>,
-    /// The solutions, a panel each.
-    pub scenes: Vec<ScenePanel>,
 }
 
 /// A table in which every row passes or fails.

@@ -1,5 +1,6 @@
 //! A chart with two logarithmic axes, in which powers are straight lines.
 
+use super::look::Look;
 use super::scale::Scale;
 use super::svg::{Anchor, Path, Svg};
 
@@ -9,10 +10,6 @@ const LEFT: f64 = 58.0;
 const RIGHT: f64 = 428.0;
 const TOP: f64 = 12.0;
 const BOTTOM: f64 = 286.0;
-/// Looks that the style sheet tells apart; more curves begin again with the first.
-pub const LOOKS: usize = 6;
-/// Half the width of a marker, roughly.
-pub const MARKER: f64 = 3.6;
 
 /// A chart being drawn.
 pub struct LogLog {
@@ -47,10 +44,8 @@ impl LogLog {
     /// Draws a curve with a marker at each of its points, in the look of its index.
     pub fn curve(&mut self, index: usize, points: &[[f64; 2]]) {
         self.line(index, points);
-        let look = index % LOOKS;
-        let mut markers = Path::default();
-        points.iter().for_each(|&point| markers.polygon(&marker(look, self.at(point), MARKER)));
-        self.svg.path(&format!("marker series-{look}"), &markers);
+        let pixels: Vec<[f64; 2]> = points.iter().map(|&point| self.at(point)).collect();
+        Look::of(index).markers(&mut self.svg, &pixels);
     }
 
     /// Draws a curve without markers.
@@ -67,7 +62,7 @@ impl LogLog {
         let pixels: Vec<[f64; 2]> = points.iter().map(|&point| self.at(point)).collect();
         let mut line = Path::default();
         line.line(&pixels);
-        self.svg.path(&format!("{class} series-{}", index % LOOKS), &line);
+        self.svg.path(&Look::of(index).class(class), &line);
     }
 
     /// The finished element.
@@ -94,25 +89,4 @@ pub fn positive(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
 /// Whether a value has a place on a logarithmic axis.
 pub fn has_logarithm(value: f64) -> bool {
     value.is_normal() && value > 0.0
-}
-
-/// Square, diamond or triangle, so that colour is not the only difference.
-pub fn marker(look: usize, [x, y]: [f64; 2], r: f64) -> Vec<[f64; 2]> {
-    let offsets: &[[f64; 2]] = match look % 3 {
-        0 => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-        1 => &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
-        _ => &[[0.0, -1.3], [1.2, 0.9], [-1.2, 0.9]],
-    };
-    offsets.iter().map(|[dx, dy]| [x + r * dx, y + r * dy]).collect()
-}
-
-/// The look of a curve by itself, for a legend.
-pub fn legend_marker(index: usize) -> String {
-    let look = index % LOOKS;
-    let mut svg = Svg::new(26.0, 12.0, "");
-    svg.line(&format!("curve series-{look}"), [1.0, 6.0], [25.0, 6.0]);
-    let mut path = Path::default();
-    path.polygon(&marker(look, [13.0, 6.0], MARKER));
-    svg.path(&format!("marker series-{look}"), &path);
-    svg.finish()
 }

@@ -1,137 +1,166 @@
-//! The page around the pictures. Every tag is closed, so the page is well-formed XML as well.
+//! The page around the pictures: contents first, then the solutions, then what was found out about them.
+//! Every tag is closed, so the page is well-formed XML as well.
 
 use std::fmt::Write;
 
-use super::convergence::{convergence, measured_rate, rate_label};
 use super::extremes::extremes;
+use super::figures::{convergence_figure, sweeps_figure};
 use super::frame::{frame, mark};
-use super::loglog::legend_marker;
 use super::panel::panel;
+use super::prose::list;
+use super::section::{Section, contents, counted};
 use super::svg::escape;
-use super::sweeps::sweeps;
 use super::table::checked;
 use super::tradeoff::tradeoff;
-use super::{Check, ConvergencePlot, Report, SweepPlot};
+use super::{Check, Report, ScenePanel};
 
 /// The whole page as one file, complete in itself.
 pub fn html(report: &Report) -> String {
-    let mut page = String::new();
-    header(&mut page, report);
-    page.push_str("<main>\n");
-    if !report.table.rows.is_empty() {
-        section(&mut page, "Every run", &checked(&report.table, &report.scenes));
-    }
-    if !report.checks.is_empty() {
-        section(&mut page, "Further checks", &checks(&report.checks));
-    }
-    let plots: String = report.convergence.iter().filter_map(convergence_figure).collect();
-    if !plots.is_empty() {
-        section(&mut page, "Convergence", &format!("<div class=\"plots\">\n{plots}</div>\n"));
-    }
-    cut_off(&mut page, report);
-    if let Some(found) = &report.tradeoff {
-        section(&mut page, "Speed for accuracy", &tradeoff(found));
-    }
-    if let Some(found) = &report.extremes {
-        section(&mut page, "Extremes", &extremes(found));
-    }
-    if !report.scenes.is_empty() {
-        let panels: String = report.scenes.iter().enumerate().map(panel).collect();
-        section(&mut page, "Solutions", &format!("<div class=\"panels\">\n{panels}</div>\n"));
-    }
+    let sections = sections(report);
+    let mut page = header(report) + &contents(&sections) + "<main>\n";
+    page.extend(sections.iter().map(Section::html));
     let made_by = escape(&report.generated_by);
     let _ = write!(page, "</main>\n<footer>{made_by}</footer>\n");
     frame(&report.title, &page)
 }
 
-fn section(page: &mut String, heading: &str, body: &str) {
-    let _ = write!(page, "<section>\n<h2>{heading}</h2>\n{body}</section>\n");
+/// The sections that have something to show, in the order of the page.
+fn sections(report: &Report) -> Vec<Section> {
+    let all = [
+        solutions(&report.scenes),
+        runs(report),
+        further_checks(&report.checks),
+        rates(report),
+        cut_off(report),
+        speed_for_accuracy(report),
+        pushed(report),
+    ];
+    all.into_iter().flatten().collect()
 }
 
-fn cut_off(page: &mut String, report: &Report) {
-    if report.cut_off.rows.is_empty() {
-        return;
+fn solutions(scenes: &[ScenePanel]) -> Option<Section> {
+    let panels: String = scenes.iter().enumerate().map(panel).collect();
+    let body = format!("{}<div class=\"panels\">\n{panels}</div>\n", scene_links(scenes));
+    let extent = counted(scenes.len(), "scene");
+    (!scenes.is_empty()).then_some(Section { id: "solutions", heading: "Solutions", extent, body })
+}
+
+/// Links to the panels, where there are several.
+fn scene_links(scenes: &[ScenePanel]) -> String {
+    if scenes.len() < 2 {
+        return String::new();
     }
+    let mut html = String::from("<ul class=\"links\">\n");
+    for (at, scene) in scenes.iter().enumerate() {
+        let _ = writeln!(html, "<li><a href=\"#scene-{at}\">{}</a></li>", escape(&scene.name));
+    }
+    html + "</ul>\n"
+}
+
+fn runs(report: &Report) -> Option<Section> {
+    let count = report.table.rows.len();
+    let body = checked(&report.table, &report.scenes);
+    let extent = counted(count, "run");
+    (count > 0).then_some(Section { id: "runs", heading: "Every run", extent, body })
+}
+
+fn further_checks(checks: &[Check]) -> Option<Section> {
+    let mut body = String::from("<ul class=\"checks\">\n");
+    for check in checks {
+        let (claim, found) = (escape(&check.claim), escape(&check.found));
+        let mark = mark(check.passed);
+        let _ = writeln!(body, "<li>{mark}<span>{claim}</span><em>{found}</em></li>");
+    }
+    body += "</ul>\n";
+    let extent = counted(checks.len(), "claim");
+    (!checks.is_empty()).then_some(Section {
+        id: "checks",
+        heading: "Further checks",
+        extent,
+        body,
+    })
+}
+
+fn rates(report: &Report) -> Option<Section> {
+    let plots: Vec<String> = report.convergence.iter().filter_map(convergence_figure).collect();
+    let extent = counted(plots.len(), "plot");
+    let body = format!("<div class=\"plots\">\n{}</div>\n", plots.concat());
+    let heading = "Convergence";
+    (!plots.is_empty()).then_some(Section { id: "convergence", heading, extent, body })
+}
+
+fn cut_off(report: &Report) -> Option<Section> {
+    let count = report.cut_off.rows.len();
     let table = checked(&report.cut_off, &report.scenes);
     let plots: String = report.sweeps.iter().filter_map(sweeps_figure).collect();
     let body = format!(
         "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
-         wrong the answer is then. A column for each number of sweeps from a cold start: the gap of the \
-         bound in units of the energy error of u at that moment. In the pictures the true error is that \
-         of what the bound is about, and lies on it.</p>\n{table}<div class=\"plots\">\n{plots}</div>\n"
+         wrong the answer is then.</p>\n{}{table}<div class=\"plots\">\n{plots}</div>\n",
+        list("notes", &CUT_OFF)
     );
-    section(page, "Cut off", &body);
+    let extent = counted(count, "scene");
+    (count > 0).then_some(Section { id: "cut-off", heading: "Cut off", extent, body })
 }
 
-fn header(page: &mut String, report: &Report) {
+/// How to read the section.
+const CUT_OFF: [&str; 3] = [
+    "Each column of the table stands for a number of sweeps from a cold start.",
+    "Its numbers give the gap of the bound over the error of u at that moment: the gradient error, weighed \
+     by A (energy norm ‖A^½∇(u − u_h)‖).",
+    "In the pictures the true error is that of s and τ, which the bound is about, and lies on it: the \
+     gradient of s is weighed by A, the flux τ by A⁻¹ (energy norms).",
+];
+
+fn speed_for_accuracy(report: &Report) -> Option<Section> {
+    let found = report.tradeoff.as_ref()?;
+    let extent = counted(found.scenes.len(), "scene");
+    let body = tradeoff(found);
+    Some(Section { id: "tradeoff", heading: "Speed for accuracy", extent, body })
+}
+
+fn pushed(report: &Report) -> Option<Section> {
+    let found = report.extremes.as_ref()?;
+    let maps = found.studies.iter().map(|study| study.maps.len()).sum();
+    let extent = counted(maps, "map");
+    Some(Section { id: "extremes", heading: "Extremes", extent, body: extremes(found) })
+}
+
+fn header(report: &Report) -> String {
+    format!(
+        "<header>\n<h1>{}</h1>\n<p class=\"lead\">The scalar Signorini problem: u solves \
+         −∇·(A∇u) = f, and on the contact boundary C it stays above the gap ψ; it is pushed back \
+         by λ ≥ 0, and only where it touches.</p>\n{}{}</header>\n",
+        escape(&report.title),
+        list("notes", &PICTURES),
+        verdict(report)
+    )
+}
+
+/// How to read a solution.
+const PICTURES: [&str; 4] = [
+    "In the picture of a solution, colour shows u.",
+    "Arrows show the flux σ = A∇u.",
+    "A thick red line marks the part of C in contact.",
+    "The picture beside it shows which cells the error comes from, with a guaranteed bound on it: no exact \
+     solution is needed for that.",
+];
+
+/// Whether everything holds, and otherwise how much does not.
+fn verdict(report: &Report) -> String {
     let runs = failures("run", report.table.rows.iter().map(|row| row.passed));
     let stopped = failures("cut-off run", report.cut_off.rows.iter().map(|row| row.passed));
     let checks = failures("check", report.checks.iter().map(|check| check.passed));
     let scenes = failures("scene", report.scenes.iter().map(|scene| scene.passed));
     let failed: Vec<String> = [runs, stopped, checks, scenes].into_iter().flatten().collect();
-    let verdict = if failed.is_empty() {
-        format!("<p class=\"verdict\">{} Every check holds</p>", mark(true))
-    } else {
-        format!("<p class=\"verdict failed\">{} Failed: {}</p>", mark(false), failed.join(", "))
-    };
-    let _ = write!(
-        page,
-        "<header>\n<h1>{}</h1>\n<p class=\"lead\">The scalar Signorini problem: u solves \
-         −∇·(A∇u) = f, and on the contact boundary C it stays above the gap ψ; it is pushed back \
-         by λ ≥ 0, and only where it touches. Each picture shows u as colour, the flux σ = A∇u as \
-         arrows and the part of C in contact as a thick red line; beside it, which cells the error \
-         comes from, and a guaranteed bound on it: no exact solution is needed for that.</p>\n{verdict}\n</header>\n",
-        escape(&report.title)
-    );
+    if failed.is_empty() {
+        return format!("<p class=\"verdict\">{} Every check holds</p>\n", mark(true));
+    }
+    format!("<p class=\"verdict failed\">{} Failed: {}</p>\n", mark(false), failed.join(", "))
 }
 
 /// `2 of 9 runs`, or nothing when all passed.
 fn failures(noun: &str, passed: impl ExactSizeIterator<Item = bool>) -> Option<String> {
     let total = passed.len();
     let failed = passed.filter(|passed| !passed).count();
-    let plural = if total == 1 { "" } else { "s" };
-    (failed > 0).then(|| format!("{failed} of {total} {noun}{plural}"))
-}
-
-fn checks(checks: &[Check]) -> String {
-    let mut html = String::from("<ul class=\"checks\">\n");
-    for check in checks {
-        let (claim, found) = (escape(&check.claim), escape(&check.found));
-        let mark = mark(check.passed);
-        let _ = writeln!(html, "<li>{mark}<span>{claim}</span><em>{found}</em></li>");
-    }
-    html + "</ul>\n"
-}
-
-fn convergence_figure(plot: &ConvergencePlot) -> Option<String> {
-    let entries = plot.series.iter().map(|series| {
-        let rate = measured_rate(series).map_or("–".to_owned(), |rate| format!("{rate:.2}"));
-        let expected = rate_label(series.expected_rate);
-        let note = format!("<em>rate {rate}, expected {expected}</em>");
-        (series.label.as_str(), note)
-    });
-    Some(figure(&plot.title, &convergence(plot)?, entries))
-}
-
-fn sweeps_figure(plot: &SweepPlot) -> Option<String> {
-    let entries = plot.curves.iter().map(|(label, _)| (label.as_str(), String::new()));
-    Some(figure(&plot.title, &sweeps(plot)?, entries))
-}
-
-/// A chart with its legend: a name and a note a curve.
-fn figure<'a>(
-    title: &str,
-    picture: &str,
-    entries: impl Iterator<Item = (&'a str, String)>,
-) -> String {
-    let mut legend = String::new();
-    for (index, (label, note)) in entries.enumerate() {
-        let (marker, label) = (legend_marker(index), escape(label));
-        let _ = writeln!(legend, "<li>{marker}<span>{label}</span>{note}</li>");
-    }
-    format!(
-        "<figure class=\"card\">\n<h3>{}</h3>\n{picture}<ul class=\"series\">\n{legend}</ul>\n\
-         </figure>\n",
-        escape(title)
-    )
+    (failed > 0).then(|| format!("{failed} of {}", counted(total, noun)))
 }

@@ -46,8 +46,9 @@ fn contact_figure(scene: &ScenePanel) -> String {
 
 fn error_figure(scene: &ScenePanel) -> String {
     let Some(map) = mosaic(scene) else { return String::new() };
-    let note = "<li>colour: each cell’s part of the gap, which tells where to refine; the squares add up to gap²</li>";
-    format!("<figure>\n{map}<ul class=\"legend\">{note}</ul>\n</figure>\n")
+    let notes = "<li>Colour shows each cell’s part of the gap, which tells where to refine.</li>\
+                 <li>The squares of the parts add up to gap².</li>";
+    format!("<figure>\n{map}<ul class=\"legend\">{notes}</ul>\n</figure>\n")
 }
 
 fn facts(scene: &ScenePanel) -> String {

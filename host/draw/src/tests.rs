@@ -1,167 +1,9 @@
 //! The page as a whole: well-formed, free of NaN, small.
 
+mod fixtures;
+
 use super::*;
-
-/// The half-disc field r^{3/2} cos 3θ/2 on 2n × n squares of (−1, 1) × (0, 1); columns with x < 0
-/// are cut into triangles when `mixed`.
-fn panel(n: u32, mixed: bool) -> ScenePanel {
-    let columns = 2 * n + 1;
-    let at = |i: u32, j: u32| [f64::from(i) / f64::from(n) - 1.0, f64::from(j) / f64::from(n)];
-    let vertices: Vec<[f64; 2]> =
-        (0..=n).flat_map(|j| (0..columns).map(move |i| (i, j))).map(|(i, j)| at(i, j)).collect();
-    let (mut triangles, mut quads) = (Vec::new(), Vec::new());
-    for (i, j) in (0..n).flat_map(|j| (0..2 * n).map(move |i| (i, j))) {
-        let [a, b] = [j * columns + i, j * columns + i + 1];
-        let [d, c] = [a + columns, b + columns];
-        if mixed && i < n {
-            triangles.extend([[a, b, c], [a, c, d]]);
-        } else {
-            quads.push([a, b, c, d]);
-        }
-    }
-    let polar = |[x, y]: [f64; 2]| (x.hypot(y), y.atan2(x));
-    let centre = |cell: &[u32]| {
-        let sum = cell.iter().fold([0.0, 0.0], |sum, &v| {
-            let [x, y] = vertices[v as usize];
-            [sum[0] + x, sum[1] + y]
-        });
-        sum.map(|part| part / cell.len() as f64)
-    };
-    let flux = |cell: &[u32]| {
-        let (r, angle) = polar(centre(cell));
-        [1.5 * r.sqrt() * (0.5 * angle).cos(), -1.5 * r.sqrt() * (0.5 * angle).sin()]
-    };
-    let cell_flux =
-        triangles.iter().map(|cell| flux(cell)).chain(quads.iter().map(|cell| flux(cell)));
-    let edge = |i: u32| {
-        let [from, to] = [at(i, 0), at(i + 1, 0)];
-        let exact = |x: f64| 1.5 * (-x).max(0.0).sqrt();
-        let middle = 0.5 * (from[0] + to[0]);
-        ContactEdge {
-            ends: [from, to],
-            arc_length: [from[0] + 1.0, to[0] + 1.0],
-            active: middle < 0.0,
-            multiplier: exact(middle),
-            exact_multiplier: (0..9)
-                .map(|k| exact(from[0] + f64::from(k) / f64::from(8 * n)))
-                .collect(),
-            opening: middle.max(0.0).powf(1.5),
-        }
-    };
-    ScenePanel {
-        name: "half-disc".to_owned(),
-        title: "r^3/2 & <friends>".to_owned(),
-        passed: true,
-        vertex_u: vertices
-            .iter()
-            .map(|&point| polar(point))
-            .map(|(r, angle)| r.powf(1.5) * (1.5 * angle).cos())
-            .collect(),
-        cell_flux: cell_flux.collect(),
-        indicators: (0..triangles.len() + quads.len()).map(|cell| 1e-4 * cell as f64).collect(),
-        bound: Some(bound()),
-        no_bound: None,
-        error: Some(0.19),
-        energy: 2.0,
-        contact: (0..2 * n).map(edge).collect(),
-        boundary: vec![BoundaryEdge { ends: [at(0, 0), at(0, n)], kind: BoundaryKind::Dirichlet }],
-        facts: vec![("unknowns".to_owned(), "6112".to_owned())],
-        vertices,
-        triangles,
-        quads,
-    }
-}
-
-fn bound() -> BoundTerms {
-    BoundTerms {
-        total: 0.2,
-        of_u: 0.35,
-        gap: 0.195,
-        algebraic: 1e-9,
-        oscillation: 0.005,
-        rounding: 1e-12,
-    }
-}
-
-fn full(panel: ScenePanel) -> Report {
-    let row = |cells: &[&str], passed| TableRow {
-        cells: cells.iter().map(|&cell| cell.to_owned()).collect(),
-        passed,
-    };
-    let series = |expected_rate: f64| ConvergenceSeries {
-        label: format!("rate {expected_rate}"),
-        h: vec![0.25, 0.125],
-        error: vec![0.25_f64.powf(expected_rate), 0.125_f64.powf(expected_rate)],
-        expected_rate,
-    };
-    Report {
-        title: "Signorini <script>".to_owned(),
-        generated_by: "version \"0\"".to_owned(),
-        table: Table {
-            header: vec!["scene".to_owned(), "error".to_owned()],
-            rows: vec![row(&["half-disc", "1e-3"], true), row(&["other", "–"], false)],
-        },
-        checks: vec![Check { claim: "a < b".to_owned(), found: "1 < 2".to_owned(), passed: true }],
-        convergence: vec![ConvergencePlot {
-            title: "L2".to_owned(),
-            series: vec![series(1.0), series(2.0)],
-        }],
-        cut_off: Table {
-            header: vec!["scene".to_owned(), "1".to_owned()],
-            rows: vec![row(&["half-disc", "5.3"], true)],
-        },
-        sweeps: vec![SweepPlot {
-            title: "half-disc".to_owned(),
-            sweeps: vec![1.0, 5.0],
-            curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
-        }],
-        tradeoff: Some(tradeoff()),
-        extremes: Some(Extremes::default()),
-        scenes: vec![panel],
-    }
-}
-
-/// Two settings on a front, one of them with a name that would be markup, and one beside it.
-fn tradeoff() -> Tradeoff {
-    let point = |name: &str, cost: f64, error: f64, front: bool| ParetoPoint {
-        name: name.to_owned(),
-        note: "<cost> & error".to_owned(),
-        cost,
-        error,
-        bound: Some(1.5 * error),
-        front,
-        recommended: name == "f64",
-        ..ParetoPoint::default()
-    };
-    let picture = ParetoPlot {
-        title: "a < b".to_owned(),
-        cost: "cycles".to_owned(),
-        size: 1.0,
-        series: vec!["level 0".to_owned()],
-        points: vec![
-            point("f32 & <fast>", 1e3, 1e-2, true),
-            point("f64", 1e4, 1e-3, true),
-            point("slow", 2e4, f64::NAN, false),
-        ],
-    };
-    let rows = vec![vec!["f32 & <fast>".to_owned(), "1 000".to_owned()]];
-    let front = Listing { header: vec!["a".to_owned(), "b".to_owned()], rows, marked: Some(0) };
-    let study = TradeStudy {
-        heading: "On the host".to_owned(),
-        further: vec![("a < b".to_owned(), front.clone())],
-        picture,
-        front: front.clone(),
-        ..TradeStudy::default()
-    };
-    let scene = TradePanel { studies: vec![study], ..TradePanel::default() };
-    Tradeoff {
-        summary: front,
-        findings: vec!["f32 < f64".to_owned()],
-        sizes: "a < b".to_owned(),
-        of_sizes: vec!["a > b".to_owned()],
-        scenes: vec![scene],
-    }
-}
+use fixtures::{full, panel};
 
 /// Every tag is closed, in order; no bare `<`, `>` or `&` in the text.
 fn assert_well_formed(page: &str) {
@@ -205,13 +47,40 @@ fn the_page_is_well_formed_and_complete_in_itself() {
     assert!(page.contains("Failed: 1 of 2 runs"));
     assert!(page.contains("<em>rate 2.00, expected 2</em>"));
     assert!(page.contains(">f32 &amp; &lt;fast&gt;</text>") && page.contains(">f64</text>"));
-    assert!(page.contains("10.0 % of the solution’s ‖A^½∇u‖; in truth it is 0.190 off"));
+    assert!(page.contains("The total is 10.0 % of the solution’s energy norm ‖A^½∇u‖."));
+    assert!(page.contains("In truth s and τ are 0.190 off."));
+}
+
+#[test]
+fn contents_lead_to_every_section_and_the_solutions_come_first() {
+    let page = assert_clean(&full(panel(4, false)));
+    let order = ["solutions", "runs", "checks", "convergence", "cut-off", "tradeoff", "extremes"];
+    let sections: Vec<&str> = between(&page, "<section id=\"");
+    assert_eq!(sections, order);
+    let (contents, rest) = page.split_once("</nav>").unwrap();
+    assert_eq!(between(contents, "<a href=\"#"), order);
+    assert!(contents.contains("<nav") && !rest.contains("<nav"));
+    let at = |text: &str| page.find(text).unwrap();
+    assert!(at("</header>") < at("<nav") && at("id=\"scene-0\"") < at("id=\"runs\""));
+}
+
+#[test]
+fn several_solutions_have_links_at_their_top() {
+    let mut report = full(panel(4, false));
+    assert!(!html(&report).contains("class=\"links\""));
+    report.scenes.push(ScenePanel { name: "a < b".to_owned(), ..ScenePanel::default() });
+    assert!(assert_clean(&report).contains("<li><a href=\"#scene-1\">a &lt; b</a></li>"));
+}
+
+/// What stands between each `start` and the next quote.
+fn between<'p>(page: &'p str, start: &str) -> Vec<&'p str> {
+    page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
 }
 
 #[test]
 fn a_page_with_nothing_to_show_is_still_a_page() {
     let page = assert_clean(&Report::default());
-    assert!(!page.contains("<section>"));
+    assert!(!page.contains("<section") && !page.contains("<nav"));
     assert_clean(&full(ScenePanel::default()));
 }
 

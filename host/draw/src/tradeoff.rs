@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::pareto::{ParetoPlot, pareto};
+use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::listing;
 
@@ -67,7 +68,8 @@ pub fn tradeoff(found: &Tradeoff) -> String {
         html +=
             "<p class=\"lead\">No committed trade record: run <code>signorini trade</code></p>\n";
     } else {
-        html += LEAD;
+        let _ = writeln!(html, "<p class=\"lead\">{LEAD}</p>");
+        html += &list("notes", &COLUMNS);
         html += &listing(&found.summary);
         html += &findings(&found.findings);
     }
@@ -83,10 +85,18 @@ pub fn tradeoff(found: &Tradeoff) -> String {
     html
 }
 
-const LEAD: &str = "<p class=\"lead\">What a user can turn, measured: each scene was solved with many \
-                    settings. Errors are distances to the exact solution, or to a much finer one, as parts of its energy; bounds are \
-                    certified. The last columns are the cycles of other solvers for the same condensed problem, \
-                    from the answer of the tick before, over those of the kernel.</p>\n";
+const LEAD: &str = "What a user can turn, measured: each scene was solved with many settings.";
+
+/// How to read the tables.
+const COLUMNS: [&str; 4] = [
+    "Errors are distances to the exact solution, or to a much finer one, in percent of the energy norm ‖A^½∇u‖ \
+     of the solution.",
+    "The error of u_h is the gradient error, weighed by A (energy norm ‖A^½∇(u − u_h)‖); that of s, τ weighs \
+     the gradient of s by A and the flux τ by A⁻¹, together.",
+    "Bounds are certified, and are for the error of s, τ.",
+    "The last columns of the first table give the cycles of other solvers for the same condensed problem, \
+     from the answer of the tick before, over those of the kernel.",
+];
 
 fn findings(sentences: &[String]) -> String {
     if sentences.is_empty() {
@@ -94,7 +104,7 @@ fn findings(sentences: &[String]) -> String {
     }
     let mut html = String::from("<ul class=\"findings\">\n");
     for sentence in sentences {
-        let _ = writeln!(html, "<li>{}</li>", escape(sentence));
+        let _ = writeln!(html, "<li>{}</li>", unrolled(sentence));
     }
     html + "</ul>\n"
 }
@@ -109,10 +119,10 @@ fn panel(scene: &TradePanel) -> String {
 
 fn study(study: &TradeStudy) -> String {
     let heading = escape(&study.heading);
-    let recommendation = escape(&study.recommendation);
+    let recommendation = unrolled(&study.recommendation);
     let picture = pareto(&study.picture).map(|picture| format!("<figure>\n{picture}</figure>\n"));
     let mut html = format!(
-        "<h3>{heading}</h3>\n<p class=\"taken\">{recommendation}</p>\n{}{}{}",
+        "<h3>{heading}</h3>\n<div class=\"taken\">{recommendation}</div>\n{}{}{}",
         picture.unwrap_or_default(),
         listing(&study.front),
         findings(&study.notes)

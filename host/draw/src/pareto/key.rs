@@ -2,12 +2,12 @@
 
 use super::{LEFT, LETTERS, ParetoPlot, ParetoPoint, RIGHT, WIDTH, drawn_bound};
 use crate::lettering::{shortened, width};
-use crate::loglog::{LOOKS, MARKER, marker};
+use crate::look::Look;
 use crate::svg::{Anchor, Path, Svg, circle};
 
 /// An entry of the legend.
 pub enum Key<'p> {
-    /// A colour and what it means.
+    /// A colour with a marker, and what they mean.
     Series(usize, &'p str),
     /// The stair.
     Front,
@@ -23,11 +23,6 @@ const LINE: f64 = 19.0;
 /// Room of an entry's mark, and between entries.
 const MARK: f64 = 24.0;
 const BETWEEN: f64 = 18.0;
-
-/// The look of a series; more of them begin again with the first.
-pub fn look(series: usize) -> usize {
-    series % LOOKS
-}
 
 /// The heading, shortened where it would leave the picture.
 pub fn title(svg: &mut Svg, title: &str) {
@@ -62,10 +57,7 @@ impl Key<'_> {
     fn draw(&self, svg: &mut Svg, [x, y]: [f64; 2]) {
         let mut path = Path::default();
         match *self {
-            Self::Series(at, _) => {
-                path.polygon(&marker(look(at), [x + 10.0, y], MARKER));
-                svg.path(&format!("marker series-{}", look(at)), &path);
-            }
+            Self::Series(at, _) => Look::of(at).markers(svg, &[[x + 10.0, y]]),
             Self::Front => {
                 path.line(&[
                     [x, y - 4.0],

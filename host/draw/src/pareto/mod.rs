@@ -5,7 +5,8 @@ mod key;
 mod layout;
 
 use super::frame::STYLE;
-use super::loglog::{MARKER, has_logarithm, marker, upright};
+use super::loglog::{has_logarithm, upright};
+use super::look::{Look, MARKER};
 use super::scale::Scale;
 use super::svg::{Anchor, Path, Svg, circle};
 use layout::Layout;
@@ -19,7 +20,7 @@ pub struct ParetoPlot {
     pub cost: String,
     /// The size of the solution, which makes percents of errors; 0 where there is none.
     pub size: f64,
-    /// What the points of a colour have in common.
+    /// What the points of a colour and marker have in common.
     pub series: Vec<String>,
     /// The settings.
     pub points: Vec<ParetoPoint>,
@@ -49,6 +50,8 @@ pub struct ParetoPoint {
 const WIDTH: f64 = 880.0;
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 810.0;
+/// What the error is, by what it weighs.
+const ERROR: &str = "gradient error of u, weighed by A (energy norm ‖A^½∇(u − u_h)‖)";
 /// Size of the letters of names.
 const LETTERS: f64 = 11.5;
 
@@ -124,8 +127,8 @@ fn axes(svg: &mut Svg, plot: &ParetoPlot, layout: &Layout) {
         svg.line("grid", [LEFT, y], [RIGHT, y]);
         svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
     }
-    let words = if relative { "energy error, of the solution’s energy" } else { "energy error" };
-    svg.text("quantity", [LEFT, top - 10.0], Anchor::Start, words);
+    let of = if relative { ", of the solution’s" } else { "" };
+    svg.text("quantity", [LEFT, top - 10.0], Anchor::Start, &format!("{ERROR}{of}"));
     if relative {
         for (value, label) in layout.up.ticks(5) {
             let y = layout.up.at(value);
@@ -163,7 +166,7 @@ fn stair(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
 /// The markers, those of the front above the others; bounds, leaders to names and the ring.
 fn points(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
     for point in shown.iter().filter(|point| !point.front) {
-        mark(svg, layout, point, "dominated ", 0.75 * MARKER);
+        mark(svg, layout, point, "marker dominated", 0.75 * MARKER);
     }
     for (point, name) in front(shown).zip(&layout.names) {
         let at = layout.at(point);
@@ -180,7 +183,7 @@ fn points(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
         }
     }
     for point in front(shown) {
-        mark(svg, layout, point, "", 1.15 * MARKER);
+        mark(svg, layout, point, "marker", 1.15 * MARKER);
     }
     for point in shown.iter().filter(|point| point.recommended) {
         let mut ring = Path::default();
@@ -190,9 +193,9 @@ fn points(svg: &mut Svg, layout: &Layout, shown: &[&ParetoPoint]) {
 }
 
 fn mark(svg: &mut Svg, layout: &Layout, point: &ParetoPoint, class: &str, radius: f64) {
-    let look = key::look(point.series);
+    let look = Look::of(point.series);
     let mut path = Path::default();
-    path.polygon(&marker(look, layout.at(point), radius));
+    path.polygon(&look.marker(layout.at(point), radius));
     let words = format!("{}: {}", point.name, point.note);
-    svg.explained(&format!("marker {class}series-{look}"), &path, &words);
+    svg.explained(&look.class(class), &path, &words);
 }

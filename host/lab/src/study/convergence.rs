@@ -126,11 +126,12 @@ impl Grid {
 
     /// What the rates must be.
     fn checks(self, name: &str, [h1, l2, flux]: [f64; 3]) -> Vec<Check> {
-        let flux = Check::at_least(name, "‖σ − σ_h‖ falls with rate 1", flux, 0.97);
+        let claim = "the mean-square error of the flux ‖σ − σ_h‖ falls with rate 1";
+        let flux = Check::at_least(name, claim, flux, 0.97);
         match self {
             Self::Trapezoids(Trapezoids::InTwoRows, QuadElement::Parametric) => {
-                let half = "|u − u_h|₁ of the parametric element falls with rate ½ on two rows of trapezoids";
-                let one = "‖u − u_h‖ of the parametric element falls with rate 1 on two rows of trapezoids";
+                let half = "the gradient error |u − u_h|₁ of the parametric element falls with rate ½ on two rows of trapezoids";
+                let one = "the mean-square error of u ‖u − u_h‖ of the parametric element falls with rate 1 on two rows of trapezoids";
                 vec![
                     Check::between(name, half, h1, [0.45, 0.55]),
                     Check::between(name, one, l2, [0.9, 1.1]),
@@ -138,15 +139,20 @@ impl Grid {
                 ]
             }
             Self::Trapezoids(Trapezoids::Everywhere, QuadElement::Parametric) => {
-                let claim =
-                    "the parametric element does not converge on trapezoids: rate of |u − u_h|₁";
+                let claim = "the parametric element does not converge on trapezoids: rate of the gradient error \
+                             |u − u_h|₁";
                 vec![Check::at_most(name, claim, h1.abs(), 0.1)]
             }
             // The free points of H move against the grid, so that l2 scatters around its slope by up to
             // a twelfth.
             _ => vec![
-                Check::at_least(name, "|u − u_h|₁ falls with rate 1", h1, 0.97),
-                Check::at_least(name, "‖u − u_h‖ falls with rate 2", l2, 1.85),
+                Check::at_least(name, "the gradient error |u − u_h|₁ falls with rate 1", h1, 0.97),
+                Check::at_least(
+                    name,
+                    "the mean-square error of u ‖u − u_h‖ falls with rate 2",
+                    l2,
+                    1.85,
+                ),
                 flux,
             ],
         }
@@ -189,9 +195,9 @@ struct Quantity {
 }
 
 const QUANTITIES: [Quantity; 3] = [
-    Quantity { title: "Broken energy error |u − u_h|₁", place: 0, pick: |e| e.h1 },
-    Quantity { title: "L² error ‖u − u_h‖", place: 1, pick: |e| e.l2 },
-    Quantity { title: "Flux error ‖σ − σ_h‖", place: 2, pick: |e| e.flux },
+    Quantity { title: "Gradient error of u, unweighed: |u − u_h|₁", place: 0, pick: |e| e.h1 },
+    Quantity { title: "Mean-square error of u (L²): ‖u − u_h‖", place: 1, pick: |e| e.l2 },
+    Quantity { title: "Mean-square error of the flux (L²): ‖σ − σ_h‖", place: 2, pick: |e| e.flux },
 ];
 
 impl Quantity {

@@ -28,6 +28,13 @@ use signorini_scene::error::Result;
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::progress::{say, steps};
 
+/// Error norms by what they weigh, with their symbols; these do not break at the end of a line.
+const OF_GRADIENT: &str = "gradient error of u, unweighed: |u\u{a0}−\u{a0}u_h|₁";
+const OF_ENERGY: &str =
+    "gradient error of u, weighed by A (energy norm): ‖A^½∇(u\u{a0}−\u{a0}u_h)‖";
+const OF_U: &str = "mean-square error of u (L²): ‖u\u{a0}−\u{a0}u_h‖";
+const OF_FLUX: &str = "mean-square error of the flux (L²): ‖σ\u{a0}−\u{a0}σ_h‖";
+
 /// Everything that `results.json` holds.
 #[derive(Debug, Serialize)]
 struct Results<'r> {

@@ -2,6 +2,7 @@
 
 use super::contact_line::{Place, walk};
 use super::known::Case;
+use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
 use signorini_scene::scene::Scene;
 use signorini_solve::certify::ErrorBound;
@@ -11,6 +12,8 @@ use signorini_solve::solve::Solution;
 
 /// Points an edge at which the exact multiplier is drawn.
 const SAMPLES: usize = 9;
+/// How far the kernel is from the reference.
+const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
 
 /// Collects the picture of one scene.
 pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel {
@@ -112,23 +115,29 @@ fn boundary(problem: &Problem) -> Vec<BoundaryEdge> {
 fn facts(case: &Case) -> Vec<(String, String)> {
     let [triangles, quads] = case.cells;
     let certified = &case.f64.certified;
-    let sweeps = format!("{}, {}", certified.sweeps, case.f32.certified.sweeps);
     let mut facts = vec![
         ("unknowns".to_owned(), case.unknowns.to_string()),
-        ("triangles, quads".to_owned(), format!("{triangles}, {quads}")),
+        ("triangles".to_owned(), triangles.to_string()),
+        ("quads".to_owned(), quads.to_string()),
         ("contact force ∫(σ·n − q)".to_owned(), format!("{:.6e}", case.force)),
         ("active contact edges".to_owned(), format!("{} of {}", case.contact[0], case.contact[1])),
-        ("sweeps f64, f32".to_owned(), sweeps),
-        ("u against faer, f64".to_owned(), format!("{:.1e}", case.f64.distance)),
-        ("u against faer, f32".to_owned(), format!("{:.1e}", case.f32.distance)),
+        ("sweeps in f64".to_owned(), certified.sweeps.to_string()),
+        ("sweeps in f32".to_owned(), case.f32.certified.sweeps.to_string()),
+        (format!("{FROM_FAER}, f64"), format!("{:.1e}", case.f64.distance)),
+        (format!("{FROM_FAER}, f32"), format!("{:.1e}", case.f32.distance)),
     ];
     if let Some(errors) = &certified.errors {
-        facts.push(("|u − u_h|₁".to_owned(), format!("{:.4e}", errors.h1)));
-        facts.push(("‖u − u_h‖".to_owned(), format!("{:.4e}", errors.l2)));
-        facts.push(("‖σ − σ_h‖".to_owned(), format!("{:.4e}", errors.flux)));
+        let norms = [
+            (OF_ENERGY, errors.energy),
+            (OF_GRADIENT, errors.h1),
+            (OF_U, errors.l2),
+            (OF_FLUX, errors.flux),
+        ];
+        facts.extend(norms.map(|(name, error)| (name.to_owned(), format!("{error:.4e}"))));
     }
     if let Some(ratio) = certified.efficiency(case.energy) {
-        facts.push(("gap / energy error of u_h".to_owned(), format!("{ratio:.3}")));
+        let name = "gap of the bound / gradient error of u, weighed by A";
+        facts.push((name.to_owned(), format!("{ratio:.3}")));
     }
     facts
 }
