@@ -197,7 +197,9 @@ struct Quantity {
 const QUANTITIES: [Quantity; 3] = [
     Quantity { title: "Gradient error of u, unweighed: |u − u_h|₁", place: 0, pick: |e| e.h1 },
     Quantity { title: "Mean-square error of u (L²): ‖u − u_h‖", place: 1, pick: |e| e.l2 },
-    Quantity { title: "Mean-square error of the flux (L²): ‖σ − σ_h‖", place: 2, pick: |e| e.flux },
+    Quantity {
+        title: "Mean-square error of the flux (L²): ‖σ − σ_h‖", place: 2, pick: |e| e.flux
+    },
 ];
 
 impl Quantity {

@@ -103,7 +103,9 @@ fn plot(study: &CutOff) -> SweepPlot {
         title: format!("{}, stopped after some sweeps", study.name),
         sweeps: study.stops.iter().map(|stop| f64::from(stop.sweeps)).collect(),
         curves: vec![
-            curve("guaranteed bound on the error of s, τ", |stop| stop.bound.map(|bound| bound.total)),
+            curve("guaranteed bound on the error of s, τ", |stop| {
+                stop.bound.map(|bound| bound.total)
+            }),
             curve("true error of s, τ (energy norms, weighed by A and A⁻¹)", Certified::error),
             curve("algebraic part of the bound", |stop| stop.bound.map(|bound| bound.algebraic)),
         ],

@@ -13,8 +13,10 @@ use super::functions::Functions;
 use super::patterns::Pattern;
 use super::reach::{Source, reach};
 use super::residual::{Block, blocks, jumps};
+use super::rounding::hidden;
 use crate::certify::ends::of_moved;
-use crate::problem::{Parts, Problem};
+use crate::problem::{Assembled, Parts, Problem};
+use crate::solve::unfit;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 
@@ -74,18 +76,22 @@ impl Ground<'_> {
         let Some(reach) = self.reach(&blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
+        let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(self.scene))?;
+        let widened = |factor: Vec<f64>| {
+            let share = 1.0 + hidden(&assembled);
+            factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
+        };
         let jump = jumps(self.scene, problem, patterns, &functions)?.map(|blocks| {
             let means = table(problem.ends.len(), self.fields, |field| &field.u);
-            packed(&triangular(&blocks, &s, &means))
+            widened(packed(&triangular(&blocks, &s, &means)))
         });
         // As in `certify::Data`: for s, and for u_h beside it.
         let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(self.scene, problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
-        let factor = packed(&triangular(&blocks, &s, &fluxes));
         let form = Form {
-            lost: self.lost(&blocks, &s, &fluxes, &factor, reach)?,
-            factor,
+            factor: widened(packed(&triangular(&blocks, &s, &fluxes))),
+            lost: self.lost(&blocks, &s, &fluxes, &assembled, reach)?,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
             reach,

@@ -1,12 +1,12 @@
 //! What rounding in f64 leaves in the columns of the forms, where the host made them.
 //!
 //! ```text
-//!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  reach ‖ΔŜ_j‖  +  64 ε κ ‖F_j‖
+//!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  reach ‖ΔŜ_j‖
 //! ```
 //! First comes the residual itself, a sum of terms that cancel. Then τ, which balances on the cells up to rounding: what is
 //! left is brought along the forest to the boundary (`way`, see [`signorini_kernel::certificate::stability`]), and where contact
-//! alone holds a part through a contact edge (`out`). Then Ŝ, which is made symmetric. Last what oblique element matrices hide of
-//! themselves (κ, see [`signorini_kernel::certificate::Stability`]). Next to the rounding of f32 all of
+//! alone holds a part through a contact edge (`out`). Last Ŝ, which is made symmetric. What oblique element matrices hide of
+//! themselves is a share of all of F ([`hidden`]). Next to the rounding of f32 all of
 //! this is nothing; in f64 it is what is left to be wrong of an answer that is exact.
 
 use signorini_kernel::components::Support;
@@ -28,6 +28,11 @@ const FEW: f64 = 24.0 * f64::EPSILON;
 /// How many roundings of an element matrix the energy of a cell sees at most.
 const HIDDEN: f64 = 64.0;
 
+/// 64 ε κ, see [`signorini_kernel::certificate::Stability`].
+pub(super) fn hidden(assembled: &Assembled<f64>) -> f64 {
+    HIDDEN * f64::EPSILON * assembled.obliqueness()
+}
+
 impl Ground<'_> {
     /// lost_j of the columns of p and x, for U = 1.
     ///
@@ -38,7 +43,7 @@ impl Ground<'_> {
         blocks: &[Block],
         s: &Table,
         fluxes: &Table,
-        factor: &[f64],
+        assembled: &Assembled<f64>,
         reach: f64,
     ) -> Result<Vec<f64>> {
         let inputs = self.patterns.len();
@@ -46,13 +51,7 @@ impl Ground<'_> {
         lost.iter_mut().for_each(|size| *size *= FEW);
         let most = self.openings.iter().fold(0.0, |most: f64, d| most.max(*d));
         let out = if self.floating.is_empty() { 0.0 } else { reach * most };
-        let assembled = Assembled::<f64>::new(self.problem).map_err(unfit::<f64>(self.scene))?;
-        let oblique = HIDDEN * f64::EPSILON * assembled.obliqueness();
-        for (at, lost) in lost.iter_mut().enumerate() {
-            let column = &factor[at * (at + 1) / 2..(at + 1) * (at + 2) / 2];
-            *lost += oblique * column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-        }
-        let way = self.way(&assembled)? + out;
+        let way = self.way(assembled)? + out;
         for (at, (field, lost)) in self.fields.iter().zip(&mut lost).enumerate() {
             let loads = self.patterns.get(at).map(|pattern| &pattern.loads);
             *lost += way * self.unbalanced(field, loads);
