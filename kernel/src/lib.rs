@@ -155,6 +155,7 @@ pub use relaxation::Relaxation;
 pub use report::Report;
 #[cfg(feature = "mesh")]
 pub use tensor::Tensor;
+pub use verdict::{Certificate, Verdict};
 #[cfg(feature = "workspace")]
 pub use workspace::Workspace;
 

@@ -1,7 +1,7 @@
 //! What the report of a controller holds, as lines of a journal.
 
 use signorini_board::journal::{Bits, Journal};
-use signorini_kernel::certificate::{Certificate, Verdict};
+use signorini_kernel::verdict::{Certificate, Verdict};
 use signorini_kernel::report::{Ended, Report};
 
 /// A report whose figures can be told.
