@@ -8,6 +8,7 @@ use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::storage::{Storage, TableauStorage};
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, sor};
+use signorini_kernel::error::Array;
 use signorini_kernel::report::Ended;
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
@@ -233,15 +234,36 @@ fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
 #[test]
 fn wrong_lengths_are_refused() -> Result<(), Error> {
     let strip = Strip::<f64>::new(5);
-    assert!(Blocks::new(strip.blocks(), 9).is_err());
+    assert_eq!(
+        Blocks::new(strip.blocks(), 9).err(),
+        Some(Error::Length { of: Array::MatrixValues, found: 1, expected: 3 })
+    );
     let matrix = strip.matrix()?;
-    assert!(blocks::multiply_add(&matrix, &[0.0; 16], &[true; 16], &mut [0.0; 16]).is_err());
-    assert!(blocks::multiply_add(&matrix, &[0.0; 8], &[true; 8], &mut [0.0; 5]).is_err());
-    assert!(blocks::multiply_add(&matrix, &[0.0; 5], &[true; 8], &mut [0.0; 8]).is_err());
-    assert!(sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).is_err());
-    assert!(sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).is_err());
+    assert_eq!(
+        blocks::multiply_add(&matrix, &[0.0; 16], &[true; 16], &mut [0.0; 16]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 16, expected: 8 })
+    );
+    assert_eq!(
+        blocks::multiply_add(&matrix, &[0.0; 8], &[true; 8], &mut [0.0; 5]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 5, expected: 8 })
+    );
+    assert_eq!(
+        blocks::multiply_add(&matrix, &[0.0; 5], &[true; 8], &mut [0.0; 8]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 5, expected: 8 })
+    );
+    assert_eq!(
+        sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).err(),
+        Some(Error::Length { of: Array::Load, found: 5, expected: 8 })
+    );
+    assert_eq!(
+        sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 5, expected: 8 })
+    );
     let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
-    assert!(Tableau::new(5, &mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).is_err());
+    assert_eq!(
+        Tableau::new(5, &mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).err(),
+        Some(Error::Length { of: Array::Scratch, found: 5, expected: 8 })
+    );
     assert!(
         Tableau::new(5, &mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err()
     );

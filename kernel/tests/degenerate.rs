@@ -144,19 +144,46 @@ fn arrays_that_do_not_fit_are_refused() {
         Csr::new(row_ptr, col_idx, values, 2).map(|matrix| matrix.rows())
     };
     assert_eq!(csr(&[0, 1, 2], &[0, 1], &[1.0, 1.0]), Ok(2));
-    assert!(csr(&[0, 2, 1], &[0, 1], &[1.0, 1.0]).is_err());
-    assert!(csr(&[0, 1, 9], &[0, 1], &[1.0, 1.0]).is_err());
-    assert!(csr(&[0, 1, 2], &[0, 7], &[1.0, 1.0]).is_err());
-    assert!(csr(&[0, 1, 2], &[1, 0], &[1.0, 1.0]).is_err());
-    assert!(csr(&[0, 1, 2], &[0, 1], &[1.0, -1.0]).is_err());
-    assert!(csr(&[0, 1, 2], &[0, 1], &[1.0, f64::NAN]).is_err());
-    assert!(csr(&[], &[], &[]).is_err());
+    assert_eq!(
+        csr(&[0, 2, 1], &[0, 1], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 9], &[0, 1], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 2 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 7], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::ColumnIndices, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[1, 0], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 0 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 1], &[1.0, -1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 1], &[1.0, f64::NAN]).err(),
+        Some(Error::NotFinite { of: Array::MatrixValues, at: 1 })
+    );
+    assert_eq!(
+        csr(&[], &[], &[]).err(),
+        Some(Error::Length { of: Array::RowPointers, found: 0, expected: 1 })
+    );
     let one = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
-    assert!(Edges::<u16>::new(&[[0, 0, 0]], &[], &[[0, 1]], one).is_err());
-    assert!(Edges::<u16>::new(&[[7, 0, 0]], &[], &[[9, 1]], one).is_err());
+    assert_eq!(
+        Edges::<u16>::new(&[[0, 0, 0]], &[], &[[0, 1]], one).err(),
+        Some(Error::Length { of: Array::HalfEdges, found: 2, expected: 3 })
+    );
+    assert_eq!(
+        Edges::<u16>::new(&[[7, 0, 0]], &[], &[[9, 1]], one).err(),
+        Some(Error::OutOfRange { of: Array::HalfEdges, at: 0 })
+    );
     for omega in [0.0, 2.0, -1.0, f64::NAN] {
         let settings = Settings { relaxation: Relaxation::Fixed(omega), ..Settings::default() };
-        assert!(Solver::new(settings).is_err());
+        assert_eq!(Solver::new(settings).err(), Some(Error::Relaxation));
     }
 }
 
@@ -179,7 +206,10 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
         let (lower, mut u) = (vec![0.0; lower], vec![0.0; u]);
         assert!(psor::sweep(&rows, &lower, &mut u).is_err(), "{lower:?} {u:?}");
     }
-    assert!(psor::sweep_free(&rows, &mut [0.0; 3]).is_err());
+    assert_eq!(
+        psor::sweep_free(&rows, &mut [0.0; 3]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 3, expected: 4 })
+    );
     assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
 
     // The bill of memory in `docs/embedding.md`.
@@ -198,7 +228,10 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     assert!(Boundary::new(&square, &[], &[law(2), law(0)], &[]).is_err(), "out of order");
     assert!(Boundary::new(&square, &[], &[law(2), law(2)], &[]).is_err(), "two on one edge");
     let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
-    assert!(rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).is_err());
+    assert_eq!(
+        rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).err(),
+        Some(Error::Capacity { of: Array::Quads, needed: 1, limit: 0 })
+    );
 
     // A contact edge between two triangles, which no numbering of a mesh has.
     let inside = EdgeCounts { free: 2, contact: 1, dirichlet: 2 };

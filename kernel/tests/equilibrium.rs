@@ -10,6 +10,7 @@ use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::cells::{CellBuffers, Either, Quad, Triangle, pack};
 use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::equilibrium::{Iterate, impose, pulled, walk};
+use signorini_kernel::error::Array;
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
@@ -159,5 +160,8 @@ fn forests_that_are_none_are_refused() {
     assert!(refused([0, 1], [0, 2], [0, 1]), "the side of another cell");
     assert!(refused([0, 1], [2, 3], [0, 1]), "in a circle");
     assert!(refused([0, 1], [0, 9], [0, 1]), "no side");
-    assert!(Forest::new(&edges, &[0], &[0], &[0]).is_err());
+    assert_eq!(
+        Forest::new(&edges, &[0], &[0], &[0]).err(),
+        Some(Error::Length { of: Array::Scratch, found: 1, expected: 2 })
+    );
 }

@@ -10,6 +10,7 @@ use plate::foundation::{Foundation, GAP};
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::certificate::{Certificate, Given, Ground, Verdict};
 use signorini_kernel::conforming::VertexData;
+use signorini_kernel::error::Array;
 use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick};
@@ -119,7 +120,10 @@ fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(
     let none = put_down.resumed(&foundation, &mut rows, Progress::NONE).map(|_| ());
     assert_eq!(none, Err(Error::Relaxation));
     let mut few = OwnedRows::<f64, u16, QUADS, 3>::new();
-    assert!(put_down.resumed(&foundation, &mut few, progress).is_err());
+    assert_eq!(
+        put_down.resumed(&foundation, &mut few, progress).err(),
+        Some(Error::Length { of: Array::Rows, found: 3, expected: 55 })
+    );
     Ok(())
 }
 
@@ -129,11 +133,15 @@ fn memory_of_another_size_is_refused() -> Result<(), Error> {
     for array in [0, 1, 3, 4] {
         let mut store = Store::new(&foundation)?;
         store.numbers[array].pop();
-        assert!(store.tick(&foundation).is_err(), "array {array}");
+        let refused = store.tick(&foundation).err();
+        assert!(matches!(refused, Some(Error::Length { .. })), "array {array}: {refused:?}");
     }
     let mut store = Store::new(&foundation)?;
     store.active.pop();
-    assert!(store.tick(&foundation).is_err());
+    assert_eq!(
+        store.tick(&foundation).err(),
+        Some(Error::Length { of: Array::Contact, found: 4, expected: 5 })
+    );
     Ok(())
 }
 
