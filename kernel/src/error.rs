@@ -83,6 +83,10 @@ pub enum Error {
     },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
+    /// A workspace holds no problem: it has not been built, or not since an error left it half done.
+    NotBuilt,
+    /// A mesh with other cells than the one that a workspace was built for.
+    OtherMesh,
 }
 
 /// A cell, by kind and number.
@@ -166,6 +170,8 @@ impl fmt::Display for Error {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
+            Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),
+            Self::OtherMesh => write!(f, "the workspace was built for a mesh with other cells"),
         }
     }
 }

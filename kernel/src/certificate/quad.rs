@@ -113,7 +113,10 @@ pub(super) fn obliqueness<R: Real, I: Index>(
     cell: &Quad<R, I>,
     points: Option<&[Tensor<R>; POINTS * POINTS]>,
 ) -> R {
-    let of = |b: Tensor<R>| R::ONE / (R::ONE - b.xy / b.xx * (b.xy / b.yy));
+    let of = |b: Tensor<R>| match b.xx > R::ZERO && b.yy > R::ZERO {
+        true => R::ONE / (R::ONE - b.xy / b.xx * (b.xy / b.yy)),
+        false => R::ONE / R::ZERO,
+    };
     let Some(points) = points else { return of(of_parallelogram(&cell.k)) };
     let worse = |most: R, b: &Tensor<R>| {
         let here = of(*b);

@@ -74,7 +74,9 @@ pub fn stability<R: Real, I: Index>(
         oblique = oblique.or_larger(if kappa >= R::ONE { kappa } else { R::ONE / R::ZERO });
         let out = |k: usize| if k == last { R::ONE } else { R::ZERO };
         let whole = read(way, number.at()) + energy(metric, cell, out);
-        largest = largest.or_larger(whole);
+        // Numbers out of range tell nothing.
+        let known = whole > R::ZERO && softness > R::ZERO;
+        largest = largest.or_larger(if known { whole } else { R::ONE / R::ZERO });
         let quotient = whole / softness;
         weighed = weighed.or_larger(if quotient.finite() { quotient } else { R::ONE / R::ZERO });
     }

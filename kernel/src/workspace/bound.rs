@@ -9,16 +9,18 @@ use heapless::Vec;
 use super::fit;
 use crate::boundary::Boundary;
 use crate::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use crate::certificate::{Ground, Metric, Stability, stability};
+use crate::certificate::{Ground, Metric, Stability, of_quad, stability};
 use crate::conforming::VertexData;
 use crate::edges::Edges;
+use crate::element::rannacher_turek::place;
 use crate::equilibrium::is_root;
-use crate::error::{Array, Error};
+use crate::error::{Array, CellId, Error};
 use crate::forest::{Forest, ForestBuffers, grow};
 use crate::index::{Index, read, write};
 use crate::mesh::Mesh;
 use crate::real::Real;
 use crate::stiffness::{Coefficient, Stiffness};
+use crate::tensor::Tensor;
 
 /// Ways out of the cells and cells packed along them.
 #[derive(Debug)]
@@ -45,8 +47,10 @@ pub(super) struct Equilibration<
     of_vertices: Vec<R, VERTICES>,
     of_edges: Vec<R, EDGES>,
     stability: Stability<R>,
-    /// Whether all quads are parallelograms.
+    /// Whether all quads are parallelograms whose element matrices tell A.
     affine: bool,
+    /// What of A and of A in the directions of the sides cancels in rounded sums: [`cancelled`] of any cell.
+    cancelled: R,
     /// Behind the cell that has no way out, where there is one; 0 elsewhere, so that an empty workspace is all zeros.
     cut_off: usize,
 }
@@ -75,6 +79,7 @@ impl<
             of_edges: Vec::new(),
             stability: Stability { largest: R::ZERO, weighed: R::ZERO, oblique: R::ZERO },
             affine: false,
+            cancelled: R::ZERO,
             cut_off: 0,
         }
     }
@@ -111,8 +116,29 @@ impl<
             *compliance = R::QUARTER / (a.xx * a.yy - a.xy * a.xy);
         }
         let constant = q == 0 || !matches!(coefficient, Coefficient::PerPoint(_));
-        self.affine = constant && mesh.quads().iter().all(|quad| is_parallelogram(mesh.quad(quad)));
+        let is_told = |(at, quad): (usize, &[I; 4])| {
+            let corners = mesh.quad(quad);
+            let a = coefficient.of_cell(t + at, t, points);
+            is_parallelogram(corners) && is_told(of_quad(&place(corners, [R::HALF; 2]), a))
+        };
+        self.affine = constant && mesh.quads().iter().enumerate().all(is_told);
+        self.cancelled = R::ONE;
+        for (at, cell) in mesh.triangles().iter().enumerate() {
+            let a = coefficient.of_cell(at, t, points);
+            self.bear(cancelled(a, mesh.triangle(cell)), CellId::Triangle(at))?;
+        }
+        for (at, cell) in mesh.quads().iter().enumerate() {
+            let a = coefficient.of_cell(t + at, t, points);
+            self.bear(cancelled(a, mesh.quad(cell)), CellId::Quad(at))?;
+        }
         Ok(())
+    }
+
+    /// Takes what cancels in the element matrix of a cell.
+    fn bear(&mut self, cancelled: R, cell: CellId) -> Result<(), Error> {
+        self.cancelled = self.cancelled.or_larger(cancelled);
+        let told = R::from_count(32) * R::EPSILON * cancelled < R::ONE;
+        told.then_some(()).ok_or(Error::Oblique(cell))
     }
 
     /// Finds the ways out through D and R, and packs the cells along them. Where a part has no way out, there is none.
@@ -139,6 +165,7 @@ impl<
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let cells = pack(mesh, edges, stiffness, alpha, &self.compliance, &forest, buffers)?;
         self.stability = stability(edges, &cells, Metric::default(), boundary, &forest, way)?;
+        self.stability.oblique *= self.cancelled;
         Ok(())
     }
 
@@ -173,13 +200,42 @@ impl<
     }
 }
 
-/// Whether opposite sides agree to the last digits of the longer of them.
+/// Whether opposite sides agree to the last digits of the cell's height.
 fn is_parallelogram<R: Real>([a, b, c, d]: [[R; 2]; 4]) -> bool {
     let side = |from: [R; 2], to: [R; 2]| [to[0] - from[0], to[1] - from[1]];
-    let (bottom, top) = (side(a, b), side(d, c));
-    let size = bottom.iter().chain(&top).fold(R::ZERO, |most, x| most.or_larger(x.magnitude()));
-    let differ = |(x, y): (&R, &R)| (*x - *y).magnitude() > R::TWO * R::EPSILON * size;
+    let (bottom, top, left) = (side(a, b), side(d, c), side(a, d));
+    let size = |v: [R; 2]| v[0].magnitude().or_larger(v[1].magnitude());
+    let longer = size(bottom).or_larger(size(left));
+    let height = (bottom[0] * left[1] - bottom[1] * left[0]).magnitude() / longer;
+    let differ = |(x, y): (&R, &R)| (*x - *y).magnitude() > R::TWO * R::EPSILON * height;
     !bottom.iter().zip(&top).any(differ)
+}
+
+/// Whether the element matrix tells B: it holds sums of B's entries, in which the small one of a thin cell is lost.
+fn is_told<R: Real>(b: Tensor<R>) -> bool {
+    let spread = b.xx + b.yy;
+    let condition = spread * (spread / (b.xx * b.yy - b.xy * b.xy));
+    R::from_count(1000) * R::EPSILON * condition <= R::ONE
+}
+
+/// How much larger the terms of det A, and of N·AN for the normals N of the sides, are than what they cancel to: a host
+/// rounds such sums once, in f64, and a workspace rounds every term in its own scalar.
+fn cancelled<R: Real, const N: usize>(a: Tensor<R>, corners: [[R; 2]; N]) -> R {
+    let scale = a.xx.or_larger(a.yy);
+    let [xx, xy, yy] = [a.xx / scale, a.xy / scale, a.yy / scale];
+    let worse = |most: R, terms: R, sum: R| {
+        let here = if sum > R::ZERO { terms / sum } else { R::ONE / R::ZERO };
+        most.or_larger(here)
+    };
+    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+    let sides = ends.fold(R::ONE, |most, (p, q)| {
+        let [m, n] = [q[1] - p[1], p[0] - q[0]];
+        let size = m.magnitude().or_larger(n.magnitude());
+        let [m, n] = [m / size, n / size];
+        let (straight, oblique) = (xx * m * m + yy * n * n, R::TWO * xy * m * n);
+        worse(most, straight + oblique.magnitude(), straight + oblique)
+    });
+    worse(sides, xx * yy + xy * xy, xx * yy - xy * xy)
 }
 
 /// What boundary data allow for.
@@ -201,7 +257,9 @@ pub(super) fn allowed<R: Real, I: Index>(
     last: &mut [[I; 2]],
 ) -> Allowed {
     let counts = edges.counts();
-    last.fill([I::NONE; 2]);
+    for edge in counts.free..counts.edges() {
+        edges.endpoints(mesh, edge).iter().for_each(|end| write(last, end.at(), [I::NONE; 2]));
+    }
     let known = |[at, end]: [I; 2]| read(&read(ends.given, at.at()), end.at());
     for (at, values) in ends.given.iter().enumerate() {
         let corners = edges.endpoints(mesh, counts.unknowns() + at);

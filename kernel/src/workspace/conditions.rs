@@ -6,8 +6,9 @@ use super::{Workspace, bound};
 use crate::assembly::{self, CellLoads};
 use crate::boundary::{Boundary, Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
-use crate::edges::Edges;
+use crate::edges::{Edges, known};
 use crate::error::{Array, Error, all_finite, same_length};
+use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::Mesh;
 use crate::real::Real;
@@ -28,31 +29,58 @@ impl<
     /// Sets all boundary data anew; the iterate stays. An edge keeps its block: contact edges stay
     /// contact and Dirichlet edges stay Dirichlet.
     ///
-    /// `condition` is asked twice for every boundary edge, and must say the same: once before anything changes. The work
+    /// `condition` is asked twice for every boundary edge, once before anything changes, and should say the same. The work
     /// is that of the boundary edges; where a transfer coefficient changes, matrix and ways out are worked out anew.
     ///
     /// # Errors
     /// An edge without a condition or with one of another block, numbers that are not admissible: the data stay as
-    /// they were.
+    /// they were. Where only the second asking is refused, the workspace has to be built anew ([`Error::NotBuilt`]).
     pub fn set_conditions(
         &mut self,
         mesh: &Mesh<R, I>,
         mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
     ) -> Result<(), Error> {
-        let same_matrix = self.check_conditions(mesh, &mut condition)?;
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
+        if mesh.vertices().len() != self.at_vertex.len() || mesh.cells() != self.cells() {
+            return Err(Error::OtherMesh);
+        }
+        let edges = self.numbered();
+        for (edge, length) in self.boundary.iter().zip(&self.lengths) {
+            Asked::new(&edges, mesh, edge.at(), *length, &mut condition)?;
+        }
+        self.replace_conditions(mesh, condition)
+    }
+
+    /// The second asking, which replaces the data: what it says counts.
+    pub(super) fn replace_conditions(
+        &mut self,
+        mesh: &Mesh<R, I>,
+        mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
+    ) -> Result<(), Error> {
+        let had_matrix = core::mem::replace(&mut self.built, false);
+        let before = self.robin.len();
         self.neumann.clear();
-        self.robin.clear();
         self.contact_flux.clear();
         self.gap.clear();
         self.gap_ends.clear();
         self.dirichlet.clear();
         self.dirichlet_ends.clear();
+        let (mut laws, mut same) = (0, had_matrix);
         for at in 0..self.boundary.len() {
             let (edge, length) = (read(&self.boundary, at), read(&self.lengths, at));
             let asked = Asked::new(&self.numbered(), mesh, edge.at(), length, &mut condition)?;
-            self.set_condition(edge, &asked)?;
+            match asked.law(edge) {
+                Some(law) => {
+                    same &= self.set_law(laws, law)?;
+                    laws += 1;
+                }
+                None => self.set_condition(edge, &asked)?,
+            }
         }
-        if !same_matrix {
+        self.robin.truncate(laws);
+        if !(same && laws == before) {
             self.fill_matrix(mesh)?;
         }
         self.load_boundary()?;
@@ -60,35 +88,24 @@ impl<
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let ends = super::ends(&self.gap_ends, &self.dirichlet_ends);
         self.allowed = bound::allowed(mesh, &edges, ends, at_vertex);
+        self.built = true;
         Ok(())
     }
 
-    /// Asks for every condition without changing anything; whether matrix and ways out stay as they are.
-    fn check_conditions(
-        &self,
-        mesh: &Mesh<R, I>,
-        condition: &mut impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
-    ) -> Result<bool, Error> {
-        let edges = self.numbered();
-        let (mut laws, mut same) = (0, self.has_matrix);
-        for (edge, length) in self.boundary.iter().zip(&self.lengths) {
-            let asked = Asked::new(&edges, mesh, edge.at(), *length, condition)?;
-            asked.check(edge.at())?;
-            if let Some(law) = asked.law(*edge) {
-                let before = self.robin.get(laws);
-                same &= before
-                    .is_some_and(|old| old.edge == law.edge && old.coefficient == law.coefficient);
-                laws += 1;
+    /// Puts a transfer law at its place; whether it has the edge and the coefficient of the one that was there.
+    fn set_law(&mut self, at: usize, law: Robin<R, I>) -> Result<bool, Error> {
+        match self.robin.get_mut(at) {
+            Some(old) => {
+                let same = old.edge == law.edge && old.coefficient == law.coefficient;
+                *old = law;
+                Ok(same)
             }
+            None => push(&mut self.robin, law, Array::Robin).map(|()| false),
         }
-        Ok(same && laws == self.robin.len())
     }
 
     fn set_condition(&mut self, edge: I, asked: &Asked<R>) -> Result<(), Error> {
         let length = asked.length;
-        if let Some(law) = asked.law(edge) {
-            return push(&mut self.robin, law, Array::Robin);
-        }
         match asked.condition {
             Condition::Neumann { flux } => {
                 push(&mut self.neumann, Neumann { edge, flux: flux * length }, Array::Neumann)
@@ -101,9 +118,6 @@ impl<
                 push(&mut self.gap_ends, asked.ends(), Array::Contact)
             }
             Condition::Dirichlet { .. } | Condition::DirichletBetween { .. } => {
-                if let Some(entry) = self.u.get_mut(edge.at()) {
-                    *entry = asked.mean();
-                }
                 push(&mut self.dirichlet, asked.mean(), Array::Dirichlet)?;
                 push(&mut self.dirichlet_ends, asked.ends(), Array::Dirichlet)
             }
@@ -112,7 +126,6 @@ impl<
 
     /// The matrix and the ways out, which follow the transfer laws.
     fn fill_matrix(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
-        self.has_matrix = false;
         let Self { of_triangles, of_quads, half_edges, counts, equilibration, values, .. } = self;
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
@@ -120,9 +133,7 @@ impl<
         if N > 0 {
             assembly::values(&edges, stiffness, &boundary, &self.row_ptr, values)?;
         }
-        equilibration.find_ways(mesh, &edges, stiffness, &boundary)?;
-        self.has_matrix = true;
-        Ok(())
+        equilibration.find_ways(mesh, &edges, stiffness, &boundary)
     }
 
     /// b on the boundary edges anew: the share of the one cell, and what the conditions add.
@@ -145,6 +156,9 @@ impl<
     /// # Errors
     /// Slices of the wrong length, numbers that are not finite: nothing is changed then.
     pub fn set_source(&mut self, triangles: &[R], quads: &[R]) -> Result<(), Error> {
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
         same_length(Array::CellLoads, triangles.len(), self.source_triangles.len())?;
         same_length(Array::CellLoads, quads.len(), self.source_quads.len())?;
         all_finite(Array::CellLoads, triangles)?;
@@ -176,10 +190,12 @@ impl<R: Real> Asked<R> {
         let ends = edges.endpoints(mesh, at);
         let named = ends.map(|vertex| vertex.at() as u32);
         let found = condition(&BoundaryEdge::new(mesh, ends)).ok_or(Error::NoCondition(named))?;
-        match edges.counts().block(at) == found.block() {
-            true => Ok(Self { length, condition: found }),
-            false => Err(Error::ConditionChanged(named)),
+        if edges.counts().block(at) != found.block() {
+            return Err(Error::ConditionChanged(named));
         }
+        let asked = Self { length, condition: found };
+        asked.check(at)?;
+        Ok(asked)
     }
 
     /// Whether its integrals are admissible.
@@ -191,6 +207,7 @@ impl<R: Real> Asked<R> {
                 return Err(Error::NegativeRobin { edge: at });
             }
             Condition::Robin { coefficient, ambient } => {
+                known(Array::Robin, features::ROBIN, 1)?;
                 let coefficient = coefficient * length;
                 (Array::Robin, [coefficient, coefficient * ambient, ambient])
             }

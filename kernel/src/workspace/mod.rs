@@ -15,7 +15,7 @@ pub use sizes::{edges, entries, width};
 use heapless::Vec;
 
 use crate::assembly::{self, CellLoads};
-use crate::boundary::{Neumann, Robin};
+use crate::boundary::{Boundary, Neumann, Robin};
 use crate::condition::{BoundaryEdge, Condition};
 use crate::conforming::VertexData;
 use crate::csr::Csr;
@@ -75,8 +75,12 @@ pub struct Workspace<
     gap_ends: Vec<[R; 2], BOUNDARY>,
     dirichlet: Vec<R, BOUNDARY>,
     dirichlet_ends: Vec<[R; 2], BOUNDARY>,
-    /// Whether matrix and ways out are those of `robin`.
-    has_matrix: bool,
+    /// Whether all is as [`Workspace::build`] and the last conditions ask, with matrix and ways out those of `robin`.
+    built: bool,
+    /// That of the cells' vertices.
+    fingerprint: u32,
+    /// ∫_C (τ·n − q) of the last answer.
+    force: R,
     row_ptr: Vec<u32, EDGES>,
     col_idx: Vec<I, ENTRIES>,
     values: Vec<R, ENTRIES>,
@@ -145,7 +149,9 @@ impl<
             gap_ends: Vec::new(),
             dirichlet: Vec::new(),
             dirichlet_ends: Vec::new(),
-            has_matrix: false,
+            built: false,
+            fingerprint: 0,
+            force: R::ZERO,
             row_ptr: Vec::new(),
             col_idx: Vec::new(),
             values: Vec::new(),
@@ -162,19 +168,22 @@ impl<
         }
     }
 
-    /// Numbers the edges, computes element matrices and assembles. `condition` is asked for every
-    /// boundary edge; the iterate starts at 0, on the gap and at the Dirichlet values. It takes an index per edge of stack.
+    /// Numbers the edges, computes element matrices and assembles. `condition` is asked twice for every
+    /// boundary edge; the iterate, the source and the relaxation start anew. It takes an index per edge of stack.
     ///
     /// # Errors
-    /// Capacities that are too small, meshes, coefficients or conditions that are not admissible.
+    /// Capacities that are too small, meshes, coefficients or conditions that are not admissible. Nothing else works then
+    /// before another mesh is built.
     pub fn build(
         &mut self,
         mesh: &Mesh<R, I>,
         coefficient: Coefficient<R>,
         mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
     ) -> Result<EdgeCounts, Error> {
-        self.has_matrix = false;
+        self.built = false;
         self.progress = Progress::NONE;
+        self.fingerprint = fingerprint(mesh);
+        self.robin.clear();
         self.number_edges(mesh, &mut condition)?;
         fit(&mut self.triangles, mesh.triangles().len(), Array::Stiffness)?;
         fit(&mut self.quads, mesh.quads().len(), Array::Stiffness)?;
@@ -184,7 +193,11 @@ impl<
         }
         self.fit_answer(mesh)?;
         self.equilibration.build(mesh, coefficient, POINTS, self.counts.edges())?;
-        self.set_conditions(mesh, condition)?;
+        self.replace_conditions(mesh, condition)?;
+        self.built = false;
+        let edges = Edges::baked(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts);
+        self.rows.within(&edges)?;
+        self.built = true;
         Ok(self.counts)
     }
 
@@ -249,6 +262,7 @@ impl<
         fit(&mut self.source_quads, mesh.quads().len(), Array::CellLoads)?;
         fit(&mut self.active, counts.contact, Array::Contact)?;
         fit(&mut self.vertices, mesh.vertices().len(), Array::Vertices)?;
+        self.force = R::ZERO;
         let bubbles = if mesh.quads().is_empty() { 0 } else { counts.edges() };
         fit(&mut self.bubbles, bubbles, Array::Scratch)
     }
@@ -260,6 +274,9 @@ impl<
     /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
     /// b_i/K_ii); a relaxation factor outside (0, 2); a workspace for ticks only. The last answer stays then, bit for bit.
     pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
         if N == 0 {
             let needed = self.numbered().nonzeros();
             return Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 });
@@ -270,13 +287,14 @@ impl<
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
         let system = System::new(matrix, &self.load, &self.gap, *counts)?.with_shifts(shifts)?;
-        let (unknowns, dirichlet) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
+        let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
         all_moderate(Array::Load, self.load.iter().copied())?;
         let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
         all_moderate(Array::Load, steps)?;
         all_moderate(Array::LowerBounds, self.gap.iter().copied())?;
-        all_moderate(Array::Dirichlet, dirichlet.iter().copied())?;
+        all_moderate(Array::Dirichlet, self.dirichlet.iter().copied())?;
         let mut solver = Solver::<R>::new(settings)?;
+        given.iter_mut().zip(&self.dirichlet).for_each(|(u, &value)| *u = value);
         if unknowns.iter().any(|u| !u.finite()) {
             // An overflow of the last solve: start anew.
             unknowns.fill(R::ZERO);
@@ -289,6 +307,8 @@ impl<
         for (at, active) in self.active.iter_mut().enumerate() {
             *active = contact::is_active(*counts, &self.gap, u, at);
         }
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        self.force = contact::force(*counts, &boundary, &self.gap, u, flux);
         Ok(outcome)
     }
 
@@ -316,23 +336,35 @@ impl<
         &self.flux
     }
 
-    /// ∫_C (τ·n − q) ≥ 0: the sum of λ, within the law of contact wherever the solve was stopped
+    /// ∫_C (τ·n − q) ≥ 0 of the last answer: the sum of λ, within the law of contact wherever the solve was stopped
     /// ([`contact::force`]).
     pub fn contact_force(&self) -> R {
-        let on_contact = self.u.iter().zip(&self.flux).skip(self.counts.free);
-        let given = self.gap.iter().zip(&self.contact_flux);
-        on_contact.zip(given).fold(R::ZERO, |sum, ((&u, &flux), (&lower, &given))| {
-            sum + (contact::within_law(u, lower, flux, given) - given)
-        })
+        self.force
     }
 
-    /// Σ|E| over the active contact edges, lengths by the square root of `M`.
+    /// Σ|E| over the contact edges that touch in the last answer, lengths by the square root of `M`.
     ///
     /// # Errors
     /// None once [`Workspace::build`] has succeeded.
     pub fn contact_length<M: Math<R>>(&self, mesh: &Mesh<R, I>) -> Result<R, Error> {
-        Ok(contact::length::<R, I, M>(mesh, &self.edges()?, &self.gap, &self.u))
+        let edges = self.edges()?;
+        let touching = self.active.iter().enumerate().filter(|(_, active)| **active);
+        let length = |(at, _): (usize, &bool)| edges.length::<R, M>(mesh, self.counts.free + at);
+        Ok(touching.map(length).fold(R::ZERO, |sum, length| sum + length))
     }
+
+    fn cells(&self) -> usize {
+        self.of_triangles.len() + self.of_quads.len()
+    }
+}
+
+/// A number that other cells hardly have.
+fn fingerprint<R: Real, I: Index>(mesh: &Mesh<R, I>) -> u32 {
+    let cells = mesh.triangles().as_flattened().iter().chain(mesh.quads().as_flattened());
+    // 32-bit FNV.
+    cells.fold(0x811c_9dc5, |hash: u32, vertex| {
+        (hash ^ vertex.at() as u32).wrapping_mul(0x0100_0193)
+    })
 }
 
 /// Gauss points a direction for quads: exact on parallelograms, a relative error of 2e−6 in the flux

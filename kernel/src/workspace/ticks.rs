@@ -41,18 +41,27 @@ impl<
     /// error bound of the problem as its conditions state it ([`Report::verdict`]), f constant in each cell, g, q, h and
     /// u_ext along each edge. Whatever ends it, the iterate is feasible and has that bound.
     ///
-    /// There is no bound where u_D jumps from one edge to the next or where a quad is no parallelogram
-    /// ([`Verdict::Unavailable`]), and where u_D lies below ψ ([`Verdict::BelowGap`]).
+    /// There is no bound where u_D jumps from one edge to the next or where a quad is no parallelogram or too thin for the
+    /// scalar ([`Verdict::Unavailable`]), and where u_D lies below ψ ([`Verdict::BelowGap`]).
     ///
     /// # Errors
     /// [`Error::NoWayOut`] where contact alone holds a part: [`Workspace::solve`] solves it. Numbers that are not finite or
-    /// within 1/ε² of the largest number, where the answer may overflow. The last answer stays then, bit for bit.
+    /// within 1/ε² of the largest number, where the answer may overflow. Another mesh than the one that was built, by its
+    /// cells. The last answer stays then, bit for bit.
     pub fn tick<F: FnMut() -> u32>(
         &mut self,
         mesh: &Mesh<R, I>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
+        if super::fingerprint(mesh) != self.fingerprint
+            || mesh.vertices().len() != self.vertices.len()
+        {
+            return Err(Error::OtherMesh);
+        }
         let Self { of_triangles, of_quads, half_edges, counts, rows, load, u, flux, .. } = self;
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let stiffness = stiffness_of(&self.triangles, &self.quads);
@@ -89,6 +98,7 @@ impl<
             }
         };
         self.progress = tick.progress();
+        self.force = report.force;
         Ok(report)
     }
 
