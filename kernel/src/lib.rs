@@ -49,7 +49,7 @@
 //! [`signorini`] (the contact problem) → packed [`rows`] → [`psor`], one sweep, in the loop of [`solver`],
 //! corrected by [`refinement`] → [`flux`] → [`contact`]. How wrong an iterate can be: [`forest`] → packed
 //! [`cells`] → [`averages`] → [`conforming`] and [`equilibrium`] → [`certificate`]; [`tick`] puts sweeps and certificates
-//! into a control loop, and [`full`] drives one by the inputs of a baked scene. Each works on slices and can be used alone; [`workspace`] owns the memory and goes
+//! into a control loop, and [`full`] drives one by the inputs of a baked scene. Each works on slices and can be used alone; [`mod@workspace`] owns the memory and goes
 //! from mesh to flux. [`components`] tells beforehand whether a solution exists.
 //!
 //! What `signorini bake` writes stands on [`condensed`], a problem of contact edges alone with everything else

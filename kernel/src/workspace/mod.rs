@@ -37,7 +37,7 @@ use crate::{contact, flux};
 use bound::{Allowed, Equilibration};
 
 /// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles, quads, boundary
-/// edges, cells, edges plus one, matrix entries, and entries of a packed row. [`workspace!`](crate::workspace) works
+/// edges, cells, edges plus one, matrix entries, and entries of a packed row. [`workspace!`](macro@crate::workspace) works
 /// out the last four from the others.
 ///
 /// Too small a capacity is an error that names the array and the number that it needs. Without room for matrix entries

@@ -13,7 +13,6 @@ use super::functions::Functions;
 use super::patterns::Pattern;
 use super::reach::{Source, reach};
 use super::residual::{Block, blocks, jumps};
-use super::rounding::hidden;
 use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::solve::unfit;
@@ -78,7 +77,7 @@ impl Ground<'_> {
         };
         let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(self.scene))?;
         let widened = |factor: Vec<f64>| {
-            let share = 1.0 + hidden(&assembled);
+            let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
         let jump = jumps(self.scene, problem, patterns, &functions)?.map(|blocks| {

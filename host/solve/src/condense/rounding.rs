@@ -6,7 +6,7 @@
 //! First comes the residual itself, a sum of terms that cancel. Then τ, which balances on the cells up to rounding: what is
 //! left is brought along the forest to the boundary (`way`, see [`signorini_kernel::certificate::stability`]), and where contact
 //! alone holds a part through a contact edge (`out`). Last Ŝ, which is made symmetric. What oblique element matrices hide of
-//! themselves is a share of all of F ([`hidden`]). Next to the rounding of f32 all of
+//! themselves is a share of all of F ([`Assembled::hidden`]). Next to the rounding of f32 all of
 //! this is nothing; in f64 it is what is left to be wrong of an answer that is exact.
 
 use signorini_kernel::components::Support;
@@ -24,14 +24,6 @@ use signorini_scene::error::Result;
 /// Roundings of a sum of a few products, of its factors, and of what follows from them.
 /// And 16 for columns that count as dependent.
 const FEW: f64 = 24.0 * f64::EPSILON;
-
-/// How many roundings of an element matrix the energy of a cell sees at most.
-const HIDDEN: f64 = 64.0;
-
-/// 64 ε κ, see [`signorini_kernel::certificate::Stability`].
-pub(super) fn hidden(assembled: &Assembled<f64>) -> f64 {
-    HIDDEN * f64::EPSILON * assembled.obliqueness()
-}
 
 impl Ground<'_> {
     /// lost_j of the columns of p and x, for U = 1.

@@ -200,6 +200,12 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.obliqueness
     }
 
+    /// The share of a bound that rounded element matrices can hide, 64 ε κ with κ the [`Assembled::obliqueness`]: see
+    /// [`signorini_kernel::certificate::Stability::oblique`].
+    pub fn hidden(&self) -> f64 {
+        64.0 * R::EPSILON.wide() * self.obliqueness
+    }
+
     /// Element matrices.
     pub fn stiffness(&self) -> Stiffness<'_, R> {
         Stiffness { triangles: &self.triangles, quads: &self.quads }
