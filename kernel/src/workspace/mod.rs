@@ -10,8 +10,6 @@ mod conditions;
 mod sizes;
 mod ticks;
 
-pub use sizes::{edges, entries, width};
-
 use heapless::Vec;
 
 use crate::assembly::{self, CellLoads};

@@ -1,23 +1,11 @@
 //! The size of a workspace, from numbers that a person knows.
 
-/// Edges of a mesh of this many triangles and quads with this many boundary edges: each side of a cell is half of an
-/// inner edge or the whole of a boundary edge.
-pub const fn edges(triangles: usize, quads: usize, boundary: usize) -> usize {
-    (3 * triangles + 4 * quads + boundary).div_ceil(2)
-}
-
-/// Most entries that its matrix can have: the diagonal, and for each side of a cell the cell's other sides.
-pub const fn entries(triangles: usize, quads: usize, boundary: usize) -> usize {
-    edges(triangles, quads, boundary) + 6 * triangles + 12 * quads
-}
-
-/// Entries of a packed row.
-pub const fn width(quads: usize) -> usize {
-    if quads == 0 { crate::rows::TRIANGLES } else { crate::rows::QUADS }
-}
-
 /// The type of a [`Workspace`](crate::Workspace) for meshes of at most this many vertices, triangles, quads and
-/// boundary edges, with numbers in `f32` or `f64` and indices in `u16` or `u32`. The other capacities follow.
+/// boundary edges, with numbers in `f32` or `f64` and indices in `u16` or `u32`. The other capacities follow:
+///
+/// * edges: each side of a cell is half of an inner edge or the whole of a boundary edge;
+/// * matrix entries: the diagonal, and for each side of a cell the cell's other sides;
+/// * entries of a packed row: [`rows::TRIANGLES`](crate::rows::TRIANGLES), with quads [`rows::QUADS`](crate::rows::QUADS).
 ///
 /// With `ticks only` there is no room for the matrix in rows of a sparse format: it ticks, and does not
 /// [`solve`](crate::Workspace::solve).
@@ -34,13 +22,17 @@ macro_rules! workspace {
     (@ $R:ty, $I:ty, $v:expr, $t:expr, $q:expr, $b:expr, $entries:expr) => {
         $crate::Workspace<
             $R, $I, { $v }, { $t }, { $q }, { $b }, { $t + $q },
-            { $crate::workspace::edges($t, $q, $b) + 1 }, { $entries }, { $crate::workspace::width($q) }
+            { (3 * $t + 4 * $q + $b + 1) / 2 + 1 }, { $entries },
+            { if $q == 0 { $crate::rows::TRIANGLES } else { $crate::rows::QUADS } }
         >
     };
     ($R:ty, $I:ty: vertices $v:expr, triangles $t:expr, quads $q:expr, boundary $b:expr, ticks only) => {
         $crate::workspace!(@ $R, $I, $v, $t, $q, $b, 0)
     };
     ($R:ty, $I:ty: vertices $v:expr, triangles $t:expr, quads $q:expr, boundary $b:expr) => {
-        $crate::workspace!(@ $R, $I, $v, $t, $q, $b, $crate::workspace::entries($t, $q, $b))
+        $crate::workspace!(
+            @ $R, $I, $v, $t, $q, $b,
+            (3 * $t + 4 * $q + $b + 1) / 2 + 6 * $t + 12 * $q
+        )
     };
 }
