@@ -22,7 +22,7 @@ macro_rules! workspace {
     (@ $R:ty, $I:ty, $v:expr, $t:expr, $q:expr, $b:expr, $entries:expr) => {
         $crate::Workspace<
             $R, $I, { $v }, { $t }, { $q }, { $b }, { $t + $q },
-            { (3 * $t + 4 * $q + $b + 1) / 2 + 1 }, { $entries },
+            { usize::div_ceil(3 * $t + 4 * $q + $b, 2) + 1 }, { $entries },
             { if $q == 0 { $crate::rows::TRIANGLES } else { $crate::rows::QUADS } }
         >
     };
@@ -32,7 +32,7 @@ macro_rules! workspace {
     ($R:ty, $I:ty: vertices $v:expr, triangles $t:expr, quads $q:expr, boundary $b:expr) => {
         $crate::workspace!(
             @ $R, $I, $v, $t, $q, $b,
-            (3 * $t + 4 * $q + $b + 1) / 2 + 6 * $t + 12 * $q
+            usize::div_ceil(3 * $t + 4 * $q + $b, 2) + 6 * $t + 12 * $q
         )
     };
 }
