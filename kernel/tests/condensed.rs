@@ -9,6 +9,7 @@ use signorini_kernel::condensed::storage::{Storage, TableauStorage};
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, sor};
 use signorini_kernel::error::Array;
+use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Ended;
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
@@ -50,8 +51,12 @@ impl<R: Real> Work<R> {
         let nothing = vec![false; padded(strip.order)];
         let start = Start { blocks: strip.blocks(), exchanged: &nothing };
         let mut method = Pivots { tableau, start, most, sweeps };
-        let progress =
-            method.solve(&strip.matrix()?, load, Iterate { x, residual, scratch, open })?;
+        let progress = method.solve(
+            &strip.matrix()?,
+            load,
+            Iterate { x, residual, scratch, open },
+            &mut Deadline::never(),
+        )?;
         Ok((progress.ended, progress.pivots))
     }
 
@@ -104,7 +109,7 @@ fn sweeps_come_to_the_same() -> Result<(), Error> {
         let open = &mut [false; 24];
         let mut sweeps = Sweeps { omega: 1.4, tolerance: 1e-14, most: 1000 };
         let iterate = Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
-        let progress = sweeps.solve(&strip.matrix()?, &load, iterate)?;
+        let progress = sweeps.solve(&strip.matrix()?, &load, iterate, &mut Deadline::never())?;
         assert_eq!(progress.ended, Ended::Settled);
         for (a, b) in x.iter().zip(&work.x) {
             assert!((a - b).abs() < 1e-12 * (1.0 + b), "{a} {b}");
@@ -121,7 +126,7 @@ fn sweeps_need_an_omega_between_0_and_2() -> Result<(), Error> {
         let (x, residual, scratch) = (&mut x[..], &mut residual[..], &mut scratch[..]);
         let iterate = Iterate { x, residual, scratch, open: &mut [false; 8] };
         let mut sweeps = Sweeps { omega, tolerance: 0.0, most: 1 };
-        let solved = sweeps.solve(&strip.matrix()?, &[0.0; 8], iterate);
+        let solved = sweeps.solve(&strip.matrix()?, &[0.0; 8], iterate, &mut Deadline::never());
         assert_eq!(solved.is_ok(), fits, "{omega}");
     }
     Ok(())
@@ -298,7 +303,8 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         let lent = storage.memory(&model);
         let sweeps = Sweeps { omega: 1.0, tolerance: 0.0, most: 0 };
         let mut method = tableau.method(&model, 100, sweeps)?;
-        let progress = method.solve(&strip.matrix()?, &load, lent.iterate)?;
+        let progress =
+            method.solve(&strip.matrix()?, &load, lent.iterate, &mut Deadline::never())?;
         assert_eq!(progress.ended, Ended::Exact);
         pivots.push(progress.pivots);
     }

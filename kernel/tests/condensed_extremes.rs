@@ -10,6 +10,7 @@ use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
+use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::{Error, Real};
 use strip::{Random, Strip};
@@ -128,8 +129,9 @@ impl<R: Scalar> Store<R> {
         let mut memory = Memory { iterate, load, combination: &mut [], sum: &mut [] };
         let inputs = [R::ONE, R::of(p)];
         let sweeps = |most| Sweeps { omega: R::of(1.4), tolerance: R::of(20.0) * R::EPSILON, most };
+        let never = &mut Deadline::never();
         let report = match how {
-            How::Sweeps(most) => model.tick(&inputs, &mut sweeps(most), &mut memory)?,
+            How::Sweeps(most) => model.tick(&inputs, &mut sweeps(most), never, &mut memory)?,
             How::Exchanges(most) => {
                 let [column, next] = &mut self.columns;
                 let (blocks, exchanged) = (&mut self.blocks, &mut self.exchanged);
@@ -139,7 +141,7 @@ impl<R: Scalar> Store<R> {
                     self.is_built = true;
                 }
                 let mut method = Pivots { tableau, start: model.start, most, sweeps: sweeps(20) };
-                model.tick(&inputs, &mut method, &mut memory)?
+                model.tick(&inputs, &mut method, never, &mut memory)?
             }
         };
         Ok((model.output(0, &inputs, &memory.iterate, &report)?, report))
@@ -278,7 +280,7 @@ fn a_huge_x_is_none<R: Scalar>() -> Result<(), Error> {
         for pull in [10f64.powi(decade), 1.0, 1e-3] {
             let iterate =
                 Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
-            let progress = sweeps.solve(&matrix, &load(pull), iterate)?;
+            let progress = sweeps.solve(&matrix, &load(pull), iterate, &mut Deadline::never())?;
             assert_eq!(progress.ended, Ended::OutOfSweeps, "{pull:e} after 1e{decade}");
             assert!(x.iter().all(|x| *x >= R::ZERO && x.finite()));
         }

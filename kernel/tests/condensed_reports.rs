@@ -46,7 +46,7 @@ impl Memory {
         let deadline = &mut Deadline { remaining, sweep: 1, certificate: 0 };
         let mut method = self.tableau.method(model, 100, SWEEPS)?;
         let mut memory = self.storage.memory(model);
-        let report = model.tick_until(&[1.0], &mut method, deadline, &mut memory)?;
+        let report = model.tick(&[1.0], &mut method, deadline, &mut memory)?;
         Ok((report, memory.iterate.x.to_vec()))
     }
 }
@@ -106,7 +106,7 @@ fn the_clock_ends_sweeps_too() -> Result<(), Error> {
         };
         let deadline = &mut Deadline { remaining, sweep: 2, certificate: 1 };
         let mut sweeps = Sweeps { most: 100, ..SWEEPS };
-        let report = model.tick_until(&[1.0], &mut sweeps, deadline, &mut storage.memory(model))?;
+        let report = model.tick(&[1.0], &mut sweeps, deadline, &mut storage.memory(model))?;
         assert_eq!((report.ended, report.sweeps, report.exchanges), (Ended::OutOfTime, 4, 0));
         Ok(())
     })

@@ -12,10 +12,27 @@ use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{self, Base, DataMemory, Full, Functional};
 use signorini_kernel::rows::QUADS;
 use signorini_kernel::sparse::Exact;
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Progress, Report, Running, Tick};
+use signorini_kernel::tick::{
+    CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
+    UncertifiedSweeps,
+};
 use signorini_kernel::{Error, Libm, Relaxation};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
+
+type ByFactor<'e, 'a, S> = Substitutions<'e, 'a, f64, u16, S>;
+
+fn certified<'e, 'a>(
+    exact: &'e mut Exact<'a, f64, u16>,
+) -> ByFactor<'e, 'a, CertifiedSweeps<Libm>> {
+    Substitutions { exact, sweeps: CertifiedSweeps(Libm) }
+}
+
+fn uncertified<'e, 'a>(
+    exact: &'e mut Exact<'a, f64, u16>,
+) -> ByFactor<'e, 'a, UncertifiedSweeps<Libm>> {
+    Substitutions { exact, sweeps: UncertifiedSweeps(Libm) }
+}
 
 /// Data whose source is multiplied, and whose gap bends along the contact.
 struct Input {
@@ -65,7 +82,11 @@ fn beside_sweeps(
     for (source, bend) in INPUTS {
         let input = Input::new(&foundation, source, bend);
         let data = input.data(&foundation)?;
-        let expected = reference.begin(data)?.advance(TO_THE_END, &mut Deadline::never())?;
+        let expected = reference.begin(data)?.advance(
+            CertifiedSweeps(Libm),
+            TO_THE_END,
+            &mut Deadline::never(),
+        )?;
         let report = advance(&mut tick.begin(data)?, &mut exact)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
         assert_eq!(report.changes, expected.changes, "{source} {bend}");
@@ -88,9 +109,7 @@ fn off(found: &[f64], expected: &[f64]) -> f64 {
 fn a_factored_tick_is_where_sweeps_end() -> Result<(), Error> {
     let mut pivots = Vec::new();
     beside_sweeps(
-        |running, exact| {
-            running.advance_factored::<Libm, _>(exact, NO_SWEEPS, &mut Deadline::never())
-        },
+        |running, exact| running.advance(certified(exact), NO_SWEEPS, &mut Deadline::never()),
         |report, exact, [u, tau], [swept, swept_tau]| {
             assert_eq!(report.ended, Ended::Exact);
             assert!(off(u, swept) < 1e-12 && off(tau, swept_tau) < 1e-10);
@@ -111,7 +130,7 @@ fn without_a_bound_it_leaves_the_fluxes_of_the_solution() -> Result<(), Error> {
     beside_sweeps(
         |running, exact| {
             let never = &mut Deadline::never();
-            running.advance_factored_uncertified::<Libm, _>(exact, NO_SWEEPS, never)
+            running.advance(uncertified(exact), NO_SWEEPS, never)
         },
         |report, _, [u, tau], [swept, swept_tau]| {
             assert_eq!(report.ended, Ended::Exact);
@@ -131,7 +150,7 @@ fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
     let (mut tick, mut exact) = store.of(&foundation, &sound)?;
     let never = &mut Deadline::never();
     let data = input.data(&foundation)?;
-    tick.begin(data)?.advance_factored::<Libm, _>(&mut exact, TO_THE_END, never)?;
+    tick.begin(data)?.advance(certified(&mut exact), TO_THE_END, never)?;
     let expected = tick.u().to_vec();
     for (what, spoil) in [
         ("pivots", (|baked: &mut Baked| baked.inverse.fill(1e3)) as fn(&mut Baked)),
@@ -143,15 +162,14 @@ fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
     ] {
         let mut baked = Baked::new(&foundation)?;
         spoil(&mut baked);
-        for certified in [true, false] {
+        for has_bound in [true, false] {
             let mut store = Store::new(&foundation)?;
             let (mut tick, mut exact) = store.of(&foundation, &baked)?;
             let never = &mut Deadline::never();
             let mut running = tick.begin(input.data(&foundation)?)?;
-            let report = match certified {
-                true => running.advance_factored::<Libm, _>(&mut exact, TO_THE_END, never)?,
-                false => running
-                    .advance_factored_uncertified::<Libm, _>(&mut exact, TO_THE_END, never)?,
+            let report = match has_bound {
+                true => running.advance(certified(&mut exact), TO_THE_END, never)?,
+                false => running.advance(uncertified(&mut exact), TO_THE_END, never)?,
             };
             assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{what}: {report:?}");
             assert!(off(tick.u(), &expected) < 1e-10, "{what}: {}", off(tick.u(), &expected));
@@ -167,7 +185,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let baked = Baked::new(&foundation)?;
     let given = foundation.boundary()?;
-    for certified in [true, false] {
+    for has_bound in [true, false] {
         for (times, source) in
             [1.5, 30.0, 1e-6, 1e9].into_iter().flat_map(|t| [(t, 1.0), (t, 1.00001)])
         {
@@ -177,10 +195,9 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let never = &mut Deadline::never();
             let mut solve = |tick: &mut Tick<f64, u16, QUADS>, data: Data<f64, u16>| {
                 let mut running = tick.begin(data)?;
-                match certified {
-                    true => running.advance_factored::<Libm, _>(&mut exact, TO_THE_END, never),
-                    false => running
-                        .advance_factored_uncertified::<Libm, _>(&mut exact, TO_THE_END, never),
+                match has_bound {
+                    true => running.advance(certified(&mut exact), TO_THE_END, never),
+                    false => running.advance(uncertified(&mut exact), TO_THE_END, never),
                 }
             };
             // As close to the answer as it gets before the matrix changes.
@@ -199,9 +216,13 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             solve(&mut tick, data)?;
             let mut swept = Store::new(&foundation)?;
             let (mut reference, _) = swept.of(&foundation, &baked)?;
-            reference.begin(data)?.advance(TO_THE_END, &mut Deadline::never())?;
+            reference.begin(data)?.advance(
+                CertifiedSweeps(Libm),
+                TO_THE_END,
+                &mut Deadline::never(),
+            )?;
             let off = off(tick.u(), reference.u());
-            assert!(off < 1e-9, "{times:e} {source} {certified}: {off:e}");
+            assert!(off < 1e-9, "{times:e} {source} {has_bound}: {off:e}");
         }
     }
     Ok(())
@@ -216,29 +237,31 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
     let mut swept = Store::new(&foundation)?;
     let (mut reference, _) = swept.of(&foundation, &sound)?;
     let never = &mut Deadline::never();
-    reference.begin(second.data(&foundation)?)?.advance(TO_THE_END, never)?;
-    for (times, certified) in [(1e4, true), (1e4, false), (1e9, true), (1e9, false)] {
+    reference.begin(second.data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        TO_THE_END,
+        never,
+    )?;
+    for (times, has_bound) in [(1e4, true), (1e4, false), (1e9, true), (1e9, false)] {
         let mut other = Baked::new(&foundation)?;
         other.inverse.iter_mut().for_each(|inverse| *inverse /= times);
         other.scale.iter_mut().for_each(|scale| *scale /= f64::sqrt(times));
         let mut store = Store::new(&foundation)?;
         let (mut tick, mut exact) = store.of(&foundation, &sound)?;
         let mut running = tick.begin(first.data(&foundation)?)?;
-        let report = running.advance_factored::<Libm, _>(&mut exact, TO_THE_END, never)?;
+        let report = running.advance(certified(&mut exact), TO_THE_END, never)?;
         assert_eq!(report.sweeps, 0);
         let progress = tick.progress();
         let (memory, mut exact) = store.memory(&foundation, &other)?;
         let mut tick = Tick::resume(foundation.ground()?, memory, progress)?;
         let mut running = tick.begin(second.data(&foundation)?)?;
-        let report = match certified {
-            true => running.advance_factored::<Libm, _>(&mut exact, TO_THE_END, never)?,
-            false => {
-                running.advance_factored_uncertified::<Libm, _>(&mut exact, TO_THE_END, never)?
-            }
+        let report = match has_bound {
+            true => running.advance(certified(&mut exact), TO_THE_END, never)?,
+            false => running.advance(uncertified(&mut exact), TO_THE_END, never)?,
         };
         assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{times:e}: {report:?}");
         let off = off(tick.u(), reference.u());
-        assert!(off < 1e-9, "{times:e} {certified}: {off:e}");
+        assert!(off < 1e-9, "{times:e} {has_bound}: {off:e}");
     }
     Ok(())
 }
@@ -251,13 +274,13 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
     let (mut tick, mut exact) = store.of(&foundation, &baked)?;
     let mut running = tick.begin(input.data(&foundation)?)?;
     let short = &mut Deadline { remaining: || 9, sweep: 7, certificate: 3 };
-    let report = running.advance_factored::<Libm, _>(&mut exact, TO_THE_END, short)?;
+    let report = running.advance(certified(&mut exact), TO_THE_END, short)?;
     assert_eq!((report.ended, report.sweeps), (Ended::OutOfTime, 0));
     assert!(report.residual > 1e-3 && exact.solved().is_none());
     // The rest of the tick: enough time for a solve, and a bound that is small enough.
     let enough = &mut Deadline { remaining: || 10, sweep: 7, certificate: 3 };
     let generous = Limits { error: 1e3, ..TO_THE_END };
-    let report = running.advance_factored::<Libm, _>(&mut exact, generous, enough)?;
+    let report = running.advance(certified(&mut exact), generous, enough)?;
     assert_eq!((report.ended, report.sweeps), (Ended::Accurate, 0));
     assert!(report.residual < 1e-14 && exact.solved().is_some());
     let contact = foundation.plate.edges()?.counts().free;
@@ -299,36 +322,26 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
         relaxation: Relaxation::Adaptive(1.0),
     };
     let mut forces = Vec::new();
-    for certified in [true, false] {
+    for has_bound in [true, false] {
         let (mut store, mut progress) = (Store::new(&foundation)?, Progress::NONE);
         for round in 0..2 {
             let (tick, mut exact) = store.memory(&foundation, &baked)?;
             let data = DataMemory::default();
             let memory = full::Memory { tick, data, progress: &mut progress };
             let (never, mut outputs) = (&mut Deadline::never(), [0.0; 2]);
-            let report = match certified {
-                true => full.tick_factored::<Libm, QUADS, _>(
-                    &[],
-                    NO_SWEEPS,
-                    never,
-                    memory,
-                    &mut exact,
-                    &mut outputs,
-                )?,
-                false => full.tick_factored_uncertified::<Libm, QUADS, _>(
-                    &[],
-                    NO_SWEEPS,
-                    never,
-                    memory,
-                    &mut exact,
-                    &mut outputs,
-                )?,
+            let report = match has_bound {
+                true => {
+                    full.tick(&[], certified(&mut exact), NO_SWEEPS, never, memory, &mut outputs)?
+                }
+                false => {
+                    full.tick(&[], uncertified(&mut exact), NO_SWEEPS, never, memory, &mut outputs)?
+                }
             };
             assert_eq!((report.ended, report.sweeps), (Ended::Exact, 0));
             // The exchanges of the first tick are still there in the second.
             let pivots = exact.solved().expect("a solution").pivots;
             assert_eq!(pivots > 0, round == 0, "{pivots}");
-            assert_eq!(outputs[1].is_finite(), certified);
+            assert_eq!(outputs[1].is_finite(), has_bound);
             forces.push(outputs[0]);
         }
     }

@@ -12,6 +12,7 @@ use signorini_kernel::condensed::tableau::Start;
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::condition::{BoundaryEdge, Condition};
 use signorini_kernel::contact::within_law;
+use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
@@ -136,7 +137,7 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             let mut memory = Memory { iterate, load, combination: &mut [], sum: &mut [] };
             let tolerance = R::from_count(16) * R::EPSILON;
             let mut sweeps = Sweeps { omega: R::ONE, tolerance, most };
-            let report = model.tick(&[R::ONE], &mut sweeps, &mut memory)?;
+            let report = model.tick(&[R::ONE], &mut sweeps, &mut Deadline::never(), &mut memory)?;
             let [force, flux] =
                 [0, 1].map(|at| model.output(at, &[R::ONE], &memory.iterate, &report));
             let (force, flux): (f64, f64) = (force?.into(), flux?.into());

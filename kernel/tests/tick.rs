@@ -13,7 +13,10 @@ use signorini_kernel::conforming::VertexData;
 use signorini_kernel::error::Array;
 use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
 use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::tick::{Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick};
+use signorini_kernel::tick::{
+    CertifiedSweeps, Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick,
+    UncertifiedSweeps,
+};
 use signorini_kernel::{Error, Libm, Relaxation, flux};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
@@ -86,13 +89,19 @@ fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;
     let mut tick = store.tick(&foundation)?;
-    let cold =
-        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    let cold = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
     assert_eq!(cold.ended, Ended::Settled);
     assert!(certificate(&cold).algebraic <= 0.1 * certificate(&cold).total);
     assert!(cold.active > 0 && cold.changes == cold.active && cold.sweeps > 8, "{cold:?}");
-    let warm =
-        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    let warm = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
     assert!(warm.sweeps <= 4 && warm.changes == 0, "{warm:?}");
     assert_eq!(tick.report(), Some(&warm));
     let counts = foundation.plate.edges()?.counts();
@@ -111,9 +120,17 @@ fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(
     let mut progress = Progress::new(Relaxation::Adaptive(1.0))?;
     for sweeps in [7, 40, 100, 3] {
         let limits = Limits { share: 0.0, error: 0.0, sweeps };
-        let expected = kept.begin(data(&foundation)?)?.advance(limits, &mut Deadline::never())?;
+        let expected = kept.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut Deadline::never(),
+        )?;
         let mut tick = put_down.resumed(&foundation, &mut rows, progress)?;
-        let found = tick.begin(data(&foundation)?)?.advance(limits, &mut Deadline::never())?;
+        let found = tick.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut Deadline::never(),
+        )?;
         assert_eq!((found, tick.u(), tick.tau()), (expected, kept.u(), kept.tau()));
         progress = tick.progress();
     }
@@ -152,9 +169,9 @@ fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
     let mut tick = store.tick(&foundation)?;
     let mut running = tick.begin(data(&foundation)?)?;
     let limits = Limits { share: 0.0, error: 0.0, sweeps: 3 };
-    let first = running.advance(limits, &mut Deadline::never())?;
+    let first = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
     assert_eq!((first.ended, first.sweeps), (Ended::OutOfSweeps, 3));
-    let second = running.advance(limits, &mut Deadline::never())?;
+    let second = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
     assert_eq!((second.ended, second.sweeps), (Ended::OutOfSweeps, 6));
     assert!(certificate(&second).algebraic < certificate(&first).algebraic);
 
@@ -167,13 +184,13 @@ fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
     };
     let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
     let limits = Limits { share: 0.0, ..Limits::default() };
-    let third = running.advance(limits, &mut deadline)?;
+    let third = running.advance(CertifiedSweeps(Libm), limits, &mut deadline)?;
     assert_eq!(third.ended, Ended::OutOfTime);
     assert!(left.get() >= 15 && third.sweeps > 6, "{third:?}, {left:?}");
 
     let wanted = certificate(&third).total;
     let limits = Limits { share: 0.0, error: wanted, ..Limits::default() };
-    let fourth = running.advance(limits, &mut Deadline::never())?;
+    let fourth = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
     assert_eq!((fourth.ended, fourth.sweeps), (Ended::Accurate, third.sweeps));
     Ok(())
 }
@@ -187,7 +204,11 @@ fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> 
     let limits = Limits { share: f64::MAX, ..Limits::default() };
     for (sweep, certificate, sweeps) in [(0, 0, 4), (10, 25, 4), (10, 125, 12)] {
         let mut deadline = Deadline { remaining: || u32::MAX, sweep, certificate };
-        let report = tick.begin(data(&foundation)?)?.advance(limits, &mut deadline)?;
+        let report = tick.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut deadline,
+        )?;
         assert_eq!((report.ended, report.sweeps), (Ended::Settled, sweeps));
     }
     Ok(())
@@ -202,9 +223,10 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
     for sweeps in [13, 4] {
         let limits = Limits { share: 0.0, error: 0.0, sweeps };
         let never = &mut Deadline::never();
-        let certified = with.begin(data(&foundation)?)?.advance(limits, never)?;
+        let certified =
+            with.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
         let mut running = without.begin(data(&foundation)?)?;
-        let found = running.advance_uncertified::<Libm, _>(limits, never)?;
+        let found = running.advance(UncertifiedSweeps(Libm), limits, never)?;
         assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
         assert_eq!((found.verdict, found.residual), (Verdict::NotAsked, certified.residual));
         assert_eq!(without.u(), with.u());
@@ -225,14 +247,15 @@ fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), 
     let left = Cell::new(100_u32);
     let remaining = || left.replace(left.get() - 10);
     let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
-    let late = running.advance_uncertified::<Libm, _>(Limits::default(), &mut deadline)?;
+    let late = running.advance(UncertifiedSweeps(Libm), Limits::default(), &mut deadline)?;
     assert_eq!((late.ended, late.sweeps), (Ended::OutOfTime, 7));
     let never = &mut Deadline::never();
-    let end = running.advance_uncertified::<Libm, _>(Limits::default(), never)?;
+    let end = running.advance(UncertifiedSweeps(Libm), Limits::default(), never)?;
     assert_eq!(end.ended, Ended::Settled);
     assert!(end.residual < 1e-13 && end.sweeps > 50, "{end:?}");
     // What sweeps have left over is far below the error of the mesh.
-    let after = running.advance(Limits { sweeps: 0, ..Limits::default() }, never)?;
+    let after =
+        running.advance(CertifiedSweeps(Libm), Limits { sweeps: 0, ..Limits::default() }, never)?;
     assert!(certificate(&after).algebraic < 1e-6 * certificate(&after).total, "{after:?}");
     Ok(())
 }
@@ -261,10 +284,11 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
         let limits = Limits { sweeps, share: 0.0, error: 0.0 };
         let (mut bounded, mut unbounded) = (Store::new(&foundation)?, Store::new(&foundation)?);
         let mut tick = bounded.tick(&foundation)?;
-        let certified = tick.begin(data(&foundation)?)?.advance(limits, never)?;
+        let certified =
+            tick.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
         let mut tick = unbounded.tick(&foundation)?;
         let plain =
-            tick.begin(data(&foundation)?)?.advance_uncertified::<Libm, _>(limits, never)?;
+            tick.begin(data(&foundation)?)?.advance(UncertifiedSweeps(Libm), limits, never)?;
         let loads = foundation.given()?.loads;
         let mut flux = vec![0.0; counts.edges()];
         flux::recover(&edges, foundation.stiffness(), loads, tick.u(), &[], &mut flux)?;
@@ -286,8 +310,11 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;
     let mut tick = store.tick(&foundation)?;
-    let before =
-        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    let before = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
     // The gap falls: what was in contact stays, though nothing but the bound pushes it down.
     let counts = foundation.plate.edges()?.counts();
     let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
@@ -295,7 +322,7 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let ends = VertexData { gap: &gap, ..data.given.ends };
     let data = Data { given: Given { ends, ..data.given }, lower: &lower, ..data };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    let after = tick.begin(data)?.advance(none, &mut Deadline::never())?;
+    let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
     Ok(())
 }
@@ -318,7 +345,7 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
     let ends = VertexData { gap: &gap, ..good.given.ends };
     let raised = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    tick.begin(raised)?.advance(none, &mut Deadline::never())?;
+    tick.begin(raised)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
     Ok(())
 }
@@ -341,7 +368,8 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let ends = VertexData { gap: &gap, ..good.given.ends };
     let data = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
-    let report = tick.begin(data)?.advance_uncertified::<Libm, _>(none, &mut Deadline::never())?;
+    let report =
+        tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert!(tick.u().iter().all(|u| u.is_finite()) && report.residual.is_finite(), "{report:?}");
     assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
     Ok(())
@@ -362,7 +390,7 @@ fn takes(
     let given = Given { loads, ..good.given };
     match tick.begin(Data { given, lower: &lower, dirichlet: &dirichlet }) {
         Ok(mut running) => {
-            running.advance(Limits::default(), &mut Deadline::never())?;
+            running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
             Ok(true)
         }
         Err(Error::NotFinite { .. }) => Ok(false),
@@ -429,8 +457,11 @@ fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let mut store = Store::new(&foundation)?;
     let mut tick = store.tick(&foundation)?;
-    let good =
-        tick.begin(data(&foundation)?)?.advance(Limits::default(), &mut Deadline::never())?;
+    let good = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
     let u = tick.u().to_vec();
     let good_data = data(&foundation)?;
     for poison in [f64::NAN, f64::INFINITY] {

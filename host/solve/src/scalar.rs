@@ -8,7 +8,10 @@ pub trait Scalar: Real + Send + Sync {
     const NAME: &'static str;
 
     /// The fastest square root there is for it.
-    type Fast: Math<Self>;
+    type Fast: Math<Self> + Copy;
+
+    /// Its value, as a [`signorini_kernel::tick::Method`] takes it.
+    const FAST: Self::Fast;
 
     /// Rounds to the scalar; too large a number becomes infinite, which the kernel refuses.
     fn narrow(x: f64) -> Self;
@@ -21,6 +24,8 @@ impl Scalar for f64 {
     const NAME: &'static str = "f64";
 
     type Fast = Libm;
+
+    const FAST: Libm = Libm;
 
     fn narrow(x: f64) -> Self {
         x
@@ -35,6 +40,8 @@ impl Scalar for f32 {
     const NAME: &'static str = "f32";
 
     type Fast = Micromath;
+
+    const FAST: Micromath = Micromath;
 
     fn narrow(x: f64) -> Self {
         x as f32

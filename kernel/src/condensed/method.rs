@@ -30,24 +30,11 @@ pub struct Progress {
 
 /// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0.
 pub trait Method<R: Real> {
-    /// From `iterate.x`, as far as the method is allowed to go.
+    /// From `iterate.x`, as far as the method is allowed to go and until the deadline: x is feasible whenever that is.
     ///
     /// # Errors
     /// Loads whose answer may overflow, arrays of the wrong length: x and the method are what they were then.
-    fn solve(
-        &mut self,
-        matrix: &Blocks<R>,
-        load: &[R],
-        iterate: Iterate<R>,
-    ) -> Result<Progress, Error> {
-        self.solve_until(matrix, load, iterate, &mut Deadline::never())
-    }
-
-    /// The same until a deadline: x is feasible whenever that is.
-    ///
-    /// # Errors
-    /// As for [`Method::solve`].
-    fn solve_until<F: FnMut() -> u32>(
+    fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
@@ -61,7 +48,7 @@ pub trait Method<R: Real> {
 pub struct Linear;
 
 impl<R: Real> Method<R> for Linear {
-    fn solve_until<F: FnMut() -> u32>(
+    fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         _: &[R],
@@ -86,7 +73,7 @@ pub struct Sweeps<R> {
 }
 
 impl<R: Real> Method<R> for Sweeps<R> {
-    fn solve_until<F: FnMut() -> u32>(
+    fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
@@ -161,7 +148,7 @@ pub struct Pivots<'a, R> {
 }
 
 impl<R: Real> Method<R> for Pivots<'_, R> {
-    fn solve_until<F: FnMut() -> u32>(
+    fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
         load: &[R],
@@ -177,7 +164,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         if found == Found::Exact {
             return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
         }
-        match self.sweeps.solve_until(matrix, load, iterate.lend(), deadline) {
+        match self.sweeps.solve(matrix, load, iterate.lend(), deadline) {
             Ok(rest) => Ok(Progress { pivots, ..rest }),
             Err(error) => {
                 // No matrix that is positive definite comes here; any other begins anew.

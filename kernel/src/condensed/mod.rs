@@ -102,25 +102,12 @@ impl<R: Real> Condensed<'_, R> {
         Blocks::new(self.matrix, self.contact)
     }
 
-    /// Solves for the inputs p, p_0 = 1 among them, from the last x, and bounds the error.
+    /// Solves for the inputs p, p_0 = 1 among them, from the last x and until the deadline, and bounds the error.
     ///
     /// # Errors
     /// Inputs that are not finite, or so large that the answer or an output may overflow; arrays of the wrong
     /// length. In any case the last answer stays: x and the method are what they were, bit for bit.
-    pub fn tick<M: Method<R>>(
-        &self,
-        inputs: &[R],
-        method: &mut M,
-        memory: &mut Memory<R>,
-    ) -> Result<Report<R>, Error> {
-        self.tick_until(inputs, method, &mut Deadline::never(), memory)
-    }
-
-    /// The same until a deadline.
-    ///
-    /// # Errors
-    /// As for [`Condensed::tick`].
-    pub fn tick_until<M: Method<R>, F: FnMut() -> u32>(
+    pub fn tick<M: Method<R>, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
         method: &mut M,
@@ -131,7 +118,7 @@ impl<R: Real> Condensed<'_, R> {
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
         self.hold(inputs, memory.load)?;
-        let progress = method.solve_until(&matrix, memory.load, memory.iterate.lend(), deadline)?;
+        let progress = method.solve(&matrix, memory.load, memory.iterate.lend(), deadline)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
         let answer = Answer { inputs, x, residual };

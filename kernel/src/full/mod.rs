@@ -24,11 +24,10 @@ use crate::conforming::VertexData;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
 use crate::index::{Index, read};
-use crate::math::{Libm, Math};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
-use crate::sparse::Exact;
-use crate::tick::{self, Deadline, Ended, Limits, Progress, Report, Running, Tick};
+use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
+use functional::Answer;
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -65,113 +64,28 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
 }
 
 impl<R: Real, I: Index> Full<'_, R, I> {
-    /// Answers for these inputs, one value a pattern: fills in `outputs` and says how wrong they can be.
+    /// Answers for these inputs, one value a pattern, by `method`: fills in `outputs` and says how wrong they can be.
     ///
     /// Where there is no bound an output that is the bound is infinite, and the report's verdict says why:
-    /// [`Verdict::Unavailable`] for data that never allow for one, [`Verdict::BelowGap`] where u_D lies below ψ where
-    /// they meet.
+    /// [`Verdict::NotAsked`] for methods without one, [`Verdict::Unavailable`] for data that never allow for one,
+    /// [`Verdict::BelowGap`] where u_D lies below ψ where they meet. A method without one does not use
+    /// the memory of s, and of the ground only edges and element matrices; the rest of either may be empty.
     ///
     /// # Errors
     /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]); arrays of the
-    /// wrong length. The last answer stays then, bit for bit, and `outputs` are as they were.
+    /// wrong length, a factor of another mesh. The last answer stays then, bit for bit, and `outputs` are as they were.
     pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],
+        mut method: impl Method<R, I>,
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
         memory: Memory<R, I, WIDTH>,
         outputs: &mut [R],
     ) -> Result<Report<R>, Error> {
-        self.tick_with::<Libm, WIDTH, F>(inputs, limits, deadline, memory, outputs)
-    }
-
-    /// The same with the square root of `M` in the search for ω.
-    ///
-    /// # Errors
-    /// As for [`Full::tick`].
-    pub fn tick_with<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
-        &self,
-        inputs: &[R],
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
-            running.advance_with::<M, F>(limits, deadline)
-        };
-        self.answer(inputs, memory, outputs, advance)
-    }
-
-    /// The same without a bound, in the manner of [`Running::advance_uncertified`]: an image that calls this
-    /// alone has no code for the certificate. The memory of s is not used, and of the ground only edges and
-    /// element matrices; the rest of either may be empty.
-    ///
-    /// # Errors
-    /// As for [`Full::tick`].
-    pub fn tick_uncertified<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
-        &self,
-        inputs: &[R],
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
-            running.advance_uncertified::<M, F>(limits, deadline)
-        };
-        self.answer(inputs, memory, outputs, advance)
-    }
-
-    /// A tick that a factor solves, in the manner of [`Running::advance_factored`]. `exact` holds the factor of the
-    /// scene's matrix, and what the last tick left in its memory; it is [`Exact::restart`]ed here before the first.
-    ///
-    /// # Errors
-    /// As for [`Full::tick`]; a factor of another mesh.
-    pub fn tick_factored<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
-        &self,
-        inputs: &[R],
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        exact: &mut Exact<R, I>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        begin(exact, memory.progress)?;
-        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
-            running.advance_factored::<M, F>(exact, limits, deadline)
-        };
-        self.answer(inputs, memory, outputs, advance)
-    }
-
-    /// The same without a bound, and with no more memory and ground than [`Full::tick_uncertified`].
-    ///
-    /// # Errors
-    /// As for [`Full::tick_factored`].
-    pub fn tick_factored_uncertified<M: Math<R>, const WIDTH: usize, F: FnMut() -> u32>(
-        &self,
-        inputs: &[R],
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-        memory: Memory<R, I, WIDTH>,
-        exact: &mut Exact<R, I>,
-        outputs: &mut [R],
-    ) -> Result<Report<R>, Error> {
-        begin(exact, memory.progress)?;
-        let advance = |running: &mut Running<'_, '_, R, I, WIDTH>| {
-            running.advance_factored_uncertified::<M, F>(exact, limits, deadline)
-        };
-        self.answer(inputs, memory, outputs, advance)
-    }
-
-    /// A tick that `advance` brings to its end.
-    fn answer<const WIDTH: usize>(
-        &self,
-        inputs: &[R],
-        memory: Memory<R, I, WIDTH>,
-        outputs: &mut [R],
-        advance: impl FnOnce(&mut Running<'_, '_, R, I, WIDTH>) -> Result<Report<R>, Error>,
-    ) -> Result<Report<R>, Error> {
+        if !memory.progress.has_begun() {
+            method.restart()?;
+        }
         same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
         same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
         all_finite(Array::Inputs, inputs)?;
@@ -188,17 +102,18 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         if !progress.has_begun() {
             self.start(data.lower, tick.memory());
         }
-        let report = advance(&mut tick.enter(data, size))?;
+        // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
+        let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
         let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
-        let answer = functional::Answer { tick: &tick, data: &data, report: &report };
-        let mut known = true;
+        let answer = Answer { tick: &tick, data: &data, report: &report };
+        let mut is_known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);
             // Without a bound its output is infinite, and nothing else is.
-            known &= output.finite() || *functional == Functional::Bound;
+            is_known &= output.finite() || *functional == Functional::Bound;
         }
-        Ok(if known { report } else { Report { ended: Ended::NotFinite, ..report } })
+        Ok(if is_known { report } else { Report { ended: Ended::NotFinite, ..report } })
     }
 
     /// The verdict that the data allow for.
@@ -238,9 +153,4 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         on_contact.zip(lower).for_each(|(u, &lower)| *u = lower);
         memory.active.fill(false);
     }
-}
-
-/// Before the first tick the memory of the exchanges holds nothing.
-fn begin<R: Real, I: Index>(exact: &mut Exact<R, I>, progress: &Progress<R>) -> Result<(), Error> {
-    if progress.has_begun() { Ok(()) } else { exact.restart() }
 }

@@ -1,7 +1,7 @@
 //! Contact in a control loop: new data every tick, an answer with its error bound at the deadline.
 //!
 //! ```text
-//!   Tick ── begin(data) ─► Running ── advance(limits, deadline) ─► Report      as often as time allows
+//!   Tick ── begin(data) ─► Running ── advance(method, limits, deadline) ─► Report      as often as time allows
 //!    ▲                        │
 //!    └──── the next tick starts from this one's iterate and active set
 //! ```
@@ -9,26 +9,32 @@
 //! nothing is built anew but the rows. Data that are not finite, or so large that their answer may overflow, are
 //! refused before anything changes: the last answer and its report stay.
 //!
-//! Sweeps alternate with certificates. How many sweeps lie between them follows from the algebraic
-//! part: two certificates tell how fast it falls, and the next is due when it should be small enough,
-//! though not before the sweeps since the last one have taken as long as a certificate does.
+//! A [`Method`] brings a tick to its answer. Of [`CertifiedSweeps`] as many lie between two certificates as the
+//! algebraic part asks for: two certificates tell how fast it falls, and the next is due when it should be small
+//! enough, though not before the sweeps since the last one have taken as long as a certificate does.
 //!
 //! Every part of the domain needs a Dirichlet or a Robin edge, through which what an unfinished iterate leaves
 //! out of balance can go: then every answer has a bound. Parts that contact alone holds need a forest that
 //! follows the active set, and shifts of the whole part ([`crate::solver`]).
 
-mod factored;
+mod certified;
+mod method;
 mod range;
 mod report;
 mod resume;
 mod running;
+mod substitutions;
 mod uncertified;
 
 pub use crate::limits::{Deadline, Limits};
 pub use crate::report::Ended;
+pub use certified::CertifiedSweeps;
+pub use method::{Method, Sweeping};
 pub use report::Report;
 pub use resume::Progress;
 pub use running::Running;
+pub use substitutions::Substitutions;
+pub use uncertified::UncertifiedSweeps;
 
 use crate::assembly;
 use crate::certificate::{Given, Ground};

@@ -1,12 +1,11 @@
 //! A tick in progress.
 
-use super::{Data, Deadline, Ended, Limits, Report, Tick, contact_state};
-use crate::certificate::{Buffers, Certificate, Verdict, certify};
+use super::{Data, Deadline, Ended, Report, Tick, contact_state};
+use crate::certificate::Verdict;
 use crate::contact;
-use crate::equilibrium::Iterate;
 use crate::error::Error;
 use crate::index::Index;
-use crate::math::{Libm, Math};
+use crate::math::Math;
 use crate::psor;
 use crate::real::Real;
 use crate::relaxation::Search;
@@ -26,9 +25,9 @@ pub struct Running<'t, 'a, R: Real, I, const WIDTH: usize> {
     pub(super) sweeps: u32,
     /// Sweeps at the last measurement of the defect.
     measured: u32,
-    next_certificate: u32,
+    pub(super) next_certificate: u32,
     /// Sweeps and algebraic part at the last certificate.
-    earlier: Option<(u32, R)>,
+    pub(super) earlier: Option<(u32, R)>,
     /// The verdict on the present iterate, where it is known.
     pub(super) verdict: Option<Verdict<R>>,
 }
@@ -48,70 +47,19 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         }
     }
 
-    /// Sweeps until one of the limits or the deadline ends it, and certifies what it then has.
-    ///
-    /// # Errors
-    /// Never for a tick that has begun.
-    pub fn advance<F: FnMut() -> u32>(
-        &mut self,
-        limits: Limits<R>,
+    /// What stops sweeps, however good they are: their number has come to `last`, or there is no time for another.
+    pub(super) fn cut<F: FnMut() -> u32>(
+        &self,
+        last: u32,
         deadline: &mut Deadline<F>,
-    ) -> Result<Report<R>, Error> {
-        self.advance_with::<Libm, F>(limits, deadline)
-    }
-
-    /// The same with the square root of `M` in the search for ω.
-    ///
-    /// # Errors
-    /// As for [`Running::advance`].
-    pub fn advance_with<M: Math<R>, F: FnMut() -> u32>(
-        &mut self,
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<Report<R>, Error> {
-        self.next_certificate = match limits.error > R::ZERO || limits.share > R::ZERO {
-            // Nothing that a certificate could say would end it.
-            false => u32::MAX,
-            true if self.next_certificate == u32::MAX => self.sweeps.saturating_add(FEWEST),
-            true => self.next_certificate,
-        };
-        let last = self.sweeps.saturating_add(limits.sweeps);
-        loop {
-            let cut = if self.sweeps >= last {
-                Some(Ended::OutOfSweeps)
-            } else if deadline.allows_a_sweep() {
-                None
-            } else {
-                Some(Ended::OutOfTime)
-            };
-            let known = self.verdict.is_some();
-            if cut.is_some() || known || self.is_due(deadline) {
-                let verdict = self.certified()?;
-                if let Some(ended) = judge(&verdict, &limits).or(cut) {
-                    return self.report(ended, verdict);
-                }
-                if verdict == Verdict::NotFinite && !self.measure()?.0.largest.finite() {
-                    return self.report(Ended::NotFinite, verdict);
-                }
-                if limits.share > R::ZERO && self.is_at_the_floor(&verdict)? {
-                    return self.report(Ended::Settled, verdict);
-                }
-                self.schedule(&verdict, &limits);
-                if !deadline.allows_a_sweep() {
-                    return self.report(Ended::OutOfTime, verdict);
-                }
-            }
-            self.sweep::<M>()?;
+    ) -> Option<Ended> {
+        if self.sweeps >= last {
+            Some(Ended::OutOfSweeps)
+        } else if deadline.allows_a_sweep() {
+            None
+        } else {
+            Some(Ended::OutOfTime)
         }
-    }
-
-    /// Whether to certify now, if it need not be: not more often than leaves half of the time to the
-    /// sweeps, and not where it would leave time for nothing else.
-    fn is_due<F: FnMut() -> u32>(&self, deadline: &mut Deadline<F>) -> bool {
-        let since = self.sweeps - self.earlier.map_or(0, |(at, _)| at);
-        self.sweeps >= self.next_certificate
-            && since >= deadline.sweeps_a_certificate()
-            && deadline.allows_to_look()
     }
 
     /// A sweep, and a look at ω where it is time for one.
@@ -149,41 +97,6 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         memory.rows.gather(&ground.edges, ground.stiffness, boundary, memory.load, search.omega)
     }
 
-    pub(super) fn certified(&mut self) -> Result<Verdict<R>, Error> {
-        if let Some(verdict) = self.verdict {
-            return Ok(verdict);
-        }
-        let Tick { ground, memory, .. } = &mut *self.tick;
-        let buffers = Buffers {
-            vertices: memory.vertices,
-            bubbles: memory.bubbles,
-            tau: memory.tau,
-            indicators: &mut [],
-        };
-        let iterate = Iterate { u: memory.u, lower: self.data.lower };
-        let verdict = certify(ground, &self.data.given, iterate, buffers)?;
-        self.verdict = Some(verdict);
-        Ok(verdict)
-    }
-
-    /// Whether rounding keeps the algebraic part from falling: it hardly fell since the last certificate, is
-    /// not far above what rounding hides, and the residual is down to a few ε of u; without a bound the
-    /// last alone tells.
-    fn is_at_the_floor(&mut self, verdict: &Verdict<R>) -> Result<bool, Error> {
-        if let Verdict::Certified(now) = verdict {
-            let noticeably = R::ONE - R::QUARTER * R::HALF;
-            let falls = self.earlier.is_none_or(|(_, before)| now.algebraic < before * noticeably);
-            // Slow, smooth parts of the error can hide in a residual that is all rounding. The factor is what
-            // thin cells make of rounding: 250 where they are 10⁴ times as long as high.
-            let hidden = now.algebraic <= R::from_count(1024) * now.rounding;
-            if falls || !hidden {
-                return Ok(false);
-            }
-        }
-        let residual = self.measure()?.0.largest;
-        Ok(self.is_rounding(residual))
-    }
-
     /// Whether the residual may be all rounding.
     pub(super) fn is_rounding(&self, residual: R) -> bool {
         // An ω close to 2 keeps rounding errors alive for 1/(2 − ω) sweeps: they add up.
@@ -195,22 +108,6 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let u = self.tick.memory.u.iter();
         let size = u.fold(R::ZERO, |most, u| most.or_larger(u.magnitude()));
         R::from_count(16) * R::EPSILON * size
-    }
-
-    /// When the algebraic part, falling on as it did, should be small enough.
-    fn schedule(&mut self, verdict: &Verdict<R>, limits: &Limits<R>) {
-        let wait = match (verdict, self.earlier) {
-            (Verdict::Certified(now), Some((at, before))) if now.algebraic < before => {
-                let since = self.sweeps - at;
-                since.saturating_mul(quarters(now, before, limits)) / 4
-            }
-            _ => self.sweeps,
-        };
-        if let Verdict::Certified(now) = verdict {
-            self.earlier = Some((self.sweeps, now.algebraic));
-        }
-        let wait = wait.clamp(FEWEST, self.sweeps.saturating_mul(2).max(FEWEST));
-        self.next_certificate = self.sweeps.saturating_add(wait);
     }
 
     pub(super) fn report(&mut self, ended: Ended, verdict: Verdict<R>) -> Result<Report<R>, Error> {
@@ -237,25 +134,4 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         *report = Some(found);
         Ok(found)
     }
-}
-
-pub(super) fn judge<R: Real>(verdict: &Verdict<R>, limits: &Limits<R>) -> Option<Ended> {
-    match verdict {
-        Verdict::Certified(now) if now.total <= limits.error => Some(Ended::Accurate),
-        Verdict::Certified(now) if limits.are_settled(now) => Some(Ended::Settled),
-        // Without a bound there may still be a solution.
-        _ => None,
-    }
-}
-
-/// How many times a quarter of the sweeps that brought the algebraic part from `before` down to what it is
-/// will bring it down to its share, if it falls on at that rate; 32 at most.
-fn quarters<R: Real>(now: &Certificate<R>, before: R, limits: &Limits<R>) -> u32 {
-    let factor = (now.algebraic / before).rounded_sqrt().rounded_sqrt();
-    let (mut rest, target) = (now.algebraic, limits.share * now.total);
-    let enough = |_: &u32| {
-        rest *= factor;
-        rest <= target
-    };
-    (1..32).find(enough).unwrap_or(32)
 }

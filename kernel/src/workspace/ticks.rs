@@ -12,7 +12,9 @@ use crate::math::Libm;
 use crate::mesh::Mesh;
 use crate::real::Real;
 use crate::relaxation::Relaxation;
-use crate::tick::{Data, Deadline, Limits, Memory, Progress, Report, Tick};
+use crate::tick::{
+    CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick, UncertifiedSweeps,
+};
 
 impl<
     R: Real,
@@ -92,9 +94,10 @@ impl<
         let mut tick = Tick::resume(ground, memory, self.progress)?;
         let mut running = tick.begin(data)?;
         let report = match refused {
-            None => running.advance(limits, deadline)?,
+            None => running.advance(CertifiedSweeps(Libm), limits, deadline)?,
             Some(verdict) => {
-                Report { verdict, ..running.advance_uncertified::<Libm, F>(limits, deadline)? }
+                let report = running.advance(UncertifiedSweeps(Libm), limits, deadline)?;
+                Report { verdict, ..report }
             }
         };
         self.progress = tick.progress();

@@ -8,6 +8,7 @@ use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
+use signorini_kernel::limits::Deadline;
 
 use crate::journal::Journal;
 use crate::scene::{Draw, Scalar};
@@ -171,7 +172,8 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
         let [x, residual, scratch] = &mut numbers;
         let open = &mut vec![false; size];
         let iterate = Iterate { x, residual, scratch, open };
-        journal.line("worn", pivots.solve(&strip.matrix()?, &load, iterate)?);
+        journal
+            .line("worn", pivots.solve(&strip.matrix()?, &load, iterate, &mut Deadline::never())?);
         journal.digest("x and residual", &numbers[..2]);
         // By 4 ε at first, then by more.
         let off = R::ONE + R::EPSILON * R::of(4.0_f64.powi(1 + at as i32 / 2));
@@ -204,7 +206,7 @@ fn ticks<R: Scalar, M: Method<R>>(
     let held = Condensed { outputs: &model.outputs[..3], ..*model };
     for _ in 0..8 {
         let inputs = [R::ONE, R::of(2.0 * draw.signed()), R::of(draw.signed())];
-        let report = held.tick(&inputs, method, &mut memory)?;
+        let report = held.tick(&inputs, method, &mut Deadline::never(), &mut memory)?;
         journal.line("tick", (report.ended, report.exchanges, report.sweeps, report.active));
         journal.line("bound", report.certificate().map(|certificate| certificate.total));
         let iterate = &memory.iterate;

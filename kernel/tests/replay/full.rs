@@ -7,7 +7,9 @@ use signorini_kernel::full::{
     Product, Share,
 };
 use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::tick::{self, Deadline, Limits, Progress};
+use signorini_kernel::tick::{
+    self, CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps,
+};
 use signorini_kernel::{Error, Libm, Relaxation};
 
 use crate::arrays::Arrays;
@@ -170,15 +172,10 @@ fn play<R: Scalar>(
         let limits = Limits { share: R::of(0.0625), error: R::ZERO, sweeps: 10 + 30 * (at % 4) };
         let never = &mut Deadline::never();
         let report = match at % 3 {
-            0 => full.tick(inputs, limits, never, memory, &mut outputs)?,
-            1 => full.tick_with::<Libm, QUADS, _>(inputs, limits, never, memory, &mut outputs)?,
-            _ => full.tick_uncertified::<Libm, QUADS, _>(
-                inputs,
-                limits,
-                never,
-                memory,
-                &mut outputs,
-            )?,
+            0 | 1 => {
+                full.tick(inputs, CertifiedSweeps(Libm), limits, never, memory, &mut outputs)?
+            }
+            _ => full.tick(inputs, UncertifiedSweeps(Libm), limits, never, memory, &mut outputs)?,
         };
         journal.line("tick", (report.ended, report.sweeps, report.active));
         journal.digest("report", report);

@@ -4,7 +4,9 @@ use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::certificate::Given;
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::tick::{Data, Deadline, Limits, Memory, Report, Tick};
+use signorini_kernel::tick::{
+    CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick, UncertifiedSweeps,
+};
 use signorini_kernel::{Error, Libm, Relaxation};
 
 use crate::arrays::Arrays;
@@ -40,11 +42,11 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         let share = R::of([0.0, 0.125, 0.5][at as usize % 3]);
         let limits = Limits { sweeps, share, error: R::of(0.01) };
         let report = if at % 5 == 3 {
-            running.advance_uncertified::<Libm, _>(limits, &mut deadline)?
+            running.advance(UncertifiedSweeps(Libm), limits, &mut deadline)?
         } else if at % 5 == 4 {
-            running.advance(limits, &mut Deadline::never())?
+            running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?
         } else {
-            running.advance(limits, &mut deadline)?
+            running.advance(CertifiedSweeps(Libm), limits, &mut deadline)?
         };
         tell(&tick, report, journal);
     }
@@ -55,7 +57,13 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         let mut running = tick.begin(input.data(arrays)?)?;
         let reports: Result<Vec<_>, _> = parts
             .iter()
-            .map(|&(sweeps, share)| running.advance(limits(sweeps, share), &mut Deadline::never()))
+            .map(|&(sweeps, share)| {
+                running.advance(
+                    CertifiedSweeps(Libm),
+                    limits(sweeps, share),
+                    &mut Deadline::never(),
+                )
+            })
             .collect();
         reports?.into_iter().for_each(|report| tell(&tick, report, journal));
     }
@@ -65,7 +73,11 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         let input = Input::new(arrays, R::ZERO, part);
         match tick.begin(input.data(arrays)?) {
             Ok(mut running) => {
-                let report = running.advance(limits(60, 1e-2), &mut Deadline::never())?;
+                let report = running.advance(
+                    CertifiedSweeps(Libm),
+                    limits(60, 1e-2),
+                    &mut Deadline::never(),
+                )?;
                 tell(&tick, report, journal);
             }
             Err(error) => journal.line("refused", error),

@@ -11,6 +11,7 @@ use signorini_kernel::condensed::method::{Linear, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
 use signorini_kernel::condensed::tableau::{Start, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
+use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_solve::condense::{Condensate, condense};
 use signorini_solve::problem::Problem;
@@ -126,10 +127,11 @@ fn ticked<R: Bits>(
             Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut open };
         let mut memory =
             Memory { iterate, load: &mut load, combination: &mut combination, sum: &mut sum };
+        let never = &mut Deadline::never();
         let report = match bytes.below(3) {
-            0 => model.tick(&p, &mut Linear, &mut memory),
-            1 => model.tick(&p, &mut { sweeps }, &mut memory),
-            _ => model.tick(&p, &mut pivots, &mut memory),
+            0 => model.tick(&p, &mut Linear, never, &mut memory),
+            1 => model.tick(&p, &mut { sweeps }, never, &mut memory),
+            _ => model.tick(&p, &mut pivots, never, &mut memory),
         };
         let Ok(report) = report else { continue };
         for number in 0..4 {

@@ -6,7 +6,9 @@ use std::sync::OnceLock;
 use signorini_bake::full::{Baked, Controller};
 use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient};
-use signorini_kernel::tick::{Deadline, Ended, Limits, Memory, Report, Tick};
+use signorini_kernel::tick::{
+    CertifiedSweeps, Deadline, Ended, Limits, Memory, Report, Tick, UncertifiedSweeps,
+};
 use signorini_kernel::{Error, Libm, Relaxation, Tensor};
 use signorini_solve::problem::Problem;
 
@@ -81,8 +83,8 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
             let [sweep, certificate] = [(); 2].map(|()| u32::from(bytes.byte()) << bytes.below(25));
             let mut deadline = Deadline { remaining, sweep, certificate };
             let report = match bytes.below(4) {
-                0 => running.advance_uncertified::<Libm, _>(limits, &mut deadline),
-                _ => running.advance(limits, &mut deadline),
+                0 => running.advance(UncertifiedSweeps(Libm), limits, &mut deadline),
+                _ => running.advance(CertifiedSweeps(Libm), limits, &mut deadline),
             };
             answered(&report.expect("a tick that has begun"));
         }

@@ -5,6 +5,7 @@ use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::method::{Linear, Pivots};
 use signorini_kernel::condensed::tableau::Tableau;
 use signorini_kernel::condensed::{Iterate, Memory};
+use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Report;
 
 use super::arrays::{Baked, Solver};
@@ -64,9 +65,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
             let Self { x, residual, scratch, open, load, combination, sum, .. } = self;
             let iterate = Iterate { x, residual, scratch, open };
             let mut memory = Memory { iterate, load, combination, sum };
+            let never = &mut Deadline::never();
             let report = match baked.solver() {
-                Solver::Linear => model.tick(&inputs, &mut Linear, &mut memory)?,
-                Solver::Sweeps => model.tick(&inputs, &mut { baked.sweeps }, &mut memory)?,
+                Solver::Linear => model.tick(&inputs, &mut Linear, never, &mut memory)?,
+                Solver::Sweeps => model.tick(&inputs, &mut { baked.sweeps }, never, &mut memory)?,
                 Solver::Exchanges(most) => {
                     let [column, next] = &mut self.columns;
                     let mut tableau = Tableau::new(
@@ -81,7 +83,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
                     }
                     let mut method =
                         Pivots { tableau, start: model.start, most, sweeps: baked.sweeps };
-                    model.tick(&inputs, &mut method, &mut memory)?
+                    model.tick(&inputs, &mut method, never, &mut memory)?
                 }
             };
             let outputs = (0..baked.outputs.len())

@@ -157,7 +157,7 @@ fn tick<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
         let inputs = [{}];
         let mut method = {method};
         let mut memory = self.storage.memory(&data::SYSTEM);
-        let report = data::SYSTEM.tick_until(&inputs, &mut method, deadline, &mut memory)?;
+        let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
         let output = |number| data::SYSTEM.output(number, &inputs, &memory.iterate, &report);
         let outputs = Outputs {{ {} }};
         Ok(Answer {{ outputs, report }})

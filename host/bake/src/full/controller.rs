@@ -8,7 +8,10 @@ use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
 use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::sparse::{Exact, Solved};
-use signorini_kernel::tick::{self, Deadline, Limits, Progress, Report};
+use signorini_kernel::tick::{
+    self, CertifiedSweeps, Deadline, Limits, Method, Progress, Report, Substitutions,
+    UncertifiedSweeps,
+};
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::Baked;
@@ -141,23 +144,10 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
             None => None,
         };
         let mut looks = 0;
+        let call = Call { baked, inputs, limits, memory, outputs: &mut outputs, looks: &mut looks };
         let report = match baked.how.fast {
-            true => baked.run::<R::Fast, WIDTH>(
-                inputs,
-                limits,
-                memory,
-                exact.as_mut(),
-                &mut outputs,
-                &mut looks,
-            )?,
-            false => baked.run::<Libm, WIDTH>(
-                inputs,
-                limits,
-                memory,
-                exact.as_mut(),
-                &mut outputs,
-                &mut looks,
-            )?,
+            true => call.with(R::FAST, exact.as_mut())?,
+            false => call.with(Libm, exact.as_mut())?,
         };
         // The clock is asked before every sweep and once more at the end, at every certificate, and after each but the last.
         self.certificates = (looks.saturating_sub(report.sweeps) / 2).max(1);
@@ -210,36 +200,45 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     }
 }
 
-impl<R: Scalar> Baked<R> {
-    /// The call that the module has in its `tick_within`.
-    fn run<M: Math<R>, const WIDTH: usize>(
-        &self,
-        inputs: &[R],
-        limits: Limits<R>,
-        memory: Memory<R, u32, WIDTH>,
+/// The call that the module has in its `tick_within`, but for the method.
+struct Call<'c, R: Scalar, const WIDTH: usize> {
+    baked: &'c Baked<R>,
+    inputs: &'c [R],
+    limits: Limits<R>,
+    memory: Memory<'c, R, u32, WIDTH>,
+    outputs: &'c mut [R],
+    /// Becomes how often the clock was asked.
+    looks: &'c mut u32,
+}
+
+impl<R: Scalar, const WIDTH: usize> Call<'_, R, WIDTH> {
+    /// The method is the baked one, with this square root.
+    fn with<M: Math<R> + Copy>(
+        self,
+        math: M,
         exact: Option<&mut Exact<R, u32>>,
-        out: &mut [R],
-        looks: &mut u32,
     ) -> Result<Report<R>, KernelError> {
+        let (certified, plain) = (CertifiedSweeps(math), UncertifiedSweeps(math));
+        match (exact, self.baked.how.certified) {
+            (None, true) => self.by(certified),
+            (None, false) => self.by(plain),
+            (Some(exact), true) => self.by(Substitutions { exact, sweeps: certified }),
+            (Some(exact), false) => self.by(Substitutions { exact, sweeps: plain }),
+        }
+    }
+
+    fn by(self, method: impl Method<R, u32>) -> Result<Report<R>, KernelError> {
+        let Self { baked, inputs, limits, memory, outputs, looks } = self;
         let clock = || {
             *looks += 1;
             u32::MAX
         };
         let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
-        self.with(|full| match (exact, self.how.certified) {
-            (None, true) => full.tick_with::<M, WIDTH, _>(inputs, limits, never, memory, out),
-            (None, false) => {
-                full.tick_uncertified::<M, WIDTH, _>(inputs, limits, never, memory, out)
-            }
-            (Some(exact), true) => {
-                full.tick_factored::<M, WIDTH, _>(inputs, limits, never, memory, exact, out)
-            }
-            (Some(exact), false) => full.tick_factored_uncertified::<M, WIDTH, _>(
-                inputs, limits, never, memory, exact, out,
-            ),
-        })
+        baked.with(|full| full.tick(inputs, method, limits, never, memory, outputs))
     }
+}
 
+impl<R: Scalar> Baked<R> {
     /// Lends the arrays as the kernel takes them.
     fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
         let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();

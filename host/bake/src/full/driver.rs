@@ -28,7 +28,10 @@ const NAMES: &[(&str, &str)] = &[
     ("Exact", "sparse::Exact"),
     ("Deadline", "limits::Deadline"),
     ("Limits", "limits::Limits"),
+    ("CertifiedSweeps", "tick::CertifiedSweeps"),
     ("Progress", "tick::Progress"),
+    ("Substitutions", "tick::Substitutions"),
+    ("UncertifiedSweeps", "tick::UncertifiedSweeps"),
     ("Report", "Report"),
 ];
 
@@ -99,9 +102,9 @@ fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> 
 ";
     let _ = writeln!(
         text,
-        "        let report = data::FULL.{}(&inputs.to_array(), limits, deadline, memory,{} &mut outputs)?;",
-        call(baked),
-        if is_factored { " &mut exact," } else { "" }
+        "        let method = {};
+        let report = data::FULL.tick(&inputs.to_array(), method, limits, deadline, memory, &mut outputs)?;",
+        method(baked),
     );
     text += if is_factored {
         "        let exchanges = exact.solved().map_or(0, |solved| solved.pivots);
@@ -158,16 +161,14 @@ fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
     }
 }
 
-/// The kernel's tick.
-fn call<R: Scalar>(baked: &Baked<R>) -> String {
+/// How the kernel's tick comes to its answer.
+fn method<R: Scalar>(baked: &Baked<R>) -> String {
     let How { fast, certified, .. } = baked.how;
     let math = if fast { "Micromath" } else { "Libm" };
-    match (certified, baked.factored.is_some()) {
-        (true, false) if !fast => "tick".to_owned(),
-        (true, false) => format!("tick_with::<{math}, _, _>"),
-        (false, false) => format!("tick_uncertified::<{math}, _, _>"),
-        (true, true) => format!("tick_factored::<{math}, _, _>"),
-        (false, true) => format!("tick_factored_uncertified::<{math}, _, _>"),
+    let sweeps = if certified { "CertifiedSweeps" } else { "UncertifiedSweeps" };
+    match baked.factored {
+        Some(_) => format!("Substitutions {{ exact: &mut exact, sweeps: {sweeps}({math}) }}"),
+        None => format!("{sweeps}({math})"),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use signorini_kernel::prolongation::prolong;
 use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::tick::{Data, Deadline, Memory, Report, Tick};
-use signorini_kernel::{Error as KernelError, Relaxation, contact};
+use signorini_kernel::tick::{CertifiedSweeps, Data, Deadline, Memory, Report, Tick};
+use signorini_kernel::{Error as KernelError, Libm, Relaxation, contact};
 
 use super::player::Answer;
 use super::{Budget, coarse};
@@ -103,7 +103,7 @@ fn advance<R: Scalar, const WIDTH: usize>(
     let given = data.given(assembled)?;
     let (lower, dirichlet) = (assembled.lower(), assembled.dirichlet());
     let mut running = tick.begin(Data { given, lower, dirichlet })?;
-    running.advance(budget.limits(), &mut Deadline::never())
+    running.advance(CertifiedSweeps(Libm), budget.limits(), &mut Deadline::never())
 }
 
 fn answer<R: Scalar, const WIDTH: usize>(

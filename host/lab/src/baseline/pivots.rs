@@ -5,6 +5,7 @@ use signorini_kernel::condensed::Iterate;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, Progress};
 use signorini_kernel::condensed::tableau::{Start as Begin, Tableau};
+use signorini_kernel::limits::Deadline;
 
 use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
@@ -74,7 +75,7 @@ impl<R: Scalar> Pivots<R> {
                 let iterate = Iterate { x, residual, scratch, open };
                 let most = WORK.pivots.unwrap_or(0);
                 let mut method = Exchanges { tableau, start: begin, most, sweeps };
-                method.solve(&matrix, &loads[tick], iterate)
+                method.solve(&matrix, &loads[tick], iterate, &mut Deadline::never())
             });
             progress.map(|progress| (cycles, progress))
         })

@@ -20,8 +20,8 @@ use signorini_kernel::forest::{ForestBuffers, grow};
 use signorini_kernel::geometry::{doubled_area, triangle_area};
 use signorini_kernel::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::tick::{Data, Deadline, Limits, Memory, Report, Tick};
-use signorini_kernel::{Error, Relaxation, Tensor};
+use signorini_kernel::tick::{CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick};
+use signorini_kernel::{Error, Libm, Relaxation, Tensor};
 
 use crate::grid::{COLUMNS, EDGES, Grid, SQUARES, VERTICES};
 use crate::journal::Journal;
@@ -137,7 +137,7 @@ fn answer(
     };
     let data = Data { given, lower: &[0.0; COLUMNS], dirichlet: &[above; COLUMNS] };
     let limits = Limits { error: 0.0, share: 0.0, sweeps };
-    tick.begin(data)?.advance(limits, &mut Deadline::never())
+    tick.begin(data)?.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())
 }
 
 /// What the answer is worth.

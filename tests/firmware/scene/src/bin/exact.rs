@@ -15,6 +15,7 @@ use signorini_kernel::Error;
 use signorini_kernel::condensed::blocks::{count, padded};
 use signorini_kernel::condensed::method::Method as _;
 use signorini_kernel::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::limits::Deadline;
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SWEEPS, SYSTEM};
 
 const PADDED: usize = padded(CONTACT);
@@ -70,5 +71,5 @@ fn solve(memory: &mut Memory) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
     let lent = memory.storage.memory(&SYSTEM);
     let mut method = memory.tableau.method(&SYSTEM, u32::MAX, SWEEPS)?;
-    method.solve(&matrix, lent.load, lent.iterate).map(|_| ())
+    method.solve(&matrix, lent.load, lent.iterate, &mut Deadline::never()).map(|_| ())
 }

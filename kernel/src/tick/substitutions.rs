@@ -2,61 +2,50 @@
 //!
 //! ```text
 //!   solve ─┬─ found ─────► certificate, or flux (15) ─► Report, 0 sweeps
-//!          └─ not found ─► sweeps, as in any tick
+//!          └─ not found ─► sweeps, as without a factor
 //! ```
 //! It is found but for problems that the scalar cannot tell from singular ones, and for factors of another matrix,
 //! whose corrections do not shrink; where a start next to the answer hides that, every row of K is asked. The solve is not cut short: it is begun
 //! where the deadline allows a sweep, so that [`Deadline::sweep`] has to cover the exchanges and
 //! substitutions of a solve too.
 
+use super::method::{Method, Sweeping};
 use super::range::worth;
-use super::running::judge;
-use super::{Deadline, Ended, Limits, Report, Running};
-use crate::certificate::Verdict;
+use super::{Deadline, Limits, Report, Running};
 use crate::error::Error;
 use crate::index::Index;
-use crate::math::Math;
 use crate::psor;
 use crate::real::Real;
 use crate::sparse::{Balance, Exact, SLACK};
 
+/// Solves with a factor, whose answer gets a bound where `sweeps` give one.
+#[derive(Debug)]
+pub struct Substitutions<'e, 'a, R, I, S> {
+    /// The factor of the tick's matrix, and what the last tick left in its memory.
+    pub exact: &'e mut Exact<'a, R, I>,
+    /// What follows where there is no answer, or where the deadline allows for no solve.
+    pub sweeps: S,
+}
+
+impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_, R, I, S> {
+    fn restart(&mut self) -> Result<(), Error> {
+        self.exact.restart()
+    }
+
+    fn advance<F: FnMut() -> u32, const WIDTH: usize>(
+        &mut self,
+        running: &mut Running<'_, '_, R, I, WIDTH>,
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<Report<R>, Error> {
+        if !deadline.allows_a_sweep() || !running.solve(self.exact)? {
+            return self.sweeps.advance(running, limits, deadline);
+        }
+        self.sweeps.conclude(running, limits)
+    }
+}
+
 impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
-    /// Solves with `exact`, whose factor is that of this tick's matrix, and certifies the answer; where there is
-    /// none, and where the deadline allows for no solve, as [`Running::advance_with`].
-    ///
-    /// # Errors
-    /// A factor of another mesh.
-    pub fn advance_factored<M: Math<R>, F: FnMut() -> u32>(
-        &mut self,
-        exact: &mut Exact<R, I>,
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<Report<R>, Error> {
-        if !deadline.allows_a_sweep() || !self.solve(exact)? {
-            return self.advance_with::<M, F>(limits, deadline);
-        }
-        let verdict = self.certified()?;
-        let is_accurate = judge(&verdict, &limits) == Some(Ended::Accurate);
-        self.report(if is_accurate { Ended::Accurate } else { Ended::Exact }, verdict)
-    }
-
-    /// The same without a bound; where there is no answer as [`Running::advance_uncertified`].
-    ///
-    /// # Errors
-    /// As for [`Running::advance_factored`].
-    pub fn advance_factored_uncertified<M: Math<R>, F: FnMut() -> u32>(
-        &mut self,
-        exact: &mut Exact<R, I>,
-        limits: Limits<R>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<Report<R>, Error> {
-        if !deadline.allows_a_sweep() || !self.solve(exact)? {
-            return self.advance_uncertified::<M, F>(limits, deadline);
-        }
-        self.recover()?;
-        self.report(Ended::Exact, Verdict::NotAsked)
-    }
-
     /// Whether u is the solution now; if not it is what sweeps may start from. τ is scratch.
     fn solve(&mut self, exact: &mut Exact<R, I>) -> Result<bool, Error> {
         let (ground, memory) = (&self.tick.ground, &mut self.tick.memory);
