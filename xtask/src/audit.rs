@@ -11,12 +11,12 @@ use std::path::PathBuf;
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
 use crate::audit_baked;
-use crate::board::{Build, M4F};
 use crate::export::scenes;
 use crate::setup;
 use crate::steps::Steps;
 use crate::symbols::sized;
-use crate::toolchain::output;
+use signorini_image::board::{Build, M4F};
+use signorini_image::toolchain::output;
 
 /// The functions that only quads need; none is inlined.
 const QUADS: Absence = Absence {

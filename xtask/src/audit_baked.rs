@@ -7,9 +7,9 @@ use std::path::Path;
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
 use crate::baked::Recipe;
-use crate::board::M4F;
 use crate::steps::Steps;
 use crate::symbols::{inlined, sized};
+use signorini_image::board::M4F;
 
 const ALWAYS: [Absence; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
 
@@ -161,8 +161,7 @@ pub fn run(steps: &mut Steps) {
         let recipe = Recipe::of(image.scene, image.model);
         let name = format!("{} {}", recipe.scene_name(), image.model.trim_start_matches('-'));
         steps.check(&format!("{name}, baked: what its scene lacks"), || {
-            let baked = recipe.bake().map_err(|failure| failure.why)?;
-            judge(image, &functions(&baked.image(&M4F, &[])?)?)
+            judge(image, &functions(&recipe.bake()?.image(&M4F, &[])?)?)
         });
     }
 }

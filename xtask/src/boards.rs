@@ -6,14 +6,14 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::board::{Board, Build, M4, M4F, M4F_192K, M7};
-use crate::cargo::{cargo, root, run as run_cargo, target_dir};
 use crate::export::scenes;
 use crate::replay;
 use crate::setup;
 use crate::snapshot::snapshot;
 use crate::steps::Steps;
-use crate::toolchain::output;
+use signorini_image::board::{Board, Build, M4, M4F, M4F_192K, M7};
+use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
+use signorini_image::toolchain::output;
 
 const STAGES: [&str; 5] = ["elements", "assembly", "sweeps", "flux", "scenes"];
 /// Runs with subnormal numbers flushed to zero on the cores that can; the desk flushes nothing.

@@ -1,17 +1,18 @@
 //! `cargo xtask cost`: what every stage costs, counted by the emulator, against the record in git.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 
-use crate::board::{Board, Build, M4, M4F, M7, emulator};
-use crate::cargo::{root, run as run_cargo};
+use signorini_image::board::{Board, Build, M4, M4F, M7, emulator};
+use signorini_image::cargo::{root, run as run_cargo};
+use signorini_image::record::counts::Counts;
+
 use crate::export::scenes;
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
-use crate::toolchain::Toolchain;
+use signorini_image::toolchain::Toolchain;
 
 const BOARDS: [Board; 3] = [M4F, M4, M7];
 const RECORD: &str = "tests/firmware/cost.txt";
@@ -75,16 +76,13 @@ const TARGETS: [Target; 10] = [
 /// addresses, 5 multiply-adds, a store and half of a loop.
 const FLOOR: f64 = 21.5;
 
-/// Counts by board, kind and stage.
-type Counts = BTreeMap<(&'static str, String, String), f64>;
-
 /// Counts, prints, compares.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
     let bless = steps.blesses();
     steps.check("instructions of every stage", || {
         let mut table = String::new();
-        let mut counts = Counts::new();
+        let mut counts = Counts::default();
         for image in &IMAGES {
             for board in BOARDS {
                 table += &measure(&board, image, &mut counts)?;
@@ -115,18 +113,16 @@ fn measure(board: &Board, image: &Image, counts: &mut Counts) -> Result<String, 
         if total >= f64::from(u32::MAX) {
             return Err(format!("{kind}, {stage}: too long for the counter"));
         }
-        let key = |stage: &str| (board.name, kind.to_owned(), stage.to_owned());
-        counts.insert(key(stage), total / units);
-        counts.insert(key(&format!("{stage}, stack")), stack);
+        counts.insert(board.name, kind, stage, total / units);
+        counts.insert(board.name, kind, &format!("{stage}, stack"), stack);
         if !rows.iter().any(|(known, _)| known == stage) {
             rows.push((stage.to_owned(), unit.to_owned()));
         }
     }
-    let key = |kind: &str| (board.name, kind.to_owned(), image.last.to_owned());
-    if !image.kinds.iter().all(|kind| counts.contains_key(&key(kind))) {
+    if !image.kinds.iter().all(|kind| counts.get(board.name, kind, image.last).is_some()) {
         return Err(format!("{} on the {} has not counted everything", image.bin, board.name));
     }
-    Ok(table(board.name, image.kinds, &rows, counts))
+    Ok(counts.table(board.name, image.kinds, &rows))
 }
 
 /// A line of the image: `f32 triangles | sweep | unknown | 8984 392 64`.
@@ -137,30 +133,9 @@ fn parse(line: &str) -> Option<(&str, &str, &str, [f64; 3])> {
     Some((kind, stage, unit, numbers?.try_into().ok()?))
 }
 
-fn table(
-    board: &'static str,
-    kinds: &[&str],
-    rows: &[(String, String)],
-    counts: &Counts,
-) -> String {
-    let mut text = format!("{:<36}{:<8}", format!("{board}: instructions"), "per");
-    kinds.iter().for_each(|kind| text += &format!("{kind:>16}"));
-    text += "\n";
-    for (stage, unit) in rows {
-        let _ = write!(text, "{stage:<36}{unit:<8}");
-        for &kind in kinds {
-            let count = counts.get(&(board, kind.to_owned(), stage.clone()));
-            let _ =
-                write!(text, "{:>16}", count.map_or("-".to_owned(), |count| format!("{count:.2}")));
-        }
-        text += "\n";
-    }
-    text + "\n"
-}
-
 /// The target's count; NaN where a stage was not counted.
 fn counted(counts: &Counts, (board, kind, stages, _, _): &Target) -> f64 {
-    let of = |stage: &str| counts.get(&(*board, (*kind).to_owned(), stage.to_owned()));
+    let of = |stage: &str| counts.get(board, kind, stage);
     stages.iter().map(|(stage, factor)| of(stage).map_or(f64::NAN, |x| x * factor)).sum()
 }
 
@@ -183,7 +158,7 @@ const PAGE: &str = "docs/firmware.md";
 
 /// A count on the board that the page on firmware speaks of; NaN where there is none.
 fn on_m4f(counts: &Counts, kind: &str, stage: &str) -> f64 {
-    counts.get(&("M4F", kind.to_owned(), stage.to_owned())).copied().unwrap_or(f64::NAN)
+    counts.get("M4F", kind, stage).unwrap_or(f64::NAN)
 }
 
 /// `Ok` where the page on firmware names these counts.

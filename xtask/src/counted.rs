@@ -2,8 +2,8 @@
 
 use std::process::Command;
 
-use crate::cargo::{cargo, run_with_lines};
 use crate::steps::Tally;
+use signorini_image::cargo::{cargo, run_with_lines};
 
 /// Runs `cargo test` with these words and counts its tests.
 pub fn counted(words: &[&str]) -> (Tally, Option<String>) {

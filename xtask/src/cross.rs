@@ -6,11 +6,11 @@
 use std::fs;
 
 use crate::baked::Recipe;
-use crate::board::{Board, Build, HARDWARE, M4, M4F, M7};
-use crate::cargo::{run as run_cargo, target_dir};
 use crate::export::scenes;
 use crate::setup;
 use crate::steps::Steps;
+use signorini_image::board::{Board, Build, HARDWARE, M4, M4F, M7};
+use signorini_image::cargo::{run as run_cargo, target_dir};
 
 const BOARDS: [Board; 3] = [M4, M4F, M7];
 
@@ -32,8 +32,7 @@ pub fn run(steps: &mut Steps) {
         }
         steps.check(&format!("a baked scene for the {}", board.name), || {
             let recipe = Recipe::of("meshes/scenes/levee.toml", "--condensed");
-            let baked = recipe.bake().map_err(|failure| failure.why)?;
-            baked.image(&board, &[]).map(drop)
+            Ok(recipe.bake()?.image(&board, &[]).map(drop)?)
         });
     }
     steps.check("the cost image for a real board", || {

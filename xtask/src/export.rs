@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::cargo::{cargo, run, target_dir};
+use signorini_image::cargo::{cargo, run, target_dir};
 
 /// Name, scene file and scalars.
 const SCENES: [(&str, &str, &[&str]); 5] = [

@@ -7,20 +7,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use crate::cargo::root;
 use crate::steps::Steps;
+use signorini_image::cargo::root;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 9] = [
+const CRATES: [(&str, &[&str]); 10] = [
     ("kernel", &[]),
     ("host/draw", &[]),
+    ("host/image", &[]),
     ("host/scene", &["kernel"]),
     ("host/solve", &["kernel", "scene"]),
-    ("host/bake", &["kernel", "scene", "solve", "draw"]),
-    ("host/lab", &["kernel", "scene", "solve", "draw", "bake"]),
-    ("host", &["scene", "solve", "draw", "bake", "lab"]),
+    ("host/bake", &["kernel", "scene", "solve", "draw", "image"]),
+    ("host/lab", &["kernel", "scene", "solve", "draw", "image", "bake"]),
+    ("host", &["scene", "solve", "draw", "image", "bake", "lab"]),
     ("tests", &["kernel", "scene", "solve", "bake"]),
-    ("xtask", &[]),
+    ("xtask", &["image"]),
 ];
 
 /// The path of a module in its crate.

@@ -1,14 +1,11 @@
-//! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none
-//! of the project's crates, so it compiles in seconds.
+//! The project's task runner: `cargo xtask --help`. A file per verb; it runs tools and needs none of the project's crates but
+//! the one for images, so it compiles in seconds.
 
 mod absence;
 mod audit;
 mod audit_baked;
 mod baked;
-mod board;
 mod boards;
-mod cargo;
-mod checkout;
 mod cost;
 mod counted;
 mod cross;
@@ -16,8 +13,6 @@ mod export;
 mod firmware;
 mod fuzz;
 mod imports;
-mod json;
-mod lock;
 mod mutants;
 mod no_std;
 mod oldest;
@@ -33,10 +28,13 @@ mod snapshot;
 mod steps;
 mod symbols;
 mod test;
-mod toolchain;
 mod wide;
 
 use std::process::ExitCode;
+
+use signorini_image::cargo::target_dir;
+use signorini_image::checkout;
+use signorini_image::lock::hold;
 
 use steps::Steps;
 
@@ -166,7 +164,7 @@ fn main() -> ExitCode {
         Some(Work::Steps(work)) => match arguments {
             [] | ["--bless"] => {
                 // Images of one name differ from verb to verb.
-                let _turn = match lock::hold(&cargo::target_dir("firmware").join("steps.lock")) {
+                let _turn = match hold(&target_dir("firmware").join("steps.lock")) {
                     Ok(turn) => turn,
                     Err(why) => return wrong(&why),
                 };

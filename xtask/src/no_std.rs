@@ -9,10 +9,10 @@
 
 use std::process::Command;
 
-use crate::cargo::{cargo, run as run_cargo, target_dir};
 use crate::steps::Steps;
 use crate::symbols::{allocates, symbols};
-use crate::toolchain::output;
+use signorini_image::cargo::{cargo, run as run_cargo, target_dir};
+use signorini_image::toolchain::output;
 
 /// The crate that links the kernel.
 pub const MANIFEST: &str = "tests/no_std/Cargo.toml";

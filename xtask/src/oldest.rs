@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::cargo::{cargo, root, run as run_cargo, target_dir};
-use crate::setup::install_packages;
 use crate::steps::Steps;
-use crate::toolchain::output;
+use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
 
 const EMULATOR: &str = "qemu-x86_64";
 /// Of 2008, with SSE 4.2; AVX came with the next one.

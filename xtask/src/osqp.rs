@@ -4,10 +4,10 @@
 
 use std::process::{Command, ExitCode};
 
-use crate::cargo::{cargo, run, target_dir};
-use crate::setup::install_packages;
-use crate::toolchain::output;
 use crate::wide::widened;
+use signorini_image::cargo::{cargo, run, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
 
 const HELP: &str = "\
 Usage: cargo xtask osqp [--wide]

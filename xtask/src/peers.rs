@@ -17,14 +17,14 @@ mod sources;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::board::emulator;
-use crate::cargo::{cargo, root, run as run_cargo, target_dir};
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
-use crate::toolchain::{Toolchain, first_words, output};
 use image::Measured;
 use reference::{Deviation, Problem, deviation};
+use signorini_image::board::emulator;
+use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
+use signorini_image::toolchain::{Toolchain, first_words, output};
 use sources::Sources;
 
 const RECORD: &str = "tests/firmware/peers.txt";

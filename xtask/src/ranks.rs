@@ -4,9 +4,9 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::counted::counted;
-use crate::setup::install_packages;
 use crate::steps::{Steps, Tally};
-use crate::toolchain::output;
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
 
 /// An MPI, and what its bindings are made with.
 const PACKAGES: [&str; 3] = ["libopenmpi-dev", "openmpi-bin", "libclang-dev"];

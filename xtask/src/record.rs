@@ -5,8 +5,8 @@
 
 use std::fs;
 
-use crate::cargo::root;
 use crate::snapshot;
+use signorini_image::cargo::root;
 
 /// What may be lost before a check fails.
 const TOLERANCE: f64 = 0.02;

@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::cargo::{cargo, run, target_dir};
+use signorini_image::cargo::{cargo, run, target_dir};
 
 /// The scenes in the order of the stage `scenes`.
 const SCENES: [&str; 4] = ["levee", "slab", "strip", "membrane"];

@@ -10,10 +10,10 @@
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-use crate::cargo::{cargo, target_dir};
 use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
-use crate::toolchain::output;
+use signorini_image::cargo::{cargo, target_dir};
+use signorini_image::toolchain::output;
 
 /// Whole solves and ticks in both scalars, with short and long indices.
 const TESTS: [&str; 3] = ["replay", "exact", "tick"];

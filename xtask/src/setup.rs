@@ -1,60 +1,10 @@
-//! `cargo xtask setup`: what the checks on microcontrollers need, from Debian's packages.
+//! `cargo xtask setup`: what the checks on microcontrollers need.
 
-use std::path::Path;
-use std::process::Command;
+use signorini_image::tools::ensure;
 
-use crate::board::TRIPLES;
-use crate::cargo::run as run_command;
 use crate::steps::Steps;
-use crate::toolchain::{Toolchain, output};
-
-/// A toolchain with the library's source, its linker, the emulator, and `nm` and `size` for ARM.
-const PACKAGES: [&str; 6] =
-    ["rustc-web", "cargo-web", "rust-web-src", "lld", "qemu-system-arm", "binutils-arm-none-eabi"];
-
-/// Programs that must answer, beside the toolchain.
-const PROGRAMS: [&str; 4] = ["ld.lld", "qemu-system-arm", "arm-none-eabi-nm", "arm-none-eabi-size"];
 
 /// The verb.
 pub fn run(steps: &mut Steps) {
     steps.check_once("tools for microcontrollers", ensure);
-}
-
-/// `Ok` where all tools are there, installed just now where need be and possible.
-pub fn ensure() -> Result<(), String> {
-    let Err(why) = missing() else { return Ok(()) };
-    install_packages(&PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
-    missing()
-}
-
-/// Installs packages of Debian; `Err` with what to do where that is not possible.
-pub fn install_packages(packages: &[&str]) -> Result<(), String> {
-    let names = packages.join(" ");
-    if !Path::new("/etc/debian_version").exists() {
-        return Err(format!("install what Debian calls {names}"));
-    }
-    let user = output(Command::new("id").arg("-u"))?;
-    if user.trim() != "0" {
-        return Err(format!("run `sudo apt-get install --no-install-recommends {names}`"));
-    }
-    println!("installing Debian's packages {names}");
-    // Another apt may hold the lock for a while.
-    let apt = |words: &[&str]| {
-        let mut command = Command::new("apt-get");
-        command.env("DEBIAN_FRONTEND", "noninteractive");
-        command.args(["-o", "DPkg::Lock::Timeout=120", "-q"]).args(words);
-        run_command(command)
-    };
-    apt(&["update"])?;
-    apt(&[&["install", "-y", "--no-install-recommends"], packages].concat())
-}
-
-fn missing() -> Result<(), String> {
-    for triple in TRIPLES {
-        Toolchain::find(triple)?;
-    }
-    for program in PROGRAMS {
-        output(Command::new(program).arg("--version"))?;
-    }
-    Ok(())
 }

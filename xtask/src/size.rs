@@ -1,16 +1,17 @@
 //! `cargo xtask size`: what the images of baked scenes take, by what the scenes contain.
 
-use std::fmt::Write as _;
 use std::fs;
 
 use crate::baked::Recipe;
-use crate::board::{M4F_192K, emulator};
-use crate::cargo::root;
-use crate::firmware::Footprint;
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
-use crate::toolchain::Toolchain;
+use signorini_image::board::{M4F_192K, emulator};
+use signorini_image::cargo::root;
+use signorini_image::footprint::Footprint;
+use signorini_image::record::sizes;
+use signorini_image::ticks::Ticks;
+use signorini_image::toolchain::Toolchain;
 
 const RECORD: &str = "tests/firmware/size.txt";
 
@@ -80,11 +81,9 @@ pub fn run(steps: &mut Steps) {
     setup::run(steps);
     let bless = steps.blesses();
     steps.check("flash, RAM and stack", || {
-        let mut table =
-            format!("{:<36}{:>8}{:>9}{:>9}{:>8}\n", "scene (f32)", "code", "data", "RAM", "stack");
-        for kind in &KINDS {
-            table += &row(kind)?;
-        }
+        let rows: Result<Vec<_>, String> =
+            KINDS.iter().map(|kind| Ok((kind.what, footprint(kind)?))).collect();
+        let table = sizes::write(&rows?);
         println!("{table}");
         let versions =
             format!("{}, {}", Toolchain::find("thumbv7em-none-eabihf")?.version()?, emulator()?);
@@ -92,15 +91,16 @@ pub fn run(steps: &mut Steps) {
     });
 }
 
-fn row(kind: &Kind) -> Result<String, String> {
+/// Bakes a scene, builds its image and plays it.
+fn footprint(kind: &Kind) -> Result<Footprint, String> {
     let Kind { what, scene, model, most } = kind;
-    let of = Footprint::of(&Recipe::of(scene, model), &M4F_192K)?;
-    if of.code > *most {
-        return Err(format!("{what}: {} bytes of code, {most} are allowed", of.code));
+    let module = Recipe::of(scene, model).bake()?;
+    let image = module.image(&M4F_192K, &[])?;
+    let of = Footprint::new(&image, &Ticks::parse(&M4F_192K.run(&image, false)?))?;
+    match of.statics.code {
+        code if code > *most => Err(format!("{what}: {code} bytes of code, {most} are allowed")),
+        _ => Ok(of),
     }
-    let mut text = format!("{what:<36}");
-    let _ = writeln!(text, "{:>8}{:>9}{:>9}{:>8}", of.code, of.data, of.ram, of.stack);
-    Ok(text)
 }
 
 /// `Ok` where the page on firmware shows this table, up to what records may differ by: the folder of a clone

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::cargo::root;
+use signorini_image::cargo::root;
 
 /// `Ok` where the file at `path` holds `text`.
 pub fn snapshot(path: &str, text: &str, bless: bool) -> Result<(), String> {

@@ -1,9 +1,9 @@
-//! The symbols of an archive or an image, and its sections, by `nm` and `size` of binutils.
+//! The symbols of an archive or an image, by `nm` of binutils.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::toolchain::output;
+use signorini_image::toolchain::output;
 
 /// The names that the members of `archive` define or ask for.
 pub fn symbols(archive: &Path) -> Result<Vec<String>, String> {
@@ -34,14 +34,6 @@ pub fn inlined(image: &Path) -> Result<Vec<String>, String> {
         .filter_map(|line| line.rsplit(": ").next())
         .map(|name| name.trim().to_owned())
         .collect())
-}
-
-/// The size of a section of an ARM image, in bytes.
-pub fn section(image: &Path, name: &str) -> Result<u64, String> {
-    let table = output(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;
-    let line = table.lines().find(|line| line.split_whitespace().next() == Some(name));
-    let size = line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok());
-    size.ok_or_else(|| format!("{} has no section {name}", image.display()))
 }
 
 /// A line is `NAME TYPE …`; what is not, names a member.

@@ -1,12 +1,12 @@
 //! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out.
 
-use crate::cargo::{cargo, require, run as run_cargo};
 use crate::counted::counted;
 use crate::steps::Steps;
 use crate::{
     audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, ranks, sanitize,
     size,
 };
+use signorini_image::cargo::{cargo, require, run as run_cargo};
 
 /// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
 pub fn run(steps: &mut Steps) {

@@ -6,7 +6,7 @@
 
 use std::process::{Command, ExitCode};
 
-use crate::cargo::{cargo, run, target_dir};
+use signorini_image::cargo::{cargo, run, target_dir};
 
 const HELP: &str = "\
 Usage: cargo xtask wide COMMAND [WORDS]

@@ -2,17 +2,15 @@
 //!
 //! Nothing here is an estimate but [`CYCLES`] and [`FEWEST_CYCLES`]: the emulator counts instructions, not cycles.
 
-use std::collections::HashMap;
-
+use signorini_image::record::counts::Counts;
+use signorini_image::record::sizes;
 use signorini_solve::scalar::Scalar;
 
 const RECORD: &str = include_str!("../../../tests/firmware/cost.txt");
 /// Code, data, RAM and stack of baked scenes.
 const SIZES: &str = include_str!("../../../tests/firmware/size.txt");
-/// Columns of a scene's name there.
-const NAME: usize = 36;
-/// Columns of a stage, of its unit and of a count.
-const WIDTHS: [usize; 3] = [36, 8, 16];
+/// The board that is told of.
+const BOARD: &str = "M4F";
 
 /// Cycles an instruction on a Cortex-M4 whose matrices lie in flash, with wait states: an estimate, which only ever warns.
 pub const CYCLES: f64 = 2.0;
@@ -27,43 +25,30 @@ pub(super) const ORDERS: [f64; 3] = [16.0, 32.0, 64.0];
 
 /// Counts by kind and stage.
 #[derive(Debug)]
-pub struct Costs(HashMap<(String, String), f64>);
+pub struct Costs(Counts);
 
 impl Costs {
     /// Those of the record.
     pub fn measured() -> Self {
-        let mut counts = HashMap::new();
-        let mut kinds: Option<Vec<String>> = None;
-        for line in RECORD.lines() {
-            let (stage, numbers) = columns(line);
-            if stage.ends_with(": instructions") {
-                kinds = stage.starts_with("M4F:").then_some(numbers);
-            } else if let Some(kinds) = &kinds {
-                for (kind, number) in kinds.iter().zip(numbers) {
-                    if let Ok(count) = number.parse() {
-                        counts.insert((kind.clone(), stage.clone()), count);
-                    }
-                }
-            }
-        }
-        Self(counts)
+        // A test reads it: what is compiled in can be read.
+        Self(Counts::read(RECORD).unwrap_or_default())
     }
 
     /// Instructions of a stage on a kind of mesh, a unit.
     pub fn of_mesh<R: Scalar>(&self, cells: &str, stage: &str) -> Option<f64> {
-        self.0.get(&(format!("{} {cells}", R::NAME), stage.to_owned())).copied()
+        self.0.get(BOARD, &format!("{} {cells}", R::NAME), stage)
     }
 
     /// Instructions that a call of this function in f32 saves where it is micromath's instead of libm's.
     pub fn saved_by(&self, function: &str) -> Option<f64> {
-        let of = |library: &str| self.0.get(&(format!("f32 {library}"), function.to_owned()));
+        let of = |library: &str| self.0.get(BOARD, &format!("f32 {library}"), function);
         Some(of("libm")? - of("micromath")?)
     }
 
     /// Instructions of a stage on a dense problem of a size that was counted.
     pub(super) fn counted<R: Scalar>(&self, stage: &str, order: f64) -> Option<f64> {
-        let key = (format!("{}, n = {order}", R::NAME), stage.to_owned());
-        self.0.get(&key).map(|count| count * order * order)
+        let count = self.0.get(BOARD, &format!("{}, n = {order}", R::NAME), stage);
+        count.map(|count| count * order * order)
     }
 
     /// Instructions of a stage on a dense problem with n contact edges: the quadratic through the sizes
@@ -91,14 +76,10 @@ impl Footprint {
     /// The most of any scene with `model` in its name (`, condensed`, `, on ` or `, by a factor`) in the record of
     /// `cargo xtask size`.
     pub fn measured(model: &str) -> Self {
-        let rows = SIZES.lines().filter_map(|line| {
-            let (name, numbers) = line.split_at_checked(NAME)?;
-            let mut numbers = numbers.split_whitespace().map(str::parse);
-            let (code, stack) = (numbers.next()?.ok()?, numbers.nth(2)?.ok()?);
-            name.contains(model).then_some(Self { code, stack })
-        });
-        rows.fold(Self { code: 0, stack: 0 }, |most, row| Self {
-            code: most.code.max(row.code),
+        let rows = sizes::read(SIZES).unwrap_or_default().into_iter();
+        let of_model = rows.filter(|(name, _)| name.contains(model)).map(|(_, takes)| takes);
+        of_model.fold(Self { code: 0, stack: 0 }, |most, row| Self {
+            code: most.code.max(row.statics.code),
             stack: most.stack.max(row.stack),
         })
     }
@@ -113,19 +94,16 @@ fn quadratic(values: [f64; 3], n: f64) -> f64 {
     values.into_iter().enumerate().map(term).sum()
 }
 
-/// The stage of a line, and the words of its columns after the unit.
-fn columns(line: &str) -> (String, Vec<String>) {
-    let letters: Vec<char> = line.chars().collect();
-    let text = |range: &[char]| range.iter().collect::<String>().trim().to_owned();
-    let [stage, unit, width] = WIDTHS;
-    let numbers = letters.get(stage + unit..).unwrap_or_default().chunks(width).map(text);
-    (text(letters.get(..stage).unwrap_or(&letters)), numbers.collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use signorini_scene::expression::Elementary;
+
+    #[test]
+    fn the_records_are_read_to_their_ends() {
+        assert_eq!(Counts::read(RECORD).map(drop), Ok(()));
+        assert_eq!(sizes::read(SIZES).map(|rows| rows.len()), Ok(8));
+    }
 
     #[test]
     fn the_record_tells_what_a_sweep_costs() {

@@ -220,7 +220,7 @@ fn meaning(output: &Output) -> String {
     }
 }
 
-/// The features by name, as `cargo xtask firmware` reads them.
+/// The features by name.
 fn features_or_none(features: &[&str]) -> String {
     if features.is_empty() { "none".to_owned() } else { features.join(", ") }
 }

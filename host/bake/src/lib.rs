@@ -15,6 +15,7 @@ pub mod condensed;
 mod controller;
 pub mod costs;
 pub mod dense;
+pub mod emit;
 pub mod engine;
 pub mod explain;
 pub mod export;

@@ -5,11 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{scene_at, write_beside};
-use signorini_bake::choice::{Choice, Model};
-use signorini_bake::condensed;
+use signorini_bake::choice::Choice;
+use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
-use signorini_bake::face::Face;
-use signorini_bake::full;
 use signorini_bake::setting;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted;
@@ -61,6 +59,9 @@ pub struct Arguments {
     /// The condensed model: contact edges, inputs and outputs alone
     #[arg(long)]
     condensed: bool,
+    /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
     /// Print which models were considered and what each feature left out saves
     #[arg(long)]
     explain: bool,
@@ -77,18 +78,23 @@ impl Arguments {
         let scene = scene_at(&self.scene, &self.input)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
-        let text = match setting::scalar(&scene, self.scalar)? {
-            ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
-            ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
+        let Emitted { source, chosen } = match setting::scalar(&scene, self.scalar)? {
+            ScalarKind::F32 => self.module::<f32>(&scene, &problem)?,
+            ScalarKind::F64 => self.module::<f64>(&scene, &problem)?,
         };
-        write_beside(&scene, &self.output, &text)?;
+        write_beside(&scene, "-o", &self.output, &source)?;
+        if let Some(file) = &self.json {
+            // Numbers, names and flags: nothing here can fail.
+            let chosen = serde_json::to_string_pretty(&chosen).unwrap_or_default();
+            write_beside(&scene, "--json", file, &(chosen + "\n"))?;
+        }
         Ok(0)
     }
 }
 
 impl Arguments {
     /// The module; what there is to say of it is said.
-    fn source<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
+    fn module<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<Emitted> {
         let kind = match (self.full, self.condensed) {
             (true, _) => Some(ModelKind::Full),
             (_, true) => Some(ModelKind::Condensed),
@@ -107,10 +113,7 @@ impl Arguments {
         if self.explain {
             say(explanation(scene, problem, &choice));
         }
-        Ok(match &choice.candidate().model {
-            Model::Condensed(baked) => condensed::source(&Face::new(scene, problem), baked),
-            Model::Full(baked) => full::source(baked),
-        })
+        Ok(emit(scene, problem, &choice))
     }
 }
 
@@ -133,10 +136,7 @@ mod tests {
         let mesh = adapted::of_scene(&scene).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
         let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Condensed), false);
-        match &choice.expect("a choice").candidate().model {
-            Model::Condensed(baked) => condensed::source(&Face::new(&scene, &problem), baked),
-            Model::Full(baked) => full::source(baked),
-        }
+        emit(&scene, &problem, &choice.expect("a choice")).source
     }
 
     #[test]

@@ -38,7 +38,7 @@ impl Arguments {
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
         let text = header(&scene, &condense(&scene, &problem)?);
-        write_beside(&scene, &self.output, &text)?;
+        write_beside(&scene, "-o", &self.output, &text)?;
         Ok(0)
     }
 }

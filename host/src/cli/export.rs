@@ -55,7 +55,7 @@ impl Arguments {
             ScalarKind::F32 => export::<f32>(origin)?,
             ScalarKind::F64 => export::<f64>(origin)?,
         };
-        write_beside(&scene, &self.output, &text)?;
+        write_beside(&scene, "-o", &self.output, &text)?;
         Ok(0)
     }
 }

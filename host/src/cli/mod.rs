@@ -76,9 +76,10 @@ impl Cli {
     }
 }
 
-/// Writes a file, unless it is one that the scene is made of.
+/// Writes the file that `option` names, unless it is one that the scene is made of.
 fn write_beside(
     scene: &signorini_scene::scene::Scene,
+    option: &str,
     output: &std::path::Path,
     text: &str,
 ) -> Result<()> {
@@ -87,7 +88,7 @@ fn write_beside(
         own.clone().any(|file| file.canonicalize().is_ok_and(|file| file == *place))
     };
     if output.canonicalize().as_ref().is_ok_and(is_own) {
-        let message = format!("-o {}: the scene is made of this file", output.display());
+        let message = format!("{option} {}: the scene is made of this file", output.display());
         let hint = "name another file to write";
         return Err(signorini_scene::error::InputError::new(message).hint(hint).into());
     }

@@ -14,6 +14,10 @@ fn memory(board: &str) -> Option<&'static str> {
         "netduinoplus2" | "stm32f407" => Some(
             "FLASH : ORIGIN = 0x08000000, LENGTH = 1M\nRAM : ORIGIN = 0x20000000, LENGTH = 128K",
         ),
+        // To see how much an image lacks that no board has room for.
+        "boundless" => Some(
+            "FLASH : ORIGIN = 0x00000000, LENGTH = 512M\nRAM : ORIGIN = 0x20000000, LENGTH = 512M",
+        ),
         _ => None,
     }
 }

@@ -1,30 +1,27 @@
 //! `cargo xtask firmware`: any scene on an emulated board, and the same ticks on this machine.
 //!
 //! ```text
-//!   SCENE.toml ─ signorini bake ─► scene.rs ─┬─ image ─► board ─┬─► equal? ─► firmware.json
-//!                                            └─ program ─► desk ┘
+//!   SCENE.toml ─ signorini bake ─► module ─┬─ image ─► board ─┬─► equal? ─► firmware.json
+//!                                          └─ program ─► desk ┘
 //! ```
 
-mod bill;
-mod footprint;
 mod options;
-mod programs;
 mod stated;
-mod ticks;
 
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
+use signorini_image::board::M4F_192K;
+use signorini_image::cargo::target_dir;
+use signorini_image::chosen::Chosen;
+use signorini_image::firmware::Firmware;
+use signorini_image::tools::ensure;
+
 use crate::baked::{Failure, Recipe};
-use crate::cargo::target_dir;
-use crate::setup;
 use crate::steps::Steps;
-use bill::Bill;
-pub use footprint::Footprint;
 use options::{HELP, Options};
-use programs::Programs;
-use stated::Stated;
+use stated::compare;
 
 /// The verb.
 pub fn run(words: &[&str]) -> ExitCode {
@@ -39,7 +36,7 @@ pub fn run(words: &[&str]) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    match measure(&options).and_then(|bill| bill.verdict().map_err(Failure::from)) {
+    match measure(&options).and_then(|(firmware, _)| firmware.verdict().map_err(Failure::from)) {
         Ok(()) => ExitCode::SUCCESS,
         // What the bake said of wrong input stands above.
         Err(failure) if failure.status == 2 => ExitCode::from(2),
@@ -64,7 +61,7 @@ const TESTED: [(&str, &str, Option<u64>); 7] = [
     ("tests/firmware/scenes/levee-96.toml", "--condensed", Some(120_000)),
 ];
 
-/// Scenes whose `--explain` is compared with the image: quads, triangles and outputs, the mesh itself.
+/// Scenes whose statement by `bake` is compared with the image: quads, triangles and outputs, the mesh itself.
 const EXPLAINED: [&str; 3] = ["slab", "levee", "strip-swept"];
 
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
@@ -74,28 +71,34 @@ pub fn check(steps: &mut Steps) {
         let name = format!("{} {}", recipe.scene_name(), model.trim_start_matches('-'));
         steps.check(&format!("{name}, baked, on the M4F-192K, bit for bit"), || {
             let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
-            let stated = match EXPLAINED.contains(&recipe.scene_name().as_str()) {
-                true => Some(Stated::of(&recipe)?),
-                false => None,
-            };
-            let bill = measure(&Options { recipe, board: "m4-192k", out });
-            let bill = bill.map_err(|failure| failure.why)?;
-            bill.verdict()?;
-            bill.within(most)?;
-            stated.map_or(Ok(()), |stated| stated.compare(bill.takes()))
+            let is_compared = EXPLAINED.contains(&recipe.scene_name().as_str());
+            let (firmware, chosen) = measure(&Options { recipe, board: M4F_192K, out })?;
+            firmware.verdict()?;
+            within(most, firmware.instructions_per_tick.median)?;
+            if is_compared { compare(&chosen, &firmware) } else { Ok(()) }
         });
     }
 }
 
+/// `Ok` where the median tick takes at most so many instructions. They are counted one by one: the same every time.
+fn within(most: Option<u64>, median: u64) -> Result<(), String> {
+    match most {
+        Some(most) if median > most => {
+            Err(format!("{median} instructions per tick in the median, {most} are allowed"))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Bakes, builds, runs, compares; writes and prints what came of it.
-fn measure(options: &Options) -> Result<Bill, Failure> {
-    setup::ensure()?;
-    let programs = Programs::build(options)?;
-    let bill = Bill::new(options, &programs)?;
+fn measure(options: &Options) -> Result<(Firmware, Chosen), Failure> {
+    ensure()?;
+    let module = options.recipe.bake()?;
+    let firmware = Firmware::measure(&module, &options.board)?;
     let file = options.out.join("firmware.json");
-    replace(&file, &bill.json())?;
-    println!("{}written to {}", bill.table(), file.display());
-    Ok(bill)
+    replace(&file, &firmware.json())?;
+    println!("{}written to {}", firmware.table(&options.recipe.scene_name()), file.display());
+    Ok((firmware, module.chosen))
 }
 
 /// Puts a file in its place whole or not at all.

@@ -3,20 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use crate::baked::Recipe;
-use crate::board::{Board, M4F, M4F_192K, M7};
+use signorini_image::board::{Board, M4F, M4F_192K, M7};
 
 /// What to put on which board.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The scene, and how it is baked.
     pub recipe: Recipe,
-    /// The board's name on the command line.
-    pub board: &'static str,
+    /// The board.
+    pub board: Board,
     /// The folder of the result.
     pub out: PathBuf,
 }
 
-const BOARDS: [(&str, Board); 3] = [("m4", M4F), ("m4-192k", M4F_192K), ("m7", M7)];
+const BOARDS: [Board; 3] = [M4F, M4F_192K, M7];
 
 pub const HELP: &str = "\
 Usage: cargo xtask firmware SCENE.toml [OPTIONS]
@@ -52,12 +52,12 @@ impl Options {
     /// Reads the words after the verb.
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let (mut scene, mut scalar, mut model) = (None, None, None);
-        let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0].0, None);
+        let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0], None);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
             match word {
-                "--board" => board = known(value()?)?.0,
+                "--board" => board = known(value()?)?,
                 "--scalar" => match value()? {
                     known @ ("f32" | "f64") => scalar = Some(known.to_owned()),
                     other => return Err(format!("--scalar is f32 or f64, not `{other}`")),
@@ -78,16 +78,11 @@ impl Options {
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
         Ok(Self { recipe, board, out })
     }
-
-    /// The board.
-    pub fn board(&self) -> Result<Board, String> {
-        known(self.board).map(|(_, board)| board)
-    }
 }
 
-fn known(name: &str) -> Result<(&'static str, Board), String> {
-    let found = BOARDS.into_iter().find(|(known, _)| *known == name);
-    found.ok_or_else(|| format!("--board is m4, m4-192k or m7, not `{name}`"))
+fn known(word: &str) -> Result<Board, String> {
+    let found = BOARDS.into_iter().find(|board| board.word == word);
+    found.ok_or_else(|| format!("--board is m4, m4-192k or m7, not `{word}`"))
 }
 
 #[cfg(test)]
@@ -98,7 +93,7 @@ mod tests {
     fn options_stand_in_any_order() {
         let words = ["--board", "m7", "a/b.toml", "--full", "--input", "x=1", "--input", "y=2"];
         let options = Options::parse(&words).unwrap();
-        assert_eq!((options.board, options.recipe.scalar), ("m7", None));
+        assert_eq!((options.board.word, options.recipe.scalar), ("m7", None));
         assert_eq!(
             (options.recipe.scene.to_str(), options.out.to_str()),
             (Some("a/b.toml"), Some("out/b"))

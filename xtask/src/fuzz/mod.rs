@@ -15,12 +15,12 @@ mod target;
 
 use std::process::{Command, ExitCode};
 
-use crate::cargo::{cargo, run as run_command, target_dir};
-use crate::setup::install_packages;
 use crate::steps::{Steps, Tally};
-use crate::toolchain::output;
 use options::{HELP, Options};
 use record::Record;
+use signorini_image::cargo::{cargo, run as run_command, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
 use target::{Run, Target};
 
 /// Executions of each target where nothing else is asked for.

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use crate::cargo::root;
 use crate::snapshot;
+use signorini_image::cargo::root;
 
 const PATH: &str = "tests/fuzz/record.txt";
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::host;
-use crate::cargo::{root, target_dir};
+use signorini_image::cargo::{root, target_dir};
 
 /// An entry function of `signorini_tests::hostile` under libFuzzer.
 #[derive(Debug, Clone, Copy)]

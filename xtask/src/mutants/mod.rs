@@ -10,11 +10,11 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::cargo::{cargo, root, run, run_with_lines, target_dir};
 use crate::counted::counted;
 use crate::steps::Steps;
-use crate::toolchain::output;
 use record::{Record, Row, content, sources};
+use signorini_image::cargo::{cargo, root, run, run_with_lines, target_dir};
+use signorini_image::toolchain::output;
 use survivors::{Key, Survivors};
 
 const HELP: &str = "\

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
-use crate::cargo::root;
 use crate::snapshot::write;
-use crate::toolchain::output;
+use signorini_image::cargo::root;
+use signorini_image::toolchain::output;
 
 const PATH: &str = "tests/mutants/record.txt";
 const HEAD: &str = "\

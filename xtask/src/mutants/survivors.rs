@@ -10,8 +10,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use crate::cargo::root;
 use crate::snapshot::write;
+use signorini_image::cargo::root;
 
 const PATH: &str = "tests/mutants/survivors.txt";
 const HEAD: &str = "\

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::process::Command;
 
 use super::sources::Code;
-use crate::board::{Build, M4F};
-use crate::cargo::{root, run};
 use crate::symbols::sized;
-use crate::toolchain::output;
+use signorini_image::board::{Build, M4F};
+use signorini_image::cargo::{root, run};
+use signorini_image::toolchain::output;
 
 /// Instructions a count of the board's clock.
 const UNIT: u64 = 40;

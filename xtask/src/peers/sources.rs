@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::cargo::{root, run, target_dir};
-use crate::setup::install_packages;
-use crate::toolchain::output;
+use signorini_image::cargo::{root, run, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
 
 /// As `requirements.txt` pins them, with checksums.
 pub const VERSIONS: &str = "DAQP 0.7.2, OSQP 1.1.3";

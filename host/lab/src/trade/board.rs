@@ -1,155 +1,94 @@
-//! What a setting costs on a microcontroller: `cargo xtask firmware`, called once a point.
+//! What a setting costs on a microcontroller: its module is baked here, and its image built and run by the library for
+//! images.
 
 use std::path::Path;
-use std::process::{Command, Output};
-use std::{env, fs};
 
-use serde_json::Value;
-
-use crate::checkout::root;
+use signorini_bake::choice::Choice;
+use signorini_bake::emit::{Emitted, emit};
+use signorini_bake::setting;
+use signorini_image::board::Board;
+use signorini_image::firmware::{Firmware, NoResult};
+use signorini_image::module::Module;
+use signorini_image::room::NoImage;
+use signorini_image::tools;
 use signorini_scene::error::{Error, Result};
-
-/// An emulated board with all the memory one may want.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Board {
-    /// Cortex-M4 with a unit for f32.
-    M4f,
-    /// Cortex-M7 with a unit for f64.
-    M7,
-}
-
-impl Board {
-    /// Its name for `cargo xtask firmware --board`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::M4f => "m4",
-            Self::M7 => "m7",
-        }
-    }
-}
-
-/// What a scene takes of a board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Footprint {
-    /// Instructions of a tick, the median of 101.
-    pub instructions: u64,
-    /// Bytes of RAM, the stack included.
-    pub ram: u64,
-    /// Bytes of flash: code and constants.
-    pub flash: u64,
-}
+use signorini_scene::scene::Scene;
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::ScalarKind;
 
 /// What came of a measurement.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Measured {
     /// The image ran, with the bits of this machine.
-    Runs(Footprint),
+    Runs(Box<Firmware>),
     /// There is no image for this scene and board, and why: no model for its setting, or no room.
     Impossible(String),
 }
 
-/// Bakes the scene file `fragment`, builds its image, plays it; `firmware.json` goes to the folder `out`.
+/// Bakes `scene` with its setting, builds its image under the name `name`, plays it.
 ///
 /// # Errors
 /// No checkout of the sources; a tool that fails; bits that differ from this machine's.
-pub fn measure(fragment: &Path, board: Board, out: &Path) -> Result<Measured> {
-    let output = firmware(fragment, board, out)?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    if !output.status.success() {
-        return match impossible(output.status.code(), &said) {
-            Some(why) => Ok(Measured::Impossible(why)),
-            None => Err(failed(fragment, &said)),
-        };
+pub fn measure(scene: &Scene, problem: &Problem, board: &Board, name: &str) -> Result<Measured> {
+    match module(scene, problem, name) {
+        Ok(module) => judged(Firmware::measure(&module, board)),
+        Err(Error::Input(refused)) => Ok(Measured::Impossible(refused.message().to_owned())),
+        Err(error) => Err(error),
     }
-    let file = out.join("firmware.json");
-    let text = fs::read_to_string(&file).map_err(Error::io(&file))?;
-    footprint(&text).map(Measured::Runs).ok_or_else(|| failed(&file, &text))
 }
 
-fn firmware(fragment: &Path, board: Board, out: &Path) -> Result<Output> {
-    let absolute = |path: &Path| std::path::absolute(path).map_err(Error::io(path));
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // There `xtask` is known.
-    command.current_dir(root()?).args(["xtask", "firmware"]).arg(absolute(fragment)?);
-    command.args(["--board", board.name(), "--out"]).arg(absolute(out)?);
-    // This very program bakes: nothing is built for it once more.
-    if let Ok(program) = env::current_exe()
-        && program.file_stem().is_some_and(|name| name == "signorini")
-    {
-        command.env("SIGNORINI", program);
-    }
-    command.output().map_err(Error::io(Path::new("cargo")))
+/// The tools that images need, installed where need be and possible.
+///
+/// # Errors
+/// What is missing, and what to do about it.
+pub fn ready() -> Result<()> {
+    tools::ensure().map_err(Error::Check)
 }
 
-/// Why there can be no image, where that is the reason of a failure.
-fn impossible(status: Option<i32>, said: &str) -> Option<String> {
-    let lines = || said.lines().map(str::trim).filter(|line| !line.is_empty());
-    if let Some(line) = lines().find(|line| line.contains("will not fit in region")) {
-        let (_, short) = line.split_once("will not fit in region").unwrap_or_default();
-        return Some(format!("no room in{short}"));
-    }
-    if said.contains("beyond-the-counter") {
-        return Some("a tick takes longer than the board's counter can count".to_owned());
-    }
-    if status != Some(2) {
-        return None;
-    }
-    // The message of `bake` begins with a cross; without one it is the command's own.
-    let message = lines().find_map(|line| line.strip_prefix("× ")).or_else(|| lines().next());
-    Some(without_place(message.unwrap_or("refused")).to_owned())
+fn module(scene: &Scene, problem: &Problem, name: &str) -> Result<Module> {
+    let Emitted { source, chosen } = match setting::scalar(scene, None)? {
+        ScalarKind::F32 => emitted::<f32>(scene, problem)?,
+        ScalarKind::F64 => emitted::<f64>(scene, problem)?,
+    };
+    let write = |file: &Path| match write_atomically(file, source.as_bytes()) {
+        Ok(()) => Ok(chosen),
+        Err(error) => Err(error.to_string()),
+    };
+    Module::new(name, write).map(Module::quietly).map_err(Error::Check)
 }
 
-/// `FILE.toml:LINE: KEY: …` or `FILE.toml: KEY: …` from its key on: where a file lies is no reason.
-fn without_place(message: &str) -> &str {
-    let Some((_, rest)) = message.split_once(".toml:") else { return message };
-    rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == ':').trim_start()
+fn emitted<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<Emitted> {
+    Ok(emit(scene, problem, &Choice::<R>::new(scene, problem, None, false)?))
 }
 
-fn failed(of: &Path, said: &str) -> Error {
-    let last = said.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("no message");
-    Error::Check(format!("cargo xtask firmware: {}: {last}", of.display()))
-}
-
-/// The figures of a `firmware.json`, where its bits are those of this machine.
-fn footprint(text: &str) -> Option<Footprint> {
-    let found: Value = serde_json::from_str(text).ok()?;
-    let figure = |value: &Value| value.as_u64();
-    found.get("bit_identical")?.as_bool().filter(|&identical| identical)?;
-    Some(Footprint {
-        instructions: figure(found.get("instructions_per_tick")?.get("median")?)?,
-        ram: figure(found.get("ram_bytes")?)?,
-        flash: figure(found.get("flash_bytes")?)?,
-    })
+fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {
+    match found {
+        Ok(firmware) => match firmware.verdict() {
+            Ok(()) => Ok(Measured::Runs(Box::new(firmware))),
+            Err(why) => Err(Error::Check(why)),
+        },
+        Err(why @ (NoResult::NoImage(NoImage::NoRoom { .. }) | NoResult::BeyondCounter)) => {
+            Ok(Measured::Impossible(why.to_string()))
+        }
+        Err(why) => Err(Error::Check(why.to_string())),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const BILL: &str = r#"{"bit_identical": true, "ram_bytes": 9468, "flash_bytes": 70468,
-        "instructions_per_tick": {"first": 9, "median": 51234, "max": 60000}}"#;
-
     #[test]
-    fn a_bill_is_read_where_its_bits_are_right() {
-        let of = Footprint { instructions: 51234, ram: 9468, flash: 70468 };
-        assert_eq!(footprint(BILL), Some(of));
-        assert_eq!(footprint(&BILL.replace("true", "false")), None);
-        assert_eq!(footprint(&BILL.replace("median", "mean")), None);
-        assert_eq!(footprint("{"), None);
-    }
-
-    #[test]
-    fn no_room_and_wrong_input_are_reasons_and_nothing_else_is() {
-        let linker = "error: linking failed\n  = note: rust-lld: error: section '.bss' will not fit in \
-                      region 'RAM': overflowed by 77 bytes\n";
-        let why = impossible(Some(1), linker).unwrap_or_default();
-        assert_eq!(why, "no room in 'RAM': overflowed by 77 bytes");
-        let refused = "\n  × a.toml: setting.omega: 3 is not inside (0, 2)\n  help: 1.9\n";
-        let why = impossible(Some(2), refused).unwrap_or_default();
-        assert_eq!(why, "setting.omega: 3 is not inside (0, 2)");
-        let refused = "  × some/where/a.toml:12: input.load: not on this board\n";
-        assert_eq!(impossible(Some(2), refused).as_deref(), Some("input.load: not on this board"));
-        assert_eq!(impossible(Some(1), "error: QEMU: status 3\n"), None);
-        assert_eq!(impossible(None, ""), None);
+    fn no_room_and_no_count_are_reasons_and_nothing_else_is() {
+        let no_room = NoImage::NoRoom { memory: "RAM", missing: 77 };
+        let reason = judged(Err(no_room.into()));
+        let said = "no room in RAM: 77 bytes are missing".to_owned();
+        assert!(matches!(reason, Ok(Measured::Impossible(why)) if why == said));
+        let reason = judged(Err(NoResult::BeyondCounter));
+        assert!(matches!(reason, Ok(Measured::Impossible(why)) if why.contains("counter")));
+        let failed = judged(Err(NoResult::Failed("QEMU: status 3".to_owned())));
+        assert!(matches!(failed, Err(Error::Check(why)) if why == "QEMU: status 3"));
     }
 }

@@ -12,7 +12,7 @@ use super::record::{FunctionCost, Recommendation, Skipped, Trade};
 use super::shard::Shard;
 use super::target::Target;
 use super::truth::Truth;
-use super::{fragment, math, measure};
+use super::{math, measure};
 use crate::baseline;
 use crate::baseline::record::Baseline;
 use crate::checkout::root;
@@ -65,6 +65,7 @@ impl Study {
         if target.board().is_some() {
             // A board without the sources is no reason to leave a setting out, but all of them.
             root()?;
+            board::ready()?;
         }
         let read = Scene::read(path)?;
         let at_rest = at_rest_warning(&read);
@@ -144,7 +145,6 @@ impl Study {
         let mut meshes = Meshes::new(&self.scene)?;
         let fingerprint = self.fingerprint(&mut meshes)?;
         Journal::open(&self.unfinished(), Shard::WHOLE, &fingerprint)?.close()?;
-        let _ = std::fs::remove_dir_all(self.fragments());
         // It stays where somebody else keeps something in it, such as a shard that still runs.
         let _ = std::fs::remove_dir(self.unfinished());
         Ok(())
@@ -155,16 +155,11 @@ impl Study {
         self.folder.join(format!("unfinished-{}", self.target))
     }
 
-    /// Where the fragments go that boards are measured with.
-    fn fragments(&self) -> PathBuf {
-        self.unfinished().join("fragments")
-    }
-
-    /// The fragment of a point, and the folder for what its board says: of processes that share a study none reads what
-    /// another has measured.
-    fn fragment(&self, name: &str) -> (PathBuf, PathBuf) {
-        let out = self.fragments().join(format!("{:016x}", digest(name)));
-        (out.with_extension("toml"), out)
+    /// What the module of a point is called: none has that of another, of this study or of one of the same scene elsewhere.
+    fn module(&self, point: &str) -> String {
+        let folder = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
+        let whole = format!("{} {} {point}", folder.display(), self.target);
+        format!("{}-{:016x}", self.name, digest(&whole))
     }
 
     /// A scene with a setting of its own is measured in that alone.
@@ -264,16 +259,14 @@ impl Study {
 
     fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
         let scene = Scene { setting: Some(*setting), ..self.scene.clone() };
-        let mut point =
-            measure::measure(&scene, meshes.problem(setting.cells, setting.refine)?, truth)?;
+        let problem = meshes.problem(setting.cells, setting.refine)?;
+        let mut point = measure::measure(&scene, problem, truth)?;
         if let Some(board) = self.target.board() {
-            let (file, out) = self.fragment(&point.name);
-            fragment::write(&file, &scene, setting, &point.name)?;
-            match board::measure(&file, board, &out)? {
-                Measured::Runs(footprint) => {
-                    point.instructions = Some(footprint.instructions);
-                    point.ram_bytes = Some(footprint.ram);
-                    point.flash_bytes = Some(footprint.flash);
+            match board::measure(&scene, problem, &board, &self.module(&point.name))? {
+                Measured::Runs(firmware) => {
+                    point.instructions = Some(firmware.instructions_per_tick.median);
+                    point.ram_bytes = Some(firmware.ram_bytes);
+                    point.flash_bytes = Some(firmware.flash_bytes);
                 }
                 Measured::Impossible(reason) => return Ok(Case::Left(reason)),
             }
@@ -330,11 +323,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_point_of_a_board_has_files_of_its_own() {
+    fn every_point_of_a_board_has_a_module_of_its_own() {
         let file = root().unwrap().join("meshes/scenes/levee.toml");
-        let study = Study::open(&file, Target::M4f, "out/levee".into(), false).unwrap();
-        let ((one, of_one), (other, of_other)) = (study.fragment("one"), study.fragment("other"));
-        assert!(one != other && of_one != of_other && one != of_one);
-        assert!([one, of_one].iter().all(|path| path.starts_with("out/levee/unfinished-m4f")));
+        let study = |folder: &str| Study::open(&file, Target::M4f, folder.into(), false).unwrap();
+        let names = [("out/levee", "one"), ("out/levee", "other"), ("elsewhere", "one")];
+        let names = names.map(|(folder, point)| study(folder).module(point));
+        assert!(names[0] != names[1] && names[0] != names[2] && names[0].starts_with("levee-"));
     }
 }

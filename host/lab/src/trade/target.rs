@@ -4,7 +4,7 @@ use std::fmt;
 
 use clap::ValueEnum;
 
-use super::board::Board;
+use signorini_image::board::{Board, M4F, M7};
 
 /// This machine or an emulated board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -22,8 +22,8 @@ impl Target {
     pub fn board(self) -> Option<Board> {
         match self {
             Self::Host => None,
-            Self::M4f => Some(Board::M4f),
-            Self::M7 => Some(Board::M7),
+            Self::M4f => Some(M4F),
+            Self::M7 => Some(M7),
         }
     }
 }

@@ -28,6 +28,9 @@ impl Ticks {
     }
 
     /// The numbers of all notes of this name.
+    ///
+    /// # Errors
+    /// A word that is no number.
     pub fn numbers(&self, name: &str) -> Result<Vec<u64>, String> {
         let number = |word: &String| word.parse().map_err(|_| format!("a tick's {name}: `{word}`"));
         self.notes(name).flatten().filter(|word| !word.is_empty()).map(number).collect()
@@ -38,9 +41,8 @@ impl Ticks {
         self.lines.iter().filter(|line| line.starts_with("tick ")).count()
     }
 
-    /// The outputs of the first tick in decimal digits, `null` where they are no numbers; none where it was
-    /// refused.
-    pub fn outputs(&self) -> Vec<String> {
+    /// The outputs of the first tick, none where they are no numbers; no output where it was refused.
+    pub fn outputs(&self) -> Vec<Option<f64>> {
         let first = self.lines.iter().skip(1).take_while(|line| !line.starts_with("tick "));
         first.filter_map(|line| line.strip_prefix("output ")).map(decimal).collect()
     }
@@ -64,20 +66,14 @@ impl Ticks {
     }
 }
 
-/// The shortest decimal number that has these bits; `null` for what is no number.
-fn decimal(bits: &str) -> String {
-    let (finite, shortest) = match bits.split_once(' ') {
-        Some(("f32", digits)) => {
-            let x = u32::from_str_radix(digits, 16).map_or(f32::NAN, f32::from_bits);
-            (x.is_finite(), format!("{x:?}"))
-        }
-        Some(("f64", digits)) => {
-            let x = u64::from_str_radix(digits, 16).map_or(f64::NAN, f64::from_bits);
-            (x.is_finite(), format!("{x:?}"))
-        }
-        _ => (false, String::new()),
+/// The number that has the shortest decimal digits for these bits; none for what is no number.
+fn decimal(bits: &str) -> Option<f64> {
+    let shortest = match bits.split_once(' ')? {
+        ("f32", digits) => format!("{:?}", f32::from_bits(u32::from_str_radix(digits, 16).ok()?)),
+        ("f64", digits) => format!("{:?}", f64::from_bits(u64::from_str_radix(digits, 16).ok()?)),
+        _ => return None,
     };
-    if finite { shortest } else { "null".to_owned() }
+    shortest.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 /// The text whose bytes these digits are.
@@ -98,9 +94,10 @@ mod tests {
     fn a_tick_is_read() {
         let ticks = Ticks::parse(BOARD);
         assert_eq!(ticks.count(), 2);
-        assert_eq!(ticks.outputs(), ["0.1", "null"]);
+        assert_eq!(ticks.outputs(), [Some(0.1), None]);
         assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
-        assert!(Ticks::parse("@ instructions beyond").numbers("instructions").is_err());
+        let beyond = Ticks::parse("@ instructions beyond").numbers("instructions");
+        assert_eq!(beyond, Err("a tick's instructions: `beyond`".to_owned()));
     }
 
     #[test]
@@ -115,11 +112,11 @@ mod tests {
     }
 
     #[test]
-    fn bits_become_the_shortest_decimals() {
-        assert_eq!(decimal("f64 3fb999999999999a"), "0.1");
-        assert_eq!(decimal("f32 380725a1"), "3.2221553e-5");
-        assert_eq!(decimal("f32 7fc00000"), "null");
-        assert_eq!(decimal("f32"), "null");
+    fn bits_become_the_numbers_of_the_shortest_decimals() {
+        assert_eq!(decimal("f64 3fb999999999999a"), Some(0.1));
+        assert_eq!(decimal("f32 380725a1"), Some(3.2221553e-5));
+        assert_eq!(decimal("f32 7fc00000"), None);
+        assert_eq!(decimal("f32"), None);
     }
 
     #[test]

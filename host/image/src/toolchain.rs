@@ -21,6 +21,9 @@ const DEBIAN: &str = "/usr/bin";
 
 impl Toolchain {
     /// The toolchain for `triple`.
+    ///
+    /// # Errors
+    /// There is none.
     pub fn find(triple: &str) -> Result<Self, String> {
         if sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(triple).is_dir()) {
             return Ok(Self::Installed);
@@ -49,6 +52,9 @@ impl Toolchain {
     }
 
     /// Its name and version, such as `rustc 1.96.0`.
+    ///
+    /// # Errors
+    /// It does not answer.
     pub fn version(&self) -> Result<String, String> {
         let rustc = match self {
             Self::Installed => PathBuf::from("rustc"),
@@ -79,6 +85,9 @@ fn sysroot(rustc: impl AsRef<Path>) -> Option<PathBuf> {
 }
 
 /// Standard output of a command that succeeds.
+///
+/// # Errors
+/// It does not start, or fails: what it said.
 pub fn output(command: &mut Command) -> Result<String, String> {
     let name = command.get_program().display().to_string();
     let output = command.output().map_err(|error| format!("{name}: {error}"))?;

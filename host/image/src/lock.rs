@@ -4,7 +4,10 @@ use std::fs::{self, File, TryLockError};
 use std::path::Path;
 
 /// Waits until no other holder of the lock file `path` is left; it is free again when what is returned is dropped, or when
-/// this process ends, however that happens. Where a file system has no locks, nobody waits.
+/// this process ends, however that happens. Where a file system /// this process ends, however that happens. Where a file system has no locks, nobody waits.
+///
+/// # Errors
+/// A file that cannot be made.
 pub fn hold(path: &Path) -> Result<File, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", path.display());
     fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;

@@ -21,12 +21,30 @@ pub fn cargo(words: &[&str]) -> Command {
 }
 
 /// Runs `command` with its output in sight.
+///
+/// # Errors
+/// It does not start, or fails.
 pub fn run(mut command: Command) -> Result<(), String> {
     let status = command.status().map_err(|error| not_started(&command, &error))?;
     verdict(status)
 }
 
+/// Runs `command` with its output out of sight; an error ends with what it said last.
+///
+/// # Errors
+/// It does not start, or fails.
+pub fn run_quietly(mut command: Command) -> Result<(), String> {
+    let ran = command.stdin(Stdio::null()).output();
+    let ran = ran.map_err(|error| not_started(&command, &error))?;
+    let said = String::from_utf8_lossy(&ran.stderr);
+    let last = said.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or_default();
+    verdict(ran.status).map_err(|status| format!("{status}: {last}"))
+}
+
 /// Runs `command` with its output in sight, and hands each line of its standard output on.
+///
+/// # Errors
+/// It does not start, or fails.
 pub fn run_with_lines(mut command: Command, mut each: impl FnMut(&str)) -> Result<(), String> {
     let child = command.stdout(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&command, &error))?;
@@ -40,6 +58,9 @@ pub fn run_with_lines(mut command: Command, mut each: impl FnMut(&str)) -> Resul
 }
 
 /// `Err` with the line to run where a subcommand of cargo is not installed.
+///
+/// # Errors
+/// That line.
 pub fn require(subcommand: &str, component: &str) -> Result<(), String> {
     let probe = cargo(&[subcommand, "--version"]).output();
     if probe.is_ok_and(|output| output.status.success()) {

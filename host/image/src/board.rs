@@ -17,6 +17,8 @@ pub const TRIPLES: [&str; 2] = ["thumbv7em-none-eabi", "thumbv7em-none-eabihf"];
 pub struct Board {
     /// What tables call it.
     pub name: &'static str,
+    /// What `cargo xtask firmware --board` calls it.
+    pub word: &'static str,
     triple: &'static str,
     /// Where code for this very core is asked for.
     cpu_flag: Option<&'static str>,
@@ -24,24 +26,32 @@ pub struct Board {
     cpu: &'static str,
     /// The memory map, for the images' build script.
     memory: &'static str,
+    /// Bytes of flash.
+    pub flash: u64,
+    /// Bytes of contiguous RAM.
+    pub ram: u64,
 }
 
 /// Cortex-M4 with a unit for f32 and all the memory one may want.
 pub const M4F: Board = Board {
     name: "M4F",
+    word: "m4",
     triple: TRIPLES[1],
     cpu_flag: None,
     machine: "mps2-an386",
     cpu: "cortex-m4",
     memory: "mps2",
+    flash: 4 << 20,
+    ram: 4 << 20,
 };
 
 /// The same core with its unit left unused.
-pub const M4: Board = Board { name: "M4", triple: TRIPLES[0], ..M4F };
+pub const M4: Board = Board { name: "M4", word: "m4-soft", triple: TRIPLES[0], ..M4F };
 
 /// Cortex-M7 with a unit for f64.
 pub const M7: Board = Board {
     name: "M7",
+    word: "m7",
     cpu_flag: Some("-Ctarget-cpu=cortex-m7"),
     machine: "mps2-an500",
     cpu: "cortex-m7",
@@ -49,8 +59,15 @@ pub const M7: Board = Board {
 };
 
 /// An STM32F405: 192 KiB of RAM, 128 of them contiguous, and 1 MiB of flash.
-pub const M4F_192K: Board =
-    Board { name: "M4F-192K", machine: "netduinoplus2", memory: "netduinoplus2", ..M4F };
+pub const M4F_192K: Board = Board {
+    name: "M4F-192K",
+    word: "m4-192k",
+    machine: "netduinoplus2",
+    memory: "netduinoplus2",
+    flash: 1 << 20,
+    ram: 128 << 10,
+    ..M4F
+};
 
 /// The same part on a desk: QEMU is not asked.
 pub const HARDWARE: Board = Board { name: "STM32F407", memory: "stm32f407", ..M4F_192K };
@@ -69,7 +86,15 @@ pub struct Build<'a> {
 }
 
 impl Board {
+    /// The board, with so much flash and RAM that every image has room: to link, not to run.
+    pub fn boundless(self) -> Self {
+        Self { memory: "boundless", ..self }
+    }
+
     /// The command that builds images for this board, and the folder that they go to.
+    ///
+    /// # Errors
+    /// No toolchain for it.
     pub fn build(&self, build: Build) -> Result<(Command, PathBuf), String> {
         let toolchain = Toolchain::find(self.triple)?;
         let mut command =
@@ -93,6 +118,9 @@ impl Board {
     }
 
     /// Runs an image to its end; what it prints. `counted` makes every instruction take the same time.
+    ///
+    /// # Errors
+    /// It ends with a failure, or not within ten minutes: what it printed.
     pub fn run(&self, image: &Path, counted: bool) -> Result<String, String> {
         let mut command = Command::new("qemu-system-arm");
         command.args(["-cpu", self.cpu, "-machine", self.machine, "-nographic"]);
@@ -112,6 +140,9 @@ impl Board {
 }
 
 /// The emulator's name and version.
+///
+/// # Errors
+/// It does not answer.
 pub fn emulator() -> Result<String, String> {
     let said = output(Command::new("qemu-system-arm").arg("--version"))?;
     let words = first_words(&said, 4);
@@ -160,6 +191,17 @@ fn reader(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<String
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_images_link_for_the_same_memory() {
+        let maps = include_str!("../../../tests/firmware/board/build.rs");
+        for (board, said) in [(M4F, "LENGTH = 4M\\nRAM"), (M4F_192K, "LENGTH = 1M\\nRAM")] {
+            assert!(maps.contains(said) && said.contains(&format!("{}M", board.flash >> 20)));
+        }
+        let kib = |board: Board| format!("0x20000000, LENGTH = {}", board.ram >> 10);
+        assert!(maps.contains(&format!("{}K\"", kib(M4F_192K))));
+        assert!(maps.contains("0x20000000, LENGTH = 4M\"") && M4F.ram == 4 << 20);
+    }
 
     #[test]
     fn a_child_that_hangs_is_stopped() {

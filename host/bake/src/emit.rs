@@ -1,0 +1,40 @@
+//! The module of the model that was chosen, and what programs are told of it.
+
+use signorini_image::chosen::Chosen;
+
+use crate::choice::{Choice, Model};
+use crate::condensed;
+use crate::face::Face;
+use crate::full;
+use signorini_scene::scene::Scene;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+
+/// A module of firmware.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Emitted {
+    /// Its Rust source.
+    pub source: String,
+    /// What it is.
+    pub chosen: Chosen,
+}
+
+/// The module of the model that was chosen.
+pub fn emit<R: Scalar>(scene: &Scene, problem: &Problem, choice: &Choice<R>) -> Emitted {
+    let candidate = choice.candidate();
+    let (model, features, source) = match &candidate.model {
+        Model::Condensed(baked) => {
+            ("condensed", Vec::new(), condensed::source(&Face::new(scene, problem), baked))
+        }
+        Model::Full(baked) => ("full", baked.features(), full::source(baked)),
+    };
+    let chosen = Chosen {
+        model: model.to_owned(),
+        scalar: R::NAME.to_owned(),
+        kernel_features: features.into_iter().map(str::to_owned).collect(),
+        ram_bytes: candidate.needs.ram,
+        flash_bytes: candidate.needs.flash,
+        instructions: candidate.needs.instructions(),
+    };
+    Emitted { source, chosen }
+}

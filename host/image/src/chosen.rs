@@ -1,0 +1,20 @@
+//! What a scene became when it was baked, as programs read it: `signorini bake --json`.
+
+use serde::{Deserialize, Serialize};
+
+/// The model that was chosen, and what is said of it before it is built.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Chosen {
+    /// `full` or `condensed`.
+    pub model: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// Features of the kernel that the module needs.
+    pub kernel_features: Vec<String>,
+    /// Bytes of RAM: the controller, and the stack of images of its kind.
+    pub ram_bytes: u64,
+    /// Bytes of flash: data, and the code of images of its kind.
+    pub flash_bytes: u64,
+    /// Instructions of the median tick of a trial; none where its parts were not counted in this scalar.
+    pub instructions: Option<f64>,
+}

@@ -1,0 +1,208 @@
+//! What a scene costs on a board, and whether it is right there: `firmware.json`.
+
+use std::fmt::{self, Write as _};
+
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
+
+use crate::board::Board;
+use crate::footprint::Footprint;
+use crate::module::Module;
+use crate::programs::Programs;
+use crate::room::NoImage;
+use crate::ticks::{Ticks, text};
+
+/// Ticks that both programs play.
+const TICKS: usize = 101;
+
+/// What an image prints in place of a count that its counter could not hold.
+const BEYOND: &str = "beyond-the-counter";
+
+/// Outputs by name, in their order; null where a value is no number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outputs(pub Vec<(String, Option<f64>)>);
+
+/// Instructions of a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Instructions {
+    /// From a cold start.
+    pub first: u64,
+    /// Of all ticks.
+    pub median: u64,
+    /// Of all ticks.
+    pub max: u64,
+}
+
+/// The result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Firmware {
+    /// The board, as the command line calls it.
+    pub board: &'static str,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// `full` or `condensed`.
+    pub model: String,
+    /// Those of the first tick on the board.
+    pub outputs: Outputs,
+    /// Those of the first tick on this machine.
+    pub host_outputs: Outputs,
+    /// Whether every tick has the same bits on both.
+    pub bit_identical: bool,
+    /// Of one call of `Controller::tick`.
+    pub instructions_per_tick: Instructions,
+    /// Bytes of RAM, the stack included.
+    pub ram_bytes: u64,
+    /// Bytes of flash.
+    pub flash_bytes: u64,
+    /// Bytes of the deepest stack.
+    pub stack_bytes: u64,
+    /// How many ticks there were.
+    pub ticks: usize,
+    /// What the kernel was built with.
+    pub kernel_features: Vec<String>,
+    /// Where the bits differ.
+    #[serde(skip)]
+    difference: Option<String>,
+    /// A tick without an answer.
+    #[serde(skip)]
+    refused: Option<String>,
+}
+
+/// Why there is no result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoResult {
+    /// There is no image.
+    NoImage(NoImage),
+    /// A tick takes longer than the board can count.
+    BeyondCounter,
+    /// A program failed, and what it said.
+    Failed(String),
+}
+
+impl Firmware {
+    /// Builds both programs of `module`, runs them, and measures the image.
+    ///
+    /// # Errors
+    /// No image; a program that fails.
+    pub fn measure(module: &Module, board: &Board) -> Result<Self, NoResult> {
+        let programs = Programs::build(module, board)?;
+        let (said, desk) = (Ticks::parse(&programs.on_board()?), programs.on_desk()?);
+        let desk = Ticks::parse(&desk);
+        if said.count() != TICKS {
+            return Err(format!("the board has played {} of {TICKS} ticks", said.count()).into());
+        }
+        let Footprint { statics, stack } = Footprint::new(programs.image(), &said)?;
+        let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
+        let names: Vec<String> = word("output").map(|digits| text(&digits)).collect();
+        let difference = said.difference(&desk);
+        Ok(Self {
+            board: board.word,
+            scalar: word("scalar").next().unwrap_or_default(),
+            model: word("model").next().unwrap_or_default(),
+            outputs: Outputs::new(&names, &said),
+            host_outputs: Outputs::new(&names, &desk),
+            bit_identical: difference.is_none(),
+            instructions_per_tick: instructions(&said)?,
+            ram_bytes: statics.ram + stack,
+            flash_bytes: statics.flash(),
+            stack_bytes: stack,
+            ticks: TICKS,
+            kernel_features: module.chosen.kernel_features.clone(),
+            difference,
+            refused: desk.refused().map(str::to_owned),
+        })
+    }
+
+    /// `firmware.json`.
+    pub fn json(&self) -> String {
+        // Every number is finite: nothing here can fail.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The same of `scene` for a person.
+    pub fn table(&self, scene: &str) -> String {
+        let Self { board, scalar, model, ram_bytes, flash_bytes, stack_bytes, .. } = self;
+        let Instructions { median, max, .. } = self.instructions_per_tick;
+        let mut table = format!("\n{scene} on {board}, {scalar}, {model}\n");
+        let names = self.outputs.0.iter().map(|(name, _)| name.chars().count());
+        let width = names.max().unwrap_or(0).max(12);
+        let _ = writeln!(table, "  {:<width$}  {:>24}{:>24}", "first tick", "board", "desk");
+        let digits = |value: Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
+        for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
+            let (board, desk) = (digits(*board), digits(*desk));
+            let _ = writeln!(table, "  {:<width$}  {board:>24}{desk:>24}", name.escape_debug());
+        }
+        let equal = self.difference.as_deref().unwrap_or("the same bits on both");
+        let _ = writeln!(table, "  {TICKS} ticks: {equal}");
+        let _ = writeln!(table, "  instructions per tick: {median} in the median, {max} at most");
+        let _ = writeln!(
+            table,
+            "  RAM: {ram_bytes} bytes, {stack_bytes} of them stack; flash: {flash_bytes} bytes"
+        );
+        table
+    }
+
+    /// `Ok` where every tick has an answer, with the same bits on both machines.
+    ///
+    /// # Errors
+    /// The first tick that has not.
+    pub fn verdict(&self) -> Result<(), String> {
+        match (&self.difference, &self.refused) {
+            (Some(difference), _) => Err(format!("not bit identical, {difference}")),
+            (None, Some(tick)) => Err(format!("{tick} has no answer")),
+            (None, None) => Ok(()),
+        }
+    }
+}
+
+impl Outputs {
+    fn new(names: &[String], played: &Ticks) -> Self {
+        let mut values = played.outputs().into_iter();
+        Self(names.iter().map(|name| (name.clone(), values.next().flatten())).collect())
+    }
+}
+
+impl Serialize for Outputs {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        self.0.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
+        map.end()
+    }
+}
+
+fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {
+    if board.notes("instructions").flatten().any(|word| word == BEYOND) {
+        return Err(NoResult::BeyondCounter);
+    }
+    let mut counts = board.numbers("instructions")?;
+    let first = counts.first().copied();
+    counts.sort_unstable();
+    let (median, max) = (counts.get(TICKS / 2).copied(), counts.get(TICKS - 1).copied());
+    let all = first.zip(median).zip(max);
+    let ((first, median), max) = all.ok_or_else(|| "a tick was not counted".to_owned())?;
+    Ok(Instructions { first, median, max })
+}
+
+impl From<NoImage> for NoResult {
+    fn from(why: NoImage) -> Self {
+        Self::NoImage(why)
+    }
+}
+
+impl From<String> for NoResult {
+    fn from(why: String) -> Self {
+        Self::Failed(why)
+    }
+}
+
+impl fmt::Display for NoResult {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoImage(why) => why.fmt(f),
+            Self::BeyondCounter => {
+                f.write_str("a tick takes longer than the board's counter can count")
+            }
+            Self::Failed(why) => f.write_str(why),
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! Images of baked scenes: how they are built, run on emulated boards, and what they take.
+//!
+//! ```text
+//!   module ─┬─ image ─► board ─► ticks ─┬─► firmware (firmware.json)
+//!           └─ program ─► desk ─► ticks ─┘
+//! ```
+//! Who bakes writes the module: `cargo xtask firmware` by the program `signorini`, `signorini trade` itself. It works in a
+//! checkout of the sources ([`checkout`]), with tools that it installs where it can ([`tools`]).
+
+pub mod board;
+pub mod cargo;
+pub mod checkout;
+pub mod chosen;
+pub mod firmware;
+pub mod footprint;
+pub mod lock;
+pub mod module;
+pub mod programs;
+pub mod record;
+pub mod room;
+pub mod sections;
+pub mod ticks;
+pub mod toolchain;
+pub mod tools;

@@ -1,0 +1,125 @@
+//! A scene as a module of firmware, and the programs that hold it.
+//!
+//! Every module and every program is kept under a name of its own. Commands that run at the same time do not take each
+//! other's: of two that make the same, the second waits until the first has done with its [`Module`], and programs,
+//! which cargo puts under one name whatever their scene, are built and taken away in turns.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::board::{Board, Build};
+use crate::cargo::{cargo, root, run, run_quietly, target_dir};
+use crate::chosen::Chosen;
+use crate::lock;
+use crate::room::NoImage;
+
+const PACKAGE: &str = "signorini-scene";
+
+/// A module.
+#[derive(Debug)]
+pub struct Module {
+    name: String,
+    file: PathBuf,
+    /// Nobody else has module and programs of this name meanwhile.
+    _turn: File,
+    /// Whether builds are out of sight.
+    quiet: bool,
+    /// What the scene became.
+    pub chosen: Chosen,
+}
+
+impl Module {
+    /// The module of this name, which `write` puts into a file: it stays untouched where it is what it was.
+    ///
+    /// # Errors
+    /// Those of `write`; a file that cannot be written.
+    pub fn new<E: From<String>>(
+        name: &str,
+        write: impl FnOnce(&Path) -> Result<Chosen, E>,
+    ) -> Result<Self, E> {
+        let folder = folder()?;
+        let turn = lock::hold(&folder.join(format!("{name}.lock")))?;
+        let fresh = folder.join(format!("{name}.{}.rs", std::process::id()));
+        let chosen = write(&fresh).inspect_err(|_| drop(fs::remove_file(&fresh)))?;
+        let file = folder.join(format!("{name}.rs"));
+        take(&fresh, &file)?;
+        Ok(Self { name: name.to_owned(), file, _turn: turn, quiet: false, chosen })
+    }
+
+    /// The same, its builds out of sight.
+    #[must_use]
+    pub fn quietly(self) -> Self {
+        Self { quiet: true, ..self }
+    }
+
+    /// Whether builds are out of sight.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// Builds the image of a board, with features of the scene's package beside its kernel's.
+    ///
+    /// # Errors
+    /// No room on the board, a build that fails.
+    pub fn image(&self, board: &Board, more: &[&str]) -> Result<PathBuf, NoImage> {
+        let linked = self.linked(board, more);
+        linked.map_err(|why| NoImage::of(board, why, || self.linked(&board.boundless(), more)))
+    }
+
+    fn linked(&self, board: &Board, more: &[&str]) -> Result<PathBuf, String> {
+        let features = self.of_kernel();
+        let features: Vec<&str> =
+            features.iter().map(String::as_str).chain(more.iter().copied()).collect();
+        // This package reads one scene; the folder of the exported ones is for others.
+        let build =
+            Build { package: PACKAGE, bins: &["scene"], features: &features, scenes: &self.file };
+        let (mut command, folder) = board.build(build)?;
+        command.env("SIGNORINI_SCENE", &self.file);
+        self.made(command, &folder.join("scene"), board.name)
+    }
+
+    /// Builds the program for the desk.
+    ///
+    /// # Errors
+    /// A build that fails.
+    pub fn desk(&self) -> Result<PathBuf, String> {
+        let folder = target_dir("desk");
+        let mut command = cargo(&["build", "--release", "--locked", "-p", PACKAGE]);
+        command.args(["--bin", "scene_desk", "--target-dir"]).arg(&folder);
+        let features = [self.of_kernel(), vec!["desk".to_owned()]].concat();
+        command.arg("--features").arg(features.join(","));
+        command.env("SIGNORINI_SCENE", &self.file).current_dir(root().join("tests/firmware"));
+        self.made(command, &folder.join("release/scene_desk"), "desk")
+    }
+
+    fn of_kernel(&self) -> Vec<String> {
+        let features = self.chosen.kernel_features.iter();
+        features.map(|feature| format!("signorini-kernel/{feature}")).collect()
+    }
+
+    /// What `command` puts at `program`: a copy that the next scene's does not replace.
+    fn made(&self, command: Command, program: &Path, machine: &str) -> Result<PathBuf, String> {
+        let _turn = lock::hold(&program.with_extension("lock"))?;
+        if self.quiet { run_quietly(command) } else { run(command) }?;
+        let kept = folder()?.join(format!("{}.{machine}", self.name));
+        let copied = fs::copy(program, &kept);
+        copied.map(|_| kept).map_err(|error| format!("{}: {error}", program.display()))
+    }
+}
+
+/// Puts `fresh` in the place of `kept`, unless they are equal: images are then not built anew.
+///
+/// # Errors
+/// A file that cannot be moved.
+pub fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
+    let equal = fs::read(fresh).ok() == fs::read(kept).ok();
+    let done = if equal { fs::remove_file(fresh) } else { fs::rename(fresh, kept) };
+    done.map_err(|error| format!("{}: {error}", kept.display()))
+}
+
+fn folder() -> Result<PathBuf, String> {
+    let folder = target_dir("firmware").join("baked");
+    let made = fs::create_dir_all(&folder);
+    made.map(|()| folder.clone()).map_err(|error| format!("{}: {error}", folder.display()))
+}
