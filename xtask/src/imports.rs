@@ -11,7 +11,7 @@ use crate::cargo::root;
 use crate::steps::Steps;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 9] = [
+const CRATES: [(&str, &[&str]); 10] = [
     ("kernel", &[]),
     ("host/draw", &[]),
     ("host/scene", &["kernel"]),
@@ -19,7 +19,8 @@ const CRATES: [(&str, &[&str]); 9] = [
     ("host/bake", &["kernel", "scene", "solve", "draw"]),
     ("host/lab", &["kernel", "scene", "solve", "draw", "bake"]),
     ("host", &["scene", "solve", "draw", "bake", "lab"]),
-    ("tests", &["kernel", "scene", "solve", "bake"]),
+    ("tests/tolerances", &[]),
+    ("tests", &["kernel", "scene", "solve", "bake", "tolerances"]),
     ("xtask", &[]),
 ];
 

@@ -126,6 +126,7 @@ fn columns(line: &str) -> (String, Vec<String>) {
 mod tests {
     use super::*;
     use signorini_scene::expression::Elementary;
+    use signorini_tolerances::bake::COSTS;
 
     #[test]
     fn the_record_tells_what_a_sweep_costs() {
@@ -165,7 +166,7 @@ mod tests {
     fn a_quadratic_is_met_everywhere() {
         let exact = |n: f64| 3.0 * n * n - 5.0 * n + 7.0;
         for n in [0.0, 16.0, 50.0, 96.0] {
-            assert!((quadratic(ORDERS.map(exact), n) - exact(n)).abs() < 1e-9);
+            COSTS.check("a quadratic", quadratic(ORDERS.map(exact), n) - exact(n));
         }
     }
 }

@@ -100,7 +100,8 @@ mod tests {
         assert_eq!(ticks.count(), 2);
         assert_eq!(ticks.outputs(), ["0.1", "null"]);
         assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
-        assert!(Ticks::parse("@ instructions beyond").numbers("instructions").is_err());
+        let refused = Ticks::parse("@ instructions beyond").numbers("instructions");
+        assert_eq!(refused, Err("a tick's instructions: `beyond`".to_owned()));
     }
 
     #[test]

@@ -1,47 +1,4 @@
-//! The one tolerance table: every comparison of the tests takes its bound from here by name.
-
-/// A bound on a deviation, and why it is what it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
-    /// What is compared.
-    pub name: &'static str,
-    /// The largest deviation allowed.
-    pub value: f64,
-    /// Where the value comes from.
-    pub reason: &'static str,
-}
-
-impl Tolerance {
-    /// Panics, naming the entry and `what`, unless `deviation` is a number of at most `value`.
-    #[track_caller]
-    pub fn check(&self, what: &str, deviation: f64) {
-        let Self { name, value, reason } = self;
-        assert!(
-            deviation.abs() <= *value,
-            "{what}: {name} is off by {deviation:e}, allowed {value:e} ({reason})"
-        );
-    }
-
-    /// The same for the deviation of `measured` relative to `expected`.
-    #[track_caller]
-    pub fn check_relative(&self, what: &str, measured: f64, expected: f64) {
-        let what = format!("{what}: {measured:e} instead of {expected:e}");
-        self.check(&what, (measured - expected) / expected);
-    }
-}
-
-/// Declares each entry as a constant and lists them all in [`TABLE`].
-macro_rules! table {
-    ($($constant:ident: $name:literal, $value:literal, $reason:literal;)*) => {
-        $(
-            #[doc = concat!("The bound on ", $name, ": ", $reason, ".")]
-            pub const $constant: Tolerance =
-                Tolerance { name: $name, value: $value, reason: $reason };
-        )*
-        /// Every entry.
-        pub const TABLE: &[Tolerance] = &[$($constant),*];
-    };
-}
+//! Comparisons of the crate `tests`: twins, exact solutions, bounds.
 
 table! {
     FLUX_CONTINUITY: "normal flux from both sides of an edge, over the terms it is the sum of", 5e-13,
@@ -111,24 +68,30 @@ table! {
         "two solves down to 4√n ε, times the condition of their matrices";
     UNITS: "bound over error in f32, in other units, relative", 1e-6,
         "some roundings of data that are no longer powers of two apart";
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{PATCH, TABLE};
-
-    #[test]
-    fn entries_have_distinct_names_positive_values_and_reasons() {
-        let mut names: Vec<_> = TABLE.iter().map(|t| t.name).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), TABLE.len());
-        assert!(TABLE.iter().all(|t| t.value > 0.0 && !t.reason.is_empty()));
-    }
-
-    #[test]
-    #[should_panic(expected = "instead of")]
-    fn not_a_number_is_never_within_a_tolerance() {
-        PATCH.check_relative("a failed solve", f64::NAN, 1.0);
-    }
+    AGAIN: "outputs of a tick that is repeated, over its inputs, in ε as of f64", 7.2e-15,
+        "32 ε: the same exchanges, in another order";
+    AFTER_HUGE: "openings after huge ticks against those without, over 1 and their size", 1e-4,
+        "f32: what is left over in a tableau";
+    WORN: "outputs of 1000 ticks in f32 against f64, over the inputs", 1e-5,
+        "f32: a tableau is built anew before it has worn";
+    SUM_OF_LENGTHS: "length of contact, over all lengths, in ε as of f64", 1.8e-15,
+        "8 ε: a sum of a dozen lengths";
+    OSCILLATING: "what rounding adds to a bound that oscillation dominates, in f32, over the bound", 1e-4,
+        "rounding of the small terms alone";
+    SLENDER: "entries of an element matrix on slender cells, over the largest and the slenderness", 1e-12,
+        "corners rounded to f64";
+    LEFT_OPEN: "what a solver leaves of λ on open edges, over the fluxes", 1e-8,
+        "the kernel stops when it takes the error for 1e−10";
+    FORCE_OF_CONDENSED: "force of a condensed tick against the law, over what rounding may do", 1.0,
+        "rounding is counted term by term";
+    ONE_SWEEP: "one sweep against a naive one, over the largest u, in ε as of f64", 2.2e-13,
+        "sums of at most 7 terms on matrices with large jumps";
+    ALGEBRAIC: "algebraic part of the bound at convergence, over the bound", 1e-6,
+        "sweeps end far below it";
+    SAME_ON_SQUARES: "u of both elements on squares", 1e-10,
+        "the same matrix, but for rounding";
+    OWN_SOLVE: "the twins' own solver against a known solution", 1e-14,
+        "a diagonally dominant matrix";
+    OWN_RULES: "the twins' own quadrature against integrals on paper", 1e-14,
+        "sums of at most 20 terms";
 }
