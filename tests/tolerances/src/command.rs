@@ -17,7 +17,7 @@ table! {
         "six digits are given";
     DIRECT: "force by sweeps against the direct solver, relative", 1e-7,
         "the kernel stops when it takes the error for 1e-10";
-    DIRECT_NARROW: "the same in f32", 1e-4,
+    DIRECT_NARROW: "force by sweeps in f32 against the direct solver, relative", 1e-4,
         "data rounded to f32";
     GUARANTEE: "how far the error is above its bound at grazing and switching contact, relative", 1e-4,
         "quadrature of the norms";

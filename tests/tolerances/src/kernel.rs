@@ -5,9 +5,9 @@ table! {
         "sums of four terms near 1";
     LINEAR: "a linear function on quads, at vertices and inside", 8e-14,
         "values near 50, on a quad of side 0.004 far from the origin";
-    GRADIENT: "its gradient", 4e-12,
+    GRADIENT: "the gradient of a linear function on quads", 4e-12,
         "values near 50 over sides of 0.004";
-    LINEAR_FLUX: "its flux through the sides, over the largest entry of the matrix", 3e-14,
+    LINEAR_FLUX: "flux of a linear function through the sides, over the largest entry of the matrix", 3e-14,
         "differences of values near 50";
     STIFFNESS: "element matrices by another rule or element, over the largest entry", 5e-15,
         "sums of 64 points against sums of 4";
@@ -25,7 +25,7 @@ table! {
         "sweeps stop at 16 ε, and the matrix amplifies what is left";
     RESIDUAL: "what is left of a residual, a correction or the algebraic part", 1e-13,
         "all that rounding allows";
-    ALGEBRAIC: "algebraic part of the bound where sweeps end, over the bound", 1e-6,
+    ALGEBRAIC: "algebraic part of the bound where sweeps end, over the bound", 5e-14,
         "sweeps end far below the error of the mesh";
     SWEPT: "answers of ticks against sweeps to the end", 1e-9,
         "sweeps end at 1e-12 of the bound, on data up to 10⁹ times larger";

@@ -17,10 +17,6 @@ table! {
         "0.05 %: the targets have six digits, two quadratures of the errors differ by less";
     TOTAL_FORCE: "contact force against the target table, relative", 2e-6,
         "the table has six digits and the forces do not depend on the quadrature of errors";
-    SMOOTH_AGREEMENT: "edge means of two programs, data smooth in each cell, over the range", 1e-10,
-        "both integrate to rounding: what is left is the solves";
-    KINKED_AGREEMENT: "edge means of two programs, data with a kink in a cell, over the range", 1e-4,
-        "different quadrature points see a kink differently";
     RATE: "observed order of an error over n = 8 … 64, relative to the theory's", 0.05,
         "the free points of H move against the grid, which makes l2 scatter";
     KERNEL_AGREEMENT: "edge means of kernel and twin, over the largest one", 1e-9,
@@ -62,7 +58,7 @@ table! {
         "what rounding S to f32 costs: 1e-5 at worst over 600 seeds where λ_min(S) is above 1e-3";
     FORCE_OF_EDGES: "force against the law of contact on the table of edges in f64, over its terms", 1e-13,
         "both sum the same fluxes: only the rounding of sums of a hundred terms enters";
-    FORCE_OF_EDGES_NARROW: "the same in f32", 5e-6,
+    FORCE_OF_EDGES_NARROW: "force against the law of contact on the table of edges in f32, over its terms", 5e-6,
         "ε = 1.2e-7 for each of at most a hundred terms, not all of one sign, and q rounded once";
     AFTER_EXTREMES: "answer after extreme ticks against one from a cold start, over its size, in ε of f64", 1e-11,
         "two solves down to 4√n ε, times the condition of their matrices";
