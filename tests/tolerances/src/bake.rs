@@ -23,7 +23,7 @@ table! {
         "ε = 1.2e-7 in sums of squares";
     COSTS: "counted costs against curves through them, relative", 5e-12,
         "curves of as many coefficients as counts";
-    LENGTH: "length of contact, condensed and full", 1e-6,
+    LENGTH: "length of contact, condensed and full", 1e-14,
         "f32 in the condensed one";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";
