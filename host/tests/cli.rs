@@ -1,5 +1,6 @@
 //! The command as users and scripts meet it: files, exit status, messages.
 
+use signorini_tolerances::command::{DIRECT, DIRECT_NARROW, PRINTED};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -62,7 +63,7 @@ fn solve_writes_its_three_files() {
     }
     assert_eq!(summary["unknowns"], 1264);
     let force = summary["contact_force"].as_f64().expect("a number");
-    assert!((force - 0.950787).abs() < 1e-6);
+    PRINTED.check("force", force - 0.950787);
     assert!(text(&folder.path().join("solution.vtu")).contains("UnstructuredGrid"));
 }
 
@@ -75,8 +76,8 @@ fn both_scalars_and_both_solvers_agree() {
             summary["contact_force"].as_f64().expect("a number")
         };
         let direct = force(&["--solver", "direct"]);
-        assert!((force(&[]) / direct - 1.0).abs() < 1e-7, "{scene}");
-        assert!((force(&["--scalar", "f32"]) / direct - 1.0).abs() < 1e-4, "{scene}");
+        DIRECT.check_relative(scene, force(&[]), direct);
+        DIRECT_NARROW.check_relative(scene, force(&["--scalar", "f32"]), direct);
     }
 }
 

@@ -1,5 +1,6 @@
 //! `signorini tick` as users and scripts meet it: its table, its logs, its messages.
 
+use signorini_tolerances::command::{BAKED, COARSE_START, MOVING_FORCE, REPLAYED};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -80,7 +81,7 @@ fn the_force_of_a_moving_contact_is_pi_a_squared() {
         for (t, force) in table.numbers("t").into_iter().zip(table.numbers("contact_force")) {
             let a = 0.55 + 0.1 * (2.0 * std::f64::consts::PI * t).sin();
             let exact = std::f64::consts::PI * a * a;
-            assert!((force / exact - 1.0).abs() < 0.02, "{scalar}, t = {t}: {force}, not {exact}");
+            MOVING_FORCE.check_relative(format_args!("{scalar}, t = {t}"), force, exact);
         }
     }
 }
@@ -113,7 +114,8 @@ fn a_log_replays_what_inputs_say() {
     assert_eq!(replayed.lines[0][1..], set.lines[0][1..]);
     let force = |table: &Table, line: usize| table.numbers("contact_force")[line];
     let moved = force(&replayed, 1) / force(&set, 0) - 1.0;
-    assert!(moved.abs() < 1e-3 && replayed.numbers("sweeps")[1] <= 4.0, "nothing changed: {moved}");
+    REPLAYED.check("nothing changed", moved);
+    assert!(replayed.numbers("sweeps")[1] <= 4.0, "nothing changed");
 
     std::fs::write(log, "t,rain\n0,2\n").expect("a log");
     let rest = played(LEVEE, &["--log", log, "--input", "river=0.5"]);
@@ -131,7 +133,7 @@ fn a_log_is_replayed_by_the_baked_controller() {
     assert_eq!(baked.column("status"), ["exact"; 3]);
     for name in ["seepage", "head", "contact_force"] {
         for (own, other) in baked.numbers(name).into_iter().zip(full.numbers(name)) {
-            assert!((own / other - 1.0).abs() < 1e-2, "{name}: {own}, {other}");
+            BAKED.check_relative(name, own, other);
         }
     }
     // Outputs are in the controller's scalar, f32.
@@ -324,6 +326,6 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         };
         let ((cold, bound), (warm, same)) = (first(None), first(Some(&coarse)));
         assert!(2 * warm <= cold, "{cells:?}: {warm} sweeps, {cold} without");
-        assert!((same / bound - 1.0).abs() < 0.05, "{cells:?}: {same}, {bound} without");
+        COARSE_START.check_relative(format_args!("{cells:?}"), same, bound);
     }
 }

@@ -1,6 +1,7 @@
 //! `signorini trade` as users meet it: a study of a small scene, its files, its recommendation, its wishes, its
 //! interruptions.
 
+use signorini_tolerances::command::{KEPT, PROMISED};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -195,7 +196,7 @@ fn the_recommendation_is_kept(bench: &Bench, record: &Value) {
     let alone = bench.record("alone");
     assert_eq!(points(&alone).len(), 1);
     let [found, asked] = [&alone["points"][0], promised].map(|point| number(point, "error.energy"));
-    assert!((found / asked - 1.0).abs() < 1e-6, "{found} {asked}");
+    PROMISED.check_relative("energy", found, asked);
     let solved = bench.path("solved");
     let (status, _, stderr) =
         signorini(&["solve", fragment.to_str().unwrap(), "--out", solved.to_str().unwrap()]);
@@ -307,11 +308,8 @@ fn committed_recommendations_keep_their_promise() {
         let found = number(&read(&Path::new(place).join("summary.json")), "errors.energy");
         let promised = number(&record["recommendation"]["point"], "error.energy");
         // A patch is exact to rounding, and rounding is no promise.
-        let rounding = 1e-6 * number(&record, "energy");
-        assert!(
-            (found - promised).abs() <= 0.05 * promised + rounding,
-            "{fragment}: {found} {promised}"
-        );
+        let size = promised + 2e-5 * number(&record, "energy");
+        KEPT.check_over(fragment, found - promised, size);
         kept += 1;
     }
     assert!(kept >= 30, "{kept}");

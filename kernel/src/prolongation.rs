@@ -51,8 +51,10 @@ mod tests {
         let mut fine = [f64::NAN];
         assert_eq!(prolong(&[origin], &[2.0, 4.0, 8.0], &mut fine), Ok(()));
         assert_eq!(fine, [2.0]);
-        assert!(prolong(&[origin], &[2.0, 4.0], &mut fine).is_err());
-        assert!(prolong(&[origin; 2], &[2.0, 4.0, 8.0], &mut fine).is_err());
+        let stray = Err(Error::OutOfRange { of: Array::Edges, at: 0 });
+        assert_eq!(prolong(&[origin], &[2.0, 4.0], &mut fine), stray);
+        let many = Err(Error::Length { of: Array::Unknowns, found: 1, expected: 2 });
+        assert_eq!(prolong(&[origin; 2], &[2.0, 4.0, 8.0], &mut fine), many);
         assert_eq!(fine, [2.0]);
     }
 }

@@ -12,6 +12,8 @@ use signorini_kernel::error::Array;
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::Ended;
 use signorini_kernel::{Error, Real};
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::kernel::{CONDENSED, CONDENSED_NARROW, CONDENSED_SWEPT, TABLEAU};
 use strip::{Random, Strip};
 
 /// Owned memory of a solve.
@@ -75,7 +77,7 @@ fn load<R: Real>(strip: &Strip<R>, tick: u32, random: &mut Random) -> Vec<R> {
     strip.load(f64::from(tick % 7) * 0.1 - 0.3, random)
 }
 
-fn solves_exactly<R: Real>(tolerance: R) -> Result<(), Error> {
+fn solves_exactly<R: Real + Into<f64>>(allowed: Tolerance) -> Result<(), Error> {
     for columns in [1, 2, 5, 16, 33] {
         let strip = Strip::<R>::new(columns);
         let (mut work, mut random) = (Work::new(&strip)?, Random::new(7));
@@ -84,7 +86,7 @@ fn solves_exactly<R: Real>(tolerance: R) -> Result<(), Error> {
             let load = load(&strip, tick, &mut random);
             let (ended, _) = work.exact(&strip, &load, 1000)?;
             assert_eq!(ended, Ended::Exact, "{columns} edges, tick {tick}");
-            assert!(work.defect() <= tolerance, "{columns}, {tick}: {}", work.defect());
+            allowed.check(format_args!("{columns} edges, tick {tick}"), work.defect());
             work.x.iter().for_each(|x| sides[usize::from(*x > R::ZERO)] += 1);
         }
         assert!(sides[0] > 0 && sides[1] > 0, "{columns}: one side only, {sides:?}");
@@ -94,8 +96,8 @@ fn solves_exactly<R: Real>(tolerance: R) -> Result<(), Error> {
 
 #[test]
 fn pivoting_solves_exactly_tick_after_tick() -> Result<(), Error> {
-    solves_exactly::<f64>(1e-13)?;
-    solves_exactly::<f32>(1e-5)
+    solves_exactly::<f64>(CONDENSED)?;
+    solves_exactly::<f32>(CONDENSED_NARROW)
 }
 
 #[test]
@@ -112,7 +114,7 @@ fn sweeps_come_to_the_same() -> Result<(), Error> {
         let progress = sweeps.solve(&strip.matrix()?, &load, iterate, &mut Deadline::never())?;
         assert_eq!(progress.ended, Ended::Settled);
         for (a, b) in x.iter().zip(&work.x) {
-            assert!((a - b).abs() < 1e-12 * (1.0 + b), "{a} {b}");
+            CONDENSED_SWEPT.check_over(format_args!("tick {tick}"), a - b, 1.0 + b);
         }
     }
     Ok(())
@@ -149,7 +151,7 @@ fn a_cap_on_exchanges_spreads_them_over_ticks() -> Result<(), Error> {
         assert!(work.x.iter().all(|x| *x >= 0.0));
     }
     assert!(last > 2 && last < 31, "{last}");
-    assert!(work.defect() < 1e-13);
+    CONDENSED.check("the cap", work.defect());
     Ok(())
 }
 
@@ -170,7 +172,7 @@ fn exchanges_undo_each_other() -> Result<(), Error> {
     assert_eq!(tableau.exchanged(), [false; 16]);
     let entries = work.blocks.as_flattened().as_flattened().iter();
     for (a, b) in entries.zip(before.as_flattened().as_flattened()) {
-        assert!((a - b).abs() < 1e-14);
+        TABLEAU.check("an entry", a - b);
     }
     Ok(())
 }
@@ -186,11 +188,11 @@ fn a_worn_tableau_is_noticed_and_built_anew() -> Result<(), Error> {
     assert_eq!(ended, Ended::OutOfSweeps);
     let (ended, _) = work.exact(&strip, &load, 1000)?;
     assert_eq!(ended, Ended::Exact);
-    assert!(work.defect() < 1e-5);
+    CONDENSED_NARROW.check("built anew", work.defect());
     Ok(())
 }
 
-fn recovers<R: Real>() -> Result<(), Error> {
+fn recovers<R: Real + Into<f64>>() -> Result<(), Error> {
     let strip = Strip::<R>::partly_loose(12);
     let mut work = Work::new(&strip)?;
     let number = |x: f64| R::from_f64(x).unwrap_or(R::ZERO);
@@ -206,7 +208,7 @@ fn recovers<R: Real>() -> Result<(), Error> {
         }
         let (ended, _) = work.exact(&strip, &load(-0.1), 48)?;
         assert_eq!(ended, Ended::Exact, "after {pull}");
-        assert!(work.defect() < number(1e-5), "{}", work.defect());
+        CONDENSED_NARROW.check(format_args!("after {pull}"), work.defect());
     }
     Ok(())
 }
@@ -231,7 +233,7 @@ fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
             naive[i] = (naive[i] + 1.3 * (load[i] - product)).max(0.0);
         }
     }
-    assert!(x.iter().zip(&naive).all(|(a, b)| (a - b).abs() < 1e-14));
+    TABLEAU.check_each("five sweeps", &x[..10], &naive);
     assert!(x.contains(&0.0) && x.iter().any(|&x| x > 0.0), "{x:?}");
     Ok(())
 }
@@ -269,8 +271,9 @@ fn wrong_lengths_are_refused() -> Result<(), Error> {
         Tableau::new(5, &mut room, &mut [false; 8], [&mut [0.0; 8], &mut [0.0; 5]]).err(),
         Some(Error::Length { of: Array::Scratch, found: 5, expected: 8 })
     );
-    assert!(
-        Tableau::new(5, &mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).is_err()
+    assert_eq!(
+        Tableau::new(5, &mut room, &mut [false; 16], [&mut [0.0; 16], &mut [0.0; 16]]).err(),
+        Some(Error::Length { of: Array::Contact, found: 16, expected: 8 })
     );
     Ok(())
 }

@@ -13,6 +13,7 @@ use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::{Error, Real};
+use signorini_tolerances::kernel::{CONDENSED_NARROW, EXTREME_DEFECT};
 use strip::{Random, Strip};
 
 const EDGES: usize = 19;
@@ -189,8 +190,8 @@ fn answers_rightly<R: Scalar>() -> [u32; 3] {
                             continue;
                         }
                         let defect = plate.defect(p, &store.x);
-                        let rounding = R::of(1e3) * R::EPSILON;
-                        assert!(R::of(defect) <= rounding, "{}: {defect:e} {report:?}", said());
+                        let off = defect / R::EPSILON.wide() * f64::EPSILON;
+                        EXTREME_DEFECT.check(format_args!("{}: {report:?}", said()), off);
                         *(if report.ended == Ended::Exact {
                             &mut exact
                         } else {
@@ -221,7 +222,8 @@ fn refused_ticks_leave_every_bit<R: Scalar>(output: f64) -> u32 {
         for (at, extreme) in sizes::<R>().chain([f64::NAN, f64::INFINITY]).enumerate() {
             let before = store.bits();
             let mut tried = store.clone();
-            if plate.with(|model| tried.tick(model, how, extreme)).is_err() {
+            if let Err(why) = plate.with(|model| tried.tick(model, how, extreme)) {
+                assert!(matches!(why, Error::NotFinite { .. }), "{how:?}, {extreme:e}: {why}");
                 refused += 1;
                 assert_eq!(tried.bits(), before, "{how:?}, {extreme:e}");
                 let ordinary = [0.3, -0.8, 1.7, 0.0][at % 4];
@@ -261,7 +263,7 @@ fn sweeps_come_back_from_what_a_heavy_tick_has_left() {
         let ended = (0..20).map(|_| tick(0.6).expect("an ordinary tick").1.ended);
         let ticks = ended.take_while(|ended| *ended != Ended::Settled).count();
         assert!(ticks < 12, "{heavy:e}: {ticks}");
-        assert!(plate.defect(0.6, &store.x) < 1e-5, "{heavy:e}");
+        CONDENSED_NARROW.check(format_args!("{heavy:e}"), plate.defect(0.6, &store.x));
     }
 }
 

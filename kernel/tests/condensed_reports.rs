@@ -12,6 +12,7 @@ use signorini_kernel::condensed::storage::{Storage, TableauStorage};
 use signorini_kernel::condensed::{Condensed, tableau::Start};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
+use signorini_tolerances::kernel::CONDENSED;
 use strip::{Random, Strip};
 
 const EDGES: usize = 32;
@@ -84,8 +85,7 @@ fn the_clock_ends_exchanges_and_the_next_ticks_go_on() -> Result<(), Error> {
             assert!(report.exchanges <= 3 && x.iter().all(|x| *x >= 0.0), "{report:?}");
             if report.ended == Ended::Exact {
                 assert!(tick >= 2 && exchanges >= exact.exchanges, "{tick}");
-                let off = x.iter().zip(&expected).map(|(x, exact)| (x - exact).abs());
-                assert!(off.fold(0.0, f64::max) < 1e-12);
+                CONDENSED.check_each("openings", &x, &expected);
                 break;
             }
             assert_eq!((report.ended, report.sweeps), (Ended::OutOfTime, 0), "{tick}");

@@ -11,6 +11,7 @@ use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{
     Error, Libm, Math, Mesh, Micromath, Real, Relaxation, Tensor, Workspace, workspace,
 };
+use signorini_tolerances::kernel::{FAST_ROOT, SOLVED};
 
 /// 2 wide, 3 high; the right side in two edges.
 const CORNERS: [[f64; 2]; 5] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
@@ -34,9 +35,9 @@ fn bar(right: Condition<f64>) -> Result<(), Error> {
     let outcome = bar.solve(Settings::default())?;
     assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit), "{outcome:?}");
     let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
-    assert!((highest - 2.0).abs() < 1e-12, "{highest} with {right:?}");
+    SOLVED.check(format_args!("u with {right:?}"), highest - 2.0);
     // Off the gap nothing presses beyond what is given.
-    assert!(bar.contact_force().abs() < 1e-12, "{}", bar.contact_force());
+    SOLVED.check(format_args!("force with {right:?}"), bar.contact_force());
     Ok(())
 }
 
@@ -97,13 +98,17 @@ fn a_workspace_keeps_its_answer_where_it_refuses() -> Result<(), Error> {
     };
     bar.solve(Settings::default())?;
     let before = bits(&bar);
-    for [value, flux, coefficient] in
-        [[f64::NAN, 0.5, 2.0], [1.0, f64::INFINITY, 2.0], [3.0, 0.7, f64::MAX], [3.0, 0.7, -1.0]]
-    {
-        let found = bar.set_conditions(&mesh, given(value, flux, coefficient));
+    let not_finite = |of, at| Some(Error::NotFinite { of, at });
+    for ([value, flux, coefficient], refused) in [
+        ([f64::NAN, 0.5, 2.0], not_finite(Array::Dirichlet, 6)),
+        ([1.0, f64::INFINITY, 2.0], not_finite(Array::Neumann, 1)),
         // A coefficient may be as large as it likes where its edge is short.
-        if coefficient < f64::MAX {
-            assert!(found.is_err(), "{value} {flux} {coefficient}");
+        ([3.0, 0.7, f64::MAX], None),
+        ([3.0, 0.7, -1.0], Some(Error::NegativeRobin { edge: 0 })),
+    ] {
+        let found = bar.set_conditions(&mesh, given(value, flux, coefficient));
+        if refused.is_some() {
+            assert_eq!(found.err(), refused, "{value} {flux} {coefficient}");
         } else {
             bar.set_conditions(&mesh, given(1.0, 0.5, 2.0))?;
         }
@@ -160,7 +165,7 @@ fn half_edges_end_with_the_cells() -> Result<(), Error> {
 #[test]
 fn roots_and_the_larger_of_two_zeros() {
     let root = <Micromath as Math<f32>>::sqrt(9.0);
-    assert!((root / 3.0 - 1.0).abs() < 0.06, "{root}");
+    FAST_ROOT.check_relative("√9", root, 3.0);
     assert_eq!(<Libm as Math<f64>>::sqrt(9.0), 3.0);
     assert!(0.0_f64.or_larger(-0.0).is_sign_positive());
     assert!((-0.0_f64).or_larger(0.0).is_sign_negative());

@@ -7,6 +7,7 @@ use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::geometry::{quad_area, triangle_area};
 use signorini_kernel::stiffness::{Coefficient, fill};
 use signorini_kernel::{Error, Mesh, Real, Tensor, contact};
+use signorini_tolerances::kernel::BASIS;
 
 /// Area 3.
 const TRIANGLE: [[f64; 2]; 3] = [[1.0, 1.0], [3.0, 2.0], [2.0, 4.5]];
@@ -33,7 +34,7 @@ fn means<const N: usize>(corners: [[f64; 2]; N]) -> [f64; N] {
 
 fn close(found: [f64; 2], expected: [f64; 2]) {
     let apart = (found[0] - expected[0]).abs().max((found[1] - expected[1]).abs());
-    assert!(apart < 1e-14, "{found:?} instead of {expected:?}");
+    BASIS.check(format_args!("{found:?} instead of {expected:?}"), apart);
 }
 
 #[test]
@@ -60,7 +61,7 @@ fn bases_have_mean_1_over_their_own_side_and_0_over_the_others() {
             sums.iter_mut().zip(basis).for_each(|(sum, value)| *sum += weight * value);
         }
         for (j, sum) in sums.into_iter().enumerate() {
-            assert!((sum - f64::from(u8::from(j == k))).abs() < 1e-15, "side {k}: {sums:?}");
+            BASIS.check(format_args!("side {k}: {sums:?}"), sum - f64::from(u8::from(j == k)));
         }
     }
     // ¼ ∓ ½·centred coordinate… at (¼, 1): x = −¼, y = ½, bubble 3/2 (1/16 − 1/4) = −9/32.

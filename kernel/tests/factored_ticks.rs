@@ -17,6 +17,7 @@ use signorini_kernel::tick::{
     UncertifiedSweeps,
 };
 use signorini_kernel::{Error, Libm, Relaxation};
+use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
@@ -90,7 +91,7 @@ fn beside_sweeps(
         let report = advance(&mut tick.begin(data)?, &mut exact)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
         assert_eq!(report.changes, expected.changes, "{source} {bend}");
-        assert!(report.residual < 1e-14, "{report:?}");
+        RESIDUAL.check(format_args!("{source} {bend}"), report.residual);
         let free = foundation.plate.edges()?.counts().free;
         assert!(tick.u()[free..].iter().zip(&input.lower).all(|(u, lower)| u >= lower));
         compare(&report, &exact, [tick.u(), tick.tau()], [reference.u(), reference.tau()]);
@@ -112,11 +113,14 @@ fn a_factored_tick_is_where_sweeps_end() -> Result<(), Error> {
         |running, exact| running.advance(certified(exact), NO_SWEEPS, &mut Deadline::never()),
         |report, exact, [u, tau], [swept, swept_tau]| {
             assert_eq!(report.ended, Ended::Exact);
-            assert!(off(u, swept) < 1e-12 && off(tau, swept_tau) < 1e-10);
+            FACTORED.check("u and τ", off(u, swept));
+            FACTORED.check("u and τ", off(tau, swept_tau));
             let certificate = report.verdict.certificate().expect("a bound");
-            assert!(certificate.algebraic < 1e-12 && certificate.total > 1e-3, "{certificate:?}");
+            assert!(certificate.total > 1e-3, "{certificate:?}");
+            RESIDUAL.check("the bound", certificate.algebraic);
             let solved = exact.solved().expect("a solution");
-            assert!((2..5).contains(&solved.rounds) && solved.change < 1e-14, "{solved:?}");
+            assert!((2..5).contains(&solved.rounds), "{solved:?}");
+            RESIDUAL.check("the last correction", solved.change);
             pivots.push(solved.pivots);
         },
     )?;
@@ -136,7 +140,8 @@ fn without_a_bound_it_leaves_the_fluxes_of_the_solution() -> Result<(), Error> {
             assert_eq!(report.ended, Ended::Exact);
             assert!(report.verdict.certificate().is_none());
             // Both are balanced on the solution; the certificate's is so where it is not.
-            assert!(off(u, swept) < 1e-12 && off(tau, swept_tau) < 1e-10);
+            FACTORED.check("u and τ", off(u, swept));
+            FACTORED.check("u and τ", off(tau, swept_tau));
         },
     )
 }
@@ -172,7 +177,7 @@ fn a_factor_of_another_matrix_leaves_it_to_sweeps() -> Result<(), Error> {
                 false => running.advance(uncertified(&mut exact), TO_THE_END, never)?,
             };
             assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{what}: {report:?}");
-            assert!(off(tick.u(), &expected) < 1e-10, "{what}: {}", off(tick.u(), &expected));
+            SWEPT.check(what, off(tick.u(), &expected));
         }
     }
     Ok(())
@@ -222,7 +227,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
                 &mut Deadline::never(),
             )?;
             let off = off(tick.u(), reference.u());
-            assert!(off < 1e-9, "{times:e} {source} {has_bound}: {off:e}");
+            SWEPT.check(format_args!("{times:e} {source} {has_bound}"), off);
         }
     }
     Ok(())
@@ -261,7 +266,7 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
         };
         assert!(report.sweeps > 0 && report.ended == Ended::Settled, "{times:e}: {report:?}");
         let off = off(tick.u(), reference.u());
-        assert!(off < 1e-9, "{times:e} {has_bound}: {off:e}");
+        SWEPT.check(format_args!("{times:e} {has_bound}"), off);
     }
     Ok(())
 }
@@ -282,7 +287,8 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
     let generous = Limits { error: 1e3, ..TO_THE_END };
     let report = running.advance(certified(&mut exact), generous, enough)?;
     assert_eq!((report.ended, report.sweeps), (Ended::Accurate, 0));
-    assert!(report.residual < 1e-14 && exact.solved().is_some());
+    assert!(exact.solved().is_some());
+    RESIDUAL.check("the end", report.residual);
     let contact = foundation.plate.edges()?.counts().free;
     assert!(tick.u()[contact..].contains(&GAP));
     exact.restart()?;
@@ -345,6 +351,7 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
             forces.push(outputs[0]);
         }
     }
-    assert!(forces[0] > 0.1 && off(&forces, &[forces[0]; 4]) < 1e-12, "{forces:?}");
+    assert!(forces[0] > 0.1, "{forces:?}");
+    FACTORED.check("forces", off(&forces, &[forces[0]; 4]));
     Ok(())
 }

@@ -17,6 +17,7 @@ use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::stiffness::Coefficient;
 use signorini_kernel::{Error, Mesh, Real, Relaxation, Tensor, workspace};
+use signorini_tolerances::kernel::{FORCE_AT_THE_END, FORCE_BY_LAW};
 use strip::{Random, Strip};
 
 #[test]
@@ -90,9 +91,9 @@ fn stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             size += flux.abs() + 0.125;
         }
         let force: f64 = plate.contact_force().into();
-        let rounding = 16.0 * R::EPSILON.into() * size;
+        let epsilon = R::EPSILON.into() / f64::EPSILON * size;
         assert!(force >= 0.0, "{sweeps} sweeps: {force}");
-        assert!((force - by_law).abs() <= rounding, "{sweeps} sweeps: {force} {by_law}");
+        FORCE_BY_LAW.check_over(format_args!("{sweeps} sweeps"), force - by_law, epsilon);
         pulled += usize::from(plain < 0.0);
     }
     Ok(pulled)
@@ -142,13 +143,15 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
                 [0, 1].map(|at| model.output(at, &[R::ONE], &memory.iterate, &report));
             let (force, flux): (f64, f64) = (force?.into(), flux?.into());
             assert!(force >= 0.0 && flux >= 0.5, "{tick}, {most} sweeps: {force} {flux}");
-            let (by_law, plain, rounding) = by_hand(&strip, &memory, &weights);
-            assert!((force - by_law).abs() <= rounding, "{tick}, {most}: {force} {by_law}");
-            assert!((flux - by_law - 0.5).abs() <= rounding, "{tick}, {most}: {flux} {by_law}");
+            let (by_law, plain, size) = by_hand(&strip, &memory, &weights);
+            let epsilon = R::EPSILON.into() / f64::EPSILON * size;
+            let what = format!("tick {tick}, {most} sweeps");
+            FORCE_BY_LAW.check_over(&what, force - by_law, epsilon);
+            FORCE_BY_LAW.check_over(&what, flux - by_law - 0.5, epsilon);
             pulled += usize::from(plain < 0.0);
             if report.ended == Ended::Settled {
                 ended += 1;
-                assert!((force - plain).abs() <= 1e3 * rounding, "{tick}: {force} {plain}");
+                FORCE_AT_THE_END.check_over(&what, force - plain, epsilon);
             }
         }
     }
@@ -156,7 +159,7 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
     Ok(pulled)
 }
 
-/// Force by the law, the sum of all r, and what rounding may do, in f64 from x alone.
+/// Force by the law, the sum of all r, and the size of its terms, in f64 from x alone.
 fn by_hand<R: Real + Into<f64>>(
     strip: &Strip<R>,
     memory: &Memory<R>,
@@ -171,7 +174,7 @@ fn by_hand<R: Real + Into<f64>>(
         plain += weight * r;
         by_law += if memory.iterate.x[i] == R::ZERO { weight * r.max(0.0) } else { 0.0 };
     }
-    (by_law, plain, strip.order as f64 * R::EPSILON.into() * (size + 0.5))
+    (by_law, plain, size + 0.5)
 }
 
 #[test]

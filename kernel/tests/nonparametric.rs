@@ -5,6 +5,7 @@ use signorini_kernel::element::{QuadElement, crouzeix_raviart, nonparametric, ra
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::{Coefficient, fill_with};
 use signorini_kernel::{Error, Real, Tensor};
+use signorini_tolerances::kernel::{BASIS, GRADIENT, LINEAR, LINEAR_FLUX, STIFFNESS};
 
 type Quad = [[f64; 2]; 4];
 
@@ -47,7 +48,7 @@ fn a_basis_function_has_mean_1_over_its_side_and_0_over_the_others() {
             }
             for (i, mean) in means.into_iter().enumerate() {
                 let expected = f64::from(u8::from(i == side));
-                assert!((mean - expected).abs() < 1e-14, "{quad:?}: φ_{i} on {side}: {mean}");
+                BASIS.check(format_args!("{quad:?}: φ_{i} on {side}"), mean - expected);
             }
         }
     }
@@ -62,22 +63,22 @@ fn linear_functions_are_exact() {
         let axes = nonparametric::axes(quad);
         let means: [f64; 4] = std::array::from_fn(|i| 0.5 * (u(quad[i]) + u(quad[(i + 1) % 4])));
         let at_vertices = nonparametric::at_vertices(axes.bend(), &means);
-        (0..4).for_each(|i| assert!((at_vertices[i] - u(quad[i])).abs() < 1e-12, "{quad:?}"));
+        (0..4).for_each(|i| LINEAR.check(format_args!("{quad:?}"), at_vertices[i] - u(quad[i])));
         for reference in [[0.0, 0.0], [0.3, 0.9], [1.0, 0.5]] {
             let place = rannacher_turek::place(quad, reference);
             let values = axes.basis(reference);
             let value: f64 = values.iter().zip(means).map(|(v, mean)| v * mean).sum();
-            assert!((value - u(place.x)).abs() < 1e-12, "{quad:?}: {value}");
+            LINEAR.check(format_args!("{quad:?}"), value - u(place.x));
             let gradient = axes.gradient(reference, means);
             let off = (gradient.x + 3.0).abs().max((gradient.y - 5.0).abs());
-            assert!(off < 1e-10, "{quad:?}: {gradient}");
+            GRADIENT.check(format_args!("{quad:?}: {gradient}"), off);
         }
         let k = nonparametric::stiffness(quad, f64::GAUSS[1], |_, _| A);
         let out = rannacher_turek::product(&k, &means);
         for (i, out) in out.into_iter().enumerate() {
             let ([ax, ay], [bx, by]) = (quad[i], quad[(i + 1) % 4]);
             let expected = flux[0] * (by - ay) + flux[1] * (ax - bx);
-            assert!((out - expected).abs() < 1e-12 * size(&k), "{quad:?}: {out} {expected}");
+            LINEAR_FLUX.check_over(format_args!("{quad:?}"), out - expected, size(&k));
         }
     }
 }
@@ -96,7 +97,7 @@ fn two_points_a_direction_are_exact_where_a_is_constant() {
     for quad in QUADS {
         let [few, many] = [1, 7].map(|n| nonparametric::stiffness(quad, f64::GAUSS[n], |_, _| A));
         let apart = few.iter().zip(many).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-        assert!(apart < 1e-14 * size(&many), "{quad:?}: {apart:e}");
+        STIFFNESS.check_over(format_args!("{quad:?}"), apart, size(&many));
     }
 }
 
@@ -117,7 +118,7 @@ fn the_matrix_is_the_energy_of_the_gradients() {
                 energy += weight_x * weight_y * element * A.apply(gradient).dot(&gradient);
             }
         }
-        assert!((form / energy - 1.0).abs() < 1e-13, "{quad:?}: {form} {energy}");
+        STIFFNESS.check_relative(format_args!("{quad:?}"), form, energy);
     }
 }
 
@@ -128,17 +129,17 @@ fn both_elements_are_the_same_on_parallelograms() {
         let [one, other] = [QuadElement::Parametric, QuadElement::Nonparametric];
         let [k, same] = [one, other].map(|e| e.stiffness(quad, f64::GAUSS[1], |_, _| A));
         let apart = k.iter().zip(same).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-        assert!(apart < 1e-14 * size(&k), "{quad:?}: {apart:e}");
+        STIFFNESS.check_over(format_args!("{quad:?}"), apart, size(&k));
         for reference in [[0.0, 0.0], [0.3, 0.9], [1.0, 0.5]] {
             let [values, same] = [one, other].map(|e| e.basis(quad, reference));
-            assert!(values.iter().zip(same).all(|(x, y)| (x - y).abs() < 1e-14), "{quad:?}");
+            BASIS.check_each(format_args!("{quad:?}"), &values, &same);
             let [slope, same] = [one, other].map(|e| e.gradient(quad, reference, means));
-            assert!((slope - same).norm() < 1e-13 * slope.norm(), "{quad:?}");
+            BASIS.check_over(format_args!("{quad:?}"), (slope - same).norm(), slope.norm());
         }
         let bend = nonparametric::axes(quad).bend();
         let values = nonparametric::at_vertices(bend, &means);
         let same = rannacher_turek::at_vertices(&means);
-        assert!(values.iter().zip(same).all(|(x, y)| (x - y).abs() < 1e-13), "{quad:?}");
+        BASIS.check_each(format_args!("{quad:?}, at vertices"), &values, &same);
     }
 }
 
@@ -165,7 +166,7 @@ fn the_basis_adds_up_to_one() {
     for quad in QUADS {
         for reference in [[0.1, 0.8], [0.5, 0.5]] {
             let sum: f64 = nonparametric::axes(quad).basis(reference).iter().sum();
-            assert!((sum - 1.0).abs() < 1e-15);
+            BASIS.check(format_args!("{quad:?}"), sum - 1.0);
         }
     }
 }

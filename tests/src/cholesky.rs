@@ -71,6 +71,7 @@ impl Factor {
 #[cfg(test)]
 mod tests {
     use super::Envelope;
+    use signorini_tolerances::twins::OWN_SOLVE;
 
     #[test]
     fn solves_the_second_difference_matrix_with_a_far_corner() {
@@ -87,7 +88,7 @@ mod tests {
         let b: Vec<f64> =
             full.iter().map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
         let solved = Envelope::new(n, &entries).factor().expect("diagonally dominant").solve(b);
-        assert!(solved.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-14), "{solved:?}");
+        OWN_SOLVE.check_each("x", &solved, &x);
     }
 
     #[test]

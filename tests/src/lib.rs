@@ -5,7 +5,7 @@
 //! ```text
 //! quadrature ─┬─► cell ─► element ─┬─► problem ─► contact ─► flux ─► norms
 //! elimination ┘   grid ─► exact ───┘              cholesky
-//! random: scenes to compare on     targets, tolerances: numbers to meet, and how closely
+//! random: scenes to compare on     targets: numbers to meet (how closely: the crate `tolerances`)
 //! polynomial ─► written: scene files with an exact solution, for whoever reads such files
 //! hostile: arbitrary bytes into readers, constructors and control loops
 //! ```
@@ -30,5 +30,4 @@ pub mod problem;
 pub mod quadrature;
 pub mod random;
 pub mod targets;
-pub mod tolerances;
 pub mod written;

@@ -58,6 +58,7 @@ pub fn edge_mean(f: &Scalar, [a, b]: [Point; 2], n: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{gauss_legendre, square, triangle};
+    use signorini_tolerances::twins::OWN_RULES;
 
     fn factorial(n: usize) -> f64 {
         (1..=n).map(|k| k as f64).product()
@@ -71,11 +72,12 @@ mod tests {
                 gauss_legendre(n).iter().map(|(x, w)| w * x.powi(d as i32)).sum()
             };
             for d in 0..2 * n {
-                assert!((moment(d) - 1.0 / (d as f64 + 1.0)).abs() < 1e-14, "n {n}, degree {d}");
+                OWN_RULES
+                    .check(format_args!("n {n}, degree {d}"), moment(d) - 1.0 / (d as f64 + 1.0));
             }
             let miss = factorial(n).powi(4) / ((2 * n + 1) as f64 * factorial(2 * n).powi(2));
             let missed = 1.0 / (2 * n + 1) as f64 - moment(2 * n);
-            assert!((missed - miss).abs() < 1e-14, "n {n}: {missed} instead of {miss}");
+            OWN_RULES.check(format_args!("n {n}"), missed - miss);
         }
     }
 
@@ -87,9 +89,9 @@ mod tests {
                 rule.into_iter().map(|(p, w)| w * monomial(p)).sum()
             };
             let expected = 1.0 / ((a + 1) * (b + 1)) as f64;
-            assert!((on(square(5)) - expected).abs() < 1e-15);
+            OWN_RULES.check("square", on(square(5)) - expected);
             let expected = factorial(a) * factorial(b) / factorial(a + b + 2);
-            assert!((on(triangle(5)) - expected).abs() < 1e-15);
+            OWN_RULES.check("triangle", on(triangle(5)) - expected);
         }
     }
 }

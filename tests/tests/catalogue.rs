@@ -11,7 +11,7 @@ use signorini_tests::grid::{Cells, Grid};
 use signorini_tests::targets::{
     ACTIVE, BENCHMARK, CATALOGUE, Case, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED,
 };
-use signorini_tests::tolerances::{CATALOGUE as WITHIN, RATE, TOTAL_FORCE, TRAPEZOID_RATE};
+use signorini_tolerances::twins::{CATALOGUE as WITHIN, RATE, TOTAL_FORCE, TRAPEZOID_RATE};
 
 fn catalogue(name: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/catalogue");
@@ -107,8 +107,8 @@ fn errors_forces_and_rates_of_the_catalogue() {
             let what = format!("{:?} on {:?}, n = {}", target.case, target.cells, target.n);
             let grid = Grid::catalogue(target.n, target.cells);
             let Run { solution, errors, .. } = run(&text, mesh(&grid, at_bottom));
-            WITHIN.check_relative(&format!("h1 of {what}"), errors.h1, target.h1);
-            WITHIN.check_relative(&format!("l2 of {what}"), errors.l2, target.l2);
+            WITHIN.check_relative(format_args!("h1 of {what}"), errors.h1, target.h1);
+            WITHIN.check_relative(format_args!("l2 of {what}"), errors.l2, target.l2);
             TOTAL_FORCE.check_relative(&what, solution.contact_force, target.force);
             let active = ACTIVE.iter().find(|(case, _)| *case == target.case);
             if let (Some((_, active)), Cells::Triangles) = (active, target.cells) {
@@ -127,7 +127,7 @@ fn errors_forces_and_rates_of_the_catalogue() {
             ("l2", |e| e.l2, 2.0),
             ("flux", |e| e.flux, 1.0),
         ] {
-            RATE.check(&format!("{quantity} of {what}"), slope(found.map(pick)) / rate - 1.0);
+            RATE.check(format_args!("{quantity} of {what}"), slope(found.map(pick)) / rate - 1.0);
         }
     }
 }
@@ -140,8 +140,8 @@ fn jumps_of_any_size() {
         let text = text.replace("sqrt(100)", &format!("sqrt({k})"));
         let grid = Grid::catalogue(32, Cells::Triangles);
         let Run { solution, errors, .. } = run(&text, mesh(&grid, at_bottom));
-        WITHIN.check_relative(&format!("J({k})"), errors.energy, energy);
-        WITHIN.check_relative(&format!("J({k})"), solution.contact_force, force);
+        WITHIN.check_relative(format_args!("J({k})"), errors.energy, energy);
+        WITHIN.check_relative(format_args!("J({k})"), solution.contact_force, force);
     }
 }
 
@@ -152,8 +152,8 @@ fn oblique_and_stretched_tensors() {
         let text = catalogue(if case == Case::A { "t-a" } else { "t-h" });
         let grid = Grid::catalogue(n, Cells::Triangles);
         let Run { solution, errors, .. } = run(&text, mesh(&grid, at_bottom));
-        WITHIN.check_relative(&format!("T({s}, {kappa})"), errors.energy, energy);
-        WITHIN.check_relative(&format!("T({s}, {kappa})"), solution.contact_force, force);
+        WITHIN.check_relative(format_args!("T({s}, {kappa})"), errors.energy, energy);
+        WITHIN.check_relative(format_args!("T({s}, {kappa})"), solution.contact_force, force);
     }
 }
 
@@ -240,6 +240,6 @@ fn benchmark_of_ben_belgacem_and_renard() {
             _ => "side",
         };
         let Run { solution, .. } = run(BENCHMARK_SCENE, mesh(&grid, name));
-        TOTAL_FORCE.check_relative(&format!("n = {n}"), solution.contact_force, force);
+        TOTAL_FORCE.check_relative(format_args!("n = {n}"), solution.contact_force, force);
     }
 }

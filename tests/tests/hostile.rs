@@ -1,6 +1,7 @@
 //! Arbitrary bytes: what fuzzing has found and collected, replayed, and some that nobody has chosen; and cells
 //! that are hardly any, against the naive twin.
 
+use signorini_tolerances::twins::SLENDER;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -116,8 +117,8 @@ fn compared<const N: usize>(pairs: &[[usize; 2]], seed: u64) -> (u32, f64) {
         let found = of_kernel(&corners).unwrap_or_else(|error| panic!("{error}: {corners:?}"));
         let largest = twin.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         for (&[i, j], entry) in pairs.iter().zip(&found) {
-            let off = (entry - twin[i][j]).abs() / largest;
-            assert!(off <= 1e-12 * slender, "{i}{j}: {off:e} at {slender:e}, {corners:?}");
+            let what = format_args!("{i}{j} at {slender:e}, {corners:?}");
+            SLENDER.check_over(what, entry - twin[i][j], largest * slender);
         }
         (cells, worst) = (cells + 1, worst.max(slender));
     }

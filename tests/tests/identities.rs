@@ -12,7 +12,7 @@ use signorini_tests::norms::errors;
 use signorini_tests::problem::{Boundary, Kind, Problem, System};
 use signorini_tests::quadrature::edge_mean;
 use signorini_tests::random::{self, Random};
-use signorini_tests::tolerances::{
+use signorini_tolerances::twins::{
     BOUNDARY_FLUX, CLOSED_FORM, CONSERVATION, CONTACT_SIGN, FLUX_CONTINUITY, PATCH,
 };
 

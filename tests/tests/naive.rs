@@ -10,7 +10,7 @@ use signorini_tests::grid::{Cells, Grid};
 use signorini_tests::norms::{Errors, errors};
 use signorini_tests::problem::{Boundary, Kind, Problem};
 use signorini_tests::targets::{self, ACTIVE, Target};
-use signorini_tests::tolerances::{CATALOGUE, TOTAL_FORCE, TRAPEZOID_RATE};
+use signorini_tolerances::twins::{CATALOGUE, TOTAL_FORCE, TRAPEZOID_RATE};
 
 fn solve(problem: &Problem) -> contact::Solution {
     contact::solve(&problem.system()).expect("the scene has exactly one solution")
@@ -29,9 +29,9 @@ fn check_target(target: &Target, level: usize) {
     let exact = case.exact();
     let problem = Problem::catalogue(&exact, Grid::catalogue(n, cells));
     let (e, measured, active) = measure(&exact, &problem);
-    CATALOGUE.check_relative(&format!("{what}, h1"), e.h1, h1);
-    CATALOGUE.check_relative(&format!("{what}, l2"), e.l2, l2);
-    TOTAL_FORCE.check_relative(&format!("{what}, force"), measured, force);
+    CATALOGUE.check_relative(format_args!("{what}, h1"), e.h1, h1);
+    CATALOGUE.check_relative(format_args!("{what}, l2"), e.l2, l2);
+    TOTAL_FORCE.check_relative(format_args!("{what}, force"), measured, force);
     let expected = ACTIVE.iter().find(|(listed, _)| *listed == case && cells == Cells::Triangles);
     if let Some((_, counts)) = expected {
         assert_eq!(active, counts[level], "{what}, active edges");
@@ -50,7 +50,7 @@ fn flux_error_with_a_source() {
     for (cells, expected) in targets::FLUX_OF_A {
         let problem = Problem::catalogue(&Exact::a(), Grid::catalogue(32, cells));
         let (e, ..) = measure(&Exact::a(), &problem);
-        CATALOGUE.check_relative(&format!("A on {cells:?}, flux"), e.flux, expected);
+        CATALOGUE.check_relative(format_args!("A on {cells:?}, flux"), e.flux, expected);
     }
 }
 
@@ -60,8 +60,8 @@ fn coefficient_jumps() {
         let exact = Exact::jump(k);
         let problem = Problem::catalogue(&exact, Grid::catalogue(32, Cells::Triangles));
         let (e, measured, _) = measure(&exact, &problem);
-        CATALOGUE.check_relative(&format!("{}, energy", exact.name), e.energy, energy);
-        CATALOGUE.check_relative(&format!("{}, force", exact.name), measured, force);
+        CATALOGUE.check_relative(format_args!("{}, energy", exact.name), e.energy, energy);
+        CATALOGUE.check_relative(format_args!("{}, force", exact.name), measured, force);
     }
 }
 
@@ -71,9 +71,9 @@ fn oblique_tensors() {
         let exact = case.exact().transformed(s, kappa);
         let problem = Problem::catalogue(&exact, Grid::catalogue(n, Cells::Triangles));
         let (e, measured, _) = measure(&exact, &problem);
-        CATALOGUE.check_relative(&format!("{}, force", exact.name), measured, force);
+        CATALOGUE.check_relative(format_args!("{}, force", exact.name), measured, force);
         if let Some(energy) = energy {
-            CATALOGUE.check_relative(&format!("{}, energy", exact.name), e.energy, energy);
+            CATALOGUE.check_relative(format_args!("{}, energy", exact.name), e.energy, energy);
         }
     }
 }
@@ -91,9 +91,9 @@ fn check_moved(level: usize) {
             problem.boundary.values().filter(|b| matches!(b, Boundary::Dirichlet { .. })).count();
         assert_eq!(problem.grid.edges().len() - dirichlet, unknowns);
         let (e, ..) = measure(&exact, &problem);
-        CATALOGUE.check_relative(&format!("moved {cells:?} {n}, h1"), e.h1, h1);
-        CATALOGUE.check_relative(&format!("moved {cells:?} {n}, l2"), e.l2, l2);
-        CATALOGUE.check_relative(&format!("moved {cells:?} {n}, flux"), e.flux, flux);
+        CATALOGUE.check_relative(format_args!("moved {cells:?} {n}, h1"), e.h1, h1);
+        CATALOGUE.check_relative(format_args!("moved {cells:?} {n}, l2"), e.l2, l2);
+        CATALOGUE.check_relative(format_args!("moved {cells:?} {n}, flux"), e.flux, flux);
     }
 }
 
@@ -136,7 +136,7 @@ fn check_benchmark(levels: std::ops::Range<usize>) {
             order: 8,
         };
         let force = contact_force(&problem, &solve(&problem));
-        TOTAL_FORCE.check_relative(&format!("benchmark n = {n}"), force, expected);
+        TOTAL_FORCE.check_relative(format_args!("benchmark n = {n}"), force, expected);
     }
 }
 

@@ -161,8 +161,12 @@ mod tests {
     #[test]
     fn notes_are_checked() {
         assert_eq!(check_note("@ stack 512"), Ok(()));
-        assert!(check_note("@ stack 516").is_err());
+        let refused = |note| check_note(note).expect_err("refused");
+        assert_eq!(refused("@ stack 516"), "516 bytes of stack, 512 are allowed");
         assert_eq!(check_note("@ memory 1024 1024"), Ok(()));
-        assert!(check_note("@ memory 1024 1000").is_err());
+        assert_eq!(
+            refused("@ memory 1024 1000"),
+            "`@ memory 1024 1000`: memory and formula differ"
+        );
     }
 }

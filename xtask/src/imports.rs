@@ -11,7 +11,7 @@ use crate::steps::Steps;
 use signorini_image::cargo::root;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 10] = [
+const CRATES: [(&str, &[&str]); 11] = [
     ("kernel", &[]),
     ("host/draw", &[]),
     ("host/image", &[]),
@@ -20,7 +20,8 @@ const CRATES: [(&str, &[&str]); 10] = [
     ("host/bake", &["kernel", "scene", "solve", "draw", "image"]),
     ("host/lab", &["kernel", "scene", "solve", "draw", "image", "bake"]),
     ("host", &["scene", "solve", "draw", "image", "bake", "lab"]),
-    ("tests", &["kernel", "scene", "solve", "bake"]),
+    ("tests/tolerances", &[]),
+    ("tests", &["kernel", "scene", "solve", "bake", "tolerances"]),
     ("xtask", &["image"]),
 ];
 

@@ -22,6 +22,7 @@ mod ranks;
 mod record;
 mod replay;
 mod sanitize;
+mod seen;
 mod setup;
 mod size;
 mod snapshot;

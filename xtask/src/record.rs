@@ -83,9 +83,10 @@ mod tests {
 
     #[test]
     fn another_table_is_not_compared_in_silence() {
-        assert!(regressions("sweep 1.0\n", "flux 1.0\n").is_err());
-        assert!(regressions("sweep 1.0\n", "sweep 1.0 2.0\n").is_err());
-        assert!(regressions("sweep 1.0\n", "").is_err());
+        let refused = |new| regressions("sweep 1.0\n", new).expect_err("another table");
+        assert!(refused("flux 1.0\n").contains("recorded is `sweep 1.0`, now `flux 1.0`"));
+        assert!(refused("sweep 1.0 2.0\n").contains("now `sweep 1.0 2.0`"));
+        assert_eq!(refused(""), "1 lines are recorded, now there are 0");
         assert!(!regressions("sweep 1.0\n", "sweep NaN\n").unwrap_or_default().is_empty());
     }
 }

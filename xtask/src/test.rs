@@ -1,10 +1,10 @@
 //! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out.
 
-use crate::counted::counted;
-use crate::steps::Steps;
+use crate::counted::counted_by;
+use crate::steps::{Steps, Tally};
 use crate::{
     audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, ranks, sanitize,
-    size,
+    seen, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 
@@ -24,7 +24,14 @@ pub fn run(steps: &mut Steps) {
         run_cargo(cargo(&what))
     });
     imports::run(steps);
-    steps.step("tests", || counted(&["test", "--workspace", "--locked", "--no-fail-fast"]));
+    steps.step("tests", || {
+        let all = cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
+        match seen::told(all) {
+            Ok(all) => counted_by(all),
+            Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+        }
+    });
+    seen::run(steps);
     mutants::verify(steps);
     ranks::run(steps);
     steps.check("documentation", || {

@@ -98,6 +98,7 @@ fn quadratic(values: [f64; 3], n: f64) -> f64 {
 mod tests {
     use super::*;
     use signorini_scene::expression::Elementary;
+    use signorini_tolerances::bake::COSTS;
 
     #[test]
     fn the_records_are_read_to_their_ends() {
@@ -143,7 +144,7 @@ mod tests {
     fn a_quadratic_is_met_everywhere() {
         let exact = |n: f64| 3.0 * n * n - 5.0 * n + 7.0;
         for n in [0.0, 16.0, 50.0, 96.0] {
-            assert!((quadratic(ORDERS.map(exact), n) - exact(n)).abs() < 1e-9);
+            COSTS.check("a quadratic", quadratic(ORDERS.map(exact), n) - exact(n));
         }
     }
 }

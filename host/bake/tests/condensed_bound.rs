@@ -1,5 +1,8 @@
 //! The bound is a bound, for any x ≥ 0, and sharp at convergence.
 
+use signorini_tolerances::bake::{
+    CORNER, GUARANTEE, IDENTITY, IDENTITY_BOUNDED, IDENTITY_KINKED, JUMP, SAME_BOUND,
+};
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Controller, Work};
@@ -73,14 +76,14 @@ impl Model {
         let bound = self.condensate.bound(p, x).expect("a bound");
         let of_u = self.condensate.bound_of_u(p, x).expect("a bound");
         println!("bound {bound:e}, of u {of_u:e}, jump {jump:e}, error of u {energy:e}");
-        assert!(of_u >= energy * (1.0 - 1e-5), "{of_u:e} {energy:e}");
+        GUARANTEE.check_at_most("energy", energy, of_u);
         let form = self.condensate.certificate.as_ref().expect("a form");
         match form.jump {
             Some(_) => {
                 // The gradient of a lift has no limit at the opposite vertex.
-                assert!(((of_u - bound) / jump - 1.0).abs() < 2e-5, "{of_u:e} {bound:e} {jump:e}")
+                JUMP.check_relative("of u, less the bound", of_u - bound, jump);
             }
-            None => assert!(of_u - bound >= jump * (1.0 - 2e-5), "{of_u:e} {bound:e} {jump:e}"),
+            None => JUMP.check_at_most("of u, less the bound", jump, of_u - bound),
         }
         Ok(())
     }
@@ -112,7 +115,7 @@ fn sharp_at_convergence() -> Result<()> {
                     bound / combined,
                     bound / identity
                 );
-                assert!(bound >= combined * (1.0 - 1e-4), "{file} {cells:?} {n}");
+                GUARANTEE.check_at_most(format_args!("{file} {cells:?} {n}"), combined, bound);
                 assert!(bound <= 1.05 * combined || file == "a-tri", "{file} {cells:?} {n}");
                 assert!(bound <= 2.2 * energy || file == "t-h-tri", "{file} {cells:?} {n}");
             }
@@ -127,7 +130,7 @@ fn the_bound_is_the_identity() -> Result<()> {
     for file in ["h-tri", "hg-tri"] {
         for mesh in [grid(6, Cells::Mixed), distorted(grid(6, Cells::Quads))] {
             let [_, _, identity, bound] = Model::catalogue(file, mesh)?.at_solution()?;
-            assert!((bound / identity - 1.0).abs() < 2e-3, "{file}: {bound} {identity}");
+            IDENTITY_KINKED.check_relative(file, bound, identity);
         }
     }
     Ok(())
@@ -144,7 +147,7 @@ fn every_term_for_a_smooth_solution() -> Result<()> {
         assert!(oscillation[0] > 0.0);
         let [_, combined, identity, gap] = model.at_solution()?;
         println!("combined {combined} identity {identity} gap {gap}");
-        assert!((gap / identity - 1.0).abs() < 1e-5, "{gap} {identity}");
+        IDENTITY.check_relative("every term", gap, identity);
         model.condensate.certificate.as_mut().expect("a certificate").oscillation = oscillation;
         let [_, combined, _, bound] = model.at_solution()?;
         assert!(bound >= combined && bound > gap);
@@ -171,8 +174,12 @@ fn of_any_iterate() -> Result<()> {
                     bound / found.combined,
                     found.identity / found.combined
                 );
-                assert!(bound >= found.identity * (1.0 - 1e-3), "{bound} {found:?}");
-                assert!(bound >= found.combined * (1.0 - 1e-3), "{bound} {found:?}");
+                IDENTITY_BOUNDED.check_at_most(
+                    format_args!("{file} {cells:?}"),
+                    found.identity,
+                    bound,
+                );
+                GUARANTEE.check_at_most(format_args!("{file} {cells:?}"), found.combined, bound);
             }
         }
     }
@@ -247,8 +254,12 @@ fn of_a_tick_in_f32() -> Result<()> {
                 let found = model.distance(&[1.0, 0.0], &x)?;
                 let total = f64::from(bound.total);
                 println!("{cells:?} {work:?}: {total} {found:?}, rounding {}", bound.rounding);
-                assert!(total >= found.combined * (1.0 - 1e-4), "{work:?}: {total} {found:?}");
-                assert!(total >= found.identity * (1.0 - 1e-3), "{work:?}: {total} {found:?}");
+                GUARANTEE.check_at_most(format_args!("{cells:?} {work:?}"), found.combined, total);
+                IDENTITY_BOUNDED.check_at_most(
+                    format_args!("{cells:?} {work:?}"),
+                    found.identity,
+                    total,
+                );
                 cut_off += usize::from(bound.algebraic > 0.1 * bound.gap);
             }
         }
@@ -283,9 +294,10 @@ fn an_input_that_lifts_the_corner() -> Result<()> {
     for corner in &form.corners {
         let d = condensate.opening[corner.edge];
         let x = (corner.excess[3] * d - 1.0) / 0.5;
-        assert!((x.abs() - 1.0).abs() < 1e-12);
+        CORNER.check("x", x.abs() - 1.0);
         let base = 0.35 + 0.1 * (3.0 * x).sin() - 0.1 * x;
-        assert!((corner.excess[0] * d - base).abs() < 1e-12 && corner.excess[1].abs() < 1e-12);
+        CORNER.check("level and source", corner.excess[0] * d - base);
+        CORNER.check("level and source", corner.excess[1]);
     }
     let mut sunk = condensate.defaults.clone();
     sunk[3] = -2.0;
@@ -354,7 +366,7 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
         let bound = condensate.bound(p, &x).expect("a bound");
         let of_alone = alone.condensate.solve(&[1.0]).expect("a solution");
         let known = alone.condensate.bound(&[1.0], &of_alone).expect("a bound");
-        assert!((bound / known - 1.0).abs() < 1e-6, "{cells:?}: {bound} {known}");
+        SAME_BOUND.check_relative(format_args!("{cells:?}, in two parts"), bound, known);
         // Cut off in both parts: a bound, as long as something touches in the first.
         let some: Vec<f64> = (0..n).map(|i| (0.1 * scatter(i)).max(0.0)).collect();
         let wide = condensate.bound(p, &some).expect("a bound");
@@ -369,7 +381,7 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
         let baked = baked.expect("in range");
         let (_, report) = Controller::new(&baked).tick(&[]).expect("a tick");
         let total = report.certificate().expect("a bound").total;
-        assert!((total / bound - 1.0).abs() < 1e-6, "{cells:?}: {total} {bound}");
+        SAME_BOUND.check_relative(format_args!("{cells:?}, baked"), total, bound);
     }
     Ok(())
 }
@@ -415,7 +427,7 @@ fn the_bound_is_the_identity_for_a_gap_with_a_kink() -> Result<()> {
         let mut model = Model::new(&text, grid(4, cells))?;
         model.condensate.certificate.as_mut().expect("a certificate").oscillation = vec![0.0];
         let [_, _, identity, gap] = model.at_solution()?;
-        assert!((gap / identity - 1.0).abs() < 2e-3, "{cells:?}: {gap} {identity}");
+        IDENTITY_KINKED.check_relative(format_args!("{cells:?}"), gap, identity);
     }
     Ok(())
 }

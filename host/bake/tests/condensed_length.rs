@@ -5,6 +5,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_solve::fixtures::{EVERY_INPUT, full_at, on_grid};
 use signorini_solve::outputs::outputs;
+use signorini_tolerances::bake::LENGTH;
 
 /// Where an input moves the gap, u is a sum of columns that meets it but for rounding.
 #[test]
@@ -19,7 +20,7 @@ fn declared_lengths_of_a_condensed_solve() -> Result<()> {
         let solution = signorini_bake::engine::solve(&scene, &problem)?;
         let length = outputs(&scene, &problem, &solution)?["length"];
         assert!((0.1..1.9).contains(&expected.contact_length), "{}", expected.contact_length);
-        assert!((expected.contact_length - solution.contact_length).abs() < 1e-6);
+        LENGTH.check(scalar, expected.contact_length - solution.contact_length);
         assert_eq!(length, Some(solution.contact_length), "{scalar}");
     }
     Ok(())

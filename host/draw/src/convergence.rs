@@ -88,6 +88,7 @@ pub fn rate_label(rate: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::draw::SLOPE;
 
     fn series(h: &[f64], error: &[f64]) -> ConvergenceSeries {
         let (h, error) = (h.to_vec(), error.to_vec());
@@ -98,7 +99,7 @@ mod tests {
     fn the_rate_is_the_slope_over_all_meshes() {
         let rate = measured_rate(&series(&[0.4, 0.2, 0.1], &[9.0, 4.0, 1.0])).unwrap();
         // The middle one of three equidistant points has no say in the slope.
-        assert!((rate - 9f64.ln() / 4f64.ln()).abs() < 1e-14);
+        SLOPE.check("three meshes", rate - 9f64.ln() / 4f64.ln());
         assert_eq!(measured_rate(&series(&[0.1], &[1.0])), None);
         assert_eq!(measured_rate(&series(&[0.1, 0.1], &[1.0, 2.0])), None);
     }

@@ -119,6 +119,7 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::draw::{AREA, ROUND_AREA};
 
     /// The area that outlines enclose (holes count as negative).
     fn area(outlines: &[Vec<[f64; 2]>]) -> f64 {
@@ -149,8 +150,8 @@ mod tests {
     fn the_set_above_a_level_has_the_right_area() {
         let whole = 360.0 * 360.0;
         let plane = square(4, |x, _| x);
-        assert!((area(&plane.above(0.3)) - 0.7 * whole).abs() < 1e-6 * whole);
-        assert!((area(&plane.above(-1.0)) - whole).abs() < 1e-6 * whole);
+        AREA.check_over("above 0.3", area(&plane.above(0.3)) - 0.7 * whole, whole);
+        AREA.check_over("all of it", area(&plane.above(-1.0)) - whole, whole);
         assert!(plane.above(1.1).is_empty());
     }
 
@@ -160,7 +161,7 @@ mod tests {
         let outlines = bowl.above(0.25);
         let expected = 360.0 * 360.0 * (1.0 - std::f64::consts::PI / 16.0);
         assert_eq!(outlines.len(), 2);
-        assert!((area(&outlines) - expected).abs() < 2e-3 * expected);
+        ROUND_AREA.check_over("without a disc", area(&outlines) - expected, expected);
     }
 
     #[test]
@@ -174,7 +175,7 @@ mod tests {
     fn a_vertex_that_is_not_finite_takes_its_cells_along() {
         let holed = square(4, |x, y| if x == 0.5 && y == 0.5 { f64::NAN } else { x });
         let whole = 360.0 * 360.0;
-        assert!((area(&holed.above(-1.0)) - 0.75 * whole).abs() < 1e-6 * whole);
+        AREA.check_over("with a hole", area(&holed.above(-1.0)) - 0.75 * whole, whole);
         assert!(holed.values().all(f64::is_finite));
     }
 }

@@ -135,6 +135,7 @@ fn scientific(mantissa: f64, decimals: usize, power: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::draw::POSITION;
 
     fn labels(scale: Scale) -> Vec<String> {
         scale.ticks(5).into_iter().map(|(_, label)| label).collect()
@@ -164,7 +165,7 @@ mod tests {
         assert_eq!((scale.at(2.0), scale.at(3.0), scale.at(4.0)), (100.0, 50.0, 0.0));
         assert_eq!((scale.value(100.0), scale.value(50.0)), (2.0, 3.0));
         let scale = Scale::logarithmic([1e-3, 1e4], [20.0, 300.0]);
-        assert!((scale.value(scale.at(2.5)) - 2.5).abs() < 1e-12);
+        POSITION.check("back and forth", scale.value(scale.at(2.5)) - 2.5);
     }
 
     #[test]

@@ -43,13 +43,15 @@ fn above(curve: &[[f64; 2]], floor: f64) -> (&[[f64; 2]], Vec<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::draw::POSITION;
 
     #[test]
     fn a_curve_leaves_at_the_bottom() {
         let curve = [[1.0, 1.0], [10.0, 1e-2], [1000.0, 1e-6], [1e4, 1.0]];
         let (shown, leaving) = above(&curve, 1e-4);
         assert_eq!(shown, &curve[..2]);
-        assert!((leaving[1][0] - 100.0).abs() < 1e-10 && leaving[1][1] == 1e-4);
+        assert_eq!(leaving[1][1], 1e-4);
+        POSITION.check("where it leaves", leaving[1][0] - 100.0);
         assert_eq!(above(&curve[..2], 1e-2), (&curve[..2], Vec::new()));
         assert!(above(&curve[2..3], 1e-4).0.is_empty());
     }

@@ -106,6 +106,7 @@ impl<'p> Search<'p> {
 
 #[cfg(test)]
 mod tests {
+    use signorini_tolerances::solve::FOUND;
     use std::f64::consts::PI;
 
     use super::*;
@@ -139,7 +140,7 @@ mod tests {
                     let place = search.find(point.x).unwrap();
                     assert_eq!(place.cell as usize, cell);
                     let apart = place.reference.iter().zip(point.reference);
-                    assert!(apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-12);
+                    apart.for_each(|(a, b)| FOUND.check("reference coordinates", a - b));
                     last = search.find_near(last, point.x);
                     assert_eq!(last.map(|place| place.cell), Some(place.cell));
                 }

@@ -1,5 +1,6 @@
 //! Every standard scene stands on its mesh refined, paired and cut, and the errors are the catalogue's.
 
+use signorini_tolerances::solve::CATALOGUE;
 use std::path::{Path, PathBuf};
 
 use signorini_scene::mesh::adapted::{adapted, of_scene};
@@ -57,7 +58,7 @@ fn the_refined_grid_has_the_errors_of_the_finer_one() {
         let errors = of_solution(&scene, &problem, &solution).expect("errors").expect("errors");
         let found = [errors.h1, errors.l2, solution.contact_force];
         for (found, expected) in found.into_iter().zip(expected) {
-            assert!((found / expected - 1.0).abs() < 5e-4, "{cells:?}: {found} {expected}");
+            CATALOGUE.check_relative(format_args!("{cells:?}"), found, expected);
         }
     }
 }

@@ -19,7 +19,7 @@ use signorini_solve::problem::Problem;
 use super::bytes::{Bits, Bytes};
 use super::certified::is_bound;
 use super::scenes;
-use crate::tolerances::AFTER_EXTREMES;
+use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// Contact edges, at most.
 const MOST: usize = 18;

@@ -17,7 +17,7 @@ use super::certified::{Conditions, Foundation, Loads, is_bound};
 use super::condensed::{self, Kept};
 use super::plate::Plate;
 use super::scenes;
-use crate::tolerances::AFTER_EXTREMES;
+use signorini_tolerances::twins::AFTER_EXTREMES;
 
 /// The first byte chooses the loop and the scalar; the rest is what it is told.
 pub fn tick(data: &[u8]) {

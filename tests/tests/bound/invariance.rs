@@ -2,8 +2,8 @@
 
 use signorini_solve::solve::ScalarKind;
 use signorini_tests::random::Random;
-use signorini_tests::tolerances::{ORDER, UNITS};
 use signorini_tests::written::{Case, Side, Units};
+use signorini_tolerances::twins::{ORDER, UNITS};
 
 use crate::mesh::{KINDS, relisted, scaled, scattered};
 use crate::run::{options, run};
@@ -19,7 +19,7 @@ fn cells_in_another_order() {
             let run = run(&text, mesh, &options(ScalarKind::F64, None));
             run.solution.bound.expect("held")
         });
-        ORDER.check_relative(&format!("{cells:?}"), other.total, bound.total);
+        ORDER.check_relative(format_args!("{cells:?}"), other.total, bound.total);
     }
 }
 
@@ -37,7 +37,11 @@ fn units_of_length_and_of_u() {
         for length in [1e-6, 1.0, 1e6] {
             for value in [1e-6, 1.0, 1e6] {
                 let found = ratio(Units { length, value });
-                UNITS.check_relative(&format!("{cells:?}, {length:e}, {value:e}"), found, expected);
+                UNITS.check_relative(
+                    format_args!("{cells:?}, {length:e}, {value:e}"),
+                    found,
+                    expected,
+                );
             }
         }
     }

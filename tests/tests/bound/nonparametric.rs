@@ -6,10 +6,10 @@ use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_solve::problem::EdgeKind;
 use signorini_solve::solve::{Options, ScalarKind, SolverKind};
 use signorini_tests::random::Random;
-use signorini_tests::tolerances::{
-    BOUNDARY_FLUX, CONTACT_SIGN, FLUX_CONTINUITY, PATCH, SHARPNESS, TRAPEZOID_RATE,
-};
 use signorini_tests::written::{Case, Side, Smooth, Units};
+use signorini_tolerances::twins::{
+    BOUNDARY_FLUX, CONTACT_SIGN, FLUX_CONTINUITY, PATCH, SAME_ON_SQUARES, SHARPNESS, TRAPEZOID_RATE,
+};
 
 use crate::mesh::{four_sides, scattered};
 use crate::property::{check, trial};
@@ -112,7 +112,7 @@ fn rates(element: &str, place: Trapezoids) -> [f64; 4] {
 fn trapezoids_keep_all_rates() {
     for place in [Trapezoids::InTwoRows, Trapezoids::Everywhere] {
         for (rate, limit) in rates("nonparametric", place).into_iter().zip([1.0, 2.0, 1.0, 1.0]) {
-            TRAPEZOID_RATE.check(&format!("{place:?}"), rate - limit);
+            TRAPEZOID_RATE.check(format_args!("{place:?}"), rate - limit);
         }
     }
 }
@@ -143,6 +143,5 @@ fn squares_know_no_difference() {
         let mesh = four_sides(grid(8, Cells::Quads));
         run(&with(element, &text), mesh, &options(ScalarKind::F64, None)).solution
     });
-    let apart = one.u.iter().zip(&other.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(apart < 1e-10, "{apart:e}");
+    SAME_ON_SQUARES.check_each("u", &one.u, &other.u);
 }

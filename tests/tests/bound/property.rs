@@ -4,11 +4,11 @@ use signorini_kernel::element::QuadElement;
 use signorini_solve::solve::ScalarKind;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;
-use signorini_tests::tolerances::{
+use signorini_tests::written::{Case, Side, Smooth, Units, Written};
+use signorini_tolerances::twins::{
     BOUND_ROUNDING, BOUND_ROUNDING_NARROW, GUARANTEE, GUARANTEE_SMOOTH, IDENTITY, IDENTITY_SMOOTH,
     LIFTED,
 };
-use signorini_tests::written::{Case, Side, Smooth, Units, Written};
 
 use crate::mesh::{KINDS, regular, scattered};
 use crate::run::{Certified, Run, options, run};
@@ -108,16 +108,16 @@ pub fn check(Trial { what, smooth, run }: &Trial) {
     let Certified { bound, combined, identity, .. } = found;
     let (guarantee, same) =
         if *smooth { (GUARANTEE_SMOOTH, IDENTITY_SMOOTH) } else { (GUARANTEE, IDENTITY) };
-    guarantee.check(what, (1.0 - bound.total / combined).max(0.0));
+    guarantee.check_at_most(what, combined, bound.total);
     same.check_relative(what, bound.gap, identity);
     let rounding = match run.solution.scalar {
         ScalarKind::F64 => BOUND_ROUNDING,
         ScalarKind::F32 => BOUND_ROUNDING_NARROW,
     };
     rounding.check(what, bound.rounding / bound.total);
-    guarantee.check(what, (1.0 - bound.of_u / found.energy).max(0.0));
+    guarantee.check_at_most(what, found.energy, bound.of_u);
     let added = bound.of_u - bound.total;
-    LIFTED.check(what, (1.0 - added / found.nonconformity).max(0.0));
+    LIFTED.check_at_most(what, found.nonconformity, added);
     // On bent quads the norm of a lift is added to that of the rest.
     let most = if run.problem.element == QuadElement::Nonparametric { 3.0 } else { 1.0 };
     let rest = (added - 4.0 * bound.rounding).max(0.0);

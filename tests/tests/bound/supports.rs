@@ -11,8 +11,8 @@ use signorini_solve::output::summary::Summary;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
-use signorini_tests::tolerances::{GUARANTEE, IDENTITY};
 use signorini_tests::written::{Case, Contact, Side, Smooth, Units, Written};
+use signorini_tolerances::twins::{GUARANTEE, IDENTITY};
 
 use crate::mesh::{KINDS, regular, scattered, split};
 use crate::run::{Run, options, run};
@@ -40,7 +40,7 @@ fn on_contact_alone(random: &mut Random, sweeps: Option<u32>) -> Run {
 
 fn holds(what: &str, run: &Run) {
     let found = run.certified().unwrap_or_else(|| panic!("{what}: no bound"));
-    GUARANTEE.check(what, (1.0 - found.bound.total / found.combined).max(0.0));
+    GUARANTEE.check_at_most(what, found.combined, found.bound.total);
     IDENTITY.check_relative(what, found.bound.gap, found.identity);
 }
 

@@ -20,7 +20,8 @@ use signorini_solve::condense::{Condensate, Measure};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
-use signorini_tests::tolerances::{CONDENSED, CONDENSED_NARROW, Tolerance};
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::twins::{CONDENSED, CONDENSED_NARROW, SUM_OF_LENGTHS};
 
 use crate::scenes::{EXACT, Model};
 
@@ -95,8 +96,9 @@ fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) ->
             match measure {
                 Measure::Bound => assert_eq!(found.is_finite(), report.certificate().is_some()),
                 Measure::Length { .. } => {
-                    let off = (found - expected.expect("a value")).abs();
-                    assert!(off <= 8.0 * R::EPSILON.wide() * lengths(), "{}: {off}", model.what);
+                    let off = found - expected.expect("a value");
+                    let epsilon = R::EPSILON.wide() / f64::EPSILON * lengths();
+                    SUM_OF_LENGTHS.check_over(&model.what, off, epsilon);
                 }
                 Measure::Linear { .. } | Measure::Flux { .. } => {
                     let (of_inputs, of_contact) = linear(&model.condensate, measure);

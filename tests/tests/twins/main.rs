@@ -26,8 +26,8 @@ use signorini_tests::grid::{Edge, edge};
 use signorini_tests::problem::{Boundary as Condition, Problem};
 use signorini_tests::quadrature::edge_mean;
 use signorini_tests::random::{self, Random};
-use signorini_tests::tolerances::{KERNEL_AGREEMENT, KERNEL_FLUX, NARROW_AGREEMENT};
 use signorini_tests::{contact as twin_contact, flux as twin_flux};
+use signorini_tolerances::twins::{KERNEL_AGREEMENT, KERNEL_FLUX, NARROW_AGREEMENT, ONE_SWEEP};
 
 /// What kernel and twin are compared by.
 struct Answer {
@@ -215,8 +215,8 @@ fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
     }
     let most = plain.iter().fold(1e-30, |most: f64, u| most.max(u.wide().abs()));
     for (swept, plain) in swept.iter().zip(&plain) {
-        let apart = (swept.wide() - plain.wide()).abs() / most;
-        assert!(apart < 1e3 * R::EPSILON.wide(), "{swept} instead of {plain}");
+        let epsilon = R::EPSILON.wide() / f64::EPSILON * most;
+        ONE_SWEEP.check_over("a sweep", swept.wide() - plain.wide(), epsilon);
     }
 }
 
@@ -336,7 +336,7 @@ fn random_scenes_in_f32_and_with_wide_indices() {
         let (kernel, twin) = (by_kernel::<f32, u32>(&problem, method), by_twin(&problem));
         assert!(kernel.converged, "seed {seed}");
         let u = distance(&kernel.means, &twin.means) / size(&twin.means);
-        NARROW_AGREEMENT.check(&format!("seed {seed}"), u);
+        NARROW_AGREEMENT.check(format_args!("seed {seed}"), u);
     }
 }
 

@@ -129,8 +129,10 @@ mod tests {
 
     #[test]
     fn counts_must_add_up() {
-        assert!(Record::parse("kernel/src/psor.rs 5f0c 47 41 3 1 1\n").is_err());
-        assert!(Record::parse("kernel/src/psor.rs 5f0c 46 41 3\n").is_err());
+        for row in ["kernel/src/psor.rs 5f0c 47 41 3 1 1", "kernel/src/psor.rs 5f0c 46 41 3"] {
+            let refused = Record::parse(&format!("{row}\n"));
+            assert_eq!(refused, Err(format!("{PATH}: `{row}` is no row")));
+        }
     }
 
     #[test]

@@ -129,8 +129,9 @@ mod tests {
         let said = "@ heap 4096\n215 3f800000 bf000000\n";
         let tick = Tick { instructions: 8600, x: vec![1.0, -0.5] };
         assert_eq!(parse(said), Ok((4096, vec![tick])));
-        assert!(parse("@ heap 4096\n4294967295 3f800000\n").is_err());
-        assert!(parse("@ heap 4096\n215 3f800000\na tick fails\n").is_err());
-        assert!(parse("").is_err());
+        let refused = Err("the image prints something else than ticks".to_owned());
+        assert_eq!(parse("@ heap 4096\n4294967295 3f800000\n"), refused);
+        assert_eq!(parse("@ heap 4096\n215 3f800000\na tick fails\n"), refused);
+        assert_eq!(parse(""), refused);
     }
 }

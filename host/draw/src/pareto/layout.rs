@@ -105,6 +105,7 @@ fn room(names: impl Iterator<Item = (f64, f64)>, length: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::draw::POSITION;
 
     #[test]
     fn heights_keep_their_distance_and_move_no_further_than_they_must() {
@@ -118,8 +119,7 @@ mod tests {
         let names = [(0.1, 200.0), (0.5, 120.0), (0.0, 80.0)];
         let room = room(names.into_iter(), 700.0);
         let spare = names.map(|(fraction, width)| room + fraction * (700.0 - room) - width);
-        assert!(spare.iter().all(|&spare| spare > -1e-9));
-        assert!(spare.iter().any(|&spare| spare < 1e-9), "more than the least: {spare:?}");
+        POSITION.check("no more than the least", spare.into_iter().fold(f64::INFINITY, f64::min));
         assert_eq!(super::room([(0.9, 100.0)].into_iter(), 700.0), 0.0);
     }
 
@@ -179,7 +179,8 @@ mod tests {
         assert!(layout.bottom > 100.0 + HEIGHT);
         for (point, name) in shown.iter().zip(&layout.names) {
             let [x, y] = layout.at(point);
-            assert!((x - GAP - name.end[0]).abs() < 1e-6 && y <= name.end[1] + 1e-6);
+            POSITION.check("above its name", (y - name.end[1]).max(0.0));
+            POSITION.check("an end", x - GAP - name.end[0]);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Everybody agrees on small problems, and the record says so.
 
+use signorini_tolerances::lab::{AS_BAKED, PIVOTING};
 use std::path::PathBuf;
 
 use super::condensed::condensed;
@@ -37,7 +38,7 @@ fn all_solvers_agree_on_small_grids() {
             assert!(b.cycles > 0.0 && b.ratio > 0.0 && b.to_condensed.is_some(), "{b:?}");
         }
         let exact = row.baselines.iter().filter(|b| b.solver == "kernel pivoting f64");
-        exact.for_each(|b| assert!(b.algebraic_error < 1e-11, "{b:?}"));
+        exact.for_each(|b| PIVOTING.check("algebraic error", b.algebraic_error));
     }
     assert!(notes.iter().all(|note| note.contains("condensing")), "{notes:?}");
     let study = Sizes { title: scene.title, registers: String::new(), rows, notes };
@@ -77,11 +78,11 @@ fn condensed_as_baked() {
     let baked = condense(&scene, &problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
     for (a, b) in model.matrix.iter().zip(&baked.matrix) {
-        assert!((a - b).abs() < 1e-9, "{a} {b}");
+        AS_BAKED.check("matrix", a - b);
     }
     for (a, b) in ours.ticks[0].load.iter().zip(baked.load_of(&baked.defaults)) {
         let b = b * baked.energy_unit;
-        assert!((a - b).abs() < 1e-8 * largest, "{a} {b}");
+        AS_BAKED.check_over("load", a - b, largest);
     }
 }
 

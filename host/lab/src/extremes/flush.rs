@@ -86,7 +86,8 @@ mod tests {
         }
         assert_ne!(halves(), (0.0, 0.0));
         let panicked = std::panic::catch_unwind(|| flushed(|| panic!("asked for by a test")));
-        assert!(panicked.is_err());
+        let why = panicked.expect_err("a panic");
+        assert_eq!(why.downcast_ref(), Some(&"asked for by a test"));
         assert_ne!(halves(), (0.0, 0.0));
     }
 }

@@ -167,6 +167,7 @@ mod tests {
     use super::*;
     use signorini_scene::mesh::gmsh;
     use signorini_scene::mesh::shape::{Defect, orientation};
+    use signorini_tolerances::lab::ASPECT;
 
     fn with(shape: Shape) -> Mesh {
         Grid { n: 4, cells: Cells::Quads, shape }.mesh()
@@ -201,7 +202,7 @@ mod tests {
         for aspect in [1.0, 30.0, 1e6] {
             let mesh = with(Shape::Graded { aspect });
             let lowest = mesh.vertices[9][1];
-            assert!((4.0 * lowest * aspect - 1.0).abs() < 1e-9, "{lowest}");
+            ASPECT.check(format_args!("{lowest}"), 4.0 * lowest * aspect - 1.0);
             let heights: Vec<f64> = (0..5).map(|j| mesh.vertices[9 * j][1]).collect();
             assert_eq!(heights[4], 1.0);
             assert!(heights.windows(2).all(|pair| pair[0] < pair[1]));

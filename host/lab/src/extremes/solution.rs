@@ -147,6 +147,7 @@ fn switching(x: &str, y: &str) -> Texts {
 mod tests {
     use super::*;
     use signorini_scene::expression::{Expression, Variables};
+    use signorini_tolerances::lab::{CONTACT, DERIVATIVE, DERIVATIVE_SECOND, JUMP};
 
     const ALL: [Solution; 7] = [
         Solution::Smooth { grazing: 0.25 },
@@ -181,14 +182,14 @@ mod tests {
                 let along = [[step, 0.0], [0.0, step]];
                 for (gradient, along) in gradient.iter().zip(along) {
                     let error = gradient.eval(x, y, t) - slope(&u, along);
-                    assert!(error.abs() < 1e-7, "{solution:?} at {x}, {y}: {error}");
+                    DERIVATIVE.check(format_args!("{solution:?} at {x}, {y}"), error);
                 }
                 let second = |at: usize, along| slope(&gradient[at], along);
                 let divergence = axx * second(0, along[0])
                     + axy * (second(0, along[1]) + second(1, along[0]))
                     + ayy * second(1, along[1]);
                 let error = divergence + f.eval(x, y, t);
-                assert!(error.abs() < 1e-6, "{solution:?} at {x}, {y}: {error}");
+                DERIVATIVE_SECOND.check(format_args!("{solution:?} at {x}, {y}"), error);
             }
         }
     }
@@ -201,8 +202,10 @@ mod tests {
             for (x, t) in (-19..20).map(|k| (f64::from(k) / 20.0, f64::from(k & 1))) {
                 let k = if x < 0.0 { solution.contrast() } else { 1.0 };
                 let (gap, force) = (u.eval(x, 0.0, t), -k * slope.eval(x, 0.0, t));
-                assert!(gap >= -1e-15 && force >= -1e-15, "{solution:?} at {x}: {gap}, {force}");
-                assert!(gap * force < 1e-15, "{solution:?} at {x}: {gap}, {force}");
+                let what = format!("{solution:?} at {x}");
+                CONTACT.check(&what, gap.min(0.0));
+                CONTACT.check(&what, force.min(0.0));
+                CONTACT.check(&what, gap * force);
             }
         }
     }
@@ -214,9 +217,9 @@ mod tests {
             let Texts { u, gradient: [slope, _], .. } = Solution::Jump(k).texts("x", "y");
             let (u, slope) = (parsed(&u), parsed(&slope));
             let (left, right) = (u.eval(-1e-300, 0.5, 0.0), u.eval(1e-300, 0.5, 0.0));
-            assert!((left - right).abs() < 1e-9 * right.abs(), "k = {k:e}: {left} {right}");
+            JUMP.check_over(format_args!("k = {k:e}"), left - right, right.abs());
             let (left, right) = (k * slope.eval(-1e-300, 0.5, 0.0), slope.eval(1e-300, 0.5, 0.0));
-            assert!((left - right).abs() < 1e-9 * right.abs(), "k = {k:e}: {left} {right}");
+            JUMP.check_over(format_args!("k = {k:e}"), left - right, right.abs());
         }
     }
 }

@@ -124,10 +124,10 @@ mod tests {
         for n in [4, 16] {
             let (count, difference) = uneven(n, Trapezoids::Everywhere);
             assert_eq!(count, 2 * (n * n) as usize);
-            assert!((difference - 0.5).abs() < 1e-12, "{difference}");
+            assert_eq!(difference, 0.5);
             let (count, difference) = uneven(n, Trapezoids::InTwoRows);
             assert_eq!(count, 4 * n as usize);
-            assert!((difference - 0.5).abs() < 1e-12, "{difference}");
+            assert_eq!(difference, 0.5);
         }
     }
 }

@@ -131,6 +131,7 @@ mod tests {
     use super::*;
     use crate::fixtures::{self, PARABOLA, SMOOTH};
     use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_tolerances::solve::OSCILLATION;
 
     /// Eigenvalues of [2, ½; ½, 1] are (3 ± √2)/2.
     fn smallest() -> f64 {
@@ -172,7 +173,7 @@ mod tests {
                 let trace = 1.0 / (PI * PI) + 1.0 / PI;
                 expected += (shape * trace * square / smallest()).sqrt();
             }
-            assert!((found[at] - expected).abs() < 1e-12 * expected, "{} {expected}", found[at]);
+            OSCILLATION.check_over(format_args!("cell {at}"), found[at] - expected, expected);
         }
         Ok(())
     }
@@ -199,7 +200,7 @@ mod tests {
         let (scene, problem) = fixtures::on_grid(&linear, grid(4, Cells::Quads))?;
         let expected = 2.0_f64.sqrt() * 0.25 / PI * (0.25_f64.powi(4) / 12.0).sqrt();
         for cell in oscillation(&scene, &problem, 0.0)? {
-            assert!((cell - expected).abs() < 1e-15, "{cell} {expected}");
+            OSCILLATION.check("a cell", cell - expected);
         }
         Ok(())
     }

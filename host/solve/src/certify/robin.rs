@@ -134,6 +134,7 @@ mod tests {
     use super::*;
     use crate::fixtures::{self, SMOOTH};
     use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_tolerances::solve::{NARROW_BUMP, POINTS};
 
     #[test]
     fn the_points_add_up_to_the_loads() -> Result<()> {
@@ -145,8 +146,8 @@ mod tests {
             let weighted = || points.iter().zip(rule).map(|(point, gauss)| (point, gauss[1]));
             let h: f64 = weighted().map(|([h, _], weight)| weight * h).sum();
             let both: f64 = weighted().map(|([h, u], weight)| weight * h * u).sum();
-            assert!((h - record.coefficient).abs() < 1e-14, "{h} {}", record.coefficient);
-            assert!((both - record.ambient).abs() < 1e-13, "{both} {}", record.ambient);
+            POINTS.check("coefficient", h - record.coefficient);
+            POINTS.check("ambient", both - record.ambient);
         }
         Ok(())
     }
@@ -161,15 +162,15 @@ mod tests {
             let (scene, problem) = fixtures::on_grid(&text, grid(1, Cells::Quads))?;
             missed(&scene, &problem, problem.loads.robin[0].edge as usize, 0.0)
         };
-        assert!(missed_of("4", "y^7 - 3*y^2")? < 1e-13);
+        POINTS.check("a polynomial", missed_of("4", "y^7 - 3*y^2")?);
         assert_eq!(missed_of("4", "3")?, 0.0);
         // Between all 8 points: û = 0, and √2 (4 ∫ (1 − |y − ½|/0.05)² dy)^½ is left.
         let expected = (2.0 * 4.0 * 2.0 * 0.05 / 3.0_f64).sqrt();
         let found = missed_of("4", "max(0, 1 - abs(y-0.5)/0.05)")?;
-        assert!((found / expected - 1.0).abs() < 1e-2, "{found} {expected}");
+        NARROW_BUMP.check_relative("a bump", found, expected);
         // A layer that no point of the first panels sees: √2 (4 ∫ exp(−2y/ℓ) dy)^½ = 2√ℓ.
         let found = missed_of("4", "exp(-y/1e-5)")?;
-        assert!((found / (2.0 * 1e-5_f64.sqrt()) - 1.0).abs() < 2e-2, "{found}");
+        NARROW_BUMP.check_relative("a layer", found, 2.0 * 1e-5_f64.sqrt());
         Ok(())
     }
 
@@ -181,8 +182,8 @@ mod tests {
             for ([h, ambient], [t, _]) in points.into_iter().zip(f64::GAUSS[DATA_POINTS - 1]) {
                 let y = start + t * (end - start);
                 let outside = y + y * y - 1.0 + (3.0 * y - 6.5) / (2.0 + y);
-                assert!((h - 0.25 * (2.0 + y)).abs() < 1e-15);
-                assert!((ambient - outside).abs() < 1e-14);
+                POINTS.check("coefficient", h - 0.25 * (2.0 + y));
+                POINTS.check("outside", ambient - outside);
             }
         }
         Ok(())

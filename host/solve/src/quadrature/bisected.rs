@@ -130,6 +130,7 @@ fn cut<C: Copy, const PARTS: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_tolerances::solve::{BISECTED, BISECTED_KINK, BISECTED_LINE};
 
     const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
 
@@ -138,15 +139,15 @@ mod tests {
         let (edge, a) = ([[0.0, 0.0], [1.0, 0.0]], 0.3711);
         let jump = mean_on_edge(edge, &|x, _| if x > a { 1.0 } else { 0.0 });
         // It lies 1.6e−3 of a part of 1/256 beside its end.
-        assert!((jump - (1.0 - a)).abs() < 1e-5, "{jump}");
+        BISECTED.check("a jump", jump - (1.0 - a));
         let kink = mean_on_edge(edge, &|x, _| (x - a).abs());
-        assert!((kink - 0.5 * (a * a + (1.0 - a).powi(2))).abs() < 1e-9, "{kink}");
+        BISECTED_KINK.check("a kink", kink - 0.5 * (a * a + (1.0 - a).powi(2)));
         let over_square = over_quad(SQUARE, &|x, _| (x - a).abs());
-        assert!((over_square - 0.5 * (a * a + (2.0 - a).powi(2))).abs() < 1e-4, "{over_square}");
+        BISECTED_LINE.check("over a square", over_square - 0.5 * (a * a + (2.0 - a).powi(2)));
         let halves = [[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]], [[0.0, 0.0], [2.0, 1.0], [0.0, 1.0]]];
         let of_halves: f64 =
             halves.map(|half| over_triangle(half, &|x, _| (x - a).abs())).iter().sum();
-        assert!((of_halves - over_square).abs() < 1e-4, "{of_halves} {over_square}");
+        BISECTED_LINE.check("over its halves", of_halves - over_square);
     }
 
     #[test]

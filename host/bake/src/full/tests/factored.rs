@@ -1,5 +1,9 @@
 //! Ticks by a factor, where sweeps do not end: against the direct solver, on this machine and as text.
 
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{
+    FACTORED, FACTORED_GAP, FACTORED_NARROW, FACTORED_OBLIQUE, TICK, TICK_NARROW,
+};
 use std::path::Path;
 
 use signorini_kernel::rows::TRIANGLES;
@@ -74,8 +78,12 @@ fn swept(scene: &Scene, problem: &Problem) -> Result<Report<f64>> {
     Ok(Controller::<f64, TRIANGLES>::new(&baked).tick(&[0.0]).expect("a tick").1)
 }
 
-/// Ticks as the direct solver has them, u to `digits` and the bound to a thousandth.
-fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) -> Result<()> {
+/// Ticks as the direct solver has them, u to `allowed` and the bound to a thousandth.
+fn as_directly_solved<R: Scalar>(
+    scene: &Scene,
+    problem: &Problem,
+    allowed: Tolerance,
+) -> Result<()> {
     let baked = Baked::<R>::new(scene, problem)?;
     let mut controller = Controller::<R, TRIANGLES>::new(&baked);
     for lift in [0.0, 0.0, 1.0, -2.0, 0.5] {
@@ -87,7 +95,7 @@ fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) 
         let size = expected.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
         let pairs = controller.u().iter().zip(&expected.u);
         let off = pairs.fold(0.0, |most: f64, (u, expected)| most.max((u.wide() - expected).abs()));
-        assert!(off <= digits * size, "{off:e} of {size}, {what}");
+        allowed.check_over(&what, off, size);
         let counts = problem.topology.counts;
         let openings = controller.u()[counts.free..].iter().zip(controller.lower());
         assert!(openings.clone().all(|(u, lower)| u >= lower), "{what}");
@@ -96,7 +104,7 @@ fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) 
         // Of the total, rounding may be most in f32: it knows no better than ε of the largest fluxes.
         let certificate = report.verdict.certificate().expect("a bound");
         let (gap, bound) = (certificate.gap.wide(), expected.bound.expect("a bound"));
-        assert!((gap / bound.gap - 1.0).abs() < 1e-3, "{gap} {bound:?}, {what}");
+        FACTORED_GAP.check_relative(&what, gap, bound.gap);
         assert!(certificate.algebraic.wide() <= 0.05 * gap, "{what}");
         assert!(outputs[1] == certificate.total && outputs[1].wide() >= gap, "{what}");
     }
@@ -106,15 +114,15 @@ fn as_directly_solved<R: Scalar>(scene: &Scene, problem: &Problem, digits: f64) 
 #[test]
 fn a_contrast_of_a_million() -> Result<()> {
     let (scene, problem) = contrast()?;
-    as_directly_solved::<f64>(&scene, &problem, 1e-9)?;
-    as_directly_solved::<f32>(&scene, &problem, 1e-4)
+    as_directly_solved::<f64>(&scene, &problem, FACTORED)?;
+    as_directly_solved::<f32>(&scene, &problem, FACTORED_NARROW)
 }
 
 #[test]
 fn an_anisotropy_of_a_hundred_million() -> Result<()> {
     let (scene, problem) = anisotropy()?;
     assert_eq!(swept(&scene, &problem)?.ended, Ended::OutOfSweeps);
-    as_directly_solved::<f64>(&scene, &problem, 1e-7)?;
+    as_directly_solved::<f64>(&scene, &problem, FACTORED_OBLIQUE)?;
     // In f32 the element matrices are those of another problem.
     let error = Baked::<f32>::new(&scene, &problem).expect_err("refused").to_string();
     assert!(error.contains("too oblique"), "{error}");
@@ -131,11 +139,11 @@ fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
     let text = format!("{BENT}[setting]\nsolver = \"factor\"\n");
     for cells in [Cells::Quads, Cells::Mixed] {
         let (scene, problem) = fixtures::on_grid(&text, grid(5, cells))?;
-        super::ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+        super::ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
     }
     let (scene, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
-    super::ticks::<f64, TRIANGLES>(&scene, &problem, &steps, 1e-7)?;
-    super::ticks::<f32, TRIANGLES>(&scene, &problem, &steps, 1e-3)
+    super::ticks::<f64, TRIANGLES>(&scene, &problem, &steps, TICK)?;
+    super::ticks::<f32, TRIANGLES>(&scene, &problem, &steps, TICK_NARROW)
 }
 
 #[test]

@@ -5,8 +5,12 @@ mod factored;
 mod scale;
 mod setting;
 
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
 use std::path::Path;
 
+use signorini_kernel::Error;
+use signorini_kernel::error::Array;
 use signorini_kernel::rows;
 use signorini_kernel::tick::Limits;
 
@@ -99,7 +103,7 @@ fn ticks<R: Scalar, const WIDTH: usize>(
     scene: &Scene,
     problem: &Problem,
     steps: &[&[f64]],
-    tolerance: f64,
+    allowed: Tolerance,
 ) -> Result<()> {
     let baked = Baked::<R>::new(scene, problem)?;
     let mut warm = Controller::<R, WIDTH>::new(&baked);
@@ -124,16 +128,14 @@ fn ticks<R: Scalar, const WIDTH: usize>(
             let expected = expected[name].expect("a value");
             let size = expected.abs().max(1e-3 * fluxes);
             for value in [found.wide(), cold.wide()] {
-                let off = (value - expected).abs();
-                assert!(off <= tolerance * size, "{name} {values:?}: {value}, not {expected}");
+                allowed.check_over(format_args!("{name} {values:?}"), value - expected, size);
             }
         }
         // The gap is that of the solver; the oscillation of a sum is at most the sum of oscillations.
         let (of_tick, bound) = (report.verdict.certificate().expect("a bound"), solution.bound);
         let bound = bound.expect("a bound");
-        let off = (of_tick.gap.wide() - bound.gap).abs();
-        assert!(off <= 10.0 * tolerance * bound.gap, "{values:?}: {} {}", of_tick.gap, bound.gap);
-        assert!(of_tick.oscillation.wide() >= bound.oscillation * (1.0 - 1e-6));
+        allowed.check_relative(format_args!("gap {values:?}"), of_tick.gap.wide(), bound.gap);
+        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
     }
     Ok(())
 }
@@ -146,10 +148,10 @@ fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
         &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
     ];
     let (scene, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
-    ticks::<f64, { rows::TRIANGLES }>(&scene, &problem, &steps, 1e-7)?;
+    ticks::<f64, { rows::TRIANGLES }>(&scene, &problem, &steps, TICK)?;
     for cells in [Cells::Quads, Cells::Mixed] {
         let (scene, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
-        ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+        ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
     }
     Ok(())
 }
@@ -161,7 +163,7 @@ fn nonparametric_quads() -> Result<()> {
     let mesh = fixtures::distorted(grid(5, Cells::Quads));
     let (scene, problem) = fixtures::on_grid(&text, mesh)?;
     let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
-    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
+    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
     let baked = Baked::<f64>::new(&scene, &problem)?;
     assert_eq!(baked.bends.len(), problem.mesh.quads.len());
     assert!(source(&baked).contains("bends: &QUAD_BENDS"));
@@ -172,8 +174,8 @@ fn nonparametric_quads() -> Result<()> {
 fn standard_scenes_in_both_scalars() -> Result<()> {
     let (scene, problem) = standard("strip.toml")?;
     let steps: [&[f64]; 2] = [&[0.0], &[0.1]];
-    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, 1e-7)?;
-    ticks::<f32, { rows::QUADS }>(&scene, &problem, &steps, 1e-4)
+    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
+    ticks::<f32, { rows::QUADS }>(&scene, &problem, &steps, TICK_NARROW)
 }
 
 #[test]
@@ -206,7 +208,8 @@ fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
     let (outputs, report) =
         controller.tick_within(&[0.3, -1.0, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
     assert!(outputs[4].is_infinite() && report.verdict.certificate().is_none());
-    assert!(controller.tick_within(&[f64::NAN; 6], to_the_end()).is_err());
+    let refused = controller.tick_within(&[f64::NAN; 6], to_the_end()).err();
+    assert_eq!(refused, Some(Error::NotFinite { of: Array::Inputs, at: 0 }));
     let (outputs, _) =
         controller.tick_within(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], to_the_end()).expect("a tick");
     assert!(outputs[4].is_finite());

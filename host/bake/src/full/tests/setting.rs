@@ -3,6 +3,7 @@
 use signorini_kernel::certificate::Verdict;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::tick::{Ended, Report};
+use signorini_tolerances::bake::{SWEPT, SWEPT_NARROW};
 
 use super::{BENT, Baked, Controller, fixtures};
 use crate::full::sizes;
@@ -65,8 +66,7 @@ fn without_a_number_of_sweeps_rounding_ends_a_tick_that_has_no_bound() -> Result
     assert_eq!(report.ended, Ended::Settled);
     let exact = Setting { sweeps: Some(4000), omega: Omega::Fixed(1.5), ..plain };
     let [(exact, ..)] = &ticks::<f64>(exact, &[0.3])?[..] else { panic!("one tick") };
-    let off = u.iter().zip(exact).map(|(u, exact)| (u - exact).abs());
-    assert!(off.fold(0.0, f64::max) < 1e-12);
+    SWEPT.check_each("u", u, exact);
     Ok(())
 }
 
@@ -102,7 +102,7 @@ fn the_square_root_moves_omega_and_not_the_answer() -> Result<()> {
     let [(u, _, report)] = &libm[..] else { panic!("one tick") };
     let [(other, _, fast)] = &micromath[..] else { panic!("one tick") };
     assert_ne!(report.omega, fast.omega);
-    assert!(u.iter().zip(other).all(|(u, other)| (u - other).abs() < 1e-3));
+    SWEPT_NARROW.check_each("u", u, other);
     Ok(())
 }
 
@@ -138,7 +138,8 @@ fn what_no_module_can_have_is_refused_by_its_key() -> Result<()> {
     // Rounded to f32 it is 2.
     let close = Setting { omega: Omega::Fixed(2.0 - 1e-12), ..plain };
     let (scene, problem) = scene(BENT, Cells::Triangles, close)?;
-    assert!(Baked::<f32>::new(&scene, &problem).is_err());
+    let refused = Baked::<f32>::new(&scene, &problem).expect_err("refused").to_string();
+    assert!(refused.contains("is not inside (0, 2) in f32"), "{refused}");
     let baked = Baked::<f64>::new(&scene, &problem)?;
     let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
     assert!(controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0]).is_ok());

@@ -4,6 +4,7 @@ use super::Conforming;
 use crate::baseline::tests::catalogue;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::problem::Problem;
+use signorini_tolerances::lab::{CONFORMING, SAME_TRIANGLES};
 
 /// Errors of u in energy and L2 at n = 32, to the three digits given.
 #[test]
@@ -15,8 +16,8 @@ fn errors_of_the_catalogue() {
         let problem = Problem::new(&scene, grid(32, Cells::Triangles)).unwrap();
         let conforming = Conforming::new(&scene, &problem).unwrap();
         let error = conforming.errors(&scene).unwrap().unwrap();
-        let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 5e-3;
-        assert!(near(error.energy, energy) && near(error.l2, l2), "{name}: {error:?}");
+        CONFORMING.check_relative(name, error.energy, energy);
+        CONFORMING.check_relative(name, error.l2, l2);
         assert!(error.force < 0.03 && error.length < 0.1, "{name}: {error:?}");
         assert!(3 * conforming.unknowns() < problem.topology.counts.unknowns() + 400);
     }
@@ -33,5 +34,5 @@ fn quads_are_cut_into_the_same_triangles() {
     };
     let ((n, force), (quads, of_quads)) = (of(Cells::Triangles), of(Cells::Quads));
     assert_eq!(n, quads);
-    assert!((force - of_quads).abs() < 1e-12 * force);
+    SAME_TRIANGLES.check_over("force", force - of_quads, force);
 }

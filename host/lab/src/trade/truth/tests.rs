@@ -1,5 +1,10 @@
 //! The truth by one source against the truth by another.
 
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::lab::{
+    CATALOGUE, FORCE, FORCE_ERROR, ITSELF, LENGTH, LENGTH_ERROR, REFERENCE, REFERENCE_L2,
+    REFERENCE_L2_QUADS, SAME_NORMS,
+};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -45,11 +50,6 @@ fn reference(scene: &Scene, mesh: &Mesh) -> Truth {
     .unwrap()
 }
 
-fn assert_close(found: f64, expected: f64, part: f64, what: &str) {
-    let message = format!("{what}: {found} instead of {expected}");
-    assert!((found - expected).abs() <= part * expected.abs(), "{message}");
-}
-
 #[test]
 fn the_catalogue_has_its_forces_and_lengths() {
     let cases = [
@@ -66,8 +66,8 @@ fn the_catalogue_has_its_forces_and_lengths() {
         let scene = read(&format!("catalogue/{name}.toml"));
         let truth = exact(&scene, &grid(16, Cells::Quads));
         assert_eq!(truth.words(), "the exact solution");
-        assert_close(truth.force(), force, 2e-5, name);
-        assert_close(truth.length(), length, 1e-3, name);
+        FORCE.check_relative(name, truth.force(), force);
+        LENGTH.check_relative(name, truth.length(), length);
     }
 }
 
@@ -78,16 +78,16 @@ fn the_exact_solution_gives_the_norms_of_the_catalogue() {
     let truth = exact(&scene, &mesh);
     let (problem, solution) = solved(&scene, mesh);
     let found = truth.errors(&scene, &problem, &Answer::from(&solution)).unwrap();
-    assert_close(found.energy, 9.74473e-2, 5e-4, "energy");
-    assert_close(found.flux, 9.74473e-2, 5e-4, "flux");
-    assert_close(found.l2, 1.97915e-3, 5e-4, "L2");
-    assert_close(found.force, 0.952483 - PI * 0.3025, 1e-3, "force");
-    assert_close(found.length, 18.0 / 16.0 - 1.1, 2e-2, "length");
+    CATALOGUE.check_relative("energy", found.energy, 9.74473e-2);
+    CATALOGUE.check_relative("flux", found.flux, 9.74473e-2);
+    CATALOGUE.check_relative("L2", found.l2, 1.97915e-3);
+    FORCE_ERROR.check_relative("force", found.force, 0.952483 - PI * 0.3025);
+    LENGTH_ERROR.check_relative("length", found.length, 18.0 / 16.0 - 1.1);
     let errors = of_solution(&scene, &problem, &solution).unwrap().unwrap();
     assert_eq!(found.combined, errors.combined);
     // ‖∇u‖² = ‖∇_h u_h‖² + ‖∇u − ∇_h u_h‖² up to what is of higher order.
     let energy = solution.energy(&problem).hypot(errors.energy);
-    assert_close(truth.energy(), energy, 1e-3, "energy of the solution");
+    FORCE_ERROR.check_relative("energy of the solution", truth.energy(), energy);
 }
 
 #[test]
@@ -100,32 +100,32 @@ fn answers_on_other_meshes_in_between_change_nothing() {
         let (problem, solution) = &solved[at];
         let found = truth.errors(&scene, problem, &Answer::from(solution)).unwrap();
         let expected = of_solution(&scene, problem, solution).unwrap().unwrap();
-        assert_close(found.energy, expected.energy, 1e-12, "energy");
-        assert_close(found.l2, expected.l2, 1e-12, "L2");
-        assert_close(found.flux, expected.flux, 1e-12, "flux");
-        assert_close(found.combined.unwrap(), expected.combined.unwrap(), 1e-12, "combined");
+        SAME_NORMS.check_relative("energy", found.energy, expected.energy);
+        SAME_NORMS.check_relative("L2", found.l2, expected.l2);
+        SAME_NORMS.check_relative("flux", found.flux, expected.flux);
+        SAME_NORMS.check_relative("combined", found.combined.unwrap(), expected.combined.unwrap());
     }
 }
 
-/// Errors of the answer on `coarse` by the exact solution and by the reference on `fine`; `in_l2` is how
+/// Errors of the answer on `coarse` by the exact solution and by the reference on `fine`; `in_l2` tells how
 /// far apart they may be in L2.
-fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: f64) {
+fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: Tolerance) {
     let (exact, reference) = (exact(scene, &coarse), reference(scene, fine));
-    assert_close(reference.energy(), exact.energy(), 5e-3, "energy of the solution");
+    REFERENCE.check_relative("energy of the solution", reference.energy(), exact.energy());
     let (problem, solution) = solved(scene, coarse);
     let answer = Answer::from(&solution);
     let expected = exact.errors(scene, &problem, &answer).unwrap();
     let found = reference.errors(scene, &problem, &answer).unwrap();
     println!("{}\n  exact     {expected:?}\n  reference {found:?}", scene.title);
-    for (found, expected, most, what) in [
-        (found.energy, expected.energy, 0.005, "energy"),
-        (found.flux, expected.flux, 0.005, "flux"),
+    for (found, expected, allowed, what) in [
+        (found.energy, expected.energy, REFERENCE, "energy"),
+        (found.flux, expected.flux, REFERENCE, "flux"),
         (found.l2, expected.l2, in_l2, "L2"),
-        (found.combined.unwrap(), expected.combined.unwrap(), 0.005, "combined"),
+        (found.combined.unwrap(), expected.combined.unwrap(), REFERENCE, "combined"),
     ] {
-        assert_close(found, expected, most, &format!("{}: {what}", scene.title));
+        allowed.check_relative(format_args!("{}: {what}", scene.title), found, expected);
     }
-    assert_close(reference.force(), exact.force(), 5e-3, "force");
+    REFERENCE.check_relative("force", reference.force(), exact.force());
     assert!((reference.length() - exact.length()).abs() < 2.5 / 32.0);
 }
 
@@ -134,22 +134,22 @@ fn a_reference_measures_what_the_exact_solution_does() {
     let fine = grid(32, Cells::Triangles);
     for name in ["h-tri", "j001-tri", "hg-tri", "ag-mixed"] {
         let scene = read(&format!("catalogue/{name}.toml"));
-        compare(&scene, grid(8, Cells::Triangles), &fine, 0.03);
+        compare(&scene, grid(8, Cells::Triangles), &fine, REFERENCE_L2);
     }
 }
 
 #[test]
 fn the_answer_may_have_other_cells_than_the_reference() {
     let scene = read("catalogue/h-tri.toml");
-    compare(&scene, grid(8, Cells::Quads), &grid(32, Cells::Triangles), 0.05);
-    compare(&scene, grid(8, Cells::Triangles), &grid(32, Cells::Quads), 0.03);
-    compare(&scene, grid(7, Cells::Mixed), &grid(32, Cells::Mixed), 0.03);
+    compare(&scene, grid(8, Cells::Quads), &grid(32, Cells::Triangles), REFERENCE_L2_QUADS);
+    compare(&scene, grid(8, Cells::Triangles), &grid(32, Cells::Quads), REFERENCE_L2);
+    compare(&scene, grid(7, Cells::Mixed), &grid(32, Cells::Mixed), REFERENCE_L2);
 }
 
 #[test]
 fn transfer_counts_on_the_robin_boundary() {
     let (scene, problem) = on_grid(SMOOTH, grid(4, Cells::Mixed)).unwrap();
-    compare(&scene, problem.mesh, &with_four_sides(grid(32, Cells::Triangles)), 0.03);
+    compare(&scene, problem.mesh, &with_four_sides(grid(32, Cells::Triangles)), REFERENCE_L2);
 }
 
 #[test]
@@ -213,7 +213,8 @@ fn every_scene_can_be_its_own_reference() {
         println!("{name}: {}\n  {found:?}", truth.words());
         let largest = solution.u.iter().fold(0.0f64, |most, u| most.max(u.abs()));
         assert!(found.l2 <= 1e-2 * largest, "{name}: {found:?}");
-        assert!(found.force <= 1e-9 * truth.force().abs() && found.length == 0.0, "{name}");
+        ITSELF.check_over(name, found.force, truth.force());
+        assert_eq!(found.length, 0.0, "{name}");
         // ∇s and A⁻¹τ are equally far from their mean, and the recovered gradient is not far from it.
         let total = 2.0 * solution.bound.unwrap().total;
         assert!(found.combined.unwrap() <= total && found.energy <= total, "{name}: {found:?}");

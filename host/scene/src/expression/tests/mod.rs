@@ -4,6 +4,7 @@ mod arithmetic;
 mod naive;
 
 use super::{Expression, ParseError, Variables};
+use signorini_tolerances::scene::{DERIVATIVE, VALUE};
 
 const X: f64 = 1.25;
 const Y: f64 = -0.75;
@@ -77,7 +78,7 @@ fn values_are_those_of_an_independent_calculator() {
     for (text, expected) in VALUES {
         let value = expression(text).eval(X, Y, T);
         let error = (value - expected).abs();
-        assert!(error <= 4.0 * f64::EPSILON * expected.abs(), "{text}: {value}, not {expected}");
+        VALUE.check_over(text, error, expected.abs());
     }
 }
 
@@ -191,7 +192,7 @@ fn gradients_match_central_differences() {
         assert_eq!(value, expression.eval(X, Y, T), "{text}");
         for (exact, difference) in gradient.into_iter().zip([along_x, along_y]) {
             let error = (exact - difference).abs();
-            assert!(error < 1e-8 * (1.0 + exact.abs()), "{text}: {exact} against {difference}");
+            DERIVATIVE.check_over(text, error, 1.0 + exact.abs());
         }
     }
 }

@@ -3,6 +3,7 @@
 mod pairing;
 mod refine;
 
+use signorini_tolerances::scene::MEASURE;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -88,7 +89,7 @@ fn assert_same_domain(what: &str, before: &Mesh, after: &Mesh) {
     assert_eq!(before.len(), after.len(), "{what}");
     for (before, after) in before.iter().zip(&after) {
         assert_eq!(before.0, after.0, "{what}");
-        assert!((before.1 - after.1).abs() < 1e-12 * before.1, "{what}: {before:?} {after:?}");
+        MEASURE.check_over(what, before.1 - after.1, before.1);
     }
 }
 

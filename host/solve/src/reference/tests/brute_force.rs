@@ -3,6 +3,7 @@
 use super::Random;
 use super::stencil::Stencil;
 use crate::reference::Factor;
+use signorini_tolerances::solve::{ENUMERATED, SCHUR};
 
 type Dense = Vec<Vec<f64>>;
 
@@ -98,7 +99,7 @@ fn gram_matrix(n: usize, random: &mut Random) -> Dense {
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
-fn agrees_with_enumeration(make: fn(usize, &mut Random) -> Dense, tolerance: f64) {
+fn agrees_with_enumeration(make: fn(usize, &mut Random) -> Dense) {
     let mut random = Random(7);
     for case in 0..120 {
         let (free, contact) = (case % 5, 1 + case % 8);
@@ -113,19 +114,19 @@ fn agrees_with_enumeration(make: fn(usize, &mut Random) -> Dense, tolerance: f64
             let found = found.expect("solvable");
             let scale = expected.iter().fold(1.0, |scale: f64, u| scale.max(u.abs()));
             let difference = largest_difference(&found.u, &expected);
-            assert!(difference <= tolerance * scale, "case {case}: {difference:e}");
+            ENUMERATED.check_over(format_args!("case {case}"), difference, scale);
         }
     }
 }
 
 #[test]
 fn random_m_matrices() {
-    agrees_with_enumeration(m_matrix, 1e-11);
+    agrees_with_enumeration(m_matrix);
 }
 
 #[test]
 fn random_matrices_that_are_no_m_matrices() {
-    agrees_with_enumeration(gram_matrix, 1e-9);
+    agrees_with_enumeration(gram_matrix);
 }
 
 /// From full contact the semismooth Newton step alone returns to a set it has left.
@@ -137,7 +138,7 @@ fn matrix_on_which_newton_alone_cycles() {
     let stencil = sparse(&matrix.to_vec(), load, lower);
     let factor = Factor::new(&stencil.problem()).expect("definite");
     let found = factor.solve(&stencil.load, &stencil.lower, None).expect("solvable");
-    assert!(largest_difference(&found.u, &expected) < 1e-13, "{:?}, not {expected:?}", found.u);
+    ENUMERATED.check("u", largest_difference(&found.u, &expected));
     assert!(found.steps > 8, "{} steps only: no cycle was met", found.steps);
 }
 
@@ -152,7 +153,7 @@ fn schur_complement_is_what_elimination_leaves() {
     for i in 0..contact {
         for j in 0..contact {
             let (found, expected) = (factor.schur()[(i, j)], matrix[free + i][free + j]);
-            assert!((found - expected).abs() < 1e-11, "S[{i}][{j}] = {found}, not {expected}");
+            SCHUR.check(format_args!("S[{i}][{j}]"), found - expected);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::stencil::Stencil;
 use crate::reference::{Factor, ReferenceError, Solution};
+use signorini_tolerances::solve::{KNOWN, PRESSED};
 
 /// Springs between neighbours k − 1 and k, one before the first and after the last unknown each.
 fn chain(springs: &[f64], load: Vec<f64>, lower: Vec<f64>) -> Stencil {
@@ -30,11 +31,11 @@ fn string_over_a_floor() {
         for i in 1..=points {
             let from_touch = (touch as f64 - i.min(points + 1 - i) as f64).max(0.0);
             let expected = floor + 0.5 * from_touch * from_touch + 0.25 * from_touch;
-            assert!((solution.u[i - 1] - expected).abs() < 1e-13, "point {i}");
+            KNOWN.check(format_args!("point {i}"), solution.u[i - 1] - expected);
             assert_eq!(solution.active[i - 1], from_touch == 0.0, "point {i}");
         }
-        assert!((solution.multiplier[touch - 1] / stiffness - 0.25).abs() < 1e-13);
-        assert!((solution.multiplier[touch] / stiffness - 1.0).abs() < 1e-13);
+        KNOWN.check("where it first touches", solution.multiplier[touch - 1] / stiffness - 0.25);
+        KNOWN.check("where it lies", solution.multiplier[touch] / stiffness - 1.0);
     }
 }
 
@@ -56,9 +57,9 @@ fn refinement_reaches_the_last_digit_across_jumps() {
     }
     let solution = solve(&chain(&springs, load, lower)).expect("solvable");
     for (found, expected) in solution.u.iter().zip(&u) {
-        assert!((found - expected).abs() <= 4.0 * f64::EPSILON * 97.0, "{found} for {expected}");
+        KNOWN.check_over("u", found - expected, 97.0);
     }
-    assert!(solution.multiplier.iter().step_by(2).all(|force| (force - 5.0).abs() < 1e-5));
+    solution.multiplier.iter().step_by(2).for_each(|force| PRESSED.check("a force", force - 5.0));
 }
 
 #[test]
@@ -66,7 +67,7 @@ fn plain_linear_solve_without_contact() {
     let stencil = chain(&[1.0; 10], vec![2.0; 9], Vec::new());
     let solution = solve(&stencil).expect("solvable");
     for (i, u) in solution.u.iter().enumerate() {
-        assert!((u - ((i + 1) * (9 - i)) as f64).abs() < 1e-13);
+        KNOWN.check(format_args!("point {i}"), u - ((i + 1) * (9 - i)) as f64);
     }
     assert_eq!(Factor::new(&stencil.problem()).map(|factor| factor.schur().nrows()), Ok(0));
 }
@@ -101,9 +102,9 @@ fn floating_components_rest_where_the_load_presses() {
         let solution = factor.solve(&stencil.load, &stencil.lower, start).expect("solvable");
         assert_eq!(solution.active, [true, true, false, true]);
         let expected = [-0.5, 2.0, 0.0, 0.0, 5.0, 0.0];
-        assert!(solution.u.iter().zip(expected).all(|(u, expected)| (u - expected).abs() < 1e-14));
+        KNOWN.check_each("u", &solution.u, &expected);
         let forces = [0.5, 0.5, 0.0, 1.0];
-        assert!(solution.multiplier.iter().zip(forces).all(|(a, b)| (a - b).abs() < 1e-14));
+        KNOWN.check_each("forces", &solution.multiplier, &forces);
     }
 }
 

@@ -7,6 +7,7 @@ use signorini_scene::error::Result;
 use signorini_scene::expression::{Expression, Variables};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_tolerances::solve::{HARD, HARD_BOUND};
 
 /// A catalogue scene with another A; its boundary data stay what they are.
 fn with_tensor(name: &str, tensor: [f64; 3]) -> Result<(Scene, Problem)> {
@@ -31,10 +32,10 @@ fn the_factor_takes_over_where_sweeps_do_not_end() -> Result<()> {
         let factored = found.factored.expect("a factor");
         assert!(factored.entries > problem.topology.counts.unknowns() && factored.rounds >= 2);
         let far = distance(&found.u, &reference.u);
-        assert!(far < 1e-7, "{tensor:?}: {far:e}");
+        HARD.check(format_args!("{tensor:?}"), far);
         assert_eq!(found.contact_active, reference.contact_active);
         let [bound, best] = [&found, &reference].map(|of| of.bound.expect("a bound").total);
-        assert!((bound / best - 1.0).abs() < 1e-5, "{tensor:?}: {bound} {best}");
+        HARD_BOUND.check_relative(format_args!("{tensor:?}"), bound, best);
     }
     Ok(())
 }

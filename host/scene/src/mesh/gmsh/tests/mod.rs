@@ -18,6 +18,13 @@ fn error(bytes: &[u8]) -> String {
     text.strip_prefix("m.msh:").expect("the file is named").trim_start().to_owned()
 }
 
+/// Whether the error of the first `length` bytes of a file says what is missing.
+fn says_what_is_missing(file: &[u8], length: usize) {
+    let said = error(&file[..length]);
+    let missing = ["expected", "is never closed"].iter().any(|words| said.contains(words));
+    assert!(missing, "cut at {length} of {}: {said}", file.len());
+}
+
 fn mesh(bytes: &[u8]) -> Mesh {
     parse(bytes).unwrap_or_else(|error| panic!("refused: {error}"))
 }

@@ -1,8 +1,10 @@
 //! Files that Gmsh 4.15.2 wrote (`tests/fixtures/gmsh/generate.py`): an L of area 3.
 
+use signorini_tolerances::scene::{DIGITS, MEASURE};
 use std::path::Path;
 
-use super::super::{parse, read};
+use super::super::read;
+use super::says_what_is_missing;
 use crate::mesh::Mesh;
 
 const KINDS: [&str; 2] = ["triangles", "mixed"];
@@ -51,7 +53,7 @@ fn areas_lengths_and_names() {
             assert_eq!(found.len(), expected.len(), "{kind} {variant}");
             for (found, expected) in found.iter().zip(expected) {
                 assert_eq!(found.0, expected.0);
-                assert!((found.1 - expected.1).abs() < 1e-12, "{kind} {variant} {found:?}");
+                MEASURE.check(format_args!("{kind} {variant} {found:?}"), found.1 - expected.1);
             }
         };
         close(&surfaces, &[("domain", 3.0), ("sand", 1.0)]);
@@ -69,8 +71,8 @@ fn encodings_agree() {
         assert_eq!(topology(&text22), topology(&binary22));
         assert_eq!(topology(&text41), topology(&binary41));
         assert_eq!(text22.vertices, text41.vertices);
-        let pairs = text22.vertices.iter().flatten().zip(binary41.vertices.iter().flatten());
-        assert!(pairs.into_iter().all(|(text, binary)| (text - binary).abs() < 1e-15));
+        let [text, binary] = [&text22, &binary41].map(|mesh| mesh.vertices.as_flattened());
+        DIGITS.check_each(kind, text, binary);
     }
 }
 
@@ -79,7 +81,7 @@ fn every_truncation_is_an_error() {
     for (kind, variant) in KINDS.iter().flat_map(|kind| VARIANTS.map(|variant| (kind, variant))) {
         let file = std::fs::read(path(kind, variant)).unwrap();
         for length in 0..file.trim_ascii_end().len() {
-            assert!(parse(&file[..length]).is_err(), "{kind}-{variant} cut at {length}");
+            says_what_is_missing(&file, length);
         }
     }
 }

@@ -1,0 +1,42 @@
+//! Comparisons in the tests of `host/bake`.
+
+table! {
+    TICK: "outputs and gap of a full controller against the solver, over the largest fluxes", 2e-9,
+        "sweeps end at 1e-9 of the bound";
+    TICK_NARROW: "outputs and gap of a full controller in f32, over the largest fluxes", 1e-4,
+        "ε = 1.2e-7 times the condition";
+    OSCILLATION: "how far the solver's oscillation is above that of a sum, relative", 1e-14,
+        "the triangle inequality, but for rounding";
+    SWEPT: "u of ticks without a bound against 4000 sweeps", 3e-14,
+        "all that rounding allows";
+    SWEPT_NARROW: "u in f32 with another square root", 1e-4,
+        "a tick ends at 1e-4 of the bound";
+    FACTORED: "u of a factored controller against the direct solver, over the largest", 5e-15,
+        "a contrast of a million";
+    FACTORED_NARROW: "u of a factored controller in f32, over the largest", 5e-7,
+        "a contrast of a million";
+    FACTORED_OBLIQUE: "u of a factored controller for an anisotropy of 10⁸, over the largest", 7e-9,
+        "a matrix of that condition";
+    FACTORED_GAP: "gap of a factored controller against the direct solver's, relative", 1e-3,
+        "f32";
+    WITHOUT_UNITS: "gap of a controller in f32 without units, in numbers near 2⁻⁴⁰, relative", 1e-4,
+        "ε = 1.2e-7 in sums of squares";
+    COSTS: "counted costs against curves through them, relative", 5e-12,
+        "curves of as many coefficients as counts";
+    LENGTH: "length of contact, condensed and full", 1e-14,
+        "f32 in the condensed one";
+    GUARANTEE: "how far an error is above its bound, relative", 1e-3,
+        "quadrature of the norms";
+    IDENTITY: "bound of a condensed model against the identity, relative, smooth", 1e-5,
+        "quadrature of lifts in triangles";
+    IDENTITY_KINKED: "bound of a condensed model where contact ends within a cell, relative", 2e-3,
+        "quadrature of the norms";
+    IDENTITY_BOUNDED: "how far the identity is above the bound of any x, relative", 1e-3,
+        "quadrature of the norms";
+    JUMP: "what the bound for u_h has above that for s, against their distance, relative", 2e-5,
+        "lifts have no gradient at the opposite vertex";
+    CORNER: "what corners know of given values and gaps", 1e-12,
+        "data of two evaluations";
+    SAME_BOUND: "bound of one problem by another way, relative", 1e-6,
+        "two solves";
+}

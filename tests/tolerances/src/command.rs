@@ -1,0 +1,24 @@
+//! Comparisons in the tests of the command line, `host/tests`.
+
+table! {
+    MOVING_FORCE: "force of a moving contact against πa², relative", 0.02,
+        "the error of the mesh";
+    REPLAYED: "force of a second tick with the same inputs, relative", 1e-3,
+        "ticks end at a share of the bound";
+    BAKED: "outputs of the baked controller against the full model, relative", 1e-2,
+        "ticks of the full model end at a share of the bound";
+    COARSE_START: "bound of a tick from a coarse mesh against one without, relative", 0.05,
+        "both end at a share of the bound";
+    PROMISED: "error of a fragment that is solved again, relative", 1e-6,
+        "the digits in the file";
+    KEPT: "errors of fragments in git, relative", 0.05,
+        "they were measured on other machines, perhaps";
+    PRINTED: "force in the summary against the catalogue", 1e-6,
+        "six digits are given";
+    DIRECT: "force by sweeps against the direct solver, relative", 1e-7,
+        "the kernel stops when it takes the error for 1e-10";
+    DIRECT_NARROW: "force by sweeps in f32 against the direct solver, relative", 1e-4,
+        "data rounded to f32";
+    GUARANTEE: "how far the error is above its bound at grazing and switching contact, relative", 1e-4,
+        "quadrature of the norms";
+}

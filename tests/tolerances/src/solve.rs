@@ -1,0 +1,72 @@
+//! Comparisons in the tests of `host/solve`.
+
+table! {
+    FOUND: "reference coordinates of a point that was put there", 2e-14,
+        "Newton's method ends within rounding";
+    CONDENSED: "condensed outputs, openings and forces against a full solve, over the largest", 2e-12,
+        "two exact solves of one problem, each as good as its condition";
+    KNOWN: "solutions and forces of springs, known on paper", 1e-14,
+        "a factorisation of at most 100 springs";
+    PRESSED: "forces of springs whose stiffness spans many decades", 1e-14,
+        "differences of neighbours times the stiffest of springs";
+    ENUMERATED: "solution against all contact sets enumerated, over its size", 5e-13,
+        "random matrices of at most 12 unknowns, some of condition 10⁶";
+    SCHUR: "entries of S against elimination by hand", 2e-14,
+        "a matrix of condition 10⁴";
+    OPTIMAL: "equations and complementarity, over the largest displacement", 1e-14,
+        "rows of at most 5 entries, after refinement";
+    RESIDUAL: "residual that the solver tells, and its change by a warm start, over the largest displacement", 1e-15,
+        "refinement ends at ε";
+    BISECTED: "integral of a jump by bisection", 1e-5,
+        "panels of 2⁻¹⁷ around it";
+    BISECTED_KINK: "integral of a kink by bisection", 1e-9,
+        "two levels agree to 1e-9";
+    BISECTED_LINE: "integral of a kink across cells by bisection", 1e-4,
+        "the number of cuts is limited";
+    GUARANTEE: "how far the distance is above the bound on thin cells, relative", 1e-6,
+        "quadrature of the norms";
+    POINTS: "Robin data at the points of an edge", 1e-13,
+        "sums of 8 points";
+    NARROW_BUMP: "what 8 points miss of a bump or layer, relative", 2e-3,
+        "an estimate by panels, asked for two digits";
+    PARABOLIC: "mean, energy and coupling of a parabola over its chord", 1e-14,
+        "polynomials: exact rules";
+    CURVED_KINK: "a kink inside an edge, relative", 1e-9,
+        "panels around the kink";
+    LAYER: "energy of a layer inside an edge over that without w, relative", 1e-4,
+        "panels around the layer";
+    NOISE: "energy of a deviation of 1e-7 beneath terms of 1, relative", 1e-9,
+        "1e-16 of 1 in a difference of 1e-7, times the panels";
+    CURVED_ENERGY: "energy of lifts against a fine rule, relative", 2e-4,
+        "the fine rule has 300 panels a direction";
+    DIFFERENCES: "couplings and energies of lifts against differences of values", 2e-10,
+        "steps of 1e-5";
+    DIFFERENCES_COLLAPSED: "couplings and energies of lifts against differences, on triangles", 2e-5,
+        "the twin's rule collapses at a vertex that is not the apex";
+    STEEP: "the place of infinite slope that is named", 5e-8,
+        "bisection of the edge";
+    IDENTITY: "bound of any iterate without oscillation against the identity, relative, smooth", 1e-5,
+        "quadrature of lifts in triangles";
+    IDENTITY_SINGULAR: "bound without oscillation against the identity, relative, singular", 1e-3,
+        "quadrature of the norms where contact ends within a cell";
+    ENDS: "values at the ends of an edge", 1e-15,
+        "one evaluation of the same expression";
+    OSCILLATION: "oscillation of a cell against integrals on paper", 1e-14,
+        "exact rules for polynomials";
+    AGREEMENT: "u of mixed precision and of the factor against other solvers, over the largest", 1e-10,
+        "as good as the solves, of condition up to 10⁵";
+    FACTOR_NARROW: "u of the factor in f32 against f64, over the largest", 2e-6,
+        "data rounded to f32, times what the condition makes of it";
+    BOUND_OF_FACTOR: "how far the factor's bound is above the kernel's, relative", 7e-11,
+        "the kernel stops where sweeps change little";
+    BOUND_OF_FACTOR_NARROW: "how far the factor's bound is above the kernel's on large meshes, relative", 1e-12,
+        "the kernel stops where sweeps change little";
+    HARD: "u by the factor where sweeps do not end, over the largest", 7e-9,
+        "a matrix of condition 10⁸";
+    HARD_BOUND: "the bound there, relative", 6e-9,
+        "a matrix of condition 10⁸";
+    RULE: "Gauss rules on edges and cells", 1e-14,
+        "sums of at most 20 weights";
+    CATALOGUE: "errors on other meshes against the catalogue, relative", 5e-4,
+        "quadrature of the norms";
+}
