@@ -3,7 +3,6 @@
 
 mod plate;
 
-use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
 use std::cell::Cell;
 
 use plate::Side;
@@ -19,6 +18,7 @@ use signorini_kernel::tick::{
     UncertifiedSweeps,
 };
 use signorini_kernel::{Error, Libm, Relaxation, flux};
+use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
 
