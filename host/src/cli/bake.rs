@@ -13,7 +13,6 @@ use signorini_bake::full;
 use signorini_bake::setting;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted;
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -78,8 +77,8 @@ impl Arguments {
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
         let text = match setting::scalar(&scene, self.scalar)? {
-            ScalarKind::F32 => self.source::<f32>(&scene, &problem)?,
-            ScalarKind::F64 => self.source::<f64>(&scene, &problem)?,
+            ScalarKind::F32 => self.source::<f32>(&problem)?,
+            ScalarKind::F64 => self.source::<f64>(&problem)?,
         };
         write_beside(&scene, &self.output, &text)?;
         Ok(0)
@@ -88,7 +87,7 @@ impl Arguments {
 
 impl Arguments {
     /// The module; what there is to say of it is said.
-    fn source<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<String> {
+    fn source<R: Scalar>(&self, problem: &Problem) -> Result<String> {
         let kind = match (self.full, self.condensed) {
             (true, _) => Some(ModelKind::Full),
             (_, true) => Some(ModelKind::Condensed),
@@ -96,19 +95,23 @@ impl Arguments {
         };
         let unknowns = problem.topology.counts.unknowns();
         let choice = waiting(&format!("baking {unknowns} unknowns"), || {
-            Choice::<R>::new(scene, problem, kind, self.explain)
+            Choice::<R>::new(problem, kind, self.explain)
         })?;
-        if scene.target.is_some_and(|target| target.tick.is_some() && target.clock.is_none()) {
+        if problem
+            .scene
+            .target
+            .is_some_and(|target| target.tick.is_some() && target.clock.is_none())
+        {
             eprintln!("warning: target.tick is no limit without target.clock");
         }
         for warning in warnings(&choice) {
             eprintln!("{warning}");
         }
         if self.explain {
-            say(explanation(scene, problem, &choice));
+            say(explanation(problem, &choice));
         }
         Ok(match &choice.candidate().model {
-            Model::Condensed(baked) => condensed::source(&Face::new(scene, problem), baked),
+            Model::Condensed(baked) => condensed::source(&Face::new(problem), baked),
             Model::Full(baked) => full::source(baked),
         })
     }
@@ -132,9 +135,9 @@ mod tests {
         let scene = scene_at(&path, &[]).expect("a scene");
         let mesh = adapted::of_scene(&scene).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
-        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Condensed), false);
+        let choice = Choice::<f32>::new(&problem, Some(ModelKind::Condensed), false);
         match &choice.expect("a choice").candidate().model {
-            Model::Condensed(baked) => condensed::source(&Face::new(&scene, &problem), baked),
+            Model::Condensed(baked) => condensed::source(&Face::new(&problem), baked),
             Model::Full(baked) => full::source(baked),
         }
     }

@@ -98,31 +98,26 @@ impl<R: Scalar> Choice<R> {
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
-    pub fn new(
-        scene: &Scene,
-        problem: &Problem,
-        forced: Option<ModelKind>,
-        compared: bool,
-    ) -> Result<Self> {
-        let budget = Budget::of(scene);
-        let setting = scene.setting.unwrap_or_default();
+    pub fn new(problem: &Problem, forced: Option<ModelKind>, compared: bool) -> Result<Self> {
+        let budget = Budget::of(&problem.scene);
+        let setting = problem.scene.setting.unwrap_or_default();
         let forced = forced.or(setting.model_kind());
         if let Some((model, key)) =
             forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
         {
-            return Err(foreign(scene, model, key).into());
+            return Err(foreign(&problem.scene, model, key).into());
         }
         let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
         let contact = problem.topology.counts.contact;
-        let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
-        let units = choose_for_inputs(scene, problem)?;
-        refuse_answers::<R>(scene, &units)?;
-        refuse_lengths::<R>(scene, problem)?;
+        let few = contact <= MOST_CONTACTS && check_size(problem).is_ok();
+        let units = choose_for_inputs(problem)?;
+        refuse_answers::<R>(&problem.scene, &units)?;
+        refuse_lengths::<R>(problem)?;
         // Condensation is in the scene's units, in f64.
-        let near = refuse_squares::<f64>(scene, &units);
+        let near = refuse_squares::<f64>(&problem.scene, &units);
         if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
             near?;
-            match of_condensed(scene, &condense(scene, problem)?, &budget) {
+            match of_condensed(&problem.scene, &condense(problem)?, &budget) {
                 Ok(found) => candidates = found,
                 Err(error) if forced.is_some() => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
@@ -137,7 +132,7 @@ impl<R: Scalar> Choice<R> {
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
         if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
-            match of_full(scene, problem, &budget, &mut excluded) {
+            match of_full(problem, &budget, &mut excluded) {
                 Ok(mut found) => {
                     // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
                     // the time, not refused.
@@ -169,7 +164,7 @@ impl<R: Scalar> Choice<R> {
         };
         match complete.or_else(last) {
             Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
-            None => Err(too_large(scene, &candidates).into()),
+            None => Err(too_large(&problem.scene, &candidates).into()),
         }
     }
 

@@ -9,7 +9,6 @@ use super::{Condensate, Form, build};
 use crate::certify::Answer;
 use crate::problem::Problem;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// The fields of all columns: what condensation leaves out.
 pub struct Recovery {
@@ -21,8 +20,8 @@ pub struct Recovery {
 ///
 /// # Errors
 /// As for [`super::condense`].
-pub fn recoverable(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
-    build(scene, problem)
+pub fn recoverable(problem: &Problem) -> Result<(Condensate, Recovery)> {
+    build(problem)
 }
 
 impl Recovery {

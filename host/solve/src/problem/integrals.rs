@@ -43,7 +43,7 @@ fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
 impl Problem {
     /// The mean of A over a cell, triangles first.
     pub fn mean_conductivity(&self, cell: usize) -> Tensor<f64> {
-        let Coefficients { triangles, quads } = &self.coefficients;
+        let Coefficients { triangles, quads } = &*self.coefficients;
         let Some(quad) = cell.checked_sub(triangles.len()) else { return triangles[cell] };
         match &quads[quad] {
             QuadCoefficient::Constant(tensor) => *tensor,

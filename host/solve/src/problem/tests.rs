@@ -215,7 +215,7 @@ fn the_threshold_of_a_balance_is_said() -> Result<()> {
         SCENE.replace("kind = \"dirichlet\"\nvalue = \"1\"", "kind = \"neumann\"\nflux = \"0\"");
     let scene = scene(&text)?;
     let problem = Problem::new(&scene, grid(2, Cells::Quads))?;
-    let error = super::Parts::examine(&scene, &problem).expect_err("no unique solution");
+    let error = super::Parts::examine(&problem).expect_err("no unique solution");
     let said = error.to_string();
     assert!(
         said.contains("balance by themselves (their sum is at most 1e-9 of the sum of their sizes"),

@@ -20,7 +20,7 @@ pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
 pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
-pub use units::{choose as choose_units, choose_for_inputs, in_units, times};
+pub use units::{choose as choose_units, choose_for_inputs, times};
 
 use std::time::Instant;
 
@@ -49,24 +49,23 @@ pub use solution::centre_floating;
 ///
 /// # Errors
 /// No solution, numbers that the scalar type cannot hold, a singular matrix.
-pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let units = choose_units(scene, problem)?;
+pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
+    let units = choose_units(problem)?;
     if units == Units::default() {
-        return solve_in_its_units(scene, problem, options);
+        return solve_in_its_units(problem, options);
     }
-    let (scene, problem) = in_units(scene, problem, &units)?;
-    let solution = solve_in_its_units(&scene, &problem, options)?;
+    let solution = solve_in_its_units(&problem.in_units(&units)?, options)?;
     Ok(Solution { units, ..times(&units, solution) })
 }
 
-fn solve_in_its_units(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let parts = Parts::examine(scene, problem)?;
+fn solve_in_its_units(problem: &Problem, options: &Options) -> Result<Solution> {
+    let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
-        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(scene, problem, &parts, options),
-        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(scene, problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(scene, problem, &parts, options),
-        (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(problem, &parts, options),
+        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options),
+        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
             Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
                 .hint("leave out --scalar, or use --solver auto")
@@ -92,13 +91,8 @@ fn overflow<R: Scalar>(scene: &Scene) -> Error {
         .into()
 }
 
-fn by_kernel<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<Solution> {
-    let unfit = unfit::<R>(scene);
+fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+    let unfit = unfit::<R>(&problem.scene);
     let mut clock = Clock::start();
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.set_parts(parts);
@@ -117,7 +111,7 @@ fn by_kernel<R: Scalar>(
     let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(scene, problem, parts, &assembled, solved)
+    conclude(problem, parts, &assembled, solved)
 }
 
 /// An iterate, and the time up to its assembly.
@@ -136,23 +130,22 @@ struct Solved<R> {
 
 /// Fluxes, certificate and what is read off.
 fn conclude<R: Scalar>(
-    scene: &Scene,
     problem: &Problem,
     parts: &Parts,
     assembled: &Assembled<R>,
     solved: Solved<R>,
 ) -> Result<Solution> {
-    let unfit = unfit::<R>(scene);
+    let unfit = unfit::<R>(&problem.scene);
     let Solved { outcome, ran, factored, u, low, scalar, assembly, mut clock } = solved;
     if outcome.status == Status::NotFinite {
-        return Err(overflow::<R>(scene));
+        return Err(overflow::<R>(&problem.scene));
     }
     let solve = clock.lap();
     stage("fluxes and error bound");
     let fluxes = Fluxes::recover(assembled, &u, &low).map_err(&unfit)?;
     let flux = clock.lap();
-    let data = Data::new(scene, problem)?;
-    let certified = Certified::new(scene, problem, parts, assembled, &data, &u).map_err(&unfit)?;
+    let data = Data::new(problem)?;
+    let certified = Certified::new(problem, parts, assembled, &data, &u).map_err(&unfit)?;
     let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
     let found = Found { outcome, ran, factored, u, fluxes, certified, seconds };
     Ok(finish(problem, parts, assembled, found, scalar))
