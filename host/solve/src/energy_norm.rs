@@ -18,7 +18,6 @@ use crate::quadrature::{DATA_POINTS, gauss};
 use crate::solve;
 use signorini_kernel::Real;
 use signorini_scene::error::Result;
-use signorini_scene::scene::units::Units;
 
 /// The energy norm of a solution's S; `None` where it has no bound, and S is a picture alone.
 ///
@@ -28,14 +27,13 @@ pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Opti
     if solution.bound.is_none() {
         return Ok(None);
     }
-    let units = solution.units;
-    if units == Units::default() {
+    let Some(problem) = &solution.scaled else {
         return norm(problem, &solution.certified.admissible()).map(Some);
-    }
+    };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-    let problem = problem.in_units(&units)?;
+    let units = solution.units;
     let solution = solve::times(&units.inverse(), solution.clone());
-    let norm = norm(&problem, &solution.certified.admissible())?;
+    let norm = norm(problem, &solution.certified.admissible())?;
     Ok(Some(norm * units.energy()))
 }
 

@@ -45,13 +45,12 @@ pub struct Errors {
 /// An exact solution that is not finite at a quadrature point.
 pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Option<Errors>> {
     let Some(exact) = &problem.scene.exact else { return Ok(None) };
-    let units = solution.units;
-    if units != Units::default() {
+    if let Some(problem) = &solution.scaled {
         // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-        let problem = problem.in_units(&units)?;
+        let units = solution.units;
         let solution = solve::times(&units.inverse(), solution.clone());
-        let solution = solve::Solution { units: Units::default(), ..solution };
-        let errors = of_solution(&problem, &solution)?;
+        let solution = solve::Solution { scaled: None, ..solution };
+        let errors = of_solution(problem, &solution)?;
         return Ok(errors.map(|errors| errors.times(&units)));
     }
     let errors = errors(exact, problem, &solution.u, &solution.flux)?;

@@ -7,24 +7,28 @@ use crate::costs::Costs;
 use crate::full;
 use crate::trial::{self, Trial};
 use signorini_scene::error::Result;
+use signorini_scene::scene::units::Units;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::Scaled;
 
-/// The solver that the setting asks for; where it leaves that open both, the quicker first: one that comes to its end
-/// before one that does not. `excluded` gets the reason why there is no factor.
+/// The solver that the setting asks for, in `units`; where it leaves that open both, the quicker first: one that comes
+/// to its end before one that does not. `excluded` gets the reason why there is no factor.
 pub(super) fn of_full<R: Scalar>(
     problem: &Problem,
+    units: Units,
     budget: &Budget,
     excluded: &mut Vec<String>,
 ) -> Result<Vec<Candidate<R>>> {
     let setting = problem.scene.setting.unwrap_or_default();
-    let baked = full::Baked::<R>::new(problem)?;
+    let problem = &Scaled::new(problem, units)?;
+    let baked = full::Baked::<R>::of_scaled(problem)?;
     // Sweeps and shares are for who sweeps.
     let is_open = setting.solver.is_none() && setting.sweeps.is_none() && setting.share.is_none();
-    let factored = is_open.then(|| baked.clone().with_factor(problem));
-    let mut all = vec![candidate(problem, budget, baked)];
+    let factored = is_open.then(|| baked.clone().with_factor(problem.problem()));
+    let mut all = vec![candidate(problem.own, budget, baked)];
     match factored {
-        Some(Ok(factored)) => all.push(candidate(problem, budget, factored)),
+        Some(Ok(factored)) => all.push(candidate(problem.own, budget, factored)),
         Some(Err(error)) => excluded.push(format!("full, by a factor: {error}")),
         None => {}
     }

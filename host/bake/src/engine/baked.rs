@@ -32,7 +32,7 @@ fn baked_in<R: Scalar, T>(
     let candidate = choice.candidate();
     let name = format!("{}, {}", candidate.name, R::NAME);
     match &candidate.model {
-        Model::Condensed(baked) => condensed::lend(problem, baked, |engine| then(engine, &name)),
+        Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &name)),
         Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &name)),
     }
 }

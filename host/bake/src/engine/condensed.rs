@@ -4,12 +4,12 @@ use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::solver::Status;
 
 use super::{Answer, Engine, status};
-use crate::choice::{Choice, Model};
+use crate::choice::Choice;
 use crate::condensed::{Baked, Controller};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{ErrorBound, NoBound};
-use signorini_solve::condense::{Condensate, Recovery, recoverable};
+use signorini_solve::condense::{Condensate, Recovery};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ran, ended_name, unfit};
@@ -31,24 +31,23 @@ pub(super) fn with<R: Scalar, T>(
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Some(ModelKind::Condensed), false)?;
-    let Model::Condensed(baked) = &choice.candidate().model else {
+    lend(problem, &choice, then)
+}
+
+/// Lends the engine of the condensed model that was chosen for `problem`.
+pub(super) fn lend<R: Scalar, T>(
+    problem: &Problem,
+    choice: &Choice<R>,
+    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
+) -> Result<T> {
+    let Some((baked, condensate, recovery)) = choice.condensed() else {
         let message = "setting.model: there is no condensed model of this scene";
         return Err(InputError::new(message).file(&problem.scene.path).into());
     };
-    lend(problem, baked, then)
-}
-
-/// Lends the engine of a baked model of `scene`.
-pub(super) fn lend<R: Scalar, T>(
-    problem: &Problem,
-    baked: &Baked<R>,
-    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
-) -> Result<T> {
-    let (condensate, recovery) = recoverable(problem)?;
     then(&mut Condensed {
         problem,
-        condensate: &condensate,
-        recovery: &recovery,
+        condensate,
+        recovery,
         baked,
         controller: Controller::new(baked),
         inputs: Vec::new(),

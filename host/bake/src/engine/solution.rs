@@ -49,6 +49,7 @@ pub fn solve(problem: &Problem) -> Result<Solution> {
         ran,
         factored,
         units: Units::default(),
+        scaled: None,
         algebraic_residual: residual,
         omega,
         mismatch: 0.0,

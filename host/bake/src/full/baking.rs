@@ -12,7 +12,7 @@ use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::choose_for_inputs;
+use signorini_solve::solve::{Scaled, choose_for_inputs};
 
 impl<R: Scalar> Baked<R> {
     /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
@@ -21,14 +21,20 @@ impl<R: Scalar> Baked<R> {
     /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or
     /// answers that the scalar type cannot hold.
     pub fn new(problem: &Problem) -> Result<Self> {
-        let face = Face::new(problem);
-        let units = choose_for_inputs(problem)?;
-        if units == Units::default() {
-            return Self::in_its_units(problem, face);
-        }
-        let scale = Scale::new(&problem.scene, units)?;
-        let baked = Self::in_its_units(&problem.in_units(&units)?, face)?;
-        Ok(Self { scale: Some(scale), ..baked })
+        Self::of_scaled(&Scaled::new(problem, choose_for_inputs(problem)?)?)
+    }
+
+    /// The same in units that are chosen.
+    ///
+    /// # Errors
+    /// As for [`Baked::new`].
+    pub fn of_scaled(problem: &Scaled) -> Result<Self> {
+        let face = Face::new(problem.own);
+        let scale = match problem.units == Units::default() {
+            true => None,
+            false => Some(Scale::new(&problem.own.scene, problem.units)?),
+        };
+        Ok(Self { scale, ..Self::in_its_units(problem.problem(), face)? })
     }
 
     /// What 1 stands for in [`Controller::u`] and the other arrays of a controller.
@@ -36,7 +42,7 @@ impl<R: Scalar> Baked<R> {
         self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
     }
 
-    /// The same with ticks that a factor solves; `scene` and `problem` are what it was baked from.
+    /// The same with ticks that a factor solves; `problem` is what it was baked from, in its units.
     ///
     /// # Errors
     /// A matrix that this scalar cannot tell from a singular one, a factor beyond all memory.
@@ -45,12 +51,7 @@ impl<R: Scalar> Baked<R> {
             let hint = "take solver = \"sweeps\", or the scalar f64";
             InputError::new(message).file(&problem.scene.path).hint(hint)
         };
-        let in_other_units = match self.scale {
-            Some(scale) => Some(problem.in_units(&scale.units)?),
-            None => None,
-        };
-        let own = in_other_units.as_ref().unwrap_or(problem);
-        let Some(factored) = Factored::new(own)? else {
+        let Some(factored) = Factored::new(problem)? else {
             return Err(refused("setting.solver: this mesh has no factor in f64".to_owned()).into());
         };
         let baked = Self { factored: Some(factored), ..self };

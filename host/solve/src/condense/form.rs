@@ -38,6 +38,7 @@ pub(super) struct Ground<'g> {
 }
 
 /// s and τ in every column.
+#[derive(Debug)]
 pub(super) struct Admissibles {
     pub s: Table,
     pub fluxes: Table,

@@ -11,6 +11,7 @@ use crate::problem::Problem;
 use signorini_scene::error::Result;
 
 /// The fields of all columns: what condensation leaves out.
+#[derive(Debug)]
 pub struct Recovery {
     pub(super) fields: Vec<Field>,
     pub(super) admissibles: Option<Admissibles>,

@@ -1,5 +1,7 @@
 //! The units in which a problem is solved: those in which its numbers are near 1.
 
+use std::sync::Arc;
+
 use crate::problem::{Assembled, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
@@ -91,6 +93,40 @@ fn power(x: f64) -> i32 {
 /// 2ⁿ, and the largest or smallest normal one beyond.
 fn exp2(n: i32) -> f64 {
     f64::from(n.clamp(-1000, 1000)).exp2()
+}
+
+/// A problem in units of its own, posed in them once: in those of the scene where these are 1.
+#[derive(Debug)]
+pub struct Scaled<'p> {
+    /// In the scene's units.
+    pub own: &'p Problem,
+    /// What 1 stands for in the other one.
+    pub units: Units,
+    other: Option<Arc<Problem>>,
+}
+
+impl<'p> Scaled<'p> {
+    /// `own` in `units`.
+    ///
+    /// # Errors
+    /// Data that are not finite in these units.
+    pub fn new(own: &'p Problem, units: Units) -> Result<Self> {
+        let other = match units == Units::default() {
+            true => None,
+            false => Some(Arc::new(own.in_units(&units)?)),
+        };
+        Ok(Self { own, units, other })
+    }
+
+    /// The problem in these units.
+    pub fn problem(&self) -> &Problem {
+        self.other.as_deref().unwrap_or(self.own)
+    }
+
+    /// The same, where these are not the scene's.
+    pub fn other(self) -> Option<Arc<Problem>> {
+        self.other
+    }
 }
 
 /// A solution in `units` becomes one in the scene's; with their inverse, the other way round.

@@ -14,6 +14,7 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Scaled, choose_for_inputs};
 
 /// Inputs at which some of the contact is active.
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];
@@ -53,7 +54,8 @@ fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
 
 fn factored<R: Scalar>(units: Units) -> Result<Baked<R>> {
     let (_, problem) = bent(units)?;
-    Baked::new(&problem)?.with_factor(&problem)
+    let scaled = Scaled::new(&problem, choose_for_inputs(&problem)?)?;
+    Baked::of_scaled(&scaled)?.with_factor(scaled.problem())
 }
 
 fn change_nothing<R: Scalar>(baked: fn(Units) -> Result<Baked<R>>, all: &[Units]) -> Result<()> {
