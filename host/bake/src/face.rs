@@ -48,7 +48,7 @@ pub struct About<'a> {
 }
 
 impl Face {
-    /// That of `scene`.
+    /// That of `problem`.
     pub fn new(problem: &Problem) -> Self {
         let names = problem.scene.inputs.iter().map(|input| input.name.value.as_str());
         let inputs = items(names, problem.scene.inputs.iter().map(effect));

@@ -94,7 +94,7 @@ pub struct Choice<R: Scalar> {
 }
 
 impl<R: Scalar> Choice<R> {
-    /// Chooses for `scene`, as its setting asks where `forced` does not; with `compared`, the full model is
+    /// Chooses for `problem`, as its setting asks where `forced` does not; with `compared`, the full model is
     /// worked out in any case.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
 
-/// Lends the engine of the module that `bake` writes for `scene`, with the module's name in a few words: its
+/// Lends the engine of the module that `bake` writes for `problem`, with the module's name in a few words: its
 /// model, solver and scalar are chosen as there, `asked` being the scalar of the command line.
 ///
 /// # Errors

@@ -30,7 +30,7 @@ pub(super) fn with<R: Scalar, T>(
     lend(&problem.scene, &Baked::<R>::new(problem)?, then)
 }
 
-/// Lends the engine of a baked model of `scene`.
+/// Lends the engine of a baked model of a scene.
 pub(super) fn lend<R: Scalar, T>(
     scene: &Scene,
     baked: &Baked<R>,

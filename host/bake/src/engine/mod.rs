@@ -107,7 +107,7 @@ pub fn completed(scene: &Scene) -> Setting {
     }
 }
 
-/// Lends the engine of `scene`, on whose mesh `problem` stands.
+/// Lends the engine of `problem`, as its setting says.
 ///
 /// # Errors
 /// A setting that the scene does not allow for, numbers that the scalar cannot hold.

@@ -20,7 +20,7 @@ fn earlier(scene: &Scene, inputs: &[f64]) -> Vec<Vec<f64>> {
     if runs { trial::inputs::<f64>(inputs, TICKS).collect() } else { Vec::new() }
 }
 
-/// Solves `scene` for its default inputs and at t = 0, as its setting says.
+/// Solves `problem` for its default inputs and at t = 0, as its setting says.
 ///
 /// # Errors
 /// As for [`with`].

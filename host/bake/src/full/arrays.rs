@@ -114,7 +114,7 @@ impl<R: Scalar> Baked<R> {
         self.how.certified
     }
 
-    /// The same in the units that `scene` is in.
+    /// The same in the units that `problem` is in.
     pub(super) fn in_its_units(problem: &Problem, face: Face) -> Result<Self> {
         let setting = checked::<R>(&problem.scene)?;
         let held = Parts::examine(problem)?;

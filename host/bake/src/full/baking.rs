@@ -15,7 +15,7 @@ use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Scaled, choose_for_inputs};
 
 impl<R: Scalar> Baked<R> {
-    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
+    /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
     /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or

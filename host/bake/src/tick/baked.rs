@@ -14,7 +14,7 @@ use signorini_solve::certify::exact::distance;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::ScalarKind;
 
-/// Plays `moments` through the controller of `scene`, calling `done` after each; also the controller's name in
+/// Plays `moments` through the controller of `problem`, calling `done` after each; also the controller's name in
 /// a few words. `asked` is a scalar instead of that of the scene's setting.
 ///
 /// # Errors

@@ -119,7 +119,7 @@ impl Budget {
     }
 }
 
-/// Solves `scene` at every moment; calls `done` after each. The first tick starts from the solution on
+/// Solves `problem` at every moment; calls `done` after each. The first tick starts from the solution on
 /// `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
 /// that of a factor.
 ///

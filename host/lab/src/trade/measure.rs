@@ -29,7 +29,7 @@ struct Timing {
     sweeps: u32,
 }
 
-/// Measures `scene`, which has its setting, on its mesh; `level` and cells are told by the setting.
+/// Measures `problem` as its setting says; level and cells are told by the setting.
 ///
 /// # Errors
 /// A setting that the scene does not allow for.

@@ -8,8 +8,11 @@ use signorini_kernel::{Real, Tensor};
 
 use super::conductivity::Conductivity;
 use crate::problem::{Problem, QuadCoefficient};
-use crate::quadrature::{on_quad, on_triangle};
+use crate::quadrature::{DATA_POINTS, on_quad, on_triangle};
 use crate::scalar::Scalar;
+
+// A on quads is evaluated once, for element matrices and bound.
+const _: () = assert!(POINTS == DATA_POINTS);
 
 /// B at the 64 points of a cell.
 pub type Points<R> = [Tensor<R>; POINTS * POINTS];
@@ -90,8 +93,10 @@ impl<R: Scalar> Metric<R> {
                         return None;
                     }
                 }
-                let points = on_quad(corners, rule);
-                points.map(|p| of_quad(&here(p.reference), a.at(p.x))).collect()
+                // The element matrices have the same points.
+                let known = &problem.coefficients.quads[quad];
+                let points = on_quad(corners, rule).enumerate();
+                points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
             }
         };
         let narrow = |b: &Tensor<f64>| Tensor {

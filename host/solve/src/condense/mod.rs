@@ -182,7 +182,7 @@ pub fn check_size(problem: &Problem) -> Result<()> {
     Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
 }
 
-/// Condenses `scene` on the mesh of `problem`, whose own loads only decide whether there is a solution.
+/// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
 /// # Errors
 /// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,

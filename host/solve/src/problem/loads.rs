@@ -29,7 +29,7 @@ pub struct Loads {
 }
 
 impl Loads {
-    /// Integrates all data of `scene` at time `time`.
+    /// Integrates all data of `problem` at time `time`.
     ///
     /// # Errors
     /// Data that are not finite, a negative Robin coefficient.

@@ -10,6 +10,7 @@
 mod assembled;
 mod binding;
 mod corners;
+mod diagonal;
 mod element_matrices;
 mod integrals;
 mod loads;
@@ -29,12 +30,13 @@ pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use signorini_kernel::Tensor;
 use signorini_kernel::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
+use signorini_kernel::{Error as KernelError, Tensor};
 
+use element_matrices::{ElementMatrices, Integrated};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{Mesh, shape};
 use signorini_scene::scene::Scene;
@@ -47,6 +49,8 @@ pub struct Coefficients {
     pub triangles: Vec<Tensor<f64>>,
     /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
     pub quads: Vec<QuadCoefficient>,
+    /// What they make of the cells, once somebody asks.
+    matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
 }
 
 /// A on one quad.
@@ -56,6 +60,16 @@ pub enum QuadCoefficient {
     Constant(Tensor<f64>),
     /// At the 8×8 Gauss points, x̂ running fastest.
     AtPoints(Vec<Tensor<f64>>),
+}
+
+impl QuadCoefficient {
+    /// A at the Gauss point of this number.
+    pub fn at(&self, point: usize) -> Tensor<f64> {
+        match self {
+            Self::Constant(tensor) => *tensor,
+            Self::AtPoints(tensors) => tensors[point],
+        }
+    }
 }
 
 /// Everything that defines one discrete contact problem.
@@ -132,10 +146,9 @@ impl Problem {
 
     /// The largest entry of an element matrix.
     pub fn stiffest(&self) -> f64 {
-        Assembled::<f64>::new(self).map_or(0.0, |assembled| {
-            let stiffness = assembled.stiffness();
-            let entries = stiffness.triangles.as_flattened().iter();
-            let entries = entries.chain(stiffness.quads.as_flattened());
+        ElementMatrices::<f64>::of(self).map_or(0.0, |matrices| {
+            let entries = matrices.triangles.as_flattened().iter();
+            let entries = entries.chain(matrices.quads.as_flattened());
             entries.fold(0.0, |most: f64, entry| most.max(entry.abs()))
         })
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::problem::{Assembled, Problem};
+use crate::problem::Problem;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::units::Units;
 
@@ -75,12 +75,10 @@ fn sizes(problem: &Problem) -> [f64; 2] {
         numbers.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
     let given = most(&mut { given });
-    let Ok(assembled) = Assembled::<f64>::new(problem) else { return [given, 1.0] };
-    let Ok(system) = assembled.system() else { return [given, 1.0] };
-    let diagonals: Vec<f64> = system.matrix().iter().map(|row| row.diagonal()).collect();
+    let Ok([diagonals, load]) = problem.diagonal_and_load() else { return [given, 1.0] };
     let stiffest = most(&mut diagonals.iter().copied());
     let softest = diagonals.iter().copied().fold(stiffest, f64::min);
-    let loads = system.load().iter().zip(&diagonals);
+    let loads = load.iter().zip(&diagonals);
     let driven = most(&mut loads.map(|(load, diagonal)| load / diagonal));
     [given.max(driven), stiffest.sqrt() * softest.sqrt()]
 }
