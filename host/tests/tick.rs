@@ -188,7 +188,7 @@ fn other_units_change_no_digit() {
             let scene = units.inverse().scene(&scene);
             let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
             let budget = Budget { scalar, sweeps: 20_000, error: 0.0 };
-            play(&scene, &problem, None, &moments, &budget, |_| {}).expect("ticks")
+            play(&problem, None, &moments, &budget, |_| {}).expect("ticks")
         };
         let (near, far) = (played(Units::default()), played(units));
         for (near, far) in near.iter().zip(&far) {
@@ -299,11 +299,11 @@ fn errors_are_measured_at_the_time_of_the_problem() {
     let exact = scene.exact.as_ref().expect("an exact solution");
     let mut problem = Problem::new(&scene, grid(8, Cells::Triangles)).expect("a problem");
     let error = |problem: &Problem| {
-        let solution = solve(&scene, problem, &Options::default()).expect("a solution");
-        errors(&scene, exact, problem, &solution.u, &solution.flux).expect("errors").l2
+        let solution = solve(problem, &Options::default()).expect("a solution");
+        errors(exact, problem, &solution.u, &solution.flux).expect("errors").l2
     };
     let at_start = error(&problem);
-    problem.set_time(&scene, 0.25).expect("loads");
+    problem.set_time(0.25).expect("loads");
     assert!(error(&problem) < 2.0 * at_start);
     problem.time = 0.0;
     assert!(
@@ -321,7 +321,7 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         let moments = [Moment { time: 0.3, inputs: Vec::new() }];
         let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
         let first = |coarse: Option<&Problem>| {
-            let ticks = play(&scene, &fine, coarse, &moments, &budget, |_| ()).expect("a tick");
+            let ticks = play(&fine, coarse, &moments, &budget, |_| ()).expect("a tick");
             (ticks[0].sweeps, ticks[0].bound.expect("a bound").total)
         };
         let ((cold, bound), (warm, same)) = (first(None), first(Some(&coarse)));

@@ -81,10 +81,10 @@ struct Run {
 fn run(text: &str, mesh: Mesh) -> Run {
     let scene = Scene::parse(text, &PathBuf::from("test.toml")).expect("a valid scene");
     let problem = Problem::new(&scene, mesh).expect("scene and mesh fit");
-    let solution = solve(&scene, &problem, &Options::default()).expect("a solution exists");
+    let solution = solve(&problem, &Options::default()).expect("a solution exists");
     assert!(solution.converged(), "{:?}", solution.status);
     let errors = scene.exact.as_ref().map_or(Ok(Errors::default()), |exact| {
-        errors(&scene, exact, &problem, &solution.u, &solution.flux)
+        errors(exact, &problem, &solution.u, &solution.flux)
     });
     Run { problem, solution, errors: errors.expect("a finite exact solution") }
 }

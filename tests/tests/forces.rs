@@ -88,11 +88,8 @@ fn inputs(scene: &Scene, random: &mut Random) -> Vec<f64> {
 }
 
 /// The problem for these inputs.
-fn posed(scene: &Scene, problem: &Problem, inputs: &[f64]) -> Problem {
-    let (mut scene, mut problem) = (scene.clone(), problem.clone());
-    scene.inputs.iter_mut().zip(inputs).for_each(|(input, p)| input.default = *p);
-    problem.set_time(&scene, 0.0).expect("data that are admissible");
-    problem
+fn posed(problem: &Problem, inputs: &[f64]) -> Problem {
+    problem.with_inputs(inputs).expect("data that are admissible")
 }
 
 #[test]
@@ -106,14 +103,14 @@ fn solves_that_are_cut_off() {
         for (scalar, allowed) in kinds {
             for max_sweeps in stops(&mut random) {
                 let options = Options { scalar, max_sweeps, ..Options::default() };
-                let found = solve(&scene, &problem, &options).expect("an answer");
+                let found = solve(&problem, &options).expect("an answer");
                 let touches = |at: usize| found.u[free + at] == found.gap(&problem, at);
                 let table = table(&problem, &found.flux, touches);
                 let what = format!("{name}, {scalar:?}, {max_sweeps} sweeps");
                 let force = found.contact_force;
                 assert!(force >= 0.0, "{what}: {force} {table:?}");
                 allowed.check(&what, (force - table.law) / table.size);
-                let values = outputs(&scene, &problem, &found).expect("outputs");
+                let values = outputs(&problem, &found).expect("outputs");
                 let values: Vec<_> =
                     scene.outputs.iter().map(|output| values[&output.name.value]).collect();
                 let values: Vec<_> = values.into_iter().map(Option::unwrap_or_default).collect();
@@ -130,11 +127,11 @@ fn solves_that_are_cut_off() {
 #[test]
 fn solutions_have_the_forces_of_the_plain_sum() {
     for name in SCENES {
-        let (scene, problem) = of_name(name);
+        let (_, problem) = of_name(name);
         let free = problem.topology.counts.free;
         for solver in [SolverKind::Kernel, SolverKind::Direct] {
             let options = Options { solver, ..Options::default() };
-            let found = solve(&scene, &problem, &options).expect("an answer");
+            let found = solve(&problem, &options).expect("an answer");
             let touches = |at: usize| found.u[free + at] == found.gap(&problem, at);
             let table = table(&problem, &found.flux, touches);
             let what = format!("{name}, {solver:?}");
@@ -148,30 +145,29 @@ fn solutions_have_the_forces_of_the_plain_sum() {
 /// Ticks of a full model by its own controller; returns how often the plain sum was negative.
 fn ticks<R: Scalar, const WIDTH: usize>(
     what: &str,
-    scene: &Scene,
     problem: &Problem,
     allowed: Tolerance,
     random: &mut Random,
 ) -> u32 {
     let mut pulled = 0;
-    let baked = full::Baked::<R>::new(scene, problem).expect("a full model");
+    let baked = full::Baked::<R>::new(problem).expect("a full model");
     let (units, free) = (baked.units(), problem.topology.counts.free);
     for sweeps in stops(random) {
         let mut controller = full::Controller::<R, WIDTH>::new(&baked);
         for _ in 0..3 {
-            let p = inputs(scene, random);
+            let p = inputs(&problem.scene, random);
             let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
             let limits = Limits { sweeps, share: R::ZERO, error: R::ZERO };
             let (values, report) = controller.tick_within(&narrow, limits).expect("a tick");
             let flux: Vec<_> = controller.tau().iter().map(|x| x.wide() * units.flux()).collect();
             let touches = |at: usize| controller.u()[free + at] == controller.lower()[at];
-            let table = table(&posed(scene, problem, &p), &flux, touches);
+            let table = table(&posed(problem, &p), &flux, touches);
             let force = report.force.wide();
             let said = || format!("{what}, {sweeps} sweeps, {p:?}: {force} {values:?} {table:?}");
             assert!(force >= 0.0, "{}", said());
             allowed.check(what, (force - table.law) / table.size);
             let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
-            for (_, value) in signed(scene, &values) {
+            for (_, value) in signed(&problem.scene, &values) {
                 assert!(value >= 0.0, "{}", said());
             }
             pulled += u32::from(table.plain < 0.0);
@@ -184,16 +180,16 @@ fn full_models<R: Scalar>(allowed: Tolerance) {
     let mut random = Random::new(7);
     let mut pulled = [0; 2];
     for name in SCENES.into_iter().filter(|name| *name != "membrane") {
-        let (scene, problem) = of_name(name);
+        let (_, problem) = of_name(name);
         for certificate in [false, true] {
             let setting = Some(Setting { certificate, ..Setting::default() });
-            let scene = Scene { setting, ..scene.clone() };
+            let problem = problem.with_setting(setting);
             let what = format!("{name}, {}, certificate: {certificate}", R::NAME);
             let run = match problem.mesh.quads.is_empty() {
                 true => ticks::<R, TRIANGLES>,
                 false => ticks::<R, QUADS>,
             };
-            pulled[usize::from(certificate)] += run(&what, &scene, &problem, allowed, &mut random);
+            pulled[usize::from(certificate)] += run(&what, &problem, allowed, &mut random);
         }
     }
     // τ of a certificate keeps the law itself.
@@ -225,7 +221,7 @@ fn rounding<R: Scalar>(of: &Condensate, p: &[f64], x: &[f64]) -> f64 {
 /// Condensed ticks: the edges' table follows from the fields of all columns.
 fn condensed_ticks<R: Scalar>(
     name: &str,
-    (scene, problem): (&Scene, &Problem),
+    problem: &Problem,
     (condensate, recovery): (&Condensate, &Recovery),
     random: &mut Random,
 ) -> u32 {
@@ -235,17 +231,17 @@ fn condensed_ticks<R: Scalar>(
         let baked = condensed::Baked::<R>::new(condensate, work, true).expect("a condensed model");
         let mut controller = condensed::Controller::new(&baked);
         for _ in 0..3 {
-            let p = inputs(scene, random);
+            let p = inputs(&problem.scene, random);
             let narrow: Vec<R> = p.iter().map(|&p| R::narrow(p)).collect();
             let (values, _) = controller.tick(&narrow).expect("a tick");
             let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
             let all: Vec<f64> = std::iter::once(1.0).chain(p.iter().copied()).collect();
             let (_, flux) = recovery.field(condensate, &all, &x);
             let by_edge = condensate.by_edge(&x);
-            let table = table(&posed(scene, problem, &p), &flux, |at| by_edge[at] == 0.0);
+            let table = table(&posed(problem, &p), &flux, |at| by_edge[at] == 0.0);
             let size = rounding::<R>(condensate, &all, &x) + 1e-9 * table.size;
             let values: Vec<_> = values.iter().map(|value| value.wide()).collect();
-            for (output, value) in signed(scene, &values) {
+            for (output, value) in signed(&problem.scene, &values) {
                 let what = format!("{name}, {}, {sweeps} sweeps, {p:?}, {output}", R::NAME);
                 assert!(value >= 0.0, "{what}: {value} {table:?}");
                 // The levee's is about one of its two contact boundaries.
@@ -264,11 +260,11 @@ fn condensed_models_that_are_cut_off() {
     let mut random = Random::new(9);
     let mut pulled = [0; 2];
     for name in SCENES {
-        let (scene, problem) = of_name(name);
-        let (condensate, recovery) = recoverable(&scene, &problem).expect("a condensate");
-        let (posed, condensed) = ((&scene, &problem), (&condensate, &recovery));
-        pulled[0] += condensed_ticks::<f64>(name, posed, condensed, &mut random);
-        pulled[1] += condensed_ticks::<f32>(name, posed, condensed, &mut random);
+        let (_, problem) = of_name(name);
+        let (condensate, recovery) = recoverable(&problem).expect("a condensate");
+        let condensed = (&condensate, &recovery);
+        pulled[0] += condensed_ticks::<f64>(name, &problem, condensed, &mut random);
+        pulled[1] += condensed_ticks::<f32>(name, &problem, condensed, &mut random);
     }
     println!("{pulled:?}");
     assert!(pulled.iter().all(|&pulled| pulled > 0), "{pulled:?}");

@@ -10,8 +10,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use signorini_image::cargo::target_dir;
 use crate::steps::{Steps, Tally};
+use signorini_image::cargo::target_dir;
 
 /// The variable that names the folder for what the tests write.
 const FOLDER: &str = "SIGNORINI_SEEN";

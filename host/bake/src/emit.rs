@@ -6,7 +6,6 @@ use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::face::Face;
 use crate::full;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -20,11 +19,11 @@ pub struct Emitted {
 }
 
 /// The module of the model that was chosen.
-pub fn emit<R: Scalar>(scene: &Scene, problem: &Problem, choice: &Choice<R>) -> Emitted {
+pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let candidate = choice.candidate();
     let (model, features, source) = match &candidate.model {
         Model::Condensed(baked) => {
-            ("condensed", Vec::new(), condensed::source(&Face::new(scene, problem), baked))
+            ("condensed", Vec::new(), condensed::source(&Face::new(problem), baked))
         }
         Model::Full(baked) => ("full", baked.features(), full::source(baked)),
     };

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
-use signorini_scene::scene::{Quantity, Scene};
+use signorini_scene::scene::Quantity;
 use signorini_solve::problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_solve::scalar::Scalar;
 
@@ -24,14 +24,14 @@ struct Feature {
 }
 
 /// The page that `--explain` prints.
-pub fn explanation<R: Scalar>(scene: &Scene, problem: &Problem, choice: &Choice<R>) -> String {
+pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     let mut text = candidates(choice);
     let chosen = choice.candidate();
     let _ = writeln!(text, "\n{}:", chosen.name);
     let condensed = matches!(chosen.model, Model::Condensed(_));
     let head = ["feature", "", "bytes", "instructions", "why"];
     let mut rows = vec![head.map(str::to_owned)];
-    for feature in features::<R>(scene, problem) {
+    for feature in features::<R>(problem) {
         rows.push(row(&feature, condensed));
     }
     if let Model::Condensed(baked) = &chosen.model {
@@ -126,7 +126,7 @@ fn row(feature: &Feature, condensed: bool) -> [String; 5] {
 }
 
 /// Each feature with what the general model spends on it.
-fn features<R: Scalar>(scene: &Scene, problem: &Problem) -> Vec<Feature> {
+fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
     let costs = Costs::measured();
     let scalar = size_of::<R>();
     let (mesh, counts) = (&problem.mesh, problem.topology.counts);
@@ -141,14 +141,19 @@ fn features<R: Scalar>(scene: &Scene, problem: &Problem) -> Vec<Feature> {
     let of_kind = |kind| problem.kinds.iter().filter(|&&known| known == kind).count();
     let varying = varying(problem);
     let sources = problem.loads.triangles.len() + problem.loads.quads.len();
-    let inputs_of = |name: &str| scene.inputs.iter().filter(|input| input.of.value == name).count();
+    let inputs_of =
+        |name: &str| problem.scene.inputs.iter().filter(|input| input.of.value == name).count();
     let sources = sources + inputs_of("source");
     let robin = of_kind(EdgeKind::Robin);
     let pushed = problem.loads.contact_flux.iter().filter(|&&q| q != 0.0).count();
     let gaps = problem.loads.gap.iter().filter(|&&gap| gap != 0.0).count();
     let contact = counts.contact;
-    let read =
-        scene.outputs.iter().filter(|output| matches!(output.quantity, Quantity::Flux)).count();
+    let read = problem
+        .scene
+        .outputs
+        .iter()
+        .filter(|output| matches!(output.quantity, Quantity::Flux))
+        .count();
     let feature = |name, present, why: String, bytes, instructions| Feature {
         name,
         present,

@@ -16,33 +16,24 @@ use signorini_solve::problem::{Assembled, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{choose_units, unfit};
 
-/// What is exported.
-#[derive(Debug, Clone, Copy)]
-pub struct Origin<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The same on its mesh.
-    pub problem: &'a Problem,
-}
-
 /// The source text.
 ///
 /// # Errors
 /// Numbers that the scalar type cannot hold or compute with in the scene's units.
-pub fn export<R: Scalar>(origin: Origin) -> Result<String> {
-    refuse_squares::<R>(origin.scene, &choose_units(origin.scene, origin.problem)?)?;
-    refuse_lengths::<R>(origin.scene, origin.problem)?;
-    let unfit = unfit::<R>(origin.scene);
-    let assembled = Assembled::<R>::new(origin.problem).map_err(&unfit)?;
+pub fn export<R: Scalar>(problem: &Problem) -> Result<String> {
+    refuse_squares::<R>(&problem.scene, &choose_units(problem)?)?;
+    refuse_lengths::<R>(problem)?;
+    let unfit = unfit::<R>(&problem.scene);
+    let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.system().map_err(&unfit)?;
     let start = assembled.start();
-    let model = assembled.model(&origin.scene.title, &start);
+    let model = assembled.model(&problem.scene.title, &start);
     check(&model).map_err(&unfit)?;
     let half_edges = 3 * model.triangles.len() + 4 * model.quads.len();
     let addressable = (u16::LIMIT - 1) / size_of::<R>();
     let short =
         half_edges.max(model.vertices.len()) < u16::LIMIT && model.counts.edges() <= addressable;
-    Ok(source(origin.scene, &model, if short { "u16" } else { "u32" }))
+    Ok(source(&problem.scene, &model, if short { "u16" } else { "u32" }))
 }
 
 /// What the kernel checks where it is used is checked here: the firmware has nobody to tell.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::item::{Item, braced, from_array, items, names, structure, to_array};
 use super::text::{code, prose};
-use signorini_scene::scene::{Field, Input, Output, Quantity, Scene};
+use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::functional::wanted;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -48,20 +48,21 @@ pub struct About<'a> {
 }
 
 impl Face {
-    /// That of `scene`.
-    pub fn new(scene: &Scene, problem: &Problem) -> Self {
-        let names = scene.inputs.iter().map(|input| input.name.value.as_str());
-        let inputs = items(names, scene.inputs.iter().map(effect));
-        let wanted = wanted(scene);
+    /// That of `problem`.
+    pub fn new(problem: &Problem) -> Self {
+        let names = problem.scene.inputs.iter().map(|input| input.name.value.as_str());
+        let inputs = items(names, problem.scene.inputs.iter().map(effect));
+        let wanted = wanted(&problem.scene);
         let names = wanted.iter().map(|output| output.name.value.as_str());
         let outputs = items(names, wanted.iter().map(meaning));
-        let file = scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let file =
+            problem.scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
         Self {
-            title: scene.title.clone(),
+            title: problem.scene.title.clone(),
             file,
-            hash: hash(scene, problem),
+            hash: hash(problem),
             inputs,
-            defaults: scene.inputs.iter().map(|input| input.default).collect(),
+            defaults: problem.scene.inputs.iter().map(|input| input.default).collect(),
             outputs,
         }
     }
@@ -226,17 +227,17 @@ fn features_or_none(features: &[&str]) -> String {
 }
 
 /// FNV-1a over what the data are made of.
-fn hash(scene: &Scene, problem: &Problem) -> u64 {
+fn hash(problem: &Problem) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut take = |bytes: &[u8]| {
         for &byte in bytes {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     };
-    take(scene.text.as_bytes());
+    take(problem.scene.text.as_bytes());
     // A fragment's setting is no part of that text.
-    scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
-    scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
+    problem.scene.setting.iter().for_each(|setting| take(format!("{setting:?}").as_bytes()));
+    problem.scene.inputs.iter().for_each(|input| take(&input.default.to_le_bytes()));
     let mesh = &problem.mesh;
     mesh.vertices.as_flattened().iter().for_each(|x| take(&x.to_le_bytes()));
     let corners = mesh.triangles.as_flattened().iter().chain(mesh.quads.as_flattened());

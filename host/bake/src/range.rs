@@ -44,7 +44,7 @@ fn refuse<R: Scalar>(scene: &Scene, units: &Units, what: &str, room: f64) -> Res
 }
 
 /// Refuses a mesh whose edges a program in `R` could not hold the lengths of.
-pub fn refuse_lengths<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
+pub fn refuse_lengths<R: Scalar>(problem: &Problem) -> Result<()> {
     let room = -R::TINY.wide().log2() - NEAR;
     let length = |edge| {
         let [a, b] = problem.segment(edge);
@@ -56,7 +56,7 @@ pub fn refuse_lengths<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()>
     let message =
         format!("the mesh has edges near 1e{size}, which {} cannot hold with all digits", R::NAME);
     let hint = format!("state lengths in another unit{}", wider::<R>());
-    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+    Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
 }
 
 /// Refuses defaults of inputs that would not be what the scene says.
@@ -94,9 +94,9 @@ mod tests {
             let mut mesh = grid(2, Cells::Mixed);
             mesh.vertices.iter_mut().flatten().for_each(|x| *x *= unit);
             let text = SMOOTH.replace("x^2*y + y^2 + x^3", "1").replace("x^3", "0");
-            let (scene, problem) = fixtures::on_grid(&text, mesh)?;
-            assert_eq!(refuse_lengths::<f32>(&scene, &problem).is_ok(), is_held, "{unit}");
-            refuse_lengths::<f64>(&scene, &problem)?;
+            let (_, problem) = fixtures::on_grid(&text, mesh)?;
+            assert_eq!(refuse_lengths::<f32>(&problem).is_ok(), is_held, "{unit}");
+            refuse_lengths::<f64>(&problem)?;
         }
         Ok(())
     }

@@ -4,12 +4,11 @@
 //! which only that part is left.
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::{Term, left_with, refuse_time};
-use signorini_solve::certify::Data;
+use signorini_solve::certify::Evaluated;
 use signorini_solve::certify::curved::{Curved, curved};
 use signorini_solve::certify::ends::Ends;
-use signorini_solve::certify::robin::{RobinPoints, robin};
+use signorini_solve::certify::robin::RobinPoints;
 use signorini_solve::problem::{Loads, Problem};
 
 /// The data of one part.
@@ -33,24 +32,17 @@ pub struct Part {
 ///
 /// # Errors
 /// A load that depends on t; data that are not finite.
-pub fn parts(scene: &Scene, problem: &Problem) -> Result<Vec<Part>> {
-    refuse_time(scene)?;
-    (0..=scene.inputs.len()).map(|term| Part::new(scene, problem, term)).collect()
+pub fn parts(problem: &Problem) -> Result<Vec<Part>> {
+    refuse_time(&problem.scene)?;
+    (0..=problem.scene.inputs.len()).map(|term| Part::new(problem, term)).collect()
 }
 
 impl Part {
-    fn new(scene: &Scene, problem: &Problem, term: Term) -> Result<Self> {
-        let (scene, problem) = (&left_with(scene, &[term]), &mut problem.clone());
-        problem.loads = Loads::at_time(scene, problem, 0.0)?;
-        let data = Data::<f64>::new(scene, problem)?;
-        Ok(Self {
-            ends: Ends::at_time(scene, problem, 0.0)?,
-            curved: curved(scene, problem, 0.0)?,
-            transfer: robin(scene, problem, 0.0)?,
-            oscillation: data.oscillation(),
-            has_bound: data.has_bound(),
-            loads: std::mem::take(&mut problem.loads),
-        })
+    fn new(problem: &Problem, term: Term) -> Result<Self> {
+        let problem = problem.left_with(&[term])?;
+        let Evaluated { ends, curved, transfer, oscillation, no_bound } = Evaluated::new(&problem)?;
+        let has_bound = no_bound.is_none();
+        Ok(Self { ends, curved, transfer, oscillation, has_bound, loads: problem.loads })
     }
 }
 
@@ -58,6 +50,7 @@ impl Part {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn curved_pair(scene: &Scene, problem: &Problem, pair: [Term; 2]) -> Result<Vec<Curved>> {
-    curved(&left_with(scene, &pair), problem, 0.0)
+pub fn curved_pair(problem: &Problem, pair: [Term; 2]) -> Result<Vec<Curved>> {
+    // They have no use for loads.
+    curved(&problem.restated(left_with(&problem.scene, &pair)), 0.0)
 }

@@ -35,7 +35,7 @@ impl Model {
         let four = scene.boundaries.iter().any(|boundary| boundary.name.value == "left");
         let mesh = if four { with_four_sides(mesh) } else { mesh };
         let problem = Problem::new(&scene, mesh)?;
-        let (condensate, recovery) = recoverable(&scene, &problem)?;
+        let (condensate, recovery) = recoverable(&problem)?;
         Ok(Self { scene, problem, condensate, recovery })
     }
 
@@ -49,7 +49,7 @@ impl Model {
         let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
         let answer = answer.expect("a certificate");
         let exact = self.scene.exact.as_ref().expect("an exact solution");
-        distance(&self.scene, exact, &self.problem, &answer.admissible())
+        distance(exact, &self.problem, &answer.admissible())
     }
 
     /// x after some sweeps of projected Gauss–Seidel from nothing.
@@ -71,8 +71,8 @@ impl Model {
         let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
         let answer = answer.expect("a certificate");
         let exact = self.scene.exact.as_ref().expect("an exact solution");
-        let energy = errors(&self.scene, exact, &self.problem, &u, &flux)?.energy;
-        let jump = nonconformity(&self.scene, &self.problem, &answer.admissible(), &u)?;
+        let energy = errors(exact, &self.problem, &u, &flux)?.energy;
+        let jump = nonconformity(&self.problem, &answer.admissible(), &u)?;
         let bound = self.condensate.bound(p, x).expect("a bound");
         let of_u = self.condensate.bound_of_u(p, x).expect("a bound");
         println!("bound {bound:e}, of u {of_u:e}, jump {jump:e}, error of u {energy:e}");
@@ -93,9 +93,9 @@ impl Model {
         let p = &self.condensate.defaults;
         let x = self.condensate.solve(p).expect("a solution");
         let bound = self.condensate.bound(p, &x).expect("a bound");
-        let (problem, solution, _) = full_at(&self.scene, &self.problem, p)?;
+        let (problem, solution, _) = full_at(&self.problem, p)?;
         let exact = self.scene.exact.as_ref().expect("an exact solution");
-        let energy = errors(&self.scene, exact, &problem, &solution.u, &solution.flux)?.energy;
+        let energy = errors(exact, &problem, &solution.u, &solution.flux)?.energy;
         let found = self.distance(p, &x)?;
         self.check_bound_of_u(p, &x)?;
         Ok([energy, found.combined, found.identity, bound])
@@ -242,8 +242,7 @@ fn of_a_tick_in_f32() -> Result<()> {
         for cells in [Cells::Triangles, Cells::Quads] {
             let mut model = Model::new(&(text.clone() + drop), grid(5, cells))?;
             // The exact solution is that of the gap as it was.
-            model.scene.inputs.iter_mut().for_each(|input| input.default = 0.0);
-            model.problem.set_time(&model.scene, 0.0)?;
+            model.problem = model.problem.with_inputs(&[0.0])?;
             for (pivots, sweeps) in works {
                 let work = Work { pivots, sweeps };
                 let baked = Baked::<f32>::new(&model.condensate, work, true).expect("in range");
@@ -271,8 +270,8 @@ fn of_a_tick_in_f32() -> Result<()> {
 /// A corner whose u_D lies above ψ is felt where its edge touches.
 #[test]
 fn an_input_that_lifts_the_corner() -> Result<()> {
-    let (scene, problem) = on_grid(EVERY_INPUT, grid(4, Cells::Triangles))?;
-    let condensate = condense(&scene, &problem)?;
+    let (_, problem) = on_grid(EVERY_INPUT, grid(4, Cells::Triangles))?;
+    let condensate = condense(&problem)?;
     let form = condensate.certificate.as_ref().expect("a certificate");
     assert!(form.corners.is_empty(), "the sides are Robin and Neumann");
     let text = EVERY_INPUT.replace("[boundary.dirichlet]\n", "[boundary.dirichlet]\n# all round\n");
@@ -286,8 +285,8 @@ fn an_input_that_lifts_the_corner() -> Result<()> {
         .replace("[input.pull]\nof = \"right\"\nfield = \"flux\"\npattern = \"y\"\n", "")
         .replace("[output.right]\nkind = \"flux\"\nof = \"right\"\n", "")
         .replace("[output.left]\nkind = \"flux\"\nof = \"left\"\n", "");
-    let (scene, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
-    let condensate = condense(&scene, &problem)?;
+    let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let condensate = condense(&problem)?;
     let form = condensate.certificate.as_ref().expect("a certificate");
     assert_eq!(form.corners.len(), 2);
     // u_D = 0.3 + 0.1 sin(3x) and ψ = 0.35 − 0.4x² + 0.1x³ at x = ±1; level adds 1 + 0.5x, depth nothing.
@@ -355,7 +354,7 @@ fn of_one_part_held_by_contact_alone_among_others() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
         let scene = scene(BESIDE)?;
         let problem = Problem::new(&scene, two_parts(4, cells))?;
-        let (condensate, _) = recoverable(&scene, &problem)?;
+        let (condensate, _) = recoverable(&problem)?;
         let alone = Model::new(HELD_BY_CONTACT, grid(4, cells))?;
         let form = condensate.certificate.as_ref().expect("a certificate");
         assert_eq!(form.floating.len(), alone.condensate.contact);

@@ -2,7 +2,6 @@
 
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_solve::fixtures::{EVERY_INPUT, full_at, on_grid};
 use signorini_solve::outputs::outputs;
 use signorini_tolerances::bake::LENGTH;
@@ -16,9 +15,9 @@ fn declared_lengths_of_a_condensed_solve() -> Result<()> {
         let (scene, problem) = on_grid(&text, grid(5, Cells::Mixed))?;
         let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
         let p: Vec<f64> = std::iter::once(1.0).chain(inputs).collect();
-        let (_, expected, _) = full_at(&Scene { setting: None, ..scene.clone() }, &problem, &p)?;
-        let solution = signorini_bake::engine::solve(&scene, &problem)?;
-        let length = outputs(&scene, &problem, &solution)?["length"];
+        let (_, expected, _) = full_at(&problem, &p)?;
+        let solution = signorini_bake::engine::solve(&problem)?;
+        let length = outputs(&problem, &solution)?["length"];
         assert!((0.1..1.9).contains(&expected.contact_length), "{}", expected.contact_length);
         LENGTH.check(scalar, expected.contact_length - solution.contact_length);
         assert_eq!(length, Some(solution.contact_length), "{scalar}");

@@ -10,11 +10,11 @@ use crate::strip::{Strip, scene};
 
 /// The bound of an iterate.
 pub fn certificate<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
-    let (scene, problem, parts) = (scene(1.0), strip.problem(), strip.parts());
+    let (problem, parts) = (strip.problem(), strip.parts());
     let assembled = strip.assembled::<R>();
-    let certifier = Certifier::new(&scene, problem, &parts, &assembled);
+    let certifier = Certifier::new(problem, &parts, &assembled);
     let mut certifier = certifier.expect("D holds the strip");
-    let data = Data::new(&scene, problem).expect("the data are finite");
+    let data = Data::new(problem).expect("the data are finite");
     let u = assembled.start();
     let bound = certifier.certify(&parts, &assembled, &data, &u).expect("one mesh");
     assert!(bound.is_some());
@@ -29,7 +29,7 @@ pub fn tick<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 
 fn tick_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let scene = scene(1.0);
-    let baked = Baked::<R>::new(&scene, strip.problem()).expect("the strip can be baked");
+    let baked = Baked::<R>::new(strip.problem()).expect("the strip can be baked");
     let mut controller = Controller::<R, WIDTH>::new(&baked);
     let mut inputs = [0.9, 1.1].map(|factor| R::narrow(factor * scene.inputs[0].default));
     let mut tick = || {

@@ -10,7 +10,7 @@ use signorini_solve::condense::{Condensate, condense};
 use signorini_solve::scalar::Scalar;
 
 use crate::group;
-use crate::strip::{Strip, scene};
+use crate::strip::Strip;
 
 /// Squares across the height: half of the contact edges.
 const SIZES: [u32; 3] = [8, 16, 32];
@@ -21,7 +21,7 @@ pub fn stages<R: Scalar>(criterion: &mut Criterion) {
     let condensates = SIZES.map(|n| {
         let strip = Strip::new(n, Cells::Triangles);
         std::cell::LazyCell::new(move || {
-            condense(&scene(1.0), strip.problem()).expect("the strip can be condensed")
+            condense(strip.problem()).expect("the strip can be condensed")
         })
     });
     let stages: [(&str, Stage); 4] = [

@@ -29,17 +29,17 @@ fn problem(bencher: &mut Bencher, strip: &Strip) {
 
 /// Factorisation and active set of the reference; the rest of the solve does not count.
 fn direct(bencher: &mut Bencher, strip: &Strip) {
-    let (scene, problem) = (scene(1.0), strip.problem());
+    let problem = strip.problem();
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let seconds = || solve(&scene, problem, &options).map_or(0.0, |found| found.seconds.solve);
+    let seconds = || solve(problem, &options).map_or(0.0, |found| found.seconds.solve);
     assert!(seconds() > 0.0);
     bencher.iter_custom(|times| Duration::from_secs_f64((0..times).map(|_| seconds()).sum()));
 }
 
 /// All that a condensed model needs, its bound included.
 fn condensation(bencher: &mut Bencher, strip: &Strip) {
-    let (scene, problem) = (scene(1.0), strip.problem());
-    bencher.iter(|| condense(&scene, problem));
+    let problem = strip.problem();
+    bencher.iter(|| condense(problem));
 }
 
 /// Meshes of the standard scenes, by the unknowns of those.

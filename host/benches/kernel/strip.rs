@@ -74,7 +74,7 @@ impl Strip {
     }
 
     pub fn parts(&self) -> Parts {
-        Parts::examine(&scene(1.0), self.problem()).expect("D holds the strip")
+        Parts::examine(self.problem()).expect("D holds the strip")
     }
 
     /// Edges not on the Dirichlet boundary: sides and diagonals of squares without the 4n at the top and at

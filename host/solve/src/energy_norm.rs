@@ -18,29 +18,22 @@ use crate::quadrature::{DATA_POINTS, gauss};
 use crate::solve;
 use signorini_kernel::Real;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
-use signorini_scene::scene::units::Units;
 
 /// The energy norm of a solution's S; `None` where it has no bound, and S is a picture alone.
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn of_solution(
-    scene: &Scene,
-    problem: &Problem,
-    solution: &solve::Solution,
-) -> Result<Option<f64>> {
+pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Option<f64>> {
     if solution.bound.is_none() {
         return Ok(None);
     }
-    let units = solution.units;
-    if units == Units::default() {
-        return norm(scene, problem, &solution.certified.admissible()).map(Some);
-    }
+    let Some(problem) = &solution.scaled else {
+        return norm(problem, &solution.certified.admissible()).map(Some);
+    };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-    let (scene, problem) = solve::in_units(scene, problem, &units)?;
+    let units = solution.units;
     let solution = solve::times(&units.inverse(), solution.clone());
-    let norm = norm(&scene, &problem, &solution.certified.admissible())?;
+    let norm = norm(problem, &solution.certified.admissible())?;
     Ok(Some(norm * units.energy()))
 }
 
@@ -48,10 +41,10 @@ pub fn of_solution(
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn norm(scene: &Scene, problem: &Problem, s: &Admissible) -> Result<f64> {
-    let deviations = Deviations::at_time(scene, problem, problem.time)?;
-    let mut square = squares(scene, problem, s, &deviations, None)?;
-    let transfer = robin(scene, problem, problem.time)?;
+pub fn norm(problem: &Problem, s: &Admissible) -> Result<f64> {
+    let deviations = Deviations::at_time(problem, problem.time)?;
+    let mut square = squares(problem, s, &deviations, None)?;
+    let transfer = robin(problem, problem.time)?;
     for (record, points) in problem.loads.robin.iter().zip(&transfer) {
         for (&[t, weight], [h, _]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
             square += weight * h * s.on_edge(problem, record.edge as usize, None, t)?.powi(2);
@@ -64,14 +57,13 @@ pub fn norm(scene: &Scene, problem: &Problem, s: &Admissible) -> Result<f64> {
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn nonconformity(scene: &Scene, problem: &Problem, s: &Admissible, u: &[f64]) -> Result<f64> {
-    let deviations = Deviations::at_time(scene, problem, problem.time)?;
-    Ok(squares(scene, problem, s, &deviations, Some(u))?.sqrt())
+pub fn nonconformity(problem: &Problem, s: &Admissible, u: &[f64]) -> Result<f64> {
+    let deviations = Deviations::at_time(problem, problem.time)?;
+    Ok(squares(problem, s, &deviations, Some(u))?.sqrt())
 }
 
 /// Σ_T ∫_T |A^½∇(S − u_h)|², without `u` that of S alone.
 fn squares(
-    scene: &Scene,
     problem: &Problem,
     s: &Admissible,
     deviations: &Deviations,
@@ -79,7 +71,7 @@ fn squares(
 ) -> Result<f64> {
     let mut square = 0.0;
     for at in 0..problem.cells() {
-        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let s = s.on_cell(problem, at, deviations);
         let field = u.map(|u| CellField::new(problem, at, u, u));
         let is_lifted = deviations.of_cell(problem, at).iter().any(Option::is_some);

@@ -183,21 +183,15 @@ pub fn scatter(seed: usize) -> f64 {
 }
 
 /// The full problem at the inputs `p`, solved directly.
-pub fn full_at(
-    scene: &Scene,
-    problem: &Problem,
-    p: &[f64],
-) -> Result<(Problem, Solution, Vec<Option<f64>>)> {
-    let mut scene = scene.clone();
-    scene.inputs.iter_mut().zip(&p[1..]).for_each(|(input, p)| input.default = *p);
-    let mut problem = problem.clone();
-    problem.set_time(&scene, 0.0)?;
-    let solution =
-        solve(&scene, &problem, &Options { solver: SolverKind::Direct, ..Options::default() })?;
-    let values = outputs(&scene, &problem, &solution)?;
-    let names: Vec<String> = match scene.outputs.is_empty() {
+pub fn full_at(problem: &Problem, p: &[f64]) -> Result<(Problem, Solution, Vec<Option<f64>>)> {
+    let problem = problem.with_inputs(&p[1..])?;
+    let direct = Options { solver: SolverKind::Direct, ..Options::default() };
+    let solution = solve(&problem, &direct)?;
+    let values = outputs(&problem, &solution)?;
+    let declared = &problem.scene.outputs;
+    let names: Vec<String> = match declared.is_empty() {
         true => vec!["contact_force".to_owned(), "contact_length".to_owned()],
-        false => scene.outputs.iter().map(|output| output.name.value.clone()).collect(),
+        false => declared.iter().map(|output| output.name.value.clone()).collect(),
     };
     let values = names.iter().map(|name| values[name]).collect();
     Ok((problem, solution, values))

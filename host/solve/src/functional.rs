@@ -41,8 +41,8 @@ pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
 ///
 /// # Errors
 /// A probe outside the mesh.
-pub fn functionals(scene: &Scene, problem: &Problem) -> Result<Vec<Functional>> {
-    wanted(scene).iter().map(|output| Functional::of(scene, problem, output)).collect()
+pub fn functionals(problem: &Problem) -> Result<Vec<Functional>> {
+    wanted(&problem.scene).iter().map(|output| Functional::of(problem, output)).collect()
 }
 
 impl Functional {
@@ -50,14 +50,14 @@ impl Functional {
     ///
     /// # Errors
     /// A probe outside the mesh.
-    pub fn of(scene: &Scene, problem: &Problem, output: &Output) -> Result<Self> {
-        let edges = boundary_edges(scene, problem, output);
+    pub fn of(problem: &Problem, output: &Output) -> Result<Self> {
+        let edges = boundary_edges(problem, output);
         let contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
         let length = |edge: usize| (edge, problem.lengths[edge]);
         Ok(match output.quantity {
             Quantity::Flux => Self::Flux(edges.collect()),
             Quantity::Force => Self::Force(edges.filter(contact).collect()),
-            Quantity::Probe { at } => probe(scene, problem, output, at)?,
+            Quantity::Probe { at } => probe(problem, output, at)?,
             Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
             Quantity::Bound => Self::Bound,
         })
@@ -80,21 +80,17 @@ pub fn basis_at(problem: &Problem, cell: usize, point: &Point) -> Vec<(usize, f6
 }
 
 /// The boundary edges that an output is about.
-fn boundary_edges(
-    scene: &Scene,
-    problem: &Problem,
-    output: &Output,
-) -> impl Iterator<Item = usize> {
+fn boundary_edges(problem: &Problem, output: &Output) -> impl Iterator<Item = usize> {
     (0..problem.ends.len()).filter(move |&edge| {
         let boundary = problem.binding.boundary(problem.ends[edge]);
-        let name = boundary.map(|at| &scene.boundaries[at].name.value);
+        let name = boundary.map(|at| &problem.scene.boundaries[at].name.value);
         let wanted = output.of.as_ref().is_none_or(|of| Some(&of.value) == name);
         problem.kinds[edge] != EdgeKind::Interior && wanted
     })
 }
 
 /// u_h at a point: in the first cell that holds it.
-fn probe(scene: &Scene, problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Functional> {
+fn probe(problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Functional> {
     let nothing = vec![0.0; problem.ends.len()];
     let found = (0..problem.cells()).find_map(|cell| {
         let reference = CellField::new(problem, cell, &nothing, &nothing).locate(at)?;
@@ -102,6 +98,6 @@ fn probe(scene: &Scene, problem: &Problem, output: &Output, at: [f64; 2]) -> Res
     });
     found.ok_or_else(|| {
         let message = format!("the probe at ({}, {}) lies outside the mesh", at[0], at[1]);
-        scene.error(&output.name, message).hint("move `at` into the domain").into()
+        problem.scene.error(&output.name, message).hint("move `at` into the domain").into()
     })
 }

@@ -16,8 +16,8 @@ use crate::problem::Problem;
 use crate::quadrature::gauss;
 use crate::solve;
 use signorini_scene::error::Result;
+use signorini_scene::scene::Exact;
 use signorini_scene::scene::units::Units;
-use signorini_scene::scene::{Exact, Scene};
 
 /// Distances between the discrete and the exact solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -43,45 +43,33 @@ pub struct Errors {
 ///
 /// # Errors
 /// An exact solution that is not finite at a quadrature point.
-pub fn of_solution(
-    scene: &Scene,
-    problem: &Problem,
-    solution: &solve::Solution,
-) -> Result<Option<Errors>> {
-    let units = solution.units;
-    if units != Units::default() {
+pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Option<Errors>> {
+    let Some(exact) = &problem.scene.exact else { return Ok(None) };
+    if let Some(problem) = &solution.scaled {
         // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
-        let (scene, problem) = solve::in_units(scene, problem, &units)?;
+        let units = solution.units;
         let solution = solve::times(&units.inverse(), solution.clone());
-        let solution = solve::Solution { units: Units::default(), ..solution };
-        let errors = of_solution(&scene, &problem, &solution)?;
+        let solution = solve::Solution { scaled: None, ..solution };
+        let errors = of_solution(problem, &solution)?;
         return Ok(errors.map(|errors| errors.times(&units)));
     }
-    let Some(exact) = &scene.exact else { return Ok(None) };
-    let errors = errors(scene, exact, problem, &solution.u, &solution.flux)?;
+    let errors = errors(exact, problem, &solution.u, &solution.flux)?;
     if solution.bound.is_none() {
         return Ok(Some(errors));
     }
-    Ok(Some(errors.with(distance(scene, exact, problem, &solution.certified.admissible())?)))
+    Ok(Some(errors.with(distance(exact, problem, &solution.certified.admissible())?)))
 }
 
 /// Integrates the errors of edge means `u` and edge fluxes `flux`.
 ///
 /// # Errors
 /// An exact solution that is not finite at a quadrature point.
-pub fn errors(
-    scene: &Scene,
-    exact: &Exact,
-    problem: &Problem,
-    u: &[f64],
-    flux: &[f64],
-) -> Result<Errors> {
-    of_fields(scene, problem, &Solution { scene, exact, time: problem.time }, u, flux)
+pub fn errors(exact: &Exact, problem: &Problem, u: &[f64], flux: &[f64]) -> Result<Errors> {
+    of_fields(problem, &Solution { exact, problem }, u, flux)
 }
 
 /// [`errors`] against the exact solution `known`, which may be evaluated or tabulated.
 pub fn of_fields(
-    scene: &Scene,
     problem: &Problem,
     known: &impl Sampled,
     u: &[f64],
@@ -91,7 +79,7 @@ pub fn of_fields(
     let mut sums = Errors::default();
     for at in 0..problem.cells() {
         let field = CellField::new(problem, at, u, flux);
-        let conductivity = Conductivity::of(scene, problem, at);
+        let conductivity = Conductivity::of(problem, at);
         let points = Cell::of(problem, at).points(&rule);
         for (point, known) in points.iter().zip(known.on_cell(at, &points)?.iter()) {
             sums.add(known, &conductivity.at(point.x), &field.sample(point), point.weight);

@@ -9,7 +9,6 @@ use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem};
 use crate::solve::{ScalarKind, Solution};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
 /// What outputs are read off.
@@ -31,12 +30,8 @@ pub struct Reading<'a> {
 ///
 /// # Errors
 /// A probe outside the mesh.
-pub fn outputs(
-    scene: &Scene,
-    problem: &Problem,
-    solution: &Solution,
-) -> Result<BTreeMap<String, Option<f64>>> {
-    if scene.outputs.is_empty() {
+pub fn outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Option<f64>>> {
+    if problem.scene.outputs.is_empty() {
         let force = ("contact_force".to_owned(), Some(solution.contact_force));
         let length = ("contact_length".to_owned(), Some(solution.contact_length));
         return Ok([force, length].into());
@@ -44,8 +39,8 @@ pub fn outputs(
     let Solution { scalar, ran, u, flux, units, bound, .. } = solution;
     let bound = bound.map(|bound| bound.total);
     let reading = Reading { scalar: ran.scalar_of_u(*scalar), u, flux, units: *units, bound };
-    let values = declared(scene, problem, reading)?;
-    let names = scene.outputs.iter().map(|output| output.name.value.clone());
+    let values = declared(problem, reading)?;
+    let names = problem.scene.outputs.iter().map(|output| output.name.value.clone());
     Ok(names.zip(values).collect())
 }
 
@@ -53,9 +48,9 @@ pub fn outputs(
 ///
 /// # Errors
 /// A probe outside the mesh.
-pub fn declared(scene: &Scene, problem: &Problem, reading: Reading) -> Result<Vec<Option<f64>>> {
-    let evaluated = scene.outputs.iter().map(|output| {
-        let value = evaluate(problem, reading, &Functional::of(scene, problem, output)?);
+pub fn declared(problem: &Problem, reading: Reading) -> Result<Vec<Option<f64>>> {
+    let evaluated = problem.scene.outputs.iter().map(|output| {
+        let value = evaluate(problem, reading, &Functional::of(problem, output)?);
         Ok(value.filter(|value| value.is_finite()))
     });
     evaluated.collect()

@@ -54,8 +54,8 @@ fn the_refined_grid_has_the_errors_of_the_finer_one() {
     ] {
         let mesh = adapted(grid(8, Cells::Mixed), Some(cells), 1).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
-        let solution = solve(&scene, &problem, &Options::default()).expect("a solution");
-        let errors = of_solution(&scene, &problem, &solution).expect("errors").expect("errors");
+        let solution = solve(&problem, &Options::default()).expect("a solution");
+        let errors = of_solution(&problem, &solution).expect("errors").expect("errors");
         let found = [errors.h1, errors.l2, solution.contact_force];
         for (found, expected) in found.into_iter().zip(expected) {
             CATALOGUE.check_relative(format_args!("{cells:?}"), found, expected);

@@ -11,7 +11,6 @@ use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::setting;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted;
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -79,8 +78,8 @@ impl Arguments {
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
         let Emitted { source, chosen } = match setting::scalar(&scene, self.scalar)? {
-            ScalarKind::F32 => self.module::<f32>(&scene, &problem)?,
-            ScalarKind::F64 => self.module::<f64>(&scene, &problem)?,
+            ScalarKind::F32 => self.module::<f32>(&problem)?,
+            ScalarKind::F64 => self.module::<f64>(&problem)?,
         };
         write_beside(&scene, "-o", &self.output, &source)?;
         if let Some(file) = &self.json {
@@ -94,7 +93,7 @@ impl Arguments {
 
 impl Arguments {
     /// The module; what there is to say of it is said.
-    fn module<R: Scalar>(&self, scene: &Scene, problem: &Problem) -> Result<Emitted> {
+    fn module<R: Scalar>(&self, problem: &Problem) -> Result<Emitted> {
         let kind = match (self.full, self.condensed) {
             (true, _) => Some(ModelKind::Full),
             (_, true) => Some(ModelKind::Condensed),
@@ -102,18 +101,22 @@ impl Arguments {
         };
         let unknowns = problem.topology.counts.unknowns();
         let choice = waiting(&format!("baking {unknowns} unknowns"), || {
-            Choice::<R>::new(scene, problem, kind, self.explain)
+            Choice::<R>::new(problem, kind, self.explain)
         })?;
-        if scene.target.is_some_and(|target| target.tick.is_some() && target.clock.is_none()) {
+        if problem
+            .scene
+            .target
+            .is_some_and(|target| target.tick.is_some() && target.clock.is_none())
+        {
             eprintln!("warning: target.tick is no limit without target.clock");
         }
         for warning in warnings(&choice) {
             eprintln!("{warning}");
         }
         if self.explain {
-            say(explanation(scene, problem, &choice));
+            say(explanation(problem, &choice));
         }
-        Ok(emit(scene, problem, &choice))
+        Ok(emit(problem, &choice))
     }
 }
 
@@ -135,8 +138,8 @@ mod tests {
         let scene = scene_at(&path, &[]).expect("a scene");
         let mesh = adapted::of_scene(&scene).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
-        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Condensed), false);
-        emit(&scene, &problem, &choice.expect("a choice")).source
+        let choice = Choice::<f32>::new(&problem, Some(ModelKind::Condensed), false);
+        emit(&problem, &choice.expect("a choice")).source
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Arguments {
         Command::Condense.check(&scene, false)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
-        let text = header(&scene, &condense(&scene, &problem)?);
+        let text = header(&scene, &condense(&problem)?);
         write_beside(&scene, "-o", &self.output, &text)?;
         Ok(0)
     }

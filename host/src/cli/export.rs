@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::honoured::Command;
 use super::write_beside;
-use signorini_bake::export::{Origin, export};
+use signorini_bake::export::export;
 use signorini_bake::setting;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted;
@@ -50,10 +50,9 @@ impl Arguments {
         let mut problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         problem.warnings.extend(at_rest_warning(&scene));
         warn(&problem.warnings);
-        let origin = Origin { scene: &scene, problem: &problem };
         let text = match setting::scalar(&scene, self.scalar)? {
-            ScalarKind::F32 => export::<f32>(origin)?,
-            ScalarKind::F64 => export::<f64>(origin)?,
+            ScalarKind::F32 => export::<f32>(&problem)?,
+            ScalarKind::F64 => export::<f64>(&problem)?,
         };
         write_beside(&scene, "-o", &self.output, &text)?;
         Ok(0)

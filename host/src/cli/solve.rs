@@ -72,13 +72,12 @@ impl Arguments {
         problem.warnings.extend(at_rest_warning(&scene));
         warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
-        let solution =
-            waiting(&format!("solving {unknowns} unknowns"), || self.solved(&scene, &problem))?;
-        let errors = of_solution(&scene, &problem, &solution)?;
-        let declared = outputs(&scene, &problem, &solution)?;
-        let norm = energy_norm::of_solution(&scene, &problem, &solution)?;
+        let solution = waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
+        let errors = of_solution(&problem, &solution)?;
+        let declared = outputs(&problem, &solution)?;
+        let norm = energy_norm::of_solution(&problem, &solution)?;
         let asked = self.solver.unwrap_or(SolverKind::Auto);
-        let summary = Summary::new(&scene, &problem, asked, &solution, errors, norm, declared);
+        let summary = Summary::new(&problem, asked, &solution, errors, norm, declared);
         let files = [
             (
                 "edges.csv",
@@ -90,7 +89,7 @@ impl Arguments {
         for (name, bytes) in files {
             write_atomically(&out.join(name), &bytes)?;
         }
-        report(&scene, &problem, &solution, errors, norm);
+        report(&problem, &solution, errors, norm);
         say(format_args!("  written to {}", out.display()));
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
@@ -140,9 +139,9 @@ impl Arguments {
     }
 
     /// As the scene's setting says, where it has one and nothing else was asked for.
-    fn solved(&self, scene: &Scene, problem: &Problem) -> Result<Solution> {
-        let own = scene.setting.and_then(|setting| setting.scalar);
-        let setting = scene.setting.filter(|setting| {
+    fn solved(&self, problem: &Problem) -> Result<Solution> {
+        let own = problem.scene.setting.and_then(|setting| setting.scalar);
+        let setting = problem.scene.setting.filter(|setting| {
             let mixed = setting.scalar == Some(Precision::Mixed) && self.scalar.is_none();
             self.follows_setting() && (mixed || !setting.of_method().is_empty())
         });
@@ -152,7 +151,7 @@ impl Arguments {
                 ScalarKind::F64 => Precision::F64,
             });
             let setting = Setting { scalar: scalar.or(own), ..setting };
-            return engine::solve(&Scene { setting: Some(setting), ..scene.clone() }, problem);
+            return engine::solve(&problem.with_setting(Some(setting)));
         }
         let single = own == Some(Precision::F32);
         let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
@@ -163,7 +162,7 @@ impl Arguments {
             to_the_floor: false,
             max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
         };
-        solve(scene, problem, &options)
+        solve(problem, &options)
     }
 }
 
@@ -184,14 +183,13 @@ fn picture(problem: &Problem, solution: &Solution) -> String {
 }
 
 fn report(
-    scene: &Scene,
     problem: &Problem,
     solution: &Solution,
     errors: Option<Errors>,
     energy_norm: Option<f64>,
 ) {
     let counts = problem.topology.counts;
-    say(format_args!("{}", scene.title));
+    say(format_args!("{}", problem.scene.title));
     say(format_args!(
         "  {} unknowns, {} of {} contact edges active",
         counts.unknowns(),

@@ -93,8 +93,8 @@ impl Arguments {
             bar.inc(1);
         };
         let ticks = match self.baked {
-            true => replay(&scene, &problem, &moments, self.scalar, done),
-            false => play(&scene, &problem, coarse.as_ref(), &moments, &self.budget(&scene), done)
+            true => replay(&problem, &moments, self.scalar, done),
+            false => play(&problem, coarse.as_ref(), &moments, &self.budget(&scene), done)
                 .map(|ticks| ("full, swept".to_owned(), ticks)),
         };
         bar.finish_and_clear();
@@ -103,7 +103,7 @@ impl Arguments {
         let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
-        report(&scene, &problem, &model, &ticks, &out);
+        report(&problem, &model, &ticks, &out);
         Ok(if ticks.iter().any(Tick::failed) { 3 } else { 0 })
     }
 
@@ -118,10 +118,10 @@ impl Arguments {
     }
 }
 
-fn report(scene: &Scene, problem: &Problem, model: &str, ticks: &[Tick], out: &Path) {
+fn report(problem: &Problem, model: &str, ticks: &[Tick], out: &Path) {
     let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
     let unknowns = problem.topology.counts.unknowns();
-    say(format_args!("{}", scene.title));
+    say(format_args!("{}", problem.scene.title));
     say(format_args!("  {unknowns} unknowns, {} ticks from t = {first} to {last}", ticks.len()));
     say(format_args!("  model: {model}"));
     let mut sweeps: Vec<u32> = ticks.iter().map(|tick| tick.sweeps).collect();

@@ -227,7 +227,7 @@ const WORKS: [Work; 3] = [
 fn bake<R: Bits>() -> Vec<Baked<R>> {
     let condensed = |text: &str| -> Option<Condensate> {
         let (scene, mesh) = scenes::of(text)?;
-        condense(&scene, &Problem::new(&scene, mesh).ok()?).ok()
+        condense(&Problem::new(&scene, mesh).ok()?).ok()
     };
     let condensates = scenes::TEXTS.iter().map(|text| condensed(text).expect("a sound scene"));
     let baked = |condensate: &Condensate| {

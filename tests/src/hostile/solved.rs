@@ -25,15 +25,15 @@ pub(super) fn answer(scene: &Scene, mesh: Mesh, way: u8) {
     };
     let kernel = Options { max_sweeps: SWEEPS, ..Options::default() };
     let solved = |options| {
-        judge(solve(scene, &problem, &options), |solution| judged(scene, &problem, &solution));
+        judge(solve(&problem, &options), |solution| judged(&problem, &solution));
     };
     match way % 6 {
         0 => solved(kernel),
         1 => solved(Options { scalar: ScalarKind::F32, ..kernel }),
         2 => solved(Options { solver: SolverKind::Direct, ..kernel }),
-        3 => judge(played(scene, &problem), |ticks| ticks.iter().for_each(sane)),
-        4 => judge(baked_full::<f32>(scene, &problem), |()| {}),
-        _ => judge(baked_condensed::<f32>(scene, &problem), |()| {}),
+        3 => judge(played(&problem), |ticks| ticks.iter().for_each(sane)),
+        4 => judge(baked_full::<f32>(&problem), |()| {}),
+        _ => judge(baked_condensed::<f32>(&problem), |()| {}),
     }
 }
 
@@ -45,7 +45,7 @@ fn judge<T>(found: Result<T>, accepted: impl FnOnce(T)) {
 }
 
 /// All that is written of a solution.
-fn judged(scene: &Scene, problem: &Problem, solution: &Solution) {
+fn judged(problem: &Problem, solution: &Solution) {
     let numbers = solution.u.iter().chain(&solution.flux).chain(&solution.certified.vertices);
     let single = [solution.contact_force, solution.contact_length, solution.algebraic_residual];
     let said = || format!("{:?} {single:?} {:?}", solution.status, solution.bound);
@@ -59,16 +59,16 @@ fn judged(scene: &Scene, problem: &Problem, solution: &Solution) {
         let parts = [bound.total, bound.gap, bound.algebraic, bound.oscillation];
         assert!(parts.iter().all(|&part| part.is_finite() && part >= 0.0), "{}", said());
     }
-    judge(outputs(scene, problem, solution), |values| {
+    judge(outputs(problem, solution), |values| {
         assert!(values.values().flatten().all(|value| value.is_finite()));
     });
 }
 
 /// The first ticks of its schedule.
-fn played(scene: &Scene, problem: &Problem) -> Result<Vec<Tick>> {
-    let moments = schedule::moments(scene, scene.time.is_none().then_some(2))?;
+fn played(problem: &Problem) -> Result<Vec<Tick>> {
+    let moments = schedule::moments(&problem.scene, problem.scene.time.is_none().then_some(2))?;
     let budget = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, error: 0.0 };
-    play(scene, problem, None, &moments[..moments.len().min(3)], &budget, |_| {})
+    play(problem, None, &moments[..moments.len().min(3)], &budget, |_| {})
 }
 
 fn sane(tick: &Tick) {
@@ -79,9 +79,10 @@ fn sane(tick: &Tick) {
     assert!(tick.bound.is_none_or(|bound| bound.total >= 0.0), "{tick:?}");
 }
 
-fn baked_full<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
-    let baked = full::Baked::<R>::new(scene, problem)?;
-    let inputs: Vec<_> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+fn baked_full<R: Scalar>(problem: &Problem) -> Result<()> {
+    let baked = full::Baked::<R>::new(problem)?;
+    let inputs: Vec<_> =
+        problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
     let limits = signorini_kernel::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
     let found = if baked.has_quads() {
         full::Controller::<R, QUADS>::new(&baked).tick_within(&inputs, limits)
@@ -95,12 +96,13 @@ fn baked_full<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
     Ok(())
 }
 
-fn baked_condensed<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<()> {
-    let condensate = condense(scene, problem)?;
+fn baked_condensed<R: Scalar>(problem: &Problem) -> Result<()> {
+    let condensate = condense(problem)?;
     let work = condensed::Work { pivots: Some(40), sweeps: 10 };
     let baked = condensed::Baked::<R>::new(&condensate, work, true);
     let Ok(baked) = baked else { return Ok(()) };
-    let inputs: Vec<_> = scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
+    let inputs: Vec<_> =
+        problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
     if let Ok((values, report)) = condensed::Controller::new(&baked).tick(&inputs) {
         assert!(values.iter().all(no_nan), "{values:?} {report:?}");
     }

@@ -208,7 +208,7 @@ const WAYS: [&str; 4] = [
 fn bake<R: Bits>() -> Vec<Baked<R>> {
     let baked = |text: &str| {
         let (scene, mesh) = scenes::of(text).expect("a sound scene");
-        Baked::new(&scene, &Problem::new(&scene, mesh)?)
+        Baked::new(&Problem::new(&scene, mesh)?)
     };
     let texts = scenes::TEXTS.iter().flat_map(|text| WAYS.map(|way| format!("{text}{way}")));
     texts.map(|text| baked(&text).expect("a model")).collect()

@@ -40,7 +40,7 @@ pub fn run(text: &str, mesh: Mesh, options: &Options) -> Run {
     let read = Scene::parse(text, Path::new("test.toml"));
     let scene = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
     let problem = Problem::new(&scene, mesh).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let solution = solve(&scene, &problem, options).unwrap_or_else(|error| panic!("{error}"));
+    let solution = solve(&problem, options).unwrap_or_else(|error| panic!("{error}"));
     Run { scene, problem, solution }
 }
 
@@ -48,10 +48,10 @@ impl Run {
     /// The bound and all that it is compared with; `None` where there is no bound.
     pub fn certified(&self) -> Option<Certified> {
         let bound = self.solution.bound?;
-        let found = of_solution(&self.scene, &self.problem, &self.solution).expect("finite");
+        let found = of_solution(&self.problem, &self.solution).expect("finite");
         let Errors { combined, identity, energy, .. } = found.expect("an exact solution");
         let s = self.solution.certified.admissible();
-        let nonconformity = nonconformity(&self.scene, &self.problem, &s, &self.solution.u);
+        let nonconformity = nonconformity(&self.problem, &s, &self.solution.u);
         let nonconformity = nonconformity.expect("finite");
         Some(Certified { bound, combined: combined?, identity: identity?, energy, nonconformity })
     }
@@ -65,6 +65,6 @@ impl Run {
     pub fn errors(&self) -> Errors {
         let Self { scene, problem, solution } = self;
         let exact = scene.exact.as_ref().expect("an exact solution");
-        errors(scene, exact, problem, &solution.u, &solution.flux).expect("finite")
+        errors(exact, problem, &solution.u, &solution.flux).expect("finite")
     }
 }

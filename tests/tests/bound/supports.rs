@@ -97,10 +97,10 @@ flux = 0
 fn summary(text: &str, mesh: Mesh) -> Value {
     let scene = Scene::parse(text, Path::new("test.toml")).expect("a valid scene");
     let problem = Problem::new(&scene, mesh).expect("scene and mesh fit");
-    let solution = solve(&scene, &problem, &Options::default()).expect("loads in balance");
+    let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
     let summary =
-        Summary::new(&scene, &problem, SolverKind::Kernel, &solution, None, None, BTreeMap::new());
+        Summary::new(&problem, SolverKind::Kernel, &solution, None, None, BTreeMap::new());
     serde_json::from_str(&summary.json()).expect("valid JSON")
 }
 

@@ -27,7 +27,7 @@ pub struct Model {
 
 impl Model {
     pub fn new(what: String, scene: Scene, problem: Problem) -> Result<Self, String> {
-        let condensate = condense(&scene, &problem).map_err(|error| format!("{what}: {error}"))?;
+        let condensate = condense(&problem).map_err(|error| format!("{what}: {error}"))?;
         Ok(Self { what, scene, problem, condensate })
     }
 
@@ -62,14 +62,13 @@ impl Model {
     /// The full problem at these inputs, solved directly: its outputs in the order of the condensed ones.
     /// `None` where u_D lies below ψ.
     pub fn full(&self, inputs: &[f64]) -> Option<(Problem, Solution, Vec<Option<f64>>)> {
-        let (mut scene, mut problem) = (self.scene.clone(), self.problem.clone());
-        scene.inputs.iter_mut().zip(inputs).for_each(|(input, p)| input.default = *p);
-        problem.set_time(&scene, 0.0).ok()?;
+        let problem = self.problem.with_inputs(inputs).ok()?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&scene, &problem, &options);
+        let solution = solve(&problem, &options);
         let solution = solution.unwrap_or_else(|error| panic!("{}: {error}", self.what));
-        let values = outputs(&scene, &problem, &solution).expect("probes inside");
-        let declared: Vec<_> = scene.outputs.iter().map(|o| o.name.value.as_str()).collect();
+        let values = outputs(&problem, &solution).expect("probes inside");
+        let declared: Vec<_> =
+            problem.scene.outputs.iter().map(|o| o.name.value.as_str()).collect();
         let undeclared = ["contact_force", "contact_length"];
         let names = if declared.is_empty() { &undeclared[..] } else { &declared };
         let values = names.iter().map(|name| values[*name]).collect();

@@ -7,26 +7,28 @@ use crate::costs::Costs;
 use crate::full;
 use crate::trial::{self, Trial};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::Scaled;
 
-/// The solver that the setting asks for; where it leaves that open both, the quicker first: one that comes to its end
-/// before one that does not. `excluded` gets the reason why there is no factor.
+/// The solver that the setting asks for, in `units`; where it leaves that open both, the quicker first: one that comes
+/// to its end before one that does not. `excluded` gets the reason why there is no factor.
 pub(super) fn of_full<R: Scalar>(
-    scene: &Scene,
     problem: &Problem,
+    units: Units,
     budget: &Budget,
     excluded: &mut Vec<String>,
 ) -> Result<Vec<Candidate<R>>> {
-    let setting = scene.setting.unwrap_or_default();
-    let baked = full::Baked::<R>::new(scene, problem)?;
+    let setting = problem.scene.setting.unwrap_or_default();
+    let problem = &Scaled::new(problem, units)?;
+    let baked = full::Baked::<R>::of_scaled(problem)?;
     // Sweeps and shares are for who sweeps.
     let is_open = setting.solver.is_none() && setting.sweeps.is_none() && setting.share.is_none();
-    let factored = is_open.then(|| baked.clone().with_factor(scene, problem));
-    let mut all = vec![candidate(scene, problem, budget, baked)];
+    let factored = is_open.then(|| baked.clone().with_factor(problem.problem()));
+    let mut all = vec![candidate(problem.own, budget, baked)];
     match factored {
-        Some(Ok(factored)) => all.push(candidate(scene, problem, budget, factored)),
+        Some(Ok(factored)) => all.push(candidate(problem.own, budget, factored)),
         Some(Err(error)) => excluded.push(format!("full, by a factor: {error}")),
         None => {}
     }
@@ -36,15 +38,10 @@ pub(super) fn of_full<R: Scalar>(
 }
 
 /// A full model, tried where there is room for it.
-fn candidate<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    budget: &Budget,
-    baked: full::Baked<R>,
-) -> Candidate<R> {
+fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R>) -> Candidate<R> {
     let sizes = full::sizes(&baked);
     let memory = Needs::with_code(baked.code(), sizes, [None; 2]);
-    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     // A model that has no room is not tried.
     let trial = match budget.shortfalls(&memory).is_empty() {
         true => trial::of_full(&baked, &defaults),

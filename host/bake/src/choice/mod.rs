@@ -25,7 +25,7 @@ use meshes::of_full;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::condense::{check_size, condense};
+use signorini_solve::condense::{Condensate, Recovery, check_size, recoverable};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::choose_for_inputs;
@@ -89,41 +89,39 @@ pub struct Choice<R: Scalar> {
     pub budget: Budget,
     /// Why a model was not considered.
     pub excluded: Vec<String>,
+    /// What condensed candidates were made of, with the way back to the mesh.
+    origin: Option<(Condensate, Recovery)>,
 }
 
 impl<R: Scalar> Choice<R> {
-    /// Chooses for `scene`, as its setting asks where `forced` does not; with `compared`, the full model is
+    /// Chooses for `problem`, as its setting asks where `forced` does not; with `compared`, the full model is
     /// worked out in any case.
     ///
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
-    pub fn new(
-        scene: &Scene,
-        problem: &Problem,
-        forced: Option<ModelKind>,
-        compared: bool,
-    ) -> Result<Self> {
-        let budget = Budget::of(scene);
-        let setting = scene.setting.unwrap_or_default();
+    pub fn new(problem: &Problem, forced: Option<ModelKind>, compared: bool) -> Result<Self> {
+        let budget = Budget::of(&problem.scene);
+        let setting = problem.scene.setting.unwrap_or_default();
         let forced = forced.or(setting.model_kind());
         if let Some((model, key)) =
             forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
         {
-            return Err(foreign(scene, model, key).into());
+            return Err(foreign(&problem.scene, model, key).into());
         }
-        let (mut candidates, mut excluded) = (Vec::new(), Vec::new());
+        let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
         let contact = problem.topology.counts.contact;
-        let few = contact <= MOST_CONTACTS && check_size(scene, problem).is_ok();
-        let units = choose_for_inputs(scene, problem)?;
-        refuse_answers::<R>(scene, &units)?;
-        refuse_lengths::<R>(scene, problem)?;
+        let few = contact <= MOST_CONTACTS && check_size(problem).is_ok();
+        let units = choose_for_inputs(problem)?;
+        refuse_answers::<R>(&problem.scene, &units)?;
+        refuse_lengths::<R>(problem)?;
         // Condensation is in the scene's units, in f64.
-        let near = refuse_squares::<f64>(scene, &units);
+        let near = refuse_squares::<f64>(&problem.scene, &units);
         if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
             near?;
-            match of_condensed(scene, &condense(scene, problem)?, &budget) {
-                Ok(found) => candidates = found,
+            let (condensate, recovery) = recoverable(problem)?;
+            match of_condensed(&problem.scene, &condensate, &budget) {
+                Ok(found) => (candidates, origin) = (found, Some((condensate, recovery))),
                 Err(error) if forced.is_some() => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
@@ -137,7 +135,7 @@ impl<R: Scalar> Choice<R> {
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
         if forced == Some(ModelKind::Full) || (forced.is_none() && (compared || !fits || large)) {
-            match of_full(scene, problem, &budget, &mut excluded) {
+            match of_full(problem, units, &budget, &mut excluded) {
                 Ok(mut found) => {
                     // A deadline cuts its sweeps off, and its bound tells what is left: who asks for it is warned of
                     // the time, not refused.
@@ -168,14 +166,23 @@ impl<R: Scalar> Choice<R> {
             false => candidates.iter().position(Candidate::may_be_chosen),
         };
         match complete.or_else(last) {
-            Some(chosen) => Ok(Self { candidates, chosen, budget, excluded }),
-            None => Err(too_large(scene, &candidates).into()),
+            Some(chosen) => Ok(Self { candidates, chosen, budget, excluded, origin }),
+            None => Err(too_large(&problem.scene, &candidates).into()),
         }
     }
 
     /// Why the model chosen has no bound, where one is asked for.
     pub fn unbounded(&self) -> Option<&str> {
         self.candidate().unbounded.as_deref()
+    }
+
+    /// The condensed model, where that is chosen, with what it was made of.
+    pub fn condensed(&self) -> Option<(&condensed::Baked<R>, &Condensate, &Recovery)> {
+        let (condensate, recovery) = self.origin.as_ref()?;
+        match &self.candidate().model {
+            Model::Condensed(baked) => Some((baked, condensate, recovery)),
+            Model::Full(_) => None,
+        }
     }
 
     /// The model chosen.

@@ -6,7 +6,6 @@ use crate::compiled::{FIRMWARE, printed};
 use crate::face::Face;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{ModelKind, Omega, Setting, Start};
 use signorini_solve::condense::condense;
@@ -116,28 +115,24 @@ kind = "bound"
 "#;
 
 fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
-    let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
-    let condensate = condense(&scene, &problem)?;
+    let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+    let condensate = condense(&problem)?;
     let baked = Baked::<R>::new(&condensate, work, certified).expect("numbers in range");
     assert_eq!(baked.without_bound().is_none(), certified);
-    same_bits_of(&scene, &problem, &baked, bits)
+    same_bits_of(&problem, &baked, bits)
 }
 
-fn same_bits_of<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    baked: &Baked<R>,
-    bits: fn(R) -> u64,
-) -> Result<()> {
+fn same_bits_of<R: Scalar>(problem: &Problem, baked: &Baked<R>, bits: fn(R) -> u64) -> Result<()> {
     let mut controller = Controller::new(baked);
     let lines = [1.0, -0.5, 0.25].map(|factor| {
         let value = |default: f64| R::narrow(factor) * R::narrow(default);
-        let inputs: Vec<R> = scene.inputs.iter().map(|input| value(input.default)).collect();
+        let inputs: Vec<R> =
+            problem.scene.inputs.iter().map(|input| value(input.default)).collect();
         let (outputs, _) = controller.tick(&inputs).expect("a tick");
         format!("Ok({:?})\n", outputs.into_iter().map(bits).collect::<Vec<_>>())
     });
-    assert!(scene.inputs.is_empty() || lines[0] != lines[1]);
-    let text = source(&Face::new(scene, problem), baked);
+    assert!(problem.scene.inputs.is_empty() || lines[0] != lines[1]);
+    let text = source(&Face::new(problem), baked);
     assert_eq!(printed(&(text + MAIN)), lines.concat());
     Ok(())
 }
@@ -171,7 +166,7 @@ fn without_contact() -> Result<()> {
 #[test]
 fn with_a_setting() -> Result<()> {
     let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
-    let condensate = condense(&scene, &problem)?;
+    let condensate = condense(&problem)?;
     let setting = Setting {
         sweeps: Some(6),
         omega: Omega::Fixed(1.2),
@@ -181,7 +176,7 @@ fn with_a_setting() -> Result<()> {
     for work in [SWEEPS, PIVOTS] {
         let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
         let baked = baked.with_setting(&setting);
-        same_bits_of(&scene, &problem, &baked, |x| x.to_bits().into())?;
+        same_bits_of(&problem, &baked, |x| x.to_bits().into())?;
         let mut controller = Controller::new(&baked);
         let defaults: Vec<_> = scene.inputs.iter().map(|input| input.default as f32).collect();
         let moved: Vec<_> = defaults.iter().map(|value| -value).collect();
@@ -202,10 +197,10 @@ fn a_firmware_need_not_know_the_model() -> Result<()> {
     for (text, work, ended) in
         [(NAMES, PIVOTS, "Exact"), (NAMES, SWEEPS, "OutOfTime"), (LINEAR, linear, "Exact")]
     {
-        let (scene, problem) = on_grid(text, grid(3, Cells::Mixed))?;
-        let condensate = condense(&scene, &problem)?;
+        let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+        let condensate = condense(&problem)?;
         let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
-        let text = source(&Face::new(&scene, &problem), &baked) + FIRMWARE;
+        let text = source(&Face::new(&problem), &baked) + FIRMWARE;
         let expected = format!("true [true, true, true] {ended} true\n");
         assert_eq!(printed(&text), expected, "{work:?}");
     }
@@ -215,8 +210,8 @@ fn a_firmware_need_not_know_the_model() -> Result<()> {
 /// Both ends are Dirichlet corners.
 #[test]
 fn the_names_scene_has_corners() -> Result<()> {
-    let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
-    let form = condense(&scene, &problem)?.certificate.expect("a bound");
+    let (_, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
+    let form = condense(&problem)?.certificate.expect("a bound");
     assert_eq!(form.corners.len(), 1);
     Ok(())
 }
@@ -226,7 +221,7 @@ fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
     let (scene, problem) = on_grid(NAMES, grid(3, Cells::Mixed))?;
     let scene = units.inverse().scene(&scene);
     let problem = Problem::new(&scene, problem.mesh)?;
-    let baked = Baked::<R>::new(&condense(&scene, &problem)?, PIVOTS, true).expect("in range");
+    let baked = Baked::<R>::new(&condense(&problem)?, PIVOTS, true).expect("in range");
     let inputs = [0.3, -0.7, 0.5, 0.0].map(R::narrow);
     let (outputs, _) = Controller::new(&baked).tick(&inputs).expect("a tick");
     let quantities = scene.outputs.iter().map(|output| units.of_output(output.quantity));
@@ -256,7 +251,7 @@ fn what_is_too_far_from_1_is_not_condensed() -> Result<()> {
         let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) };
         let scene = units.inverse().scene(&scene);
         let problem = Problem::new(&scene, problem.mesh)?;
-        Choice::<f64>::new(&scene, &problem, kind, false)
+        Choice::<f64>::new(&problem, kind, false)
     };
     let refused = choice(-400, -200, Some(ModelKind::Condensed)).expect_err("underflow");
     assert!(refused.to_string().contains("fluxes are near 1e-181, which f64"), "{refused}");

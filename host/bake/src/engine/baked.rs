@@ -4,40 +4,35 @@ use super::{Engine, condensed, full};
 use crate::choice::{Choice, Model};
 use crate::setting;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
 
-/// Lends the engine of the module that `bake` writes for `scene`, with the module's name in a few words: its
+/// Lends the engine of the module that `bake` writes for `problem`, with the module's name in a few words: its
 /// model, solver and scalar are chosen as there, `asked` being the scalar of the command line.
 ///
 /// # Errors
 /// Those of `bake`: no model that represents the scene or fits its target.
 pub fn baked<T>(
-    scene: &Scene,
     problem: &Problem,
     asked: Option<ScalarKind>,
     then: impl FnOnce(&mut dyn Engine, &str) -> Result<T>,
 ) -> Result<T> {
-    match setting::scalar(scene, asked)? {
-        ScalarKind::F32 => baked_in::<f32, T>(scene, problem, then),
-        ScalarKind::F64 => baked_in::<f64, T>(scene, problem, then),
+    match setting::scalar(&problem.scene, asked)? {
+        ScalarKind::F32 => baked_in::<f32, T>(problem, then),
+        ScalarKind::F64 => baked_in::<f64, T>(problem, then),
     }
 }
 
 fn baked_in<R: Scalar, T>(
-    scene: &Scene,
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine, &str) -> Result<T>,
 ) -> Result<T> {
-    let choice = Choice::<R>::new(scene, problem, None, false)?;
+    let choice = Choice::<R>::new(problem, None, false)?;
     let candidate = choice.candidate();
     let name = format!("{}, {}", candidate.name, R::NAME);
     match &candidate.model {
-        Model::Condensed(baked) => {
-            condensed::lend(scene, problem, baked, |engine| then(engine, &name))
-        }
-        Model::Full(baked) => full::lend(scene, baked, |engine| then(engine, &name)),
+        Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &name)),
+        Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &name)),
     }
 }

@@ -4,19 +4,18 @@ use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::solver::Status;
 
 use super::{Answer, Engine, status};
-use crate::choice::{Choice, Model};
+use crate::choice::Choice;
 use crate::condensed::{Baked, Controller};
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{ErrorBound, NoBound};
-use signorini_solve::condense::{Condensate, Recovery, recoverable};
+use signorini_solve::condense::{Condensate, Recovery};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ran, ended_name, unfit};
 
 struct Condensed<'b, R: Scalar> {
-    scene: &'b Scene,
+    problem: &'b Problem,
     condensate: &'b Condensate,
     recovery: &'b Recovery,
     baked: &'b Baked<R>,
@@ -28,30 +27,27 @@ struct Condensed<'b, R: Scalar> {
 
 /// Lends it.
 pub(super) fn with<R: Scalar, T>(
-    scene: &Scene,
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let choice = Choice::<R>::new(scene, problem, Some(ModelKind::Condensed), false)?;
-    let Model::Condensed(baked) = &choice.candidate().model else {
-        let message = "setting.model: there is no condensed model of this scene";
-        return Err(InputError::new(message).file(&scene.path).into());
-    };
-    lend(scene, problem, baked, then)
+    let choice = Choice::<R>::new(problem, Some(ModelKind::Condensed), false)?;
+    lend(problem, &choice, then)
 }
 
-/// Lends the engine of a baked model of `scene`.
+/// Lends the engine of the condensed model that was chosen for `problem`.
 pub(super) fn lend<R: Scalar, T>(
-    scene: &Scene,
     problem: &Problem,
-    baked: &Baked<R>,
+    choice: &Choice<R>,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let (condensate, recovery) = recoverable(scene, problem)?;
+    let Some((baked, condensate, recovery)) = choice.condensed() else {
+        let message = "setting.model: there is no condensed model of this scene";
+        return Err(InputError::new(message).file(&problem.scene.path).into());
+    };
     then(&mut Condensed {
-        scene,
-        condensate: &condensate,
-        recovery: &recovery,
+        problem,
+        condensate,
+        recovery,
         baked,
         controller: Controller::new(baked),
         inputs: Vec::new(),
@@ -64,7 +60,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
     fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
         self.inputs.clear();
         self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
-        let answer = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let answer = self.controller.tick(&self.inputs).map_err(unfit::<R>(&self.problem.scene))?;
         let (outputs, report) = answer;
         self.outputs = outputs;
         self.report = Some(report);
@@ -108,7 +104,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
             no_bound: self.report.and_then(|report| {
                 let reason = || self.condensate.certificate.as_ref().err().cloned();
                 let data = || reason().map(NoBound::Condensed);
-                NoBound::of_verdict(&report.verdict, self.scene, problem, data)
+                NoBound::of_verdict(&report.verdict, problem, data)
             }),
             certified: certified.filter(|_| certificate.is_some()).unwrap_or_default(),
             u,

@@ -24,14 +24,13 @@ struct Full<'b, R: Scalar, const WIDTH: usize> {
 
 /// Lends it.
 pub(super) fn with<R: Scalar, T>(
-    scene: &Scene,
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    lend(scene, &Baked::<R>::new(scene, problem)?, then)
+    lend(&problem.scene, &Baked::<R>::new(problem)?, then)
 }
 
-/// Lends the engine of a baked model of `scene`.
+/// Lends the engine of a baked model of a scene.
 pub(super) fn lend<R: Scalar, T>(
     scene: &Scene,
     baked: &Baked<R>,
@@ -107,9 +106,9 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             bound: certificate.map(ErrorBound::new),
             no_bound: match &self.report {
                 Some(report) => {
-                    let data = Data::<f64>::new(self.scene, problem)?;
+                    let data = Data::<f64>::new(problem)?;
                     let known = || data.no_bound().cloned();
-                    NoBound::of_verdict(&report.verdict, self.scene, problem, known)
+                    NoBound::of_verdict(&report.verdict, problem, known)
                 }
                 None => None,
             },

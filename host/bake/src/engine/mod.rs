@@ -107,34 +107,34 @@ pub fn completed(scene: &Scene) -> Setting {
     }
 }
 
-/// Lends the engine of `scene`, on whose mesh `problem` stands.
+/// Lends the engine of `problem`, as its setting says.
 ///
 /// # Errors
 /// A setting that the scene does not allow for, numbers that the scalar cannot hold.
-pub fn with<T>(
-    scene: &Scene,
-    problem: &Problem,
-    then: impl FnOnce(&mut dyn Engine) -> Result<T>,
-) -> Result<T> {
-    let setting = completed(scene);
+pub fn with<T>(problem: &Problem, then: impl FnOnce(&mut dyn Engine) -> Result<T>) -> Result<T> {
+    let setting = completed(&problem.scene);
     let mixed = setting.scalar == Some(Precision::Mixed);
     let single = setting.scalar == Some(Precision::F32);
-    let parts = Parts::examine(scene, problem)?;
+    let parts = Parts::examine(problem)?;
     let is_loose = parts.counts.contact + parts.counts.floating > 0;
     match setting.model {
-        Some(ModelKind::Condensed) if mixed => Err(no_mixed(scene, "a condensed model").into()),
-        Some(ModelKind::Condensed) if single => condensed::with::<f32, _>(scene, problem, then),
-        Some(ModelKind::Condensed) => condensed::with::<f64, _>(scene, problem, then),
-        _ if mixed && is_loose => Err(no_mixed(scene, "a domain that contact alone holds").into()),
+        Some(ModelKind::Condensed) if mixed => {
+            Err(no_mixed(&problem.scene, "a condensed model").into())
+        }
+        Some(ModelKind::Condensed) if single => condensed::with::<f32, _>(problem, then),
+        Some(ModelKind::Condensed) => condensed::with::<f64, _>(problem, then),
+        _ if mixed && is_loose => {
+            Err(no_mixed(&problem.scene, "a domain that contact alone holds").into())
+        }
         _ if is_loose && setting.solver == Some(Method::Factor) => {
-            Err(not_loose(scene, "solver", "a factor").into())
+            Err(not_loose(&problem.scene, "solver", "a factor").into())
         }
         _ if is_loose && setting.math == MathKind::Micromath => {
-            Err(not_loose(scene, "math", "micromath").into())
+            Err(not_loose(&problem.scene, "math", "micromath").into())
         }
-        _ if mixed || is_loose => single::with(scene, problem, then),
-        _ if single => full::with::<f32, _>(scene, problem, then),
-        _ => full::with::<f64, _>(scene, problem, then),
+        _ if mixed || is_loose => single::with(problem, then),
+        _ if single => full::with::<f32, _>(problem, then),
+        _ => full::with::<f64, _>(problem, then),
     }
 }
 

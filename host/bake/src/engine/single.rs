@@ -10,7 +10,6 @@ use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
 use super::{Answer, Engine, completed};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Omega, Precision, Setting};
 use signorini_solve::certify::{Certifier, Data, ErrorBound, NoBound};
 use signorini_solve::problem::{Assembled, Parts, Problem};
@@ -28,7 +27,7 @@ type Sweep<'p, R> = Box<dyn FnMut(Settings<R>, &mut [R]) -> Refused<Outcome<R>> 
 const FIRST: u32 = 16;
 
 struct Single<'p, R: Scalar> {
-    scene: &'p Scene,
+    problem: &'p Problem,
     parts: Parts,
     assembled: Assembled<'p, R>,
     certifier: Option<(Certifier<R>, Data<R>)>,
@@ -43,72 +42,60 @@ struct Single<'p, R: Scalar> {
 
 /// Lends it, in the scalar of the setting.
 pub(super) fn with<T>(
-    scene: &Scene,
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let setting = completed(scene);
-    let parts = Parts::examine(scene, problem)?;
+    let setting = completed(&problem.scene);
+    let parts = Parts::examine(problem)?;
     match setting.scalar {
-        Some(Precision::F32) => then(&mut Single::<f32>::swept(scene, problem, parts, &setting)?),
-        Some(Precision::Mixed) => then(&mut Single::mixed(scene, problem, parts, &setting)?),
-        _ => then(&mut Single::<f64>::swept(scene, problem, parts, &setting)?),
+        Some(Precision::F32) => then(&mut Single::<f32>::swept(problem, parts, &setting)?),
+        Some(Precision::Mixed) => then(&mut Single::mixed(problem, parts, &setting)?),
+        _ => then(&mut Single::<f64>::swept(problem, parts, &setting)?),
     }
 }
 
 impl<'p> Single<'p, f64> {
-    fn mixed(
-        scene: &'p Scene,
-        problem: &'p Problem,
-        parts: Parts,
-        setting: &Setting,
-    ) -> Result<Self> {
-        let mut mixed = Mixed::new(problem, &parts).map_err(unfit::<f32>(scene))?;
+    fn mixed(problem: &'p Problem, parts: Parts, setting: &Setting) -> Result<Self> {
+        let mut mixed = Mixed::new(problem, &parts).map_err(unfit::<f32>(&problem.scene))?;
         let sweep = move |settings, u: &mut [f64]| Ok(mixed.run(settings, u)?.outcome);
         let share = setting.share.unwrap_or(crate::full::SHARE);
         let asked = setting.certificate && setting.sweeps.is_none();
-        let single = Self::new(scene, problem, parts, setting, Box::new(sweep))?;
+        let single = Self::new(problem, parts, setting, Box::new(sweep))?;
         Ok(Self { share: asked.then_some(share), ..single })
     }
 }
 
 impl<'p, R: Scalar> Single<'p, R> {
     /// By the kernel's solver, to the tolerance of `solve`.
-    fn swept(
-        scene: &'p Scene,
-        problem: &'p Problem,
-        parts: Parts,
-        setting: &Setting,
-    ) -> Result<Self> {
-        let mut assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(scene))?;
+    fn swept(problem: &'p Problem, parts: Parts, setting: &Setting) -> Result<Self> {
+        let mut assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(&problem.scene))?;
         assembled.set_parts(&parts);
         let run = match problem.mesh.quads.is_empty() {
             true => run::<R, TRIANGLES>,
             false => run::<R, QUADS>,
         };
         let sweep = move |settings, u: &mut [R]| run(&assembled, settings, u);
-        Self::new(scene, problem, parts, setting, Box::new(sweep))
+        Self::new(problem, parts, setting, Box::new(sweep))
     }
 
     fn new(
-        scene: &'p Scene,
         problem: &'p Problem,
         parts: Parts,
         setting: &Setting,
         sweep: Sweep<'p, R>,
     ) -> Result<Self> {
-        let unfit = unfit::<R>(scene);
+        let unfit = unfit::<R>(&problem.scene);
         let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
         assembled.set_parts(&parts);
         let certifier = match setting.certificate {
             true => {
-                let certifier = Certifier::new(scene, problem, &parts, &assembled);
-                Some((certifier.map_err(&unfit)?, Data::new(scene, problem)?))
+                let certifier = Certifier::new(problem, &parts, &assembled);
+                Some((certifier.map_err(&unfit)?, Data::new(problem)?))
             }
             false => None,
         };
         Ok(Self {
-            scene,
+            problem,
             parts,
             u: assembled.start(),
             assembled,
@@ -186,7 +173,7 @@ fn settings<R: Scalar>(setting: &Setting) -> Settings<R> {
 impl<R: Scalar> Engine for Single<'_, R> {
     fn tick(&mut self, _: &[f64]) -> Result<u32> {
         self.restart();
-        self.advance().map_err(unfit::<R>(self.scene))
+        self.advance().map_err(unfit::<R>(&self.problem.scene))
     }
 
     fn restart(&mut self) {
@@ -194,7 +181,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
     }
 
     fn answer(&self, problem: &Problem) -> Result<Answer> {
-        let unfit = unfit::<R>(self.scene);
+        let unfit = unfit::<R>(&self.problem.scene);
         let (assembled, counts) = (&self.assembled, problem.topology.counts);
         let mut fluxes = vec![R::ZERO; self.u.len()];
         let (edges, cells) = (assembled.edges(), assembled.cells());
@@ -223,9 +210,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
             bound: self.certificate.as_ref().map(ErrorBound::new),
             no_bound: match (&self.certificate, &self.certifier) {
                 (Some(_), _) => None,
-                (None, Some((certifier, data))) => {
-                    certifier.no_bound(self.scene, problem, &self.parts, data)
-                }
+                (None, Some((certifier, data))) => certifier.no_bound(problem, &self.parts, data),
                 (None, None) => Some(NoBound::NotAsked),
             },
             certified: certified.unwrap_or_default(),

@@ -20,18 +20,18 @@ fn earlier(scene: &Scene, inputs: &[f64]) -> Vec<Vec<f64>> {
     if runs { trial::inputs::<f64>(inputs, TICKS).collect() } else { Vec::new() }
 }
 
-/// Solves `scene` for its default inputs and at t = 0, as its setting says.
+/// Solves `problem` for its default inputs and at t = 0, as its setting says.
 ///
 /// # Errors
 /// As for [`with`].
-pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
-    let scene = &scene.clone().at_rest();
-    let parts = Parts::examine(scene, problem)?.counts;
+pub fn solve(problem: &Problem) -> Result<Solution> {
+    let problem = &problem.restated(Scene::clone(&problem.scene).at_rest());
+    let parts = Parts::examine(problem)?.counts;
     let start = Instant::now();
-    let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
-    let (prepared, swept, answer) = with(scene, problem, |engine| {
+    let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let (prepared, swept, answer) = with(problem, |engine| {
         let prepared = start.elapsed().as_secs_f64();
-        for earlier in earlier(scene, &inputs) {
+        for earlier in earlier(&problem.scene, &inputs) {
             engine.tick(&earlier)?;
         }
         engine.tick(&inputs)?;
@@ -40,7 +40,7 @@ pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
     let length = answer.length(problem);
     let Answer { status, ran, factored, sweeps, omega, residual, .. } = answer;
     let Answer { u, flux, force, active, bound, no_bound, certified, .. } = answer;
-    let single = completed(scene).scalar == Some(Precision::F32);
+    let single = completed(&problem.scene).scalar == Some(Precision::F32);
     Ok(Solution {
         scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
         status,
@@ -49,6 +49,7 @@ pub fn solve(scene: &Scene, problem: &Problem) -> Result<Solution> {
         ran,
         factored,
         units: Units::default(),
+        scaled: None,
         algebraic_residual: residual,
         omega,
         mismatch: 0.0,

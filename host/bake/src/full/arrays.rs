@@ -114,28 +114,28 @@ impl<R: Scalar> Baked<R> {
         self.how.certified
     }
 
-    /// The same in the units that `scene` is in.
-    pub(super) fn in_its_units(scene: &Scene, problem: &Problem, face: Face) -> Result<Self> {
-        let setting = checked::<R>(scene)?;
-        let held = Parts::examine(scene, problem)?;
-        refuse_loose(scene, &held)?;
-        let unfit = unfit::<R>(scene);
+    /// The same in the units that `problem` is in.
+    pub(super) fn in_its_units(problem: &Problem, face: Face) -> Result<Self> {
+        let setting = checked::<R>(&problem.scene)?;
+        let held = Parts::examine(problem)?;
+        refuse_loose(&problem.scene, &held)?;
+        let unfit = unfit::<R>(&problem.scene);
         let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
         assembled.system().map_err(&unfit)?;
-        let certifier = Certifier::new(scene, problem, &held, &assembled).map_err(&unfit)?;
+        let certifier = Certifier::new(problem, &held, &assembled).map_err(&unfit)?;
         let ground = certifier.ground(&assembled).map_err(&unfit)?;
-        let functionals = functionals(scene, problem)?;
+        let functionals = functionals(problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
-        let data = Data::new(scene, problem, &parts(scene, problem)?, ground.stiffness)?;
+        let data = Data::new(problem, &parts(problem)?, ground.stiffness)?;
         data.check().map_err(&unfit)?;
-        refuse_faint(scene, &data)?;
+        refuse_faint(&problem.scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let how = How::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
         let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
         let baked = if how.certified { baked } else { baked.without_bound() };
         match setting.solver {
-            Some(Method::Factor) => baked.with_factor(scene, problem),
+            Some(Method::Factor) => baked.with_factor(problem),
             _ => Ok(baked),
         }
     }

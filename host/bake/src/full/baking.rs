@@ -12,24 +12,29 @@ use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{choose_for_inputs, in_units};
+use signorini_solve::solve::{Scaled, choose_for_inputs};
 
 impl<R: Scalar> Baked<R> {
-    /// Bakes `scene`, whose inputs stand at their defaults, as its setting says.
+    /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
     /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or
     /// answers that the scalar type cannot hold.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        let face = Face::new(scene, problem);
-        let units = choose_for_inputs(scene, problem)?;
-        if units == Units::default() {
-            return Self::in_its_units(scene, problem, face);
-        }
-        let scale = Scale::new(scene, units)?;
-        let (scene, problem) = in_units(scene, problem, &units)?;
-        let baked = Self::in_its_units(&scene, &problem, face)?;
-        Ok(Self { scale: Some(scale), ..baked })
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Self::of_scaled(&Scaled::new(problem, choose_for_inputs(problem)?)?)
+    }
+
+    /// The same in units that are chosen.
+    ///
+    /// # Errors
+    /// As for [`Baked::new`].
+    pub fn of_scaled(problem: &Scaled) -> Result<Self> {
+        let face = Face::new(problem.own);
+        let scale = match problem.units == Units::default() {
+            true => None,
+            false => Some(Scale::new(&problem.own.scene, problem.units)?),
+        };
+        Ok(Self { scale, ..Self::in_its_units(problem.problem(), face)? })
     }
 
     /// What 1 stands for in [`Controller::u`] and the other arrays of a controller.
@@ -37,25 +42,20 @@ impl<R: Scalar> Baked<R> {
         self.scale.as_ref().map_or(Units::default(), |scale| scale.units)
     }
 
-    /// The same with ticks that a factor solves; `scene` and `problem` are what it was baked from.
+    /// The same with ticks that a factor solves; `problem` is what it was baked from, in its units.
     ///
     /// # Errors
     /// A matrix that this scalar cannot tell from a singular one, a factor beyond all memory.
-    pub fn with_factor(self, scene: &Scene, problem: &Problem) -> Result<Self> {
+    pub fn with_factor(self, problem: &Problem) -> Result<Self> {
         let refused = |message: String| {
             let hint = "take solver = \"sweeps\", or the scalar f64";
-            InputError::new(message).file(&scene.path).hint(hint)
+            InputError::new(message).file(&problem.scene.path).hint(hint)
         };
-        let in_other_units = match self.scale {
-            Some(scale) => Some(in_units(scene, problem, &scale.units)?),
-            None => None,
-        };
-        let own = in_other_units.as_ref().map_or(problem, |(_, problem)| problem);
-        let Some(factored) = Factored::new(scene, own)? else {
+        let Some(factored) = Factored::new(problem)? else {
             return Err(refused("setting.solver: this mesh has no factor in f64".to_owned()).into());
         };
         let baked = Self { factored: Some(factored), ..self };
-        if baked.solves(scene) {
+        if baked.solves(&problem.scene) {
             return Ok(baked);
         }
         let why = "corrections by the factor do not converge";

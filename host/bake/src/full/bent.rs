@@ -9,7 +9,6 @@ use signorini_kernel::full::{CurvedPart, Product};
 
 use crate::superposition::{Part, curved_pair};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::Term;
 use signorini_solve::certify::curved::Curved;
 use signorini_solve::problem::Problem;
@@ -26,11 +25,7 @@ pub(super) struct Bent<R> {
 type Edges<R> = (Vec<certificate::Curved<R, u32>>, Vec<Bent<R>>);
 
 /// The curved edges: as records where no input bends an edge, else all of them as sums.
-pub(super) fn bent<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &[Part],
-) -> Result<Edges<R>> {
+pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges<R>> {
     let bends: Vec<Term> =
         (0..parts.len()).filter(|&term| !parts[term].curved.is_empty()).collect();
     if bends.iter().all(|&term| term == 0) {
@@ -53,7 +48,7 @@ pub(super) fn bent<R: Scalar>(
     }
     for (place, &i) in bends.iter().enumerate() {
         for &j in &bends[place + 1..] {
-            for of in curved_pair(scene, problem, [i, j])? {
+            for of in curved_pair(problem, [i, j])? {
                 let alone = energy(&parts[i].curved, of.edge) + energy(&parts[j].curved, of.edge);
                 add(at(&mut edges, of.edge), [i, j], of.energy - alone);
             }

@@ -9,7 +9,7 @@ use signorini_kernel::{Error as KernelError, error::Array};
 use super::bent::{Bent, bent};
 use crate::superposition::Part;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -46,18 +46,13 @@ pub(super) enum Pattern<R> {
 
 impl<R: Scalar> Data<R> {
     /// From the parts of the data, base first.
-    pub fn new(
-        scene: &Scene,
-        problem: &Problem,
-        parts: &[Part],
-        stiffness: Stiffness<R>,
-    ) -> Result<Self> {
+    pub fn new(problem: &Problem, parts: &[Part], stiffness: Stiffness<R>) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
         let is_uniform = parts.iter().all(|part| {
             part.transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0]))
         });
-        let patterns = scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
+        let patterns = problem.scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
             let contact = !part.loads.contact_flux.iter().all(|&flux| flux == 0.0);
             match input.field.value {
                 Field::Source => Pattern::Source {
@@ -71,7 +66,7 @@ impl<R: Scalar> Data<R> {
                 Field::Ambient => ambient(part, is_uniform),
             }
         });
-        let (curved, curved_sums) = bent(scene, problem, parts)?;
+        let (curved, curved_sums) = bent(problem, parts)?;
         let mut data = Self {
             triangles: narrow(&base.loads.triangles),
             quads: narrow(&base.loads.quads),

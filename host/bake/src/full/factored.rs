@@ -8,7 +8,6 @@ use signorini_kernel::sparse::{self, Factor};
 
 use super::items::List;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::{Assembled, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ldlt, unfit};
@@ -27,8 +26,8 @@ pub(super) struct Factored<R> {
 
 impl<R: Scalar> Factored<R> {
     /// That of `problem`; nothing where its matrix is singular, or its factor too large, in f64.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Option<Self>> {
-        let unfit = unfit::<f64>(scene);
+    pub fn new(problem: &Problem) -> Result<Option<Self>> {
+        let unfit = unfit::<f64>(&problem.scene);
         let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
         let system = assembled.system().map_err(&unfit)?;
         let Some(mut ldlt) = Ldlt::new(&system).map_err(&unfit)? else { return Ok(None) };

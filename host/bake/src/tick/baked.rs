@@ -10,28 +10,26 @@ mod tests;
 use super::{Moment, Tick};
 use crate::engine::{self, Answer, Engine};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::ScalarKind;
 
-/// Plays `moments` through the controller of `scene`, calling `done` after each; also the controller's name in
+/// Plays `moments` through the controller of `problem`, calling `done` after each; also the controller's name in
 /// a few words. `asked` is a scalar instead of that of the scene's setting.
 ///
 /// # Errors
 /// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
 pub fn replay(
-    scene: &Scene,
     problem: &Problem,
     moments: &[Moment],
     asked: Option<ScalarKind>,
     mut done: impl FnMut(&Tick),
 ) -> Result<(String, Vec<Tick>)> {
-    engine::baked(scene, problem, asked, |engine, name| {
-        let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    engine::baked(problem, asked, |engine, name| {
+        let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
-            moment.set(&mut scene, &mut problem)?;
-            let tick = tick(&scene, &problem, engine)?;
+            moment.set(&mut problem)?;
+            let tick = tick(&problem, engine)?;
             done(&tick);
             Ok(tick)
         });
@@ -39,16 +37,16 @@ pub fn replay(
     })
 }
 
-fn tick(scene: &Scene, problem: &Problem, engine: &mut dyn Engine) -> Result<Tick> {
-    let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<Tick> {
+    let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     match engine.tick(&inputs) {
-        Ok(_) => read_off(scene, problem, engine.answer(problem)?),
-        Err(_) => Ok(refused(scene, problem)),
+        Ok(_) => read_off(problem, engine.answer(problem)?),
+        Err(_) => Ok(refused(problem)),
     }
 }
 
 /// A tick whose inputs or answer the controller's scalar cannot hold.
-fn refused(scene: &Scene, problem: &Problem) -> Tick {
+fn refused(problem: &Problem) -> Tick {
     Tick {
         time: problem.time,
         status: "not-finite",
@@ -57,25 +55,25 @@ fn refused(scene: &Scene, problem: &Problem) -> Tick {
         contact_length: None,
         bound: None,
         combined: None,
-        outputs: vec![None; scene.outputs.len()],
+        outputs: vec![None; problem.scene.outputs.len()],
     }
 }
 
-fn read_off(scene: &Scene, problem: &Problem, answer: Answer) -> Result<Tick> {
+fn read_off(problem: &Problem, answer: Answer) -> Result<Tick> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
-    let combined = match (&scene.exact, bound) {
+    let combined = match (&problem.scene.exact, bound) {
         (Some(exact), Some(_)) => {
-            Some(distance(scene, exact, problem, &answer.certified.admissible())?.combined)
+            Some(distance(exact, problem, &answer.certified.admissible())?.combined)
         }
         _ => None,
     };
     // Without declared outputs the module's are these two.
-    let [force, length] = match (scene.outputs.is_empty(), &answer.outputs[..]) {
+    let [force, length] = match (problem.scene.outputs.is_empty(), &answer.outputs[..]) {
         (true, &[force, length]) => [force, length],
         _ => [answer.force, answer.length(problem)],
     };
-    let outputs = answer.outputs.iter().take(scene.outputs.len());
+    let outputs = answer.outputs.iter().take(problem.scene.outputs.len());
     Ok(Tick {
         time: problem.time,
         status: answer.ended,

@@ -4,7 +4,6 @@ use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::prolongation::Origin;
 
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::search::{Place, Search};
@@ -14,9 +13,9 @@ use signorini_solve::solve::{Options, SolverKind, solve};
 ///
 /// # Errors
 /// As for [`solve`].
-pub fn solved(scene: &Scene, coarse: &Problem) -> Result<Vec<f64>> {
+pub fn solved(coarse: &Problem) -> Result<Vec<f64>> {
     let options = Options { solver: SolverKind::Auto, ..Options::default() };
-    Ok(solve(scene, coarse, &options)?.u)
+    Ok(solve(coarse, &options)?.u)
 }
 
 /// For every edge of `fine` the sides of the coarse cell that its middle lies in.

@@ -8,14 +8,13 @@ use signorini_kernel::{Error as KernelError, Libm, Relaxation, contact};
 use super::player::Answer;
 use super::{Budget, coarse};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::{self, Certifier, ErrorBound};
 use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{ended_name, prefers_factor, unfit};
 
 /// Answers for the loads of a problem, tick after tick.
-pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
+pub type Engine<'e> = dyn FnMut(&Problem) -> Result<Answer> + 'e;
 
 /// Lends an engine to `play` for as long as it takes: its memory lives here. Its first tick starts from
 /// the solution on `coarse`, the same problem on a coarser mesh, where there is one; where there is none, on a
@@ -24,31 +23,30 @@ pub type Engine<'e> = dyn FnMut(&Scene, &Problem) -> Result<Answer> + 'e;
 /// # Errors
 /// Numbers that the scalar type cannot hold.
 pub fn with<R: Scalar, const WIDTH: usize, T>(
-    scene: &Scene,
     problem: &Problem,
     parts: &Parts,
     coarse: Option<&Problem>,
     budget: &Budget,
     play: impl FnOnce(&mut Engine) -> T,
 ) -> Result<T> {
-    let unfit = unfit::<R>(scene);
+    let unfit = unfit::<R>(&problem.scene);
     let fixed = Assembled::<R>::new(problem).map_err(&unfit)?;
-    let certifier = Certifier::new(scene, problem, parts, &fixed).map_err(&unfit)?;
+    let certifier = Certifier::new(problem, parts, &fixed).map_err(&unfit)?;
     let mut store = Store::<R, WIDTH>::new(problem, &fixed);
     if let Some(coarse) = coarse {
-        let means: Vec<R> = coarse::solved(scene, coarse)?.into_iter().map(R::narrow).collect();
+        let means: Vec<R> = coarse::solved(coarse)?.into_iter().map(R::narrow).collect();
         let origins = coarse::origins(problem, coarse)?;
         prolong(&origins, &means, &mut store.u).map_err(&unfit)?;
     } else if budget.is_open() && prefers_factor(problem) {
         // Cold sweeps on a large mesh would take longer than all ticks after them.
-        let means = coarse::solved(scene, problem)?.into_iter().map(R::narrow);
+        let means = coarse::solved(problem)?.into_iter().map(R::narrow);
         store.u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
     }
     let mut tick = store.tick(&certifier, &fixed).map_err(&unfit)?;
     let mut moving = fixed.clone();
-    Ok(play(&mut |scene, problem| {
+    Ok(play(&mut |problem| {
         moving.set_loads(&problem.loads).map_err(&unfit)?;
-        let data = certify::Data::<R>::new(scene, problem)?;
+        let data = certify::Data::<R>::new(problem)?;
         let report = advance(&mut tick, &moving, &data, budget).map_err(&unfit)?;
         let mut answer = answer(problem, &moving, &tick, &report);
         answer.bound = answer.bound.filter(|_| data.has_bound());

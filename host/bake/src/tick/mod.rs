@@ -32,7 +32,7 @@ use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::problem::{Parts, Problem};
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, choose_units, in_units};
+use signorini_solve::solve::{Options, ScalarKind, choose_units};
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,12 +44,9 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// Brings a scene and its data to this moment.
-    fn set(&self, scene: &mut Scene, problem: &mut Problem) -> Result<()> {
-        for &(input, value) in &self.inputs {
-            scene.inputs[input].default = value;
-        }
-        problem.set_time(scene, self.time).map_err(|error| error.at_time(self.time))
+    /// Brings a problem to this moment.
+    fn set(&self, problem: &mut Problem) -> Result<()> {
+        problem.set(&self.inputs, self.time).map_err(|error| error.at_time(self.time))
     }
 }
 
@@ -122,7 +119,7 @@ impl Budget {
     }
 }
 
-/// Solves `scene` at every moment; calls `done` after each. The first tick starts from the solution on
+/// Solves `problem` at every moment; calls `done` after each. The first tick starts from the solution on
 /// `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
 /// that of a factor.
 ///
@@ -130,7 +127,6 @@ impl Budget {
 /// Data that are not admissible at some time, with that time; numbers that the scalar type cannot
 /// hold; a probe outside the mesh.
 pub fn play(
-    scene: &Scene,
     problem: &Problem,
     coarse: Option<&Problem>,
     moments: &[Moment],
@@ -138,84 +134,79 @@ pub fn play(
     done: impl FnMut(&Tick),
 ) -> Result<Vec<Tick>> {
     match budget.scalar {
-        ScalarKind::F64 => play_in::<f64>(scene, problem, coarse, moments, budget, done),
-        ScalarKind::F32 => play_in::<f32>(scene, problem, coarse, moments, budget, done),
+        ScalarKind::F64 => play_in::<f64>(problem, coarse, moments, budget, done),
+        ScalarKind::F32 => play_in::<f32>(problem, coarse, moments, budget, done),
     }
 }
 
 fn play_in<R: Scalar>(
-    scene: &Scene,
     problem: &Problem,
     coarse: Option<&Problem>,
     moments: &[Moment],
     budget: &Budget,
     mut done: impl FnMut(&Tick),
 ) -> Result<Vec<Tick>> {
-    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    let mut problem = problem.clone();
     if let Some(first) = moments.first() {
-        first.set(&mut scene, &mut problem)?;
+        first.set(&mut problem)?;
     }
     let mut coarse = coarse.cloned();
     if let Some(coarse) = &mut coarse {
-        coarse.set_time(&scene, problem.time)?;
+        coarse.scene = problem.scene.clone();
+        coarse.set_time(problem.time)?;
     }
-    let units = choose_units(&scene, &problem)?;
+    let units = choose_units(&problem)?;
     if units != Units::default() {
-        let own = scene.clone();
-        (scene, problem) = in_units(&own, &problem, &units)?;
-        if let Some(coarse) = &mut coarse {
-            *coarse = in_units(&own, coarse, &units)?.1;
-        }
+        problem = problem.in_units(&units)?;
+        coarse = coarse.map(|coarse| coarse.in_units(&units)).transpose()?;
     }
-    let (scene, problem, coarse) = (&scene, &problem, coarse.as_ref());
+    let (problem, coarse) = (&problem, coarse.as_ref());
     let budget = &Budget { error: budget.error / units.energy(), ..*budget };
     let mut done = |tick: &mut Tick| {
-        tick.rescale(scene, &units);
+        tick.rescale(&problem.scene, &units);
         done(tick);
     };
-    let parts = Parts::examine(scene, problem)?;
-    let mut all = |engine: &mut held::Engine| {
-        through(scene, problem, moments, budget.scalar, engine, &mut done)
-    };
+    let parts = Parts::examine(problem)?;
+    let mut all =
+        |engine: &mut held::Engine| through(problem, moments, budget.scalar, engine, &mut done);
     if parts.counts.contact + parts.counts.floating > 0 {
-        let mut player = Player::<R>::new(scene, problem, budget)?;
-        all(&mut |_, problem| player.tick(problem))
+        let mut player = Player::<R>::new(problem, budget)?;
+        all(&mut |problem| player.tick(problem))
     } else if problem.mesh.quads.is_empty() {
-        held::with::<R, { rows::TRIANGLES }, _>(scene, problem, &parts, coarse, budget, all)?
+        held::with::<R, { rows::TRIANGLES }, _>(problem, &parts, coarse, budget, all)?
     } else {
-        held::with::<R, { rows::QUADS }, _>(scene, problem, &parts, coarse, budget, all)?
+        held::with::<R, { rows::QUADS }, _>(problem, &parts, coarse, budget, all)?
     }
 }
 
 /// Goes through the moments.
 fn through(
-    scene: &Scene,
     problem: &Problem,
     moments: &[Moment],
     scalar: ScalarKind,
     engine: &mut held::Engine,
     done: &mut impl FnMut(&mut Tick),
 ) -> Result<Vec<Tick>> {
-    let (mut scene, mut problem) = (scene.clone(), problem.clone());
+    let mut problem = problem.clone();
     let ticks = moments.iter().map(|moment| {
-        moment.set(&mut scene, &mut problem)?;
-        let answer = engine(&scene, &problem).map_err(|error| error.at_time(moment.time))?;
-        let mut tick = read_off(&scene, &problem, scalar, answer)?;
+        moment.set(&mut problem)?;
+        let answer = engine(&problem).map_err(|error| error.at_time(moment.time))?;
+        let mut tick = read_off(&problem, scalar, answer)?;
         done(&mut tick);
         Ok(tick)
     });
     ticks.collect()
 }
 
-fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tick> {
+fn read_off(problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tick> {
     let Answer { u, flux, .. } = &answer;
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let units = Units::default();
     let reading = Reading { scalar, u, flux, units, bound: bound.map(|bound| bound.total) };
     let finite = |value: f64| value.is_finite().then_some(value);
-    let combined = match (&scene.exact, bound) {
+    let combined = match (&problem.scene.exact, bound) {
         (Some(exact), Some(_)) => {
-            Some(distance(scene, exact, problem, &answer.certified.admissible())?.combined)
+            Some(distance(exact, problem, &answer.certified.admissible())?.combined)
         }
         _ => None,
     };
@@ -227,6 +218,6 @@ fn read_off(scene: &Scene, problem: &Problem, scalar: ScalarKind, answer: Answer
         contact_length: finite(answer.contact_length),
         bound,
         combined: combined.and_then(finite),
-        outputs: declared(scene, problem, reading)?,
+        outputs: declared(problem, reading)?,
     })
 }

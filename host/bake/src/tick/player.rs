@@ -11,7 +11,6 @@ use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
 use super::Budget;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::{self, Certified, Data, ErrorBound};
 use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::scalar::Scalar;
@@ -20,7 +19,6 @@ use signorini_solve::solve::{centre_floating, status_name, unfit};
 /// Everything that stays from tick to tick.
 #[derive(Debug)]
 pub struct Player<'p, R: Scalar> {
-    scene: &'p Scene,
     assembled: Assembled<'p, R>,
     settings: Settings<R>,
     /// The last answer; `None` before the first tick and where the last one is not finite.
@@ -53,9 +51,9 @@ impl<'p, R: Scalar> Player<'p, R> {
     ///
     /// # Errors
     /// Numbers that the scalar type cannot hold.
-    pub fn new(scene: &'p Scene, problem: &'p Problem, budget: &Budget) -> Result<Self> {
-        let assembled = Assembled::new(problem).map_err(unfit::<R>(scene))?;
-        Ok(Self { scene, assembled, settings: budget.settings(), u: None })
+    pub fn new(problem: &'p Problem, budget: &Budget) -> Result<Self> {
+        let assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
+        Ok(Self { assembled, settings: budget.settings(), u: None })
     }
 
     /// Solves for the loads of `problem`, which is that of [`Player::new`] at another time.
@@ -63,14 +61,14 @@ impl<'p, R: Scalar> Player<'p, R> {
     /// # Errors
     /// No solution, numbers that the scalar type cannot hold.
     pub fn tick(&mut self, problem: &Problem) -> Result<Answer> {
-        let parts = Parts::examine(self.scene, problem)?;
+        let parts = Parts::examine(problem)?;
         self.assembled.set_parts(&parts);
-        let mut answer = self.solve(problem).map_err(unfit::<R>(self.scene))?;
+        let mut answer = self.solve(problem).map_err(unfit::<R>(&problem.scene))?;
         if let Some(u) = &self.u {
-            let (scene, assembled) = (self.scene, &self.assembled);
-            let data = Data::new(scene, problem)?;
-            let certified = Certified::new(scene, problem, &parts, assembled, &data, u);
-            let certified = certified.map_err(unfit::<R>(scene))?;
+            let assembled = &self.assembled;
+            let data = Data::new(problem)?;
+            let certified = Certified::new(problem, &parts, assembled, &data, u);
+            let certified = certified.map_err(unfit::<R>(&problem.scene))?;
             (answer.bound, answer.certified) = (certified.bound, certified.answer);
         }
         if parts.counts.floating > 0 {

@@ -36,7 +36,6 @@ use crate::baseline::record::Baseline;
 use moment::Moment;
 use ring::Ring;
 use signorini_scene::error::{Error, InputError, Result};
-use signorini_scene::scene::Scene;
 use signorini_solve::norms;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, SolverKind, solve};
@@ -57,17 +56,16 @@ const SHARE: f64 = 0.01;
 ///
 /// # Errors
 /// A problem without a solution. A solver that fails is a remark.
-pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
+pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
     if problem.topology.counts.contact == 0 {
         return Ok((Vec::new(), vec!["without contact there is nothing to compare".to_owned()]));
     }
     let mut notes = Vec::new();
     let program = osqp::program();
     notes.extend(program.err().map(str::to_owned));
-    let moments = Moment::drawn(scene, problem, TICKS);
-    let error = discretisation_error(scene, problem, &mut notes)?;
+    let moments = Moment::drawn(problem, TICKS);
+    let error = discretisation_error(problem, &mut notes)?;
     let ring = Ring {
-        scene,
         problem,
         moments: &moments,
         target: SHARE * error,
@@ -79,11 +77,11 @@ pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<(Vec<Baseline>, Vec<
 
 /// ‖A^½∇_h(u − u_h)‖ of the discrete solution; where u is not known, the gap of the error bound stands for
 /// it, and where there is no bound a hundredth of the energy.
-fn discretisation_error(scene: &Scene, problem: &Problem, notes: &mut Vec<String>) -> Result<f64> {
+fn discretisation_error(problem: &Problem, notes: &mut Vec<String>) -> Result<f64> {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let solution = solve(scene, problem, &options)?;
-    if let Some(exact) = &scene.exact {
-        return Ok(norms::errors(scene, exact, problem, &solution.u, &solution.flux)?.energy);
+    let solution = solve(problem, &options)?;
+    if let Some(exact) = &problem.scene.exact {
+        return Ok(norms::errors(exact, problem, &solution.u, &solution.flux)?.energy);
     }
     if let Some(bound) = solution.bound {
         return Ok(bound.gap);

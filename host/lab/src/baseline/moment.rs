@@ -6,6 +6,8 @@
 //!   would scale the answer and, without gap, leave the contact set.
 //! * A scene over time: its own t.
 
+use std::sync::Arc;
+
 use signorini_bake::trial;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
@@ -18,7 +20,7 @@ const TILT: f64 = 4.0;
 /// The data of one tick: those of a scene at a time, scaled.
 #[derive(Debug, Clone)]
 pub(super) struct Moment {
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     pub time: f64,
     /// Of f, u_D, g and the ambient.
     pub loads: Factor,
@@ -58,14 +60,14 @@ impl Factor {
 
 impl Moment {
     /// The scene as it stands.
-    pub fn at(scene: &Scene, time: f64) -> Self {
+    pub fn at(scene: &Arc<Scene>, time: f64) -> Self {
         Self { scene: scene.clone(), time, loads: Factor::ONE, contact: 1.0 }
     }
 
     /// The scene as it stands, then `ticks` others.
-    pub fn drawn(scene: &Scene, problem: &Problem, ticks: usize) -> Vec<Self> {
-        let here = Self::at(scene, problem.time);
-        if scene.inputs.is_empty() {
+    pub fn drawn(problem: &Problem, ticks: usize) -> Vec<Self> {
+        let here = Self::at(&problem.scene, problem.time);
+        if problem.scene.inputs.is_empty() {
             let factors = trial::inputs::<f64>(&[1.0, 1.0, 0.0], ticks);
             let moment = |(tick, f): (usize, Vec<f64>)| {
                 let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
@@ -74,19 +76,24 @@ impl Moment {
             };
             return factors.enumerate().map(moment).collect();
         }
-        let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
+        let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
         let drawn = trial::inputs::<f64>(&defaults, ticks).map(|values| {
             let mut moment = here.clone();
-            let inputs = moment.scene.inputs.iter_mut();
+            let inputs = Arc::make_mut(&mut moment.scene).inputs.iter_mut();
             inputs.zip(values).for_each(|(input, value)| input.default = value);
             moment
         });
         drawn.collect()
     }
 
+    /// `problem` with the expressions of this moment, and integrals that are still its own.
+    pub fn on(&self, problem: &Problem) -> Problem {
+        Problem { scene: self.scene.clone(), time: self.time, ..problem.clone() }
+    }
+
     /// Its integrals on the mesh of `problem`.
     pub fn integrate(&self, problem: &Problem) -> Result<Loads> {
-        let mut loads = Loads::at_time(&self.scene, problem, self.time)?;
+        let mut loads = Loads::at_time(&self.on(problem), self.time)?;
         let corner = |vertex: u32| problem.mesh.vertices[vertex as usize];
         let factor = self.loads;
         for (load, cell) in loads.triangles.iter_mut().zip(&problem.mesh.triangles) {

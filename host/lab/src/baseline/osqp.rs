@@ -217,8 +217,8 @@ mod tests {
         std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
         let scene = catalogue("moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
-        let parts = Parts::examine(&scene, &problem).unwrap();
-        let (full, _) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 1)).unwrap();
+        let parts = Parts::examine(&problem).unwrap();
+        let (full, _) = quadratic(&problem, &parts, &Moment::drawn(&problem, 1)).unwrap();
         let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
             .and_then(|mut osqp| osqp.run(0, Start::Cold, 1e-3));
         run.unwrap_err().to_string()

@@ -21,7 +21,6 @@ use super::psor::Psor;
 use super::quadratic::Quadratic;
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::{Parts, Problem};
 use signorini_solve::scalar::Scalar;
 
@@ -32,7 +31,6 @@ pub(super) const FACTOR_KEPT: &str = "faer active set, factor kept";
 
 /// A scene, its ticks, and who takes part.
 pub(super) struct Ring<'a> {
-    pub scene: &'a Scene,
     pub problem: &'a Problem,
     pub moments: &'a [Moment],
     /// The energy distance to the discrete solution that is small enough.
@@ -46,7 +44,7 @@ pub(super) struct Ring<'a> {
 impl Ring<'_> {
     /// Everybody, one after the other. Who fails is named in `notes`.
     pub fn hold(&self, notes: &mut Vec<String>) -> Result<Vec<Baseline>> {
-        let parts = Parts::examine(self.scene, self.problem)?;
+        let parts = Parts::examine(self.problem)?;
         let (full, factor) = quadratic(self.problem, &parts, self.moments)?;
         let moments = &self.moments[..full.ticks.len()];
         let mut found = Vec::new();
@@ -64,8 +62,8 @@ impl Ring<'_> {
         for (name, entrant) in self.general(&full) {
             take(name, entrant.and_then(|mut entrant| contest.hold(name, &mut *entrant)));
         }
-        let conforming = Conforming::over(self.scene, self.problem, moments);
-        let conforming = conforming.and_then(|p1| p1.compete(self.scene, self.target));
+        let conforming = Conforming::over(self.problem, moments);
+        let conforming = conforming.and_then(|p1| p1.compete(self.target));
         take("conforming P1", conforming);
 
         let begin = Instant::now();
@@ -124,8 +122,7 @@ impl Ring<'_> {
             return Ok(Vec::new());
         }
         let problems = self.coarser.iter().chain([self.problem]);
-        let full =
-            |problem| Full::new(problem, &Parts::examine(self.scene, problem)?, &moments[..1]);
+        let full = |problem| Full::new(problem, &Parts::examine(problem)?, &moments[..1]);
         let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
         contest.alone(CASCADE, &mut Cascade::new(&grids)?, &[Start::Cold])

@@ -85,18 +85,13 @@ pub(super) fn size(
     let problem = Problem::new(scene, grid(n, Cells::Triangles))?;
     let coarser = nested(n).into_iter().map(|n| Problem::new(scene, grid(n, Cells::Triangles)));
     let coarser: Vec<_> = coarser.collect::<Result<_>>()?;
-    let moments: Vec<_> = (0..=ticks).map(|tick| Moment::at(scene, STEP * tick as f64)).collect();
+    let moments: Vec<_> =
+        (0..=ticks).map(|tick| Moment::at(&problem.scene, STEP * tick as f64)).collect();
     let mut remarks = Vec::new();
-    let discretisation_error = discretisation_error(scene, &problem, &mut remarks)?;
+    let discretisation_error = discretisation_error(&problem, &mut remarks)?;
     let target = SHARE * discretisation_error;
-    let ring = Ring {
-        scene,
-        problem: &problem,
-        moments: &moments,
-        target,
-        osqp: program,
-        coarser: &coarser,
-    };
+    let ring =
+        Ring { problem: &problem, moments: &moments, target, osqp: program, coarser: &coarser };
     let baselines = ring.hold(&mut remarks)?;
     notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
     let counts = problem.topology.counts;

@@ -54,8 +54,8 @@ fn contact_moves() {
     for file in ["catalogue/h-tri.toml", "scenes/benbelgacem.toml"] {
         let scene = read(file);
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
-        let parts = Parts::examine(&scene, &problem).unwrap();
-        let moments = Moment::drawn(&scene, &problem, 20);
+        let parts = Parts::examine(&problem).unwrap();
+        let moments = Moment::drawn(&problem, 20);
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
         let free = full.free();
         let touching = |(u, tick): (&Vec<f64>, &super::quadratic::Tick)| {
@@ -72,10 +72,10 @@ fn contact_moves() {
 fn condensed_as_baked() {
     let scene = read("scenes/slab.toml");
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
-    let parts = Parts::examine(&scene, &problem).unwrap();
-    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&scene, &problem, 2)).unwrap();
+    let parts = Parts::examine(&problem).unwrap();
+    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&problem, 2)).unwrap();
     let (ours, model) = condensed(&problem, &full, &factor).unwrap();
-    let baked = condense(&scene, &problem).unwrap();
+    let baked = condense(&problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
     for (a, b) in model.matrix.iter().zip(&baked.matrix) {
         AS_BAKED.check("matrix", a - b);
@@ -92,10 +92,9 @@ fn a_scene_with_every_solver_but_osqp() {
     let scene = read("scenes/strip.toml");
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
     let found = super::ring::Ring {
-        scene: &scene,
         problem: &problem,
-        moments: &Moment::drawn(&scene, &problem, 2),
-        target: 1e-2 * super::discretisation_error(&scene, &problem, &mut Vec::new()).unwrap(),
+        moments: &Moment::drawn(&problem, 2),
+        target: 1e-2 * super::discretisation_error(&problem, &mut Vec::new()).unwrap(),
         osqp: None,
         coarser: &[],
     }

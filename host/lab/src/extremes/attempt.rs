@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::case::Case;
 use super::grid::msh;
@@ -19,7 +20,7 @@ use signorini_solve::solve::{Options, ScalarKind, solve, status_name};
 #[derive(Debug, Clone)]
 pub struct Attempt {
     /// The mesh as read.
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// How the solve ended, as `summary.json` says it.
     pub status: &'static str,
     /// Sweeps in all.
@@ -62,8 +63,8 @@ pub fn attempt(case: &Case, folder: &Path) -> Result<Attempt> {
     let options =
         Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
     let solution = match case.effort.omega {
-        None => solve(&scene, &problem, &options)?,
-        Some(_) => engine::solve(&scene, &problem)?,
+        None => solve(&problem, &options)?,
+        Some(_) => engine::solve(&problem)?,
     };
     Ok(Attempt {
         status: status_name(solution.status),
@@ -93,11 +94,11 @@ fn setting(case: &Case) -> String {
 }
 
 /// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.
-fn ticks(case: &Case, scene: &Scene, problem: Problem) -> Result<Attempt> {
+fn ticks(case: &Case, _scene: &Scene, problem: Problem) -> Result<Attempt> {
     let moment = |tick: u32| Moment { time: f64::from(tick), inputs: Vec::new() };
     let moments: Vec<Moment> = (0..case.effort.ticks).map(moment).collect();
     let budget = Budget { scalar: case.scalar, sweeps: case.most_sweeps(), error: 0.0 };
-    let ticks = play(scene, &problem, None, &moments, &budget, |_| {})?;
+    let ticks = play(&problem, None, &moments, &budget, |_| {})?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
     Ok(Attempt {
         status: worst.map_or("stalled", |tick| tick.status),

@@ -4,7 +4,7 @@
 //! data it is rational, and all points are taken. No Robin boundary.
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Exact, Scene};
+use signorini_scene::scene::Exact;
 use signorini_solve::certify::admissible::Admissible;
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::Conductivity;
@@ -23,22 +23,21 @@ pub const INSIDE: usize = 4;
 /// # Errors
 /// An exact solution that is not finite at a quadrature point.
 pub fn combined(
-    scene: &Scene,
     exact: &Exact,
     problem: &Problem,
     admissible: &Admissible,
     points: usize,
 ) -> Result<f64> {
-    let deviations = Deviations::at_time(scene, problem, problem.time)?;
+    let deviations = Deviations::at_time(problem, problem.time)?;
     let (few, all, mut square) = (gauss(points), gauss(POINTS), 0.0);
     for at in 0..problem.cells() {
         let (cell, s) = (Cell::of(problem, at), admissible.on_cell(problem, at, &deviations));
-        let conductivity = Conductivity::of(scene, problem, at);
+        let conductivity = Conductivity::of(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, admissible.tau, admissible.tau);
         let is_inside = Lift::on_cell(problem, at, &deviations).is_zero();
         for point in cell.points(if is_inside { &few } else { &all }) {
-            let (_, u) = exact_at(scene, exact, point.x, problem.time)?;
+            let (_, u) = exact_at(&problem.scene, exact, point.x, problem.time)?;
             let s = s.at(&cell.local(point.reference))?.gradient;
             let a = conductivity.at(point.x);
             square += point.weight * in_cell(&a, u, s, tau.sample(&point).flux);
@@ -53,6 +52,7 @@ mod tests {
     use crate::extremes::grid::{Grid, Shape};
     use crate::extremes::plan::cases;
     use signorini_scene::mesh::structured::Cells;
+    use signorini_scene::scene::Scene;
     use signorini_solve::certify::exact::distance;
     use signorini_solve::solve::{Options, SolverKind, solve};
     use signorini_tolerances::lab::FEW_POINTS;
@@ -65,10 +65,10 @@ mod tests {
         let scene = Scene::parse(&posed.scene(), std::path::Path::new("test.toml")).unwrap();
         let problem = Problem::new(&scene, posed.mesh()).unwrap();
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&scene, &problem, &options).unwrap();
+        let solution = solve(&problem, &options).unwrap();
         let (exact, admissible) = (scene.exact.as_ref().unwrap(), solution.certified.admissible());
-        let few = combined(&scene, exact, &problem, &admissible, INSIDE).unwrap();
-        let many = distance(&scene, exact, &problem, &admissible).unwrap().combined;
+        let few = combined(exact, &problem, &admissible, INSIDE).unwrap();
+        let many = distance(exact, &problem, &admissible).unwrap().combined;
         FEW_POINTS.check_relative("norms", few, many);
     }
 }

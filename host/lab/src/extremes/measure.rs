@@ -7,6 +7,7 @@
 //! exact solution is itself good to a few digits only; bounds there are far above that.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::attempt::Attempt;
 use super::case::Case;
@@ -64,23 +65,23 @@ const LARGE: u32 = 128;
 pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
     let mesh = case.posed.scales.unplaced(&attempt.mesh);
-    let (scene, problem) = at_scale_one(&posed, mesh)?;
+    let problem = at_scale_one(&posed, mesh)?;
     let scales = case.posed.scales;
     let (load, unit) = (scales.load, scales.energy());
     let scaled = |numbers: &[f64], factor: f64| -> Vec<f64> {
         numbers.iter().map(|x| x / load / factor).collect()
     };
     let (u, flux) = (scaled(&attempt.u, 1.0), scaled(&attempt.flux, scales.stiffness));
-    let reference = reference(&posed, &scene, &problem, attempt.bound.is_none()).ok();
+    let reference = reference(&posed, &problem, attempt.bound.is_none()).ok();
     let finite = u.iter().chain(&flux).all(|x| x.is_finite())
         && attempt.bound.is_none_or(|bound| bound.total.is_finite());
-    let Some(exact) = scene.exact.as_ref().filter(|_| finite) else {
+    let Some(exact) = problem.scene.exact.as_ref().filter(|_| finite) else {
         return Ok(Measured { reference, ..Measured::default() });
     };
     let bound = attempt.bound.map(|bound| bound.total / unit);
     let mut uncertain = 0.0;
     let error = match attempt.bound {
-        None => errors(&scene, exact, &problem, &u, &flux)?.energy,
+        None => errors(exact, &problem, &u, &flux)?.energy,
         Some(_) => {
             let certified = &attempt.certified;
             let vertices = scaled(&certified.vertices, 1.0);
@@ -88,12 +89,12 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
             let tau = scaled(&certified.tau, scales.stiffness);
             let admissible = Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau };
             if posed.grid.n > LARGE {
-                large::combined(&scene, exact, &problem, &admissible, large::INSIDE)?
+                large::combined(exact, &problem, &admissible, large::INSIDE)?
             } else {
-                let found = distance(&scene, exact, &problem, &admissible)?.combined;
+                let found = distance(exact, &problem, &admissible)?.combined;
                 let transfers = !problem.loads.robin.is_empty();
                 if bound.is_some_and(|bound| found > bound) && !transfers {
-                    let fewer = large::combined(&scene, exact, &problem, &admissible, FEWER)?;
+                    let fewer = large::combined(exact, &problem, &admissible, FEWER)?;
                     uncertain = (found - fewer).abs();
                 }
                 found
@@ -102,7 +103,7 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
     };
     let of_fields = match posed.grid.shape {
         Shape::Trapezoids => {
-            let errors = errors(&scene, exact, &problem, &u, &flux)?;
+            let errors = errors(exact, &problem, &u, &flux)?;
             Some([errors.h1, errors.flux])
         }
         _ => None,
@@ -122,11 +123,11 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
 /// # Errors
 /// As for [`measure`].
 pub fn of_ticks(case: &Case, attempt: &Attempt) -> Result<Measured> {
-    let (scene, mut problem) = at_scale_one(&case.posed, attempt.mesh.clone())?;
+    let mut problem = at_scale_one(&case.posed, attempt.mesh.clone())?;
     let mut worst = Measured { finite: true, ..Measured::default() };
     for tick in &attempt.ticks {
-        problem.set_time(&scene, tick.time)?;
-        let found = solve_directly(&scene, &problem).ok();
+        problem.set_time(tick.time)?;
+        let found = solve_directly(&problem).ok();
         let measured = Measured {
             bound: tick.bound.map(|bound| bound.total),
             error: tick.combined.unwrap_or(f64::NAN),
@@ -150,32 +151,30 @@ pub fn of_ticks(case: &Case, attempt: &Attempt) -> Result<Measured> {
     Ok(worst)
 }
 
-fn at_scale_one(posed: &Posed, mesh: Mesh) -> Result<(Scene, Problem)> {
-    let scene = Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?;
-    let problem = Problem::new(&scene, mesh)?;
-    Ok((scene, problem))
+fn at_scale_one(posed: &Posed, mesh: impl Into<Arc<Mesh>>) -> Result<Problem> {
+    Problem::new(&Scene::parse(&posed.scene(), Path::new("scale-1.toml"))?, mesh)
 }
 
-fn solve_directly(scene: &Scene, problem: &Problem) -> Result<Solution> {
+fn solve_directly(problem: &Problem) -> Result<Solution> {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(scene, problem, &options)
+    solve(problem, &options)
 }
 
 /// The exact discrete solution, its error where that is `needed`.
-fn reference(posed: &Posed, scene: &Scene, problem: &Problem, needed: bool) -> Result<Reference> {
+fn reference(posed: &Posed, problem: &Problem, needed: bool) -> Result<Reference> {
     if posed.grid.n > FINEST {
         let mut coarse = *posed;
         coarse.grid.n = FINEST;
-        let (scene, problem) = at_scale_one(&coarse, coarse.mesh())?;
-        let found = reference(&coarse, &scene, &problem, needed)?;
+        let problem = at_scale_one(&coarse, coarse.mesh())?;
+        let found = reference(&coarse, &problem, needed)?;
         let ratio = f64::from(FINEST) / f64::from(posed.grid.n);
         let bound = found.bound.map(|bound| ratio * bound);
         return Ok(Reference { bound, error: ratio * found.error, ..found });
     }
-    let solution = solve_directly(scene, problem)?;
+    let solution = solve_directly(problem)?;
     let of_bound = solution.bound.map(|bound| bound.total);
-    let exact = scene.exact.as_ref().filter(|_| needed);
-    let error = exact.map(|exact| errors(scene, exact, problem, &solution.u, &solution.flux));
+    let exact = problem.scene.exact.as_ref().filter(|_| needed);
+    let error = exact.map(|exact| errors(exact, problem, &solution.u, &solution.flux));
     let error = error.transpose()?.map_or(f64::NAN, |errors| errors.energy);
     Ok(Reference { bound: of_bound, error, energy: solution.energy(problem) })
 }
@@ -200,10 +199,10 @@ mod tests {
                 sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
                 split: None,
             };
-            let (scene, problem) = at_scale_one(&posed, posed.mesh())?;
-            let solution = solve_directly(&scene, &problem)?;
-            let exact = scene.exact.as_ref().expect("an exact solution");
-            let found = distance(&scene, exact, &problem, &solution.certified.admissible())?;
+            let problem = at_scale_one(&posed, posed.mesh())?;
+            let solution = solve_directly(&problem)?;
+            let exact = problem.scene.exact.as_ref().expect("an exact solution");
+            let found = distance(exact, &problem, &solution.certified.admissible())?;
             let total = solution.bound.expect("a bound").total;
             println!("k = {k:e}: total {total:.4e}, combined {:.4e}", found.combined);
             assert!(total >= found.combined, "k = {k:e}: {total} {found:?}");

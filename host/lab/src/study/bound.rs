@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::checks::Check;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::{ErrorBound, eigenvalues};
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::problem::Problem;
@@ -39,8 +38,8 @@ pub struct Certified {
 
 impl Certified {
     /// Integrates the errors of `solution`.
-    pub fn new(scene: &Scene, problem: &Problem, solution: &Solution) -> Result<Self> {
-        let errors = of_solution(scene, problem, solution)?;
+    pub fn new(problem: &Problem, solution: &Solution) -> Result<Self> {
+        let errors = of_solution(problem, solution)?;
         Ok(Self { sweeps: solution.sweeps, bound: solution.bound, errors })
     }
 

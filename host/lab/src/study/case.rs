@@ -21,9 +21,9 @@ pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
     let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-    let reference = solve(&scene, &problem, &direct)?;
-    let (double, f64) = run(&scene, &problem, ScalarKind::F64, &reference)?;
-    let (single, f32) = run(&scene, &problem, ScalarKind::F32, &reference)?;
+    let reference = solve(&problem, &direct)?;
+    let (double, f64) = run(&problem, ScalarKind::F64, &reference)?;
+    let (single, f32) = run(&problem, ScalarKind::F32, &reference)?;
     let mut checks = Vec::new();
     for (solution, run) in [(&double, &f64), (&single, &f32)] {
         checks.extend(checks::of(&name, &problem, solution, &reference));
@@ -43,27 +43,22 @@ pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
         f32,
         checks,
     };
-    let panel = panel(&scene, &problem, &double, &case);
+    let panel = panel(&problem, &double, &case);
     Ok((case, panel))
 }
 
 /// The kernel down to the rounding floor.
-fn run(
-    scene: &Scene,
-    problem: &Problem,
-    scalar: ScalarKind,
-    reference: &Solution,
-) -> Result<(Solution, Run)> {
+fn run(problem: &Problem, scalar: ScalarKind, reference: &Solution) -> Result<(Solution, Run)> {
     let options = Options { scalar, to_the_floor: true, ..Options::default() };
     let start = cycles::now();
-    let solution = solve(scene, problem, &options)?;
+    let solution = solve(problem, &options)?;
     let spent = cycles::now().saturating_sub(start) as f64;
     let cost = match scalar {
         ScalarKind::F64 => cost::measure::<f64>(problem),
         ScalarKind::F32 => cost::measure::<f32>(problem),
     };
     let run = Run {
-        certified: Certified::new(scene, problem, &solution)?,
+        certified: Certified::new(problem, &solution)?,
         omega: solution.omega,
         distance: checks::distance(&solution.u, &reference.u),
         solve_cycles: spent / problem.topology.counts.unknowns().max(1) as f64,

@@ -171,8 +171,8 @@ impl Plan {
         for n in LEVELS {
             let problem = Problem::new(&scene, grid.mesh(n))?;
             let options = Options { solver: SolverKind::Kernel, ..Options::default() };
-            let solution = solve(&scene, &problem, &options)?;
-            found.extend(of_solution(&scene, &problem, &solution)?);
+            let solution = solve(&problem, &options)?;
+            found.extend(of_solution(&problem, &solution)?);
             force.push(solution.contact_force);
         }
         let rate = |at: usize| {

@@ -59,17 +59,17 @@ impl Plan {
     fn run(&self) -> Result<CutOff> {
         let (name, scene) = (self.name.clone(), &self.scene);
         let problem = Problem::new(scene, adapted::of_scene(scene)?)?;
-        let converged = solve(scene, &problem, &Options::default())?;
+        let converged = solve(&problem, &Options::default())?;
         let energy = converged.energy(&problem);
         let (mut stops, mut checks) = (Vec::new(), Vec::new());
         for max_sweeps in STOPS {
             let options = Options { max_sweeps, ..Options::default() };
-            let stop = Certified::new(scene, &problem, &solve(scene, &problem, &options)?)?;
+            let stop = Certified::new(&problem, &solve(&problem, &options)?)?;
             let subject = format!("{name} after {} sweeps", stop.sweeps);
             checks.extend(stop.when_cut_off(&subject, energy));
             stops.push(stop);
         }
-        stops.push(Certified::new(scene, &problem, &converged)?);
+        stops.push(Certified::new(&problem, &converged)?);
         let efficiency = stops.iter().map(|stop| stop.efficiency(energy)).collect();
         Ok(CutOff { name, stops, efficiency, checks })
     }

@@ -4,7 +4,6 @@ use super::contact_line::{Place, walk};
 use super::known::Case;
 use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::field::CellField;
 use signorini_solve::problem::{EdgeKind, Problem};
@@ -16,7 +15,7 @@ const SAMPLES: usize = 9;
 const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
 
 /// Collects the picture of one scene.
-pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel {
+pub fn panel(problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel {
     let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
     let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
     ScenePanel {
@@ -33,10 +32,7 @@ pub fn panel(scene: &Scene, problem: &Problem, solution: &Solution, case: &Case)
         no_bound: solution.no_bound.as_ref().map(ToString::to_string),
         error: case.f64.certified.error(),
         energy: case.energy,
-        contact: walk(problem)
-            .iter()
-            .map(|place| contact_edge(scene, problem, solution, place))
-            .collect(),
+        contact: walk(problem).iter().map(|place| contact_edge(problem, solution, place)).collect(),
         boundary: boundary(problem),
         facts: facts(case),
     }
@@ -47,12 +43,7 @@ fn terms(bound: ErrorBound) -> BoundTerms {
     BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
 }
 
-fn contact_edge(
-    scene: &Scene,
-    problem: &Problem,
-    solution: &Solution,
-    place: &Place,
-) -> ContactEdge {
+fn contact_edge(problem: &Problem, solution: &Solution, place: &Place) -> ContactEdge {
     let edge = problem.topology.counts.free + place.contact;
     let opening = solution.u[edge] - solution.gap(problem, place.contact);
     let mut ends = problem.segment(edge);
@@ -64,27 +55,22 @@ fn contact_edge(
         arc_length: [place.start, place.start + problem.lengths[edge]],
         active: opening == 0.0,
         multiplier: solution.multiplier(problem, place.contact),
-        exact_multiplier: exact_multiplier(scene, problem, edge, ends).unwrap_or_default(),
+        exact_multiplier: exact_multiplier(problem, edge, ends).unwrap_or_default(),
         opening,
     }
 }
 
 /// A∇u·n − q of the exact solution along an edge walked from `ends`\[0\].
-fn exact_multiplier(
-    scene: &Scene,
-    problem: &Problem,
-    edge: usize,
-    ends: [[f64; 2]; 2],
-) -> Option<Vec<f64>> {
-    let exact = scene.exact.as_ref()?;
-    let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+fn exact_multiplier(problem: &Problem, edge: usize, ends: [[f64; 2]; 2]) -> Option<Vec<f64>> {
+    let exact = problem.scene.exact.as_ref()?;
+    let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
     let signorini_scene::scene::Condition::Contact { flux, .. } = &boundary.condition else {
         return None;
     };
     let half = problem.topology.half_edges[edge][0] as usize;
     let triangles = problem.mesh.triangles.len();
     let cell = if half < 3 * triangles { half / 3 } else { triangles + (half - 3 * triangles) / 4 };
-    let material = &scene.materials[problem.binding.materials[cell] as usize];
+    let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
     let ([a, b], length) = (problem.segment(edge), problem.lengths[edge]);
     let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
     let at = |sample: usize| {

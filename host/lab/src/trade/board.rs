@@ -12,7 +12,6 @@ use signorini_image::module::Module;
 use signorini_image::room::NoImage;
 use signorini_image::tools;
 use signorini_scene::error::{Error, Result};
-use signorini_scene::scene::Scene;
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -27,12 +26,12 @@ pub enum Measured {
     Impossible(String),
 }
 
-/// Bakes `scene` with its setting, builds its image under the name `name`, plays it.
+/// Bakes a problem with its setting, builds its image under the name `name`, plays it.
 ///
 /// # Errors
 /// No checkout of the sources; a tool that fails; bits that differ from this machine's.
-pub fn measure(scene: &Scene, problem: &Problem, board: &Board, name: &str) -> Result<Measured> {
-    match module(scene, problem, name) {
+pub fn measure(problem: &Problem, board: &Board, name: &str) -> Result<Measured> {
+    match module(problem, name) {
         Ok(module) => judged(Firmware::measure(&module, board)),
         Err(Error::Input(refused)) => Ok(Measured::Impossible(refused.message().to_owned())),
         Err(error) => Err(error),
@@ -47,10 +46,10 @@ pub fn ready() -> Result<()> {
     tools::ensure().map_err(Error::Check)
 }
 
-fn module(scene: &Scene, problem: &Problem, name: &str) -> Result<Module> {
-    let Emitted { source, chosen } = match setting::scalar(scene, None)? {
-        ScalarKind::F32 => emitted::<f32>(scene, problem)?,
-        ScalarKind::F64 => emitted::<f64>(scene, problem)?,
+fn module(problem: &Problem, name: &str) -> Result<Module> {
+    let Emitted { source, chosen } = match setting::scalar(&problem.scene, None)? {
+        ScalarKind::F32 => emitted::<f32>(problem)?,
+        ScalarKind::F64 => emitted::<f64>(problem)?,
     };
     let write = |file: &Path| match write_atomically(file, source.as_bytes()) {
         Ok(()) => Ok(chosen),
@@ -59,8 +58,8 @@ fn module(scene: &Scene, problem: &Problem, name: &str) -> Result<Module> {
     Module::new(name, write).map(Module::quietly).map_err(Error::Check)
 }
 
-fn emitted<R: Scalar>(scene: &Scene, problem: &Problem) -> Result<Emitted> {
-    Ok(emit(scene, problem, &Choice::<R>::new(scene, problem, None, false)?))
+fn emitted<R: Scalar>(problem: &Problem) -> Result<Emitted> {
+    Ok(emit(problem, &Choice::<R>::new(problem, None, false)?))
 }
 
 fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {

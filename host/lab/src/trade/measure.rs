@@ -9,7 +9,6 @@ use crate::cycles;
 use signorini_bake::engine::{self, Answer, Engine};
 use signorini_bake::trial::inputs;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 use signorini_solve::problem::Problem;
 
@@ -30,25 +29,25 @@ struct Timing {
     sweeps: u32,
 }
 
-/// Measures `scene`, which has its setting, on its mesh; `level` and cells are told by the setting.
+/// Measures `problem` as its setting says; level and cells are told by the setting.
 ///
 /// # Errors
 /// A setting that the scene does not allow for.
-pub fn measure(scene: &Scene, problem: &Problem, truth: &Truth) -> Result<Point> {
-    let mut setting = engine::completed(scene);
+pub fn measure(problem: &Problem, truth: &Truth) -> Result<Point> {
+    let mut setting = engine::completed(&problem.scene);
     // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
-    if scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
+    if problem.scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
         setting.start = Start::Cold;
     }
-    let defaults: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
-    let (timing, answer) = engine::with(scene, problem, |engine| {
+    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let (timing, answer) = engine::with(problem, |engine| {
         let timing = match setting.start {
             Start::Cold => cold(engine, &defaults)?,
             Start::Warm => warm(engine, &defaults)?,
         };
         Ok((timing, engine.answer(problem)?))
     })?;
-    let error = errors(scene, problem, truth, &answer)?;
+    let error = errors(problem, truth, &answer)?;
     Ok(point(problem, &setting, timing, &answer, error))
 }
 
@@ -105,10 +104,9 @@ fn spread(sorted: &[u64]) -> f64 {
     (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
 }
 
-fn errors(scene: &Scene, problem: &Problem, truth: &Truth, answer: &Answer) -> Result<PointError> {
+fn errors(problem: &Problem, truth: &Truth, answer: &Answer) -> Result<PointError> {
     let certified = answer.bound.is_some().then(|| answer.certified.admissible());
     truth.errors(
-        scene,
         problem,
         &Measured {
             u: &answer.u,

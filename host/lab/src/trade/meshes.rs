@@ -6,7 +6,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::{Mesh, gmsh};
 use signorini_scene::scene::Scene;
-use signorini_scene::setting::{CellKind, Setting};
+use signorini_scene::setting::CellKind;
 use signorini_solve::problem::Problem;
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
@@ -30,9 +30,7 @@ pub(super) struct Meshes {
 impl Meshes {
     pub fn new(scene: &Scene) -> Result<Self> {
         let own = gmsh::read(&scene.mesh.value)?;
-        let of = |own: Setting| Setting { element: own.element, ..Setting::default() };
-        let scene = Scene { setting: scene.setting.map(of), ..scene.clone() };
-        Ok(Self { scene, own, made: HashMap::new() })
+        Ok(Self { scene: scene.clone(), own, made: HashMap::new() })
     }
 
     /// The kind of cells that the mesh is not yet made of, where it can be brought to them.

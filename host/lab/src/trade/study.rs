@@ -114,10 +114,10 @@ impl Study {
         let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
         if extras > 0 {
             let problem = meshes.problem(None, 0)?;
-            let solvers = || baseline::of_scene(&self.scene, problem);
+            let solvers = || baseline::of_scene(problem);
             baselines = once(&mut journal, "baselines", mine(all - 2), solvers)?;
             done(all, "other solvers");
-            let of_math = || math::of_scene(&self.scene, problem);
+            let of_math = || math::of_scene(problem);
             functions = once(&mut journal, "math", mine(all - 1), of_math)?;
             done(all, "micromath");
         }
@@ -168,7 +168,7 @@ impl Study {
     }
 
     fn fingerprint(&self, meshes: &mut Meshes) -> Result<String> {
-        let hash = Face::new(&self.scene, meshes.problem(None, 0)?).hash();
+        let hash = Face::new(meshes.problem(None, 0)?).hash();
         Ok(format!("{hash:016x} {} {}", self.target, program()))
     }
 
@@ -178,11 +178,11 @@ impl Study {
         }
         let other_cells = meshes.other_cells()?;
         let problem = meshes.problem(None, 0)?;
-        let parts = Parts::examine(&self.scene, problem)?.counts;
+        let parts = Parts::examine(problem)?.counts;
         let is_loose = parts.contact + parts.floating > 0;
         let tuned = || match is_loose {
             true => Ok(None),
-            false => tuned_omega(&self.scene, problem, Precision::F64, GOAL).map(Some),
+            false => tuned_omega(problem, Precision::F64, GOAL).map(Some),
         };
         let tuned: Option<f64> = once(journal, "tuned", true, tuned)?.flatten();
         Ok(Plan::new(&Ground {
@@ -258,11 +258,10 @@ impl Study {
     }
 
     fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
-        let scene = Scene { setting: Some(*setting), ..self.scene.clone() };
-        let problem = meshes.problem(setting.cells, setting.refine)?;
-        let mut point = measure::measure(&scene, problem, truth)?;
+        let problem = meshes.problem(setting.cells, setting.refine)?.with_setting(Some(*setting));
+        let mut point = measure::measure(&problem, truth)?;
         if let Some(board) = self.target.board() {
-            match board::measure(&scene, problem, &board, &self.module(&point.name))? {
+            match board::measure(&problem, &board, &self.module(&point.name))? {
                 Measured::Runs(firmware) => {
                     point.instructions = Some(firmware.instructions_per_tick.median);
                     point.ram_bytes = Some(firmware.ram_bytes);

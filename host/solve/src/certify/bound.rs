@@ -7,7 +7,6 @@ use signorini_kernel::certificate::Certificate;
 use super::{Answer, Certifier, Data, NoBound};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
-use signorini_scene::scene::Scene;
 
 /// How wrong s and τ, and u_h, can be in the energy norm; see [`Certificate`].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -68,17 +67,16 @@ impl Certified {
     /// # Errors
     /// Never for data of this problem.
     pub fn new<R: Scalar>(
-        scene: &Scene,
         problem: &Problem,
         parts: &Parts,
         assembled: &Assembled<R>,
         data: &Data<R>,
         u: &[R],
     ) -> Result<Self, KernelError> {
-        let mut certifier = Certifier::new(scene, problem, parts, assembled)?;
+        let mut certifier = Certifier::new(problem, parts, assembled)?;
         let certificate = certifier.certify(parts, assembled, data, u)?;
         let bound = certificate.as_ref().map(ErrorBound::new);
-        let no_bound = certifier.no_bound(scene, problem, parts, data);
+        let no_bound = certifier.no_bound(problem, parts, data);
         Ok(Self { bound, no_bound, answer: certifier.answer() })
     }
 }

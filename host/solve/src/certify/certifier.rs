@@ -14,7 +14,6 @@ use super::no_bound::NoBound;
 use super::ways::Ways;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
-use signorini_scene::scene::Scene;
 
 /// A certificate in the making: one for each problem and scalar.
 #[derive(Debug)]
@@ -75,7 +74,6 @@ impl<R: Scalar> Certifier<R> {
     /// # Errors
     /// Never for a problem that was assembled.
     pub fn new(
-        scene: &Scene,
         problem: &Problem,
         parts: &Parts,
         assembled: &Assembled<R>,
@@ -83,7 +81,7 @@ impl<R: Scalar> Certifier<R> {
         let edges = problem.topology.counts.edges();
         let vertices = problem.mesh.vertices.len();
         let mut certifier = Self {
-            metric: Metric::new(scene, problem),
+            metric: Metric::new(problem),
             ways: Ways::new(problem),
             follows_contact: parts.counts.contact > 0,
             vertices: vec![R::ZERO; vertices],
@@ -132,18 +130,12 @@ impl<R: Scalar> Certifier<R> {
     }
 
     /// Why the last iterate has no bound, given these data.
-    pub fn no_bound(
-        &self,
-        scene: &Scene,
-        problem: &Problem,
-        parts: &Parts,
-        data: &Data<R>,
-    ) -> Option<NoBound> {
+    pub fn no_bound(&self, problem: &Problem, parts: &Parts, data: &Data<R>) -> Option<NoBound> {
         let middle = |cell| Cell::of(problem, cell).middle();
         let refused = self.refusal.map(|refusal| match refusal {
             Refusal::NothingActive(cell) => NoBound::NothingActive { at: middle(cell) },
             Refusal::HeldByNothing => NoBound::HeldByNothing { at: middle(floating(parts)) },
-            Refusal::Pulled(edge) => NoBound::pulled(scene, problem, edge),
+            Refusal::Pulled(edge) => NoBound::pulled(problem, edge),
             Refusal::Overflow => NoBound::Overflow { scalar: R::NAME },
             Refusal::NotAsked => NoBound::NotAsked,
         });

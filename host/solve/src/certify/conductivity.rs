@@ -4,7 +4,7 @@ use signorini_kernel::Tensor;
 
 use crate::problem::Problem;
 use signorini_scene::expression::Expression;
-use signorini_scene::scene::{Located, Scene};
+use signorini_scene::scene::Located;
 
 /// The tensor A on one cell.
 pub struct Conductivity<'s> {
@@ -14,8 +14,9 @@ pub struct Conductivity<'s> {
 
 impl<'s> Conductivity<'s> {
     /// That of cell `cell`, triangles first.
-    pub fn of(scene: &'s Scene, problem: &Problem, cell: usize) -> Self {
-        let entries = &scene.materials[problem.binding.materials[cell] as usize].conductivity;
+    pub fn of(problem: &'s Problem, cell: usize) -> Self {
+        let entries =
+            &problem.scene.materials[problem.binding.materials[cell] as usize].conductivity;
         let [xx, xy, yy] = entries.each_ref().map(|entry| entry.value.is_constant());
         let constant = match (xx, xy, yy) {
             (Some(xx), Some(xy), Some(yy)) => Some(Tensor { xx, xy, yy }),

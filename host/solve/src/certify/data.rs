@@ -12,7 +12,6 @@ use super::robin::{RobinPoints, robin};
 use crate::problem::{Assembled, Problem};
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// What the certificate needs of the data beyond [`Assembled`], in the scalar `R`.
 #[derive(Debug, Clone)]
@@ -25,6 +24,21 @@ pub struct Data<R> {
     no_bound: Option<NoBound>,
 }
 
+/// The same data in f64, as the expressions have them: what may be narrowed, or added up over inputs.
+#[derive(Debug, Clone)]
+pub struct Evaluated {
+    /// ψ and u_D at the ends of edges.
+    pub ends: Ends,
+    /// Edges on which ψ or u_D is not affine.
+    pub curved: Vec<Bent>,
+    /// h and u_ext along the transfer edges.
+    pub transfer: Vec<RobinPoints>,
+    /// √Σ osc², and what is left out of ψ and u_D.
+    pub oscillation: f64,
+    /// Why these data allow for no bound.
+    pub no_bound: Option<NoBound>,
+}
+
 /// Whether a coefficient at the points of an edge allows for a bound.
 fn is_moderate(edge: &RobinPoints) -> bool {
     let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
@@ -33,8 +47,8 @@ fn is_moderate(edge: &RobinPoints) -> bool {
 }
 
 /// Why data on an edge allow for no bound.
-fn roughness(scene: &Scene, problem: &Problem, curved: &Bent) -> Option<NoBound> {
-    let spot = |t| Spot::on_edge(scene, problem, curved.edge as usize, t);
+fn roughness(problem: &Problem, curved: &Bent) -> Option<NoBound> {
+    let spot = |t| Spot::on_edge(problem, curved.edge as usize, t);
     Some(match curved.rough? {
         Rough::Jump(t) => NoBound::Jump { of: spot(t) },
         Rough::Steep(t) => NoBound::Steep { of: spot(t) },
@@ -42,48 +56,63 @@ fn roughness(scene: &Scene, problem: &Problem, curved: &Bent) -> Option<NoBound>
 }
 
 /// Where a transfer coefficient nearly vanishes.
-fn vanishing(scene: &Scene, problem: &Problem, transfer: &[RobinPoints]) -> Option<NoBound> {
+fn vanishing(problem: &Problem, transfer: &[RobinPoints]) -> Option<NoBound> {
     let at = transfer.iter().position(|edge| !is_moderate(edge))?;
     let edge = problem.loads.robin.get(at)?.edge as usize;
-    Some(NoBound::transfer_vanishes(scene, problem, edge))
+    Some(NoBound::transfer_vanishes(problem, edge))
 }
 
-impl<R: Scalar> Data<R> {
-    /// Evaluates the data of `scene` at the time of `problem`.
+impl Evaluated {
+    /// Evaluates the data of `problem` at its time.
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
+    pub fn new(problem: &Problem) -> Result<Self> {
         let time = problem.time;
-        let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
-        let ends = Ends::at_time(scene, problem, time)?;
-        let bends = bends(scene, problem, time)?;
+        let ends = Ends::at_time(problem, time)?;
+        let bends = bends(problem, time)?;
         // s is off by that much, and once more where u_h is compared with it.
-        let left_out = 2.0 * (bends.left_out + ends.moved(scene, problem));
+        let left_out = 2.0 * (bends.left_out + ends.moved(problem));
         let curved = bends.records;
-        let rough = curved.iter().find_map(|of| roughness(scene, problem, of));
-        let curved = curved.into_iter().map(|of| Curved {
+        let rough = curved.iter().find_map(|of| roughness(problem, of));
+        let of_cells = oscillation(problem, time)?;
+        let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
+        let transfer = robin(problem, time)?;
+        let no_bound =
+            rough.or_else(|| ends.jump(problem)).or_else(|| vanishing(problem, &transfer));
+        Ok(Self { ends, curved, transfer, oscillation: squares.sqrt() + left_out, no_bound })
+    }
+}
+
+impl<R: Scalar> Data<R> {
+    /// Evaluates the data of `problem` at its time.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Evaluated::new(problem).map(Self::narrowed)
+    }
+
+    fn narrowed(data: Evaluated) -> Self {
+        let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
+        let curved = data.curved.into_iter().map(|of| Curved {
             edge: of.edge,
             mean: R::narrow(of.mean),
             energy: R::narrow(of.energy),
             coupling: of.coupling.map(R::narrow),
         });
-        let of_cells = oscillation(scene, problem, time)?;
-        let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
-        let mut transfer = robin(scene, problem, time)?;
-        let no_bound =
-            rough.or_else(|| ends.jump(problem)).or_else(|| vanishing(scene, problem, &transfer));
+        let mut transfer = data.transfer;
         if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
             transfer.clear();
         }
-        Ok(Self {
-            gap: pairs(&ends.gap),
-            given: pairs(&ends.given),
+        Self {
+            gap: pairs(&data.ends.gap),
+            given: pairs(&data.ends.given),
             curved: curved.collect(),
             transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
-            oscillation: R::narrow(squares.sqrt() + left_out),
-            no_bound,
-        })
+            oscillation: R::narrow(data.oscillation),
+            no_bound: data.no_bound,
+        }
     }
 
     /// Whether these data allow for a bound: u_D is continuous, ψ is along each edge, and no transfer coefficient nearly

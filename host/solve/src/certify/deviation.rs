@@ -8,7 +8,7 @@ use super::energy::{CellEnergy, Sample};
 use crate::problem::{Problem, Sum};
 use crate::quadrature::{DATA_POINTS, on_panels};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 
 /// What follows the data of an edge into its cell is left out where its energy is below this part of that of the
 /// largest data; by how much in all is said ([`Deviations::dropped`]).
@@ -45,8 +45,8 @@ pub struct Deviations<'s> {
 
 impl<'s> Deviations<'s> {
     /// Finds them at time `time`.
-    pub fn at_time(scene: &'s Scene, problem: &Problem, time: f64) -> Result<Self> {
-        let ends = Ends::at_time(scene, problem, time)?;
+    pub fn at_time(problem: &'s Problem, time: f64) -> Result<Self> {
+        let ends = Ends::at_time(problem, time)?;
         let counts = problem.topology.counts;
         let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
         let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
@@ -54,9 +54,9 @@ impl<'s> Deviations<'s> {
         let (mut weighed, mut largest) = (Vec::new(), 0.0_f64);
         for (edge, (field, ends)) in contact.chain(given) {
             let (at, side) = problem.topology.first_side(edge);
-            let energy = CellEnergy::of(scene, problem, at);
+            let energy = CellEnergy::of(problem, at);
             largest = largest.max(energy.of_vertices() * ends[0].abs().max(ends[1].abs()));
-            let data = Sum::on_edge(scene, problem, edge, field, time);
+            let data = Sum::on_edge(problem, edge, field, time);
             let segment = problem.segment(edge);
             let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
             let deviation = Deviation { edge, data, segment, ends };
@@ -197,10 +197,10 @@ mod tests {
 
     fn curved(gap: &str) -> Result<usize> {
         let text = SMOOTH.replace("gap = \"x^3\"", &format!("gap = \"{gap}\""));
-        let (scene, problem) = fixtures::on_grid(&text, grid(4, Cells::Triangles))?;
+        let (_, problem) = fixtures::on_grid(&text, grid(4, Cells::Triangles))?;
         let free = problem.topology.counts.free;
         let contact = free..problem.topology.counts.unknowns();
-        let found = Deviations::at_time(&scene, &problem, 0.0)?;
+        let found = Deviations::at_time(&problem, 0.0)?;
         Ok(found.found.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
     }
 

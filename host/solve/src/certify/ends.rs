@@ -6,7 +6,7 @@ use super::energy::CellEnergy;
 use super::no_bound::NoBound;
 use crate::problem::{Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 
 /// What rounding may leave between two expressions for the same value, relative to the largest.
 const CONTINUOUS: f64 = 1e-9;
@@ -25,11 +25,10 @@ impl Ends {
     ///
     /// # Errors
     /// Data that are not finite at the end of an edge.
-    pub fn at_time(scene: &Scene, problem: &Problem, time: f64) -> Result<Self> {
+    pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
         let counts = problem.topology.counts;
         let pairs = |edges: std::ops::Range<usize>, field: Field| -> Result<Vec<_>> {
-            let data =
-                |edge| Sum::on_edge(scene, problem, edge, field, time).map(|sum| (edge, sum));
+            let data = |edge| Sum::on_edge(problem, edge, field, time).map(|sum| (edge, sum));
             edges.filter_map(data).map(|(edge, sum)| pair(&sum, problem.segment(edge))).collect()
         };
         Ok(Self {
@@ -56,7 +55,7 @@ impl Ends {
 
     /// ‖A^½∇·‖ of what s misses of these data at vertices where they differ by rounding: u_D between two Dirichlet edges,
     /// or u_D below ψ. s takes one value there, which moves it by the difference in all cells around.
-    pub fn moved(&self, scene: &Scene, problem: &Problem) -> f64 {
+    pub fn moved(&self, problem: &Problem) -> f64 {
         let counts = problem.topology.counts;
         let mut values = BTreeMap::<u32, [f64; 2]>::new();
         for (edge, pair) in (counts.unknowns()..).zip(&self.given) {
@@ -72,7 +71,7 @@ impl Ends {
             }
         }
         let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));
-        of_moved(scene, problem, &spread.collect())
+        of_moved(problem, &spread.collect())
     }
 
     /// The largest modulus of all these numbers.
@@ -83,14 +82,14 @@ impl Ends {
 }
 
 /// ‖A^½∇·‖ of the continuous function that is at most these numbers at these vertices, and 0 at the others.
-pub fn of_moved(scene: &Scene, problem: &Problem, moved: &BTreeMap<u32, f64>) -> f64 {
+pub fn of_moved(problem: &Problem, moved: &BTreeMap<u32, f64>) -> f64 {
     if moved.values().all(|&by| by == 0.0) {
         return 0.0;
     }
     let of_cell = |at: usize| {
         let here = problem.vertices_of(at).iter().filter_map(|vertex| moved.get(vertex));
         let most = here.fold(0.0_f64, |most, by| most.max(by.abs()));
-        if most > 0.0 { most * CellEnergy::of(scene, problem, at).of_vertices() } else { 0.0 }
+        if most > 0.0 { most * CellEnergy::of(problem, at).of_vertices() } else { 0.0 }
     };
     // Of up to four vertices: (Σ|x|)² ≤ 4Σx².
     2.0 * (0..problem.cells()).map(of_cell).fold(0.0_f64, f64::hypot)
@@ -110,8 +109,8 @@ mod tests {
 
     #[test]
     fn each_pair_is_the_data_at_its_edges_ends() -> Result<()> {
-        let (scene, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        let ends = Ends::at_time(&scene, &problem, 0.0)?;
+        let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
+        let ends = Ends::at_time(&problem, 0.0)?;
         let counts = problem.topology.counts;
         assert_eq!((ends.gap.len(), ends.given.len()), (counts.contact, counts.dirichlet));
         for (edge, pair) in (counts.free..).zip(&ends.gap) {
@@ -128,9 +127,8 @@ mod tests {
     fn an_input_adds_its_pattern_at_the_ends() -> Result<()> {
         let input =
             "[input.lift]\nof = \"contact\"\nfield = \"gap\"\npattern = \"x\"\ndefault = -2.0\n";
-        let (scene, problem) =
-            fixtures::on_grid(&format!("{SMOOTH}{input}"), grid(2, Cells::Quads))?;
-        let ends = Ends::at_time(&scene, &problem, 0.0)?;
+        let (_, problem) = fixtures::on_grid(&format!("{SMOOTH}{input}"), grid(2, Cells::Quads))?;
+        let ends = Ends::at_time(&problem, 0.0)?;
         for (at, pair) in ends.gap.iter().enumerate() {
             let edge = problem.topology.counts.free + at;
             assert_eq!(*pair, problem.segment(edge).map(|[x, _]| x.powi(3) - 2.0 * x));
@@ -142,7 +140,7 @@ mod tests {
     fn an_infinite_value_names_its_place_in_the_file() -> Result<()> {
         let scene = fixtures::scene(&SMOOTH.replace("gap = \"x^3\"", "gap = \"-1/abs(x)\""))?;
         let problem = Problem::new(&scene, fixtures::with_four_sides(grid(2, Cells::Triangles)))?;
-        let error = Ends::at_time(&scene, &problem, 0.0).expect_err("ψ is infinite at x = 0");
+        let error = Ends::at_time(&problem, 0.0).expect_err("ψ is infinite at x = 0");
         assert!(error.to_string().contains("boundary.contact.gap"), "{error}");
         Ok(())
     }

@@ -4,7 +4,6 @@ use super::cell::Cell;
 use super::conductivity::{Conductivity, product};
 use crate::problem::Problem;
 use crate::quadrature::gauss;
-use signorini_scene::scene::Scene;
 
 /// Points away from the side, and a direction for vertex functions: these energies bound small terms.
 const POINTS: usize = 3;
@@ -26,8 +25,8 @@ pub struct CellEnergy<'s> {
 
 impl<'s> CellEnergy<'s> {
     /// That of cell `at`, triangles first.
-    pub fn of(scene: &'s Scene, problem: &Problem, at: usize) -> Self {
-        Self { cell: Cell::of(problem, at), conductivity: Conductivity::of(scene, problem, at) }
+    pub fn of(problem: &'s Problem, at: usize) -> Self {
+        Self { cell: Cell::of(problem, at), conductivity: Conductivity::of(problem, at) }
     }
 
     /// The root of Σ_k ∫A∇N_k·∇N_k: what moving the values at the vertices by 1 may cost here.

@@ -25,7 +25,7 @@ use crate::pointwise::{POINTS, exact_at};
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Exact, Field, Scene};
+use signorini_scene::scene::{Condition, Exact, Field};
 
 /// Panels on an edge, each with 8 points: the exact flux has kinks where contact ends.
 const PANELS: u32 = 8;
@@ -46,13 +46,8 @@ pub struct Distance {
 ///
 /// # Errors
 /// An exact solution or data that are not finite at a quadrature point.
-pub fn distance(
-    scene: &Scene,
-    exact: &Exact,
-    problem: &Problem,
-    admissible: &Admissible,
-) -> Result<Distance> {
-    distance_on(1, scene, exact, problem, admissible)
+pub fn distance(exact: &Exact, problem: &Problem, admissible: &Admissible) -> Result<Distance> {
+    distance_on(1, exact, problem, admissible)
 }
 
 /// The same with `panels`×`panels` times the points, where kinks and layers of the exact solution lie inside cells.
@@ -61,21 +56,17 @@ pub fn distance(
 /// As for [`distance`].
 pub fn distance_on(
     panels: u32,
-    scene: &Scene,
     exact: &Exact,
     problem: &Problem,
     admissible: &Admissible,
 ) -> Result<Distance> {
-    let deviations = &Deviations::at_time(scene, problem, problem.time)?;
-    let (u, lift) =
-        (&Solution { scene, exact, time: problem.time }, &Lifted { problem, deviations });
-    Study { scene, exact, problem, admissible, deviations, u, lift, panels }.distance()
+    let deviations = &Deviations::at_time(problem, problem.time)?;
+    let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
+    Study { exact, problem, admissible, deviations, u, lift, panels }.distance()
 }
 
 /// What a distance is integrated from.
 pub struct Study<'a, U, L> {
-    /// Where the data come from.
-    pub scene: &'a Scene,
     /// The exact solution.
     pub exact: &'a Exact,
     /// The problem on its mesh.
@@ -125,7 +116,7 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     pub fn distance(&self) -> Result<Distance> {
         let problem = self.problem;
         let (mut combined, mut rest) = ([0.0; 2], [0.0; 2]);
-        let f = Sum::source(self.scene, problem.time);
+        let f = Sum::source(&problem.scene, problem.time);
         let rule = on_panels(self.panels, &gauss(POINTS));
         for at in 0..problem.cells() {
             let (cell, load) = (Cell::of(problem, at), problem.loads.of_cell(at));
@@ -171,7 +162,7 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     fn visit(&self, at: usize, rule: &[[f64; 2]], mut add: impl FnMut(CellPoint)) -> Result<()> {
         let (problem, tau) = (self.problem, self.admissible.tau);
         let cell = Cell::of(problem, at);
-        let conductivity = Conductivity::of(self.scene, problem, at);
+        let conductivity = Conductivity::of(problem, at);
         let chordal = self.admissible.chordal(problem, at);
         // Of this field only the flux is read, so that any numbers do for the means of u.
         let tau = CellField::new(problem, at, tau, tau);
@@ -234,9 +225,9 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     fn robin(&self, edge: usize) -> Result<Weighed> {
         let problem = self.problem;
         let boundary = problem.binding.boundary(problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &self.scene.boundaries[boundary].condition);
+        let boundary = boundary.map(|boundary| &self.problem.scene.boundaries[boundary].condition);
         let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok([0.0; 2]) };
-        let coefficient = Sum::alone(self.scene, coefficient, problem.time);
+        let coefficient = Sum::alone(&self.problem.scene, coefficient, problem.time);
         let term = |point: EdgePoint| {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;
@@ -249,7 +240,7 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
     }
 
     fn data(&self, edge: usize, field: Field) -> Option<Sum<'_>> {
-        Sum::on_edge(self.scene, self.problem, edge, field, self.problem.time)
+        Sum::on_edge(self.problem, edge, field, self.problem.time)
     }
 
     fn on_edge(&self, edge: usize, term: impl Fn(EdgePoint) -> Result<Weighed>) -> Result<Weighed> {
@@ -262,11 +253,11 @@ impl<U: Sampled, L: Sampled> Study<'_, U, L> {
         let [a, b] = problem.segment(edge);
         let normal: [f64; 2] = scaled_normal(a, b).into();
         let (at, _) = problem.topology.first_side(edge);
-        let conductivity = Conductivity::of(self.scene, problem, at);
+        let conductivity = Conductivity::of(problem, at);
         let deviation = self.deviations.on(edge);
         let point = |[t, weight]: [f64; 2]| {
             let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-            let (u, gradient) = exact_at(self.scene, self.exact, x, self.problem.time)?;
+            let (u, gradient) = exact_at(&self.problem.scene, self.exact, x, self.problem.time)?;
             Ok(EdgePoint {
                 x,
                 weight: weight * length,

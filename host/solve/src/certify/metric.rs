@@ -8,9 +8,11 @@ use signorini_kernel::{Real, Tensor};
 
 use super::conductivity::Conductivity;
 use crate::problem::{Problem, QuadCoefficient};
-use crate::quadrature::{on_quad, on_triangle};
+use crate::quadrature::{DATA_POINTS, on_quad, on_triangle};
 use crate::scalar::Scalar;
-use signorini_scene::scene::Scene;
+
+// A on quads is evaluated once, for element matrices and bound.
+const _: () = assert!(POINTS == DATA_POINTS);
 
 /// B at the 64 points of a cell.
 pub type Points<R> = [Tensor<R>; POINTS * POINTS];
@@ -28,7 +30,7 @@ pub struct Metric<R: Scalar> {
 impl<R: Scalar> Metric<R> {
     /// Evaluates A where it varies inside a cell, and where a quad is no parallelogram or too thin for
     /// its element matrix to tell B.
-    pub fn new(scene: &Scene, problem: &Problem) -> Self {
+    pub fn new(problem: &Problem) -> Self {
         let coefficients = &problem.coefficients;
         let compliance = coefficients.triangles.iter().map(|a| {
             let determinant = a.xx * a.yy - a.xy * a.xy;
@@ -42,7 +44,7 @@ impl<R: Scalar> Metric<R> {
             alpha: Vec::new(),
         };
         for cell in 0..problem.cells() {
-            let points = metric.varying(scene, problem, cell);
+            let points = metric.varying(problem, cell);
             metric.place.push(points.as_ref().map_or(u32::MAX, |_| metric.at_points.len() as u32));
             metric.at_points.extend(points);
             metric.alpha.push(R::narrow(half_trace(problem, cell)));
@@ -70,11 +72,11 @@ impl<R: Scalar> Metric<R> {
     }
 
     /// B at the points, where it is not the same in the whole cell.
-    fn varying(&self, scene: &Scene, problem: &Problem, cell: usize) -> Option<Points<R>> {
+    fn varying(&self, problem: &Problem, cell: usize) -> Option<Points<R>> {
         let mesh = &problem.mesh;
         let corner = |vertex: u32| mesh.vertices[vertex as usize];
         let rule = f64::GAUSS[POINTS - 1];
-        let a = Conductivity::of(scene, problem, cell);
+        let a = Conductivity::of(problem, cell);
         let tensors: Vec<Tensor<f64>> = match cell.checked_sub(mesh.triangles.len()) {
             None if a.is_constant() => return None,
             None => {
@@ -91,8 +93,10 @@ impl<R: Scalar> Metric<R> {
                         return None;
                     }
                 }
-                let points = on_quad(corners, rule);
-                points.map(|p| of_quad(&here(p.reference), a.at(p.x))).collect()
+                // The element matrices have the same points.
+                let known = &problem.coefficients.quads[quad];
+                let points = on_quad(corners, rule).enumerate();
+                points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
             }
         };
         let narrow = |b: &Tensor<f64>| Tensor {

@@ -38,5 +38,5 @@ pub mod weighed;
 pub use bound::{Certified, ErrorBound};
 pub use certifier::{Answer, Certifier};
 pub use conductivity::eigenvalues;
-pub use data::Data;
+pub use data::{Data, Evaluated};
 pub use no_bound::{NoBound, Spot};

@@ -6,7 +6,7 @@ use signorini_kernel::certificate::Verdict;
 
 use crate::problem::Problem;
 use crate::scalar::Scalar;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 
 /// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
 /// beyond 8 points, and infinite where it does.
@@ -85,11 +85,11 @@ pub struct Spot {
 
 impl Spot {
     /// That at the part `t` of an edge on C or D.
-    pub fn on_edge(scene: &Scene, problem: &Problem, edge: usize, t: f64) -> Self {
+    pub fn on_edge(problem: &Problem, edge: usize, t: f64) -> Self {
         let [a, b] = problem.segment(edge);
         let is_contact = edge < problem.topology.counts.unknowns();
         Self {
-            boundary: boundary(scene, problem, edge),
+            boundary: boundary(problem, edge),
             field: if is_contact { Field::Gap } else { Field::Value },
             at: [0, 1].map(|k| a[k] + t * (b[k] - a[k])),
         }
@@ -98,22 +98,21 @@ impl Spot {
 
 impl NoBound {
     /// A transfer coefficient that varies too much along an edge.
-    pub fn transfer_vanishes(scene: &Scene, problem: &Problem, edge: usize) -> Self {
+    pub fn transfer_vanishes(problem: &Problem, edge: usize) -> Self {
         let at = middle(problem, edge);
-        Self::TransferVanishes { boundary: boundary(scene, problem, edge), at }
+        Self::TransferVanishes { boundary: boundary(problem, edge), at }
     }
 
     /// The kernel's reason; `data` gives that of data which never allow for a bound.
     pub fn of_verdict<R: Scalar>(
         verdict: &Verdict<R>,
-        scene: &Scene,
         problem: &Problem,
         data: impl FnOnce() -> Option<Self>,
     ) -> Option<Self> {
         let condensed = |reason: &str| Self::Condensed(reason.to_owned());
         Some(match verdict {
             Verdict::Certified(_) => return None,
-            Verdict::Pulled { edge } => Self::pulled(scene, problem, *edge),
+            Verdict::Pulled { edge } => Self::pulled(problem, *edge),
             Verdict::Unpressed => condensed(
                 "contact alone holds a part of the mesh, and no edge is pressed hard enough to take what its fluxes \
                  leave unbalanced",
@@ -128,8 +127,8 @@ impl NoBound {
     }
 
     /// A contact edge that would be pulled at.
-    pub fn pulled(scene: &Scene, problem: &Problem, edge: usize) -> Self {
-        Self::Pulled { boundary: boundary(scene, problem, edge), at: middle(problem, edge) }
+    pub fn pulled(problem: &Problem, edge: usize) -> Self {
+        Self::Pulled { boundary: boundary(problem, edge), at: middle(problem, edge) }
     }
 }
 
@@ -139,9 +138,9 @@ fn middle(problem: &Problem, edge: usize) -> [f64; 2] {
 }
 
 /// The name of the boundary that an edge lies on.
-fn boundary(scene: &Scene, problem: &Problem, edge: usize) -> String {
+fn boundary(problem: &Problem, edge: usize) -> String {
     let found = problem.binding.boundary(problem.ends[edge]);
-    found.map_or_else(|| "default".to_owned(), |at| scene.boundaries[at].name.value.clone())
+    found.map_or_else(|| "default".to_owned(), |at| problem.scene.boundaries[at].name.value.clone())
 }
 
 /// A point with six digits: where data are rough is not known better.

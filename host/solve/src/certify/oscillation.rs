@@ -22,7 +22,7 @@ use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::shape::edge_length;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 
 /// Gauss points a direction on a cell, and a panel on an edge.
 const POINTS: usize = 16;
@@ -34,19 +34,19 @@ const PANELS: u32 = 4;
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn oscillation(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<f64>> {
+pub fn oscillation(problem: &Problem, time: f64) -> Result<Vec<f64>> {
     let mut cells = vec![0.0; problem.mesh.triangles.len() + problem.mesh.quads.len()];
-    let source = Sum::source(scene, time);
+    let source = Sum::source(&problem.scene, time);
     if !source.is_zero() {
         for (at, sum) in cells.iter_mut().enumerate() {
-            *sum += of_source(scene, problem, at, &source)?;
+            *sum += of_source(problem, at, &source)?;
         }
     }
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
         cells[at] += match problem.kinds[edge] {
-            EdgeKind::Neumann | EdgeKind::Contact => of_flux(scene, problem, edge, time)?,
-            EdgeKind::Robin => missed(scene, problem, edge, time)?,
+            EdgeKind::Neumann | EdgeKind::Contact => of_flux(problem, edge, time)?,
+            EdgeKind::Robin => missed(problem, edge, time)?,
             EdgeKind::Interior | EdgeKind::Dirichlet => 0.0,
         };
     }
@@ -54,10 +54,10 @@ pub fn oscillation(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<f6
 }
 
 /// osc_T
-fn of_source(scene: &Scene, problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
+fn of_source(problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
     let cell = Cell::of(problem, at);
     if let (Some(f), true) = (f.constant(), cell.is_affine()) {
-        return Ok(of_bend(&cell, f) / alpha(scene, problem, at).sqrt());
+        return Ok(of_bend(&cell, f) / alpha(problem, at).sqrt());
     }
     let load = match cell {
         Cell::Triangle(corners) => f.over_triangle(corners)?,
@@ -72,7 +72,7 @@ fn of_source(scene: &Scene, problem: &Problem, at: usize, f: &Sum) -> Result<f64
         square += point.weight / unit / unit * difference.powi(2);
     }
     let square = f.finite(square, cell.corners()[0])?;
-    Ok(cell.diameter() / PI * (square / alpha(scene, problem, at)).sqrt())
+    Ok(cell.diameter() / PI * (square / alpha(problem, at)).sqrt())
 }
 
 /// osc_T √α of a constant f on a quad that only rounding bends: det DF leaves its mean |T| by at most 2 h_T times the
@@ -89,8 +89,8 @@ fn of_bend(cell: &Cell, f: f64) -> f64 {
 }
 
 /// osc_E; g and q are both the `flux` of their boundary.
-fn of_flux(scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<f64> {
-    let Some(g) = Sum::on_edge(scene, problem, edge, Field::Flux, time) else { return Ok(0.0) };
+fn of_flux(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
+    let Some(g) = Sum::on_edge(problem, edge, Field::Flux, time) else { return Ok(0.0) };
     if g.constant().is_some() {
         return Ok(0.0);
     }
@@ -105,7 +105,7 @@ fn of_flux(scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<f
     let diameter = length.max(edge_length([a, apex])).max(edge_length([b, apex]));
     let shape = length * diameter * diameter / triangle_area([a, b, apex]);
     let trace = 1.0 / (PI * PI) + 1.0 / PI;
-    Ok((shape * trace * square / alpha(scene, problem, at)).sqrt())
+    Ok((shape * trace * square / alpha(problem, at)).sqrt())
 }
 
 /// The vertex opposite of a triangle's side, the middle of a quad.
@@ -117,8 +117,8 @@ fn opposite(cell: &Cell, side: usize) -> [f64; 2] {
 }
 
 /// The smallest eigenvalue of A on a cell; where A varies, of A at the quadrature points.
-fn alpha(scene: &Scene, problem: &Problem, at: usize) -> f64 {
-    let (cell, a) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+fn alpha(problem: &Problem, at: usize) -> f64 {
+    let (cell, a) = (Cell::of(problem, at), Conductivity::of(problem, at));
     if a.is_constant() {
         return smallest_eigenvalue(&a.at(cell.corners()[0]));
     }
@@ -140,9 +140,9 @@ mod tests {
 
     #[test]
     fn linear_data_on_triangles_in_closed_form() -> Result<()> {
-        let (scene, problem) =
+        let (_, problem) =
             fixtures::on_grid(SMOOTH, fixtures::distorted(grid(3, Cells::Triangles)))?;
-        let found = oscillation(&scene, &problem, 0.0)?;
+        let found = oscillation(&problem, 0.0)?;
         for (at, vertices) in problem.mesh.triangles.iter().enumerate() {
             let corners = vertices.map(|vertex| problem.mesh.vertices[vertex as usize]);
             // ∫λ_iλ_j = |T|/12 (1 + δ_ij): ‖f − f̄‖² = |T|/12 Σ (f_i − f̄)².
@@ -156,7 +156,7 @@ mod tests {
             for &edge in &problem.topology.of_triangles[at] {
                 let (edge, length) = (edge as usize, problem.lengths[edge as usize]);
                 // 1e−10 of it: u_ext is rational. Its own test is in `robin`.
-                expected += missed(&scene, &problem, edge, 0.0)?;
+                expected += missed(&problem, edge, 0.0)?;
                 let [[x0, y0], [x1, y1]] = problem.segment(edge);
                 // ‖g − ḡ‖² of a linear g is |E|/12 times its rise squared; of q = −3.5x² − 1 with the
                 // middle m, ∫ = |E| 3.5² (m² l²/3 + l⁴/180).
@@ -182,14 +182,14 @@ mod tests {
     fn constant_data_oscillate_only_where_the_area_element_does() -> Result<()> {
         let constant = PARABOLA.replace("f = \"0\"", "f = \"3\"");
         for cells in [Cells::Triangles, Cells::Quads] {
-            let (scene, problem) = fixtures::on_grid(&constant, grid(3, cells))?;
-            assert!(oscillation(&scene, &problem, 0.0)?.iter().all(|&cell| cell == 0.0));
+            let (_, problem) = fixtures::on_grid(&constant, grid(3, cells))?;
+            assert!(oscillation(&problem, 0.0)?.iter().all(|&cell| cell == 0.0));
         }
         let mesh = fixtures::distorted(grid(3, Cells::Quads));
-        let (scene, problem) = fixtures::on_grid(&constant, mesh.clone())?;
-        assert!(oscillation(&scene, &problem, 0.0)?.iter().any(|&cell| cell > 1e-3));
-        let (scene, problem) = fixtures::on_grid(PARABOLA, mesh)?;
-        assert!(oscillation(&scene, &problem, 0.0)?.iter().all(|&cell| cell == 0.0));
+        let (_, problem) = fixtures::on_grid(&constant, mesh.clone())?;
+        assert!(oscillation(&problem, 0.0)?.iter().any(|&cell| cell > 1e-3));
+        let (_, problem) = fixtures::on_grid(PARABOLA, mesh)?;
+        assert!(oscillation(&problem, 0.0)?.iter().all(|&cell| cell == 0.0));
         Ok(())
     }
 
@@ -197,9 +197,9 @@ mod tests {
     fn linear_source_on_a_square() -> Result<()> {
         // f = x on squares of side h: ‖f − f̄‖² = h⁴/12, diameter √2 h, A = I.
         let linear = PARABOLA.replace("f = \"0\"", "f = \"x\"");
-        let (scene, problem) = fixtures::on_grid(&linear, grid(4, Cells::Quads))?;
+        let (_, problem) = fixtures::on_grid(&linear, grid(4, Cells::Quads))?;
         let expected = 2.0_f64.sqrt() * 0.25 / PI * (0.25_f64.powi(4) / 12.0).sqrt();
-        for cell in oscillation(&scene, &problem, 0.0)? {
+        for cell in oscillation(&problem, 0.0)? {
             OSCILLATION.check("a cell", cell - expected);
         }
         Ok(())

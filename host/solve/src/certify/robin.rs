@@ -12,7 +12,7 @@ use signorini_kernel::Real;
 use crate::problem::{Problem, Sum};
 use crate::quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Field, Scene};
+use signorini_scene::scene::{Condition, Field};
 
 /// \[h |E|, u_ext\] at the 8 Gauss points of an edge, in its direction.
 pub type RobinPoints = [[f64; 2]; DATA_POINTS];
@@ -21,16 +21,17 @@ pub type RobinPoints = [[f64; 2]; DATA_POINTS];
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn robin(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<RobinPoints>> {
+pub fn robin(problem: &Problem, time: f64) -> Result<Vec<RobinPoints>> {
     let records = problem.loads.robin.iter();
     let edges = records.filter_map(|record| {
         let edge = record.edge as usize;
         let boundary = problem.binding.boundary(problem.ends[edge])?;
-        let Condition::Robin { coefficient, .. } = &scene.boundaries[boundary].condition else {
+        let Condition::Robin { coefficient, .. } = &problem.scene.boundaries[boundary].condition
+        else {
             return None;
         };
-        let ambient = Sum::on_edge(scene, problem, edge, Field::Ambient, time)?;
-        Some((edge, Sum::alone(scene, coefficient, time), ambient))
+        let ambient = Sum::on_edge(problem, edge, Field::Ambient, time)?;
+        Some((edge, Sum::alone(&problem.scene, coefficient, time), ambient))
     });
     edges.map(|(edge, h, ambient)| points(problem, edge, &h, &ambient)).collect()
 }
@@ -60,14 +61,14 @@ const ROUNDING: f64 = 1e-13;
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn missed(scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<f64> {
+pub fn missed(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
     let boundary = problem.binding.boundary(problem.ends[edge]);
-    let boundary = boundary.map(|boundary| &scene.boundaries[boundary].condition);
+    let boundary = boundary.map(|boundary| &problem.scene.boundaries[boundary].condition);
     let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
-    let Some(ambient) = Sum::on_edge(scene, problem, edge, Field::Ambient, time) else {
+    let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, time) else {
         return Ok(0.0);
     };
-    let h = Sum::alone(scene, coefficient, time);
+    let h = Sum::alone(&problem.scene, coefficient, time);
     if h.constant().is_some() && ambient.constant().is_some() {
         return Ok(0.0);
     }
@@ -138,8 +139,8 @@ mod tests {
 
     #[test]
     fn the_points_add_up_to_the_loads() -> Result<()> {
-        let (scene, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        let data = robin(&scene, &problem, 0.0)?;
+        let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
+        let data = robin(&problem, 0.0)?;
         assert_eq!(data.len(), 4);
         for (record, points) in problem.loads.robin.iter().zip(&data) {
             let rule = f64::GAUSS[DATA_POINTS - 1];
@@ -159,8 +160,8 @@ mod tests {
                 .replace("coefficient = \"2+y\"", &format!("coefficient = \"{coefficient}\""));
             let old = "ambient = \"y + y^2 - 1 + (3*y - 6.5)/(2+y)\"";
             let text = text.replace(old, &format!("ambient = \"{ambient}\""));
-            let (scene, problem) = fixtures::on_grid(&text, grid(1, Cells::Quads))?;
-            missed(&scene, &problem, problem.loads.robin[0].edge as usize, 0.0)
+            let (_, problem) = fixtures::on_grid(&text, grid(1, Cells::Quads))?;
+            missed(&problem, problem.loads.robin[0].edge as usize, 0.0)
         };
         POINTS.check("a polynomial", missed_of("4", "y^7 - 3*y^2")?);
         assert_eq!(missed_of("4", "3")?, 0.0);
@@ -176,8 +177,8 @@ mod tests {
 
     #[test]
     fn the_points_run_in_the_direction_of_the_edge() -> Result<()> {
-        let (scene, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
-        for (record, points) in problem.loads.robin.iter().zip(robin(&scene, &problem, 0.0)?) {
+        let (_, problem) = fixtures::on_grid(SMOOTH, grid(4, Cells::Mixed))?;
+        for (record, points) in problem.loads.robin.iter().zip(robin(&problem, 0.0)?) {
             let [[_, start], [_, end]] = problem.segment(record.edge as usize);
             for ([h, ambient], [t, _]) in points.into_iter().zip(f64::GAUSS[DATA_POINTS - 1]) {
                 let y = start + t * (end - start);

@@ -52,9 +52,9 @@ fn bound(text: &str, cells: Cells, height: f64, options: Options) -> Result<[f64
     let mut mesh = grid(3, cells);
     mesh.vertices.iter_mut().for_each(|vertex| vertex[1] *= height);
     let (scene, problem) = fixtures::on_grid(text, mesh)?;
-    let solution = solve(&scene, &problem, &options)?;
+    let solution = solve(&problem, &options)?;
     let exact = scene.exact.as_ref().expect("an exact solution");
-    let found = distance(&scene, exact, &problem, &solution.certified.admissible())?;
+    let found = distance(exact, &problem, &solution.certified.admissible())?;
     Ok([solution.bound.expect("a bound").total, found.combined])
 }
 

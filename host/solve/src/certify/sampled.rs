@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::quadrature::{Point, gauss};
 use crate::threads::on_two_threads;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Exact, Scene};
+use signorini_scene::scene::Exact;
 
 /// Cells that a thread takes at a time.
 const PORTION: usize = 64;
@@ -31,20 +31,19 @@ pub trait Sampled {
 
 /// u of `[exact]`.
 pub struct Solution<'a> {
-    /// Where the conductivity comes from.
-    pub scene: &'a Scene,
     /// The exact solution.
     pub exact: &'a Exact,
-    /// When.
-    pub time: f64,
+    /// Of what, and when.
+    pub problem: &'a Problem,
 }
 
 impl Sampled for Solution<'_> {
     const ANYWHERE: bool = true;
 
     fn on_cell(&self, _: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
+        let problem = self.problem;
         let jet = |point: &Point| {
-            let (value, gradient) = exact_at(self.scene, self.exact, point.x, self.time)?;
+            let (value, gradient) = exact_at(&problem.scene, self.exact, point.x, problem.time)?;
             Ok(Jet { value, gradient })
         };
         points.iter().map(jet).collect()

@@ -15,7 +15,6 @@ use super::patterns::Pattern;
 use super::{Corner, Vertex};
 use crate::certify::ends::of_moved;
 use crate::problem::Problem;
-use signorini_scene::scene::Scene;
 
 /// What rounding may leave between two expressions for the same value, relative to the largest.
 const ROUNDING: f64 = 1e-9;
@@ -43,7 +42,6 @@ impl Chain {
     /// # Errors
     /// A sentence why s cannot be fixed beforehand.
     pub fn new(
-        scene: &Scene,
         problem: &Problem,
         patterns: &[Pattern],
         edges: &[usize],
@@ -75,11 +73,7 @@ impl Chain {
                     let corners = edges.map(|&(edge, _)| Corner {
                         edge,
                         excess: excess.iter().map(|part| part / openings[edge]).collect(),
-                        energy: of_moved(
-                            scene,
-                            problem,
-                            &BTreeMap::from([(vertex, openings[edge])]),
-                        ),
+                        energy: of_moved(problem, &BTreeMap::from([(vertex, openings[edge])])),
                     });
                     chain.corners.extend(corners);
                 }

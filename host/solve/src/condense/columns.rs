@@ -15,9 +15,10 @@ pub(super) fn columns(
     source: Option<&[bool]>,
 ) -> Vec<Given> {
     let counts = problem.topology.counts;
-    let of_patterns = patterns
-        .iter()
-        .map(|pattern| Given { contact: pattern.loads.gap.clone(), loads: pattern.loads.clone() });
+    let of_patterns = patterns.iter().map(|pattern| Given {
+        contact: pattern.loads().gap.clone(),
+        loads: pattern.loads().clone(),
+    });
     let mut columns: Vec<_> = of_patterns.collect();
     let mut silent = Loads {
         robin: problem.loads.robin.clone(),

@@ -37,8 +37,8 @@ pub(super) struct Given {
 ///
 /// # Errors
 /// Numbers out of range, a matrix that is singular to working precision.
-pub(super) fn fields(scene: &Scene, problem: &Problem, given: &[Given]) -> Result<Vec<Field>> {
-    let unfit = unfit::<f64>(scene);
+pub(super) fn fields(problem: &Problem, given: &[Given]) -> Result<Vec<Field>> {
+    let unfit = unfit::<f64>(&problem.scene);
     let mut assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
     let free = problem.topology.counts.free;
     let mut right = Vec::with_capacity(free * given.len());
@@ -52,7 +52,7 @@ pub(super) fn fields(scene: &Scene, problem: &Problem, given: &[Given]) -> Resul
         right.extend(rows.map(|(row, load)| load - row.dot(&u)));
         fields.push(Field { flux: vec![0.0; u.len()], u });
     }
-    let solved = free_block(&assembled, free, &right).map_err(failed(scene))?;
+    let solved = free_block(&assembled, free, &right).map_err(failed(&problem.scene))?;
     for (at, (field, Given { loads, .. })) in fields.iter_mut().zip(given).enumerate() {
         field.u[..free].copy_from_slice(&solved[at * free..][..free]);
         assembled.set_loads(loads).map_err(&unfit)?;

@@ -17,11 +17,9 @@ use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::solve::unfit;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// What the certificate is made from.
 pub(super) struct Ground<'g> {
-    pub scene: &'g Scene,
     pub problem: &'g Problem,
     pub parts: &'g Parts,
     /// The contact edge of each unknown.
@@ -40,6 +38,7 @@ pub(super) struct Ground<'g> {
 }
 
 /// s and τ in every column.
+#[derive(Debug)]
 pub(super) struct Admissibles {
     pub s: Table,
     pub fluxes: Table,
@@ -59,33 +58,33 @@ impl Ground<'_> {
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
-        let chain = match Chain::new(self.scene, problem, patterns, self.edges, self.openings) {
+        let chain = match Chain::new(problem, patterns, self.edges, self.openings) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
         let functions = Functions::of(problem);
-        let blocks = blocks(self.scene, problem, patterns, &functions)?;
+        let blocks = blocks(problem, patterns, &functions)?;
         let fluxes = table(problem.ends.len(), self.fields, |field| &field.flux);
         let mut s = self.boundary_values(&chain, &functions);
         let at_boundary = chain.fixed();
         let mut fixed = vec![false; functions.count()];
         at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
         fix_unused(&blocks, &mut fixed);
-        complete(&blocks, &fixed, &fluxes, &mut s).map_err(failed(self.scene))?;
+        complete(&blocks, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
         let Some(reach) = self.reach(&blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
-        let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(self.scene))?;
+        let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(&problem.scene))?;
         let widened = |factor: Vec<f64>| {
             let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
-        let jump = jumps(self.scene, problem, patterns, &functions)?.map(|blocks| {
+        let jump = jumps(problem, patterns, &functions)?.map(|blocks| {
             let means = table(problem.ends.len(), self.fields, |field| &field.u);
             widened(packed(&triangular(&blocks, &s, &means)))
         });
         // As in `certify::Data`: for s, and for u_h beside it.
-        let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(self.scene, problem, moved));
+        let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let form = Form {

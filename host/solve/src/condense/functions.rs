@@ -4,6 +4,7 @@ use crate::problem::EdgeKind::{Interior, Neumann, Robin};
 use crate::problem::Problem;
 
 /// The numbers of s: its vertex values, then the bubbles of free edges between quads.
+#[derive(Debug)]
 pub(super) struct Functions {
     /// The number of each edge's bubble.
     bubbles: Vec<Option<u32>>,

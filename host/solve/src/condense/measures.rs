@@ -8,14 +8,12 @@ use crate::field::CellField;
 use crate::functional::{Functional, functionals};
 use crate::problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// Every declared output; without any, contact force and length. `openings` are the d of U = 1.
 ///
 /// # Errors
 /// A probe outside the mesh.
 pub(super) fn measures(
-    scene: &Scene,
     problem: &Problem,
     edges: &[usize],
     openings: &[f64],
@@ -35,7 +33,7 @@ pub(super) fn measures(
         Functional::Length(lengths) => Measure::Length { of_contact: columns.by_unknown(lengths) },
         Functional::Bound => Measure::Bound,
     };
-    Ok(functionals(scene, problem)?.iter().map(measure).collect())
+    Ok(functionals(problem)?.iter().map(measure).collect())
 }
 
 /// What outputs are made of.
@@ -66,7 +64,8 @@ impl Columns<'_> {
         };
         let free = self.problem.topology.counts.free;
         for (sum, pattern) in of_inputs.iter_mut().zip(self.patterns) {
-            *sum += contact.iter().map(|edge| pattern.loads.contact_flux[edge - free]).sum::<f64>();
+            *sum +=
+                contact.iter().map(|edge| pattern.loads().contact_flux[edge - free]).sum::<f64>();
         }
         let brings = of_inputs.iter().any(|&factor| factor != 0.0);
         let of_inputs = if brings { of_inputs } else { Vec::new() };

@@ -166,10 +166,10 @@ const MOST_NUMBERS: usize = 200_000_000;
 ///
 /// # Errors
 /// More than 1.6 GB.
-pub fn check_size(scene: &Scene, problem: &Problem) -> Result<()> {
+pub fn check_size(problem: &Problem) -> Result<()> {
     let counts = problem.topology.counts;
     let (contact, edges) = (counts.contact, counts.edges());
-    let fields = contact + scene.inputs.len() + 2;
+    let fields = contact + problem.scene.inputs.len() + 2;
     // u and σ·n of every field, and Ŝ.
     if fields.saturating_mul(2 * edges + contact) <= MOST_NUMBERS {
         return Ok(());
@@ -179,34 +179,33 @@ pub fn check_size(scene: &Scene, problem: &Problem) -> Result<()> {
          most {MOST_NUMBERS} numbers in their fields"
     );
     let hint = "refine less, or take the full model (--full, model = \"full\")";
-    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+    Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
 }
 
-/// Condenses `scene` on the mesh of `problem`, whose own loads only decide whether there is a solution.
+/// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
 /// # Errors
 /// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,
 /// a probe outside the mesh, more contact edges than memory holds fields of.
-pub fn condense(scene: &Scene, problem: &Problem) -> Result<Condensate> {
-    Ok(build(scene, problem)?.0)
+pub fn condense(problem: &Problem) -> Result<Condensate> {
+    Ok(build(problem)?.0)
 }
 
 /// The condensate, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
-fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
-    check_size(scene, problem)?;
-    let parts = examined(scene, problem)?;
-    let patterns = patterns(scene, problem)?;
+fn build(problem: &Problem) -> Result<(Condensate, Recovery)> {
+    check_size(problem)?;
+    let parts = examined(problem)?;
+    let patterns = patterns(problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);
     let edges = along_boundary(problem);
     let held_by_contact = held_by_contact(problem, &parts, &edges);
     if held_by_contact.iter().any(|part| part.len() == 1) {
-        return Err(held_by_one(scene));
+        return Err(held_by_one(&problem.scene));
     }
     let alone = held_alone(problem, &parts, &edges);
-    let mut fields =
-        fields(scene, problem, &columns(problem, &patterns, &edges, alone.as_deref()))?;
+    let mut fields = fields(problem, &columns(problem, &patterns, &edges, alone.as_deref()))?;
     let source = fields.split_off(m + n).pop();
-    let opening = scaled(scene, problem, &edges, &mut fields[m..])?;
+    let opening = scaled(problem, &edges, &mut fields[m..])?;
     let matrix = matrix(problem, &edges, &fields[m..], &opening);
     let load = |field: &Field, q: &[f64]| condensed_load(problem, &edges, field, q, &opening);
     let mut condensate = Condensate {
@@ -215,16 +214,17 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
         inputs: m,
         matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
         multiplier: opening.iter().map(|d| 1.0 / d).collect(),
-        load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads.contact_flux)).collect(),
-        defaults: std::iter::once(1.0).chain(scene.inputs.iter().map(|i| i.default)).collect(),
-        outputs: measures(scene, problem, &edges, &opening, &patterns, &fields)?,
+        load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads().contact_flux)).collect(),
+        defaults: std::iter::once(1.0)
+            .chain(problem.scene.inputs.iter().map(|i| i.default))
+            .collect(),
+        outputs: measures(problem, &edges, &opening, &patterns, &fields)?,
         certificate: Err(String::new()),
         energy_unit: 1.0,
         held_by_contact,
         opening: opening.clone(),
     };
     let ground = Ground {
-        scene,
         problem,
         parts: &parts,
         edges: &edges,
@@ -249,15 +249,15 @@ fn build(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
     Ok((condensate, Recovery { fields, admissibles }))
 }
 
-fn examined(scene: &Scene, problem: &Problem) -> Result<Parts> {
-    let parts = Parts::examine(scene, problem)?;
+fn examined(problem: &Problem) -> Result<Parts> {
+    let parts = Parts::examine(problem)?;
     if parts.counts.floating == 0 {
         return Ok(parts);
     }
     let message = "boundary: a part of the domain has neither dirichlet, robin nor contact edges: its \
                    solution has no level, and its loads would have to stay in balance";
     let hint = "give it a dirichlet or robin boundary to condense it";
-    Err(InputError::new(message).file(&scene.path).hint(hint).into())
+    Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
 }
 
 /// The cells of the one part that contact alone holds, where there is exactly one.
@@ -273,12 +273,7 @@ fn held_alone(problem: &Problem, parts: &Parts, edges: &[usize]) -> Option<Vec<b
 }
 
 /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
-fn scaled(
-    scene: &Scene,
-    problem: &Problem,
-    edges: &[usize],
-    fields: &mut [Field],
-) -> Result<Vec<f64>> {
+fn scaled(problem: &Problem, edges: &[usize], fields: &mut [Field]) -> Result<Vec<f64>> {
     /// S_ii below this part of the fluxes around is the rounding of 0.
     const ROUNDING: f64 = 1e-11;
     let free = problem.topology.counts.free;
@@ -290,7 +285,7 @@ fn scaled(
             field.scale(opening);
             return Ok(opening);
         }
-        Err(held_by_one(scene))
+        Err(held_by_one(&problem.scene))
     };
     edges.iter().zip(fields).map(scale).collect()
 }

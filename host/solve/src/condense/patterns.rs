@@ -5,17 +5,15 @@
 //! scene of its own, so that loads, chords, deviations and oscillations come from where they always do.
 
 use crate::certify::ends::Ends;
-use crate::certify::{Data, NoBound};
+use crate::certify::{Evaluated, NoBound};
 use crate::problem::{Loads, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
-use signorini_scene::scene::term::{left_with, refuse_time};
+use signorini_scene::scene::term::refuse_time;
 
 /// One pattern.
 pub(super) struct Pattern {
-    /// The scene in which only this pattern is alive.
-    pub scene: Scene,
-    pub loads: Loads,
+    /// The problem in which only this pattern is alive, with its loads.
+    pub problem: Problem,
     pub ends: Ends,
     /// √Σ osc², see [`crate::certify::oscillation`], and what is left out of ψ and u_D.
     pub oscillation: f64,
@@ -24,21 +22,23 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    fn new(scene: Scene, problem: &Problem) -> Result<Self> {
-        let loads = Loads::at_time(&scene, problem, 0.0)?;
-        let ends = Ends::at_time(&scene, problem, 0.0)?;
-        let data = Data::<f64>::new(&scene, problem)?;
-        let (oscillation, no_bound) = (data.oscillation(), data.no_bound().cloned());
-        Ok(Self { scene, loads, ends, oscillation, no_bound })
+    fn new(problem: Problem) -> Result<Self> {
+        let Evaluated { ends, oscillation, no_bound, .. } = Evaluated::new(&problem)?;
+        Ok(Self { problem, ends, oscillation, no_bound })
+    }
+
+    /// Its integrals and means.
+    pub fn loads(&self) -> &Loads {
+        &self.problem.loads
     }
 }
 
-/// The patterns of `scene`: the constant one, then one an input.
+/// The patterns of a problem: the constant one, then one an input.
 ///
 /// # Errors
 /// A load that changes with t, data that are not finite.
-pub(super) fn patterns(scene: &Scene, problem: &Problem) -> Result<Vec<Pattern>> {
-    refuse_time(scene)?;
-    let terms = 0..=scene.inputs.len();
-    terms.map(|term| Pattern::new(left_with(scene, &[term]), problem)).collect()
+pub(super) fn patterns(problem: &Problem) -> Result<Vec<Pattern>> {
+    refuse_time(&problem.scene)?;
+    let terms = 0..=problem.scene.inputs.len();
+    terms.map(|term| Pattern::new(problem.left_with(&[term])?)).collect()
 }

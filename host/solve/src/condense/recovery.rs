@@ -9,9 +9,9 @@ use super::{Condensate, Form, build};
 use crate::certify::Answer;
 use crate::problem::Problem;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// The fields of all columns: what condensation leaves out.
+#[derive(Debug)]
 pub struct Recovery {
     pub(super) fields: Vec<Field>,
     pub(super) admissibles: Option<Admissibles>,
@@ -21,8 +21,8 @@ pub struct Recovery {
 ///
 /// # Errors
 /// As for [`super::condense`].
-pub fn recoverable(scene: &Scene, problem: &Problem) -> Result<(Condensate, Recovery)> {
-    build(scene, problem)
+pub fn recoverable(problem: &Problem) -> Result<(Condensate, Recovery)> {
+    build(problem)
 }
 
 impl Recovery {

@@ -20,7 +20,6 @@ use crate::field::CellField;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, Point, gauss};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 /// A remainder below this part of its column is the rounding of a dependent one. A row more than needed does no harm: at
 /// each step |c|² = (q·c)² + |c − (q·c)q|² for any unit vector q.
@@ -42,16 +41,15 @@ pub(super) struct Block {
 /// # Errors
 /// Data that are not finite.
 pub(super) fn blocks(
-    scene: &Scene,
     problem: &Problem,
     patterns: &[Pattern],
     functions: &Functions,
 ) -> Result<Vec<Block>> {
     let deviations = deviations(problem, patterns)?;
-    let of_fluxes = |at| of_cell(scene, problem, at, functions, &deviations, Of::Fluxes);
+    let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
     let cells = (0..problem.cells()).map(of_fluxes);
     let mut blocks = cells.collect::<Result<Vec<_>>>()?;
-    let transfer = patterns.iter().map(|pattern| robin(&pattern.scene, problem, 0.0));
+    let transfer = patterns.iter().map(|pattern| robin(&pattern.problem, 0.0));
     let transfer = transfer.collect::<Result<Vec<_>>>()?;
     for (at, record) in problem.loads.robin.iter().enumerate() {
         let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
@@ -67,25 +65,24 @@ pub(super) fn blocks(
 /// # Errors
 /// Data that are not finite.
 pub(super) fn jumps(
-    scene: &Scene,
     problem: &Problem,
     patterns: &[Pattern],
     functions: &Functions,
 ) -> Result<Option<Vec<Block>>> {
     let deviations = deviations(problem, patterns)?;
     let is_lifted = deviations.iter().any(|of| !of.found.is_empty());
-    let has_source = patterns.iter().any(|p| p.loads.triangles.iter().any(|&load| load != 0.0));
-    let is_constant = |at| Conductivity::of(scene, problem, at).is_constant();
+    let has_source = patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
+    let is_constant = |at| Conductivity::of(problem, at).is_constant();
     let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
     if is_plain && !(is_lifted && has_source) {
         return Ok(None);
     }
-    let of_means = |at| of_cell(scene, problem, at, functions, &deviations, Of::Means);
+    let of_means = |at| of_cell(problem, at, functions, &deviations, Of::Means);
     (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
 }
 
-fn deviations<'p>(problem: &Problem, patterns: &'p [Pattern]) -> Result<Vec<Deviations<'p>>> {
-    patterns.iter().map(|p| Deviations::at_time(&p.scene, problem, 0.0)).collect()
+fn deviations<'p>(_problem: &Problem, patterns: &'p [Pattern]) -> Result<Vec<Deviations<'p>>> {
+    patterns.iter().map(|p| Deviations::at_time(&p.problem, 0.0)).collect()
 }
 
 /// What is taken from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
@@ -96,7 +93,6 @@ enum Of {
 }
 
 fn of_cell(
-    scene: &Scene,
     problem: &Problem,
     at: usize,
     functions: &Functions,
@@ -118,7 +114,7 @@ fn of_cell(
     let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
     let curved: Vec<usize> =
         (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
-    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
     let fields = unit_fields(problem, at, edges);
     let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
     let mut columns = vec![Vec::new(); width];

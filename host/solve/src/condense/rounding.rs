@@ -45,7 +45,7 @@ impl Ground<'_> {
         let out = if self.floating.is_empty() { 0.0 } else { reach * most };
         let way = self.way(assembled)? + out;
         for (at, (field, lost)) in self.fields.iter().zip(&mut lost).enumerate() {
-            let loads = self.patterns.get(at).map(|pattern| &pattern.loads);
+            let loads = self.patterns.get(at).map(|pattern| pattern.loads());
             *lost += way * self.unbalanced(field, loads);
             if let Some(column) = at.checked_sub(inputs) {
                 *lost += reach * self.skewed(field, column);
@@ -56,15 +56,15 @@ impl Ground<'_> {
 
     /// What it takes to bring 1 from the farthest cell to the boundary.
     fn way(&self, assembled: &Assembled<f64>) -> Result<f64> {
-        let (scene, problem) = (self.scene, self.problem);
-        let unfit = unfit::<f64>(scene);
+        let problem = self.problem;
+        let unfit = unfit::<f64>(&problem.scene);
         let edges = *assembled.edges();
         let alone = |edge: usize| {
             problem.kinds[edge] == EdgeKind::Contact
                 && self.parts.support(self.parts.of_edge(&edges, edge)) == Support::Contact
         };
         let mut ways = Ways::new(problem);
-        ways.find(assembled, &Metric::new(scene, problem), alone).map_err(&unfit)?;
+        ways.find(assembled, &Metric::new(problem), alone).map_err(&unfit)?;
         Ok(ways.reach())
     }
 

@@ -8,7 +8,6 @@ use crate::certify::{ErrorBound, NoBound};
 use crate::norms::Errors;
 use crate::problem::Problem;
 use crate::solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, status_name};
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
 /// The object, keys in the order of the file.
@@ -68,7 +67,6 @@ struct PartNames {
 impl Summary {
     /// Collects it.
     pub fn new(
-        scene: &Scene,
         problem: &Problem,
         solver: SolverKind,
         solution: &Solution,
@@ -79,7 +77,7 @@ impl Summary {
         let counts = problem.topology.counts;
         let parts = solution.parts;
         Self {
-            title: scene.title.clone(),
+            title: problem.scene.title.clone(),
             scalar: solution.scalar,
             solver,
             solver_used: solution.ran,

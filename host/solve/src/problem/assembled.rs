@@ -12,7 +12,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Model, Tensor};
 
-use super::element_matrices::{ElementMatrices, element_matrices};
+use super::element_matrices::ElementMatrices;
 use super::unit_box::UnitBox;
 use super::{Loads, Parts, Problem, QuadCoefficient};
 use crate::scalar::Scalar;
@@ -82,7 +82,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn new(problem: &'p Problem) -> Result<Self, Error> {
         let edges = problem.topology.edges()?;
         let vertices = UnitBox::of(&problem.mesh.vertices).narrowed(&problem.mesh.vertices);
-        let ElementMatrices { triangles, quads, obliqueness } = element_matrices(problem)?;
+        let ElementMatrices { triangles, quads, obliqueness } = ElementMatrices::of(problem)?;
         let loads = Narrowed::new(&problem.loads);
         let unknowns = edges.counts().unknowns();
         let mut assembled = Self {

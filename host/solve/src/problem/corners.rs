@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Field, Scene};
+use signorini_scene::scene::Field;
 
 /// What rounding may leave of u_D = ψ, relative to the range of the boundary data: cos(1.5π) in an
 /// expression is −1.8e−16.
@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// The first vertex where u_D < ψ beyond rounding, with both values.
-pub(super) fn check(scene: &Scene, problem: &Problem) -> Result<()> {
+pub(super) fn check(problem: &Problem) -> Result<()> {
     let counts = problem.topology.counts;
     let contact = counts.free..counts.unknowns();
     let touched: HashMap<u32, usize> =
@@ -26,14 +26,14 @@ pub(super) fn check(scene: &Scene, problem: &Problem) -> Result<()> {
         for vertex in problem.ends[edge] {
             let Some(&neighbour) = touched.get(&vertex) else { continue };
             let [x, y] = problem.mesh.vertices[vertex as usize];
-            let given = Sum::on_edge(scene, problem, edge, Field::Value, problem.time);
-            let gap = Sum::on_edge(scene, problem, neighbour, Field::Gap, problem.time);
+            let given = Sum::on_edge(problem, edge, Field::Value, problem.time);
+            let gap = Sum::on_edge(problem, neighbour, Field::Gap, problem.time);
             let (Some(given), Some(gap)) = (given, gap) else { continue };
             let (value, gap) = (given.at(x, y), gap.at(x, y));
             if gap - value > ROUNDING * (high - low) {
                 let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
                 let hint = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
-                return Err(scene.error(given.key(), message).hint(hint).into());
+                return Err(problem.scene.error(given.key(), message).hint(hint).into());
             }
         }
     }

@@ -1,6 +1,4 @@
-//! Element matrices in f64, narrowed once, and whether the scalar can hold them.
-
-use std::cell::Cell;
+//! Element matrices in f64, integrated once, narrowed once, and whether the scalar can hold them.
 
 use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::error::CellId;
@@ -20,45 +18,66 @@ pub(super) struct ElementMatrices<R> {
     pub obliqueness: f64,
 }
 
+/// The same in f64 and in the unit box, before a scalar is chosen: mesh and A alone decide them.
+#[derive(Debug, Clone)]
+pub(super) struct Integrated {
+    triangles: Vec<[f64; 3]>,
+    quads: Vec<[f64; 6]>,
+    /// Of every cell, triangles first.
+    obliqueness: Vec<f64>,
+}
+
 /// Of a determinant that cancels down to this many ε of its terms nothing is left.
 const TOLD_APART: f64 = 32.0;
 
-/// Integrates them in the unit box, in f64, and narrows each once.
-///
-/// # Errors
-/// Cells too thin or too oblique for the scalar.
-pub(super) fn element_matrices<R: Scalar>(problem: &Problem) -> Result<ElementMatrices<R>, Error> {
-    let most = Cell::new(1.0_f64);
-    let bear = |obliqueness: f64, cell| {
-        most.set(most.get().max(obliqueness));
-        let told_apart = obliqueness * TOLD_APART * R::EPSILON.wide() < 1.0;
-        told_apart.then_some(()).ok_or(Error::Oblique(cell))
-    };
-    let mesh = &problem.mesh;
-    let vertices = UnitBox::of(&mesh.vertices).narrowed(&mesh.vertices);
-    let in_box = Mesh::<f64, u32>::new(&vertices, &mesh.triangles, &mesh.quads)?;
-    let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
-    let triangles = triangles.enumerate().map(|(at, (cell, a))| {
-        let matrix = crouzeix_raviart::stiffness(in_box.triangle(cell), *a);
-        bear(of_triangle(matrix), CellId::Triangle(at)).map(|()| matrix.map(R::narrow))
-    });
-    let triangles = triangles.collect::<Result<Vec<_>, _>>()?;
-    let rule = f64::GAUSS[DATA_POINTS - 1];
-    let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
-    let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
-        let corners = in_box.quad(cell);
-        let tensor = problem.mean_conductivity(mesh.triangles.len() + at);
-        bear(of_quad(corners, tensor), CellId::Quad(at))?;
-        let matrix = match coefficient {
-            QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
-            QuadCoefficient::AtPoints(tensors) => {
-                problem.element.stiffness(corners, rule, |point, _| tensors[point])
+impl<R: Scalar> ElementMatrices<R> {
+    /// Narrows what is integrated once.
+    ///
+    /// # Errors
+    /// Cells too thin or too oblique for the scalar.
+    pub fn of(problem: &Problem) -> Result<Self, Error> {
+        let coefficients = &problem.coefficients;
+        let integrated = coefficients.matrices.get_or_init(|| Integrated::new(problem));
+        let Integrated { triangles, quads, obliqueness } =
+            integrated.as_ref().map_err(|error| *error)?;
+        let is_told = |of: &f64| of * TOLD_APART * R::EPSILON.wide() < 1.0;
+        if let Some(at) = obliqueness.iter().position(|of| !is_told(of)) {
+            let quad = at.checked_sub(triangles.len());
+            return Err(Error::Oblique(quad.map_or(CellId::Triangle(at), CellId::Quad)));
+        }
+        Ok(Self {
+            triangles: triangles.iter().map(|matrix| matrix.map(R::narrow)).collect(),
+            quads: quads.iter().map(|matrix| matrix.map(R::narrow)).collect(),
+            obliqueness: obliqueness.iter().fold(1.0, |most: f64, &of| most.max(of)),
+        })
+    }
+}
+
+impl Integrated {
+    fn new(problem: &Problem) -> Result<Self, Error> {
+        let mesh = &problem.mesh;
+        let vertices = UnitBox::of(&mesh.vertices).narrowed(&mesh.vertices);
+        let in_box = Mesh::<f64, u32>::new(&vertices, &mesh.triangles, &mesh.quads)?;
+        let triangles = mesh.triangles.iter().zip(&problem.coefficients.triangles);
+        let triangles =
+            triangles.map(|(cell, a)| crouzeix_raviart::stiffness(in_box.triangle(cell), *a));
+        let triangles: Vec<_> = triangles.collect();
+        let mut obliqueness: Vec<_> = triangles.iter().map(|matrix| of_triangle(*matrix)).collect();
+        let rule = f64::GAUSS[DATA_POINTS - 1];
+        let quads = mesh.quads.iter().zip(&problem.coefficients.quads);
+        let quads = quads.enumerate().map(|(at, (cell, coefficient))| {
+            let corners = in_box.quad(cell);
+            obliqueness.push(of_quad(corners, problem.mean_conductivity(triangles.len() + at)));
+            match coefficient {
+                QuadCoefficient::Constant(a) => problem.element.stiffness(corners, rule, |_, _| *a),
+                QuadCoefficient::AtPoints(tensors) => {
+                    problem.element.stiffness(corners, rule, |point, _| tensors[point])
+                }
             }
-        };
-        Ok(matrix.map(R::narrow))
-    });
-    let quads = quads.collect::<Result<_, _>>()?;
-    Ok(ElementMatrices { triangles, quads, obliqueness: most.get() })
+        });
+        let quads = quads.collect();
+        Ok(Self { triangles, quads, obliqueness })
+    }
 }
 
 /// How oblique A is in a triangle: the terms of 4 det A = ab + bc + ca, with the negative entries a, b, c of the

@@ -1,5 +1,7 @@
 //! The coefficient A over the cells: means on triangles, Gauss-point values on quads.
 
+use std::sync::OnceLock;
+
 use signorini_kernel::{Real, Tensor};
 
 use super::{Binding, Coefficients, Problem, QuadCoefficient};
@@ -30,7 +32,7 @@ pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Res
         let tensors = points.map(|point| at_point(scene, &scene.materials[material], point));
         Ok(QuadCoefficient::AtPoints(tensors.collect::<Result<_>>()?))
     });
-    Ok(Coefficients { triangles, quads: quads.collect::<Result<_>>()? })
+    Ok(Coefficients { triangles, quads: quads.collect::<Result<_>>()?, matrices: OnceLock::new() })
 }
 
 /// The tensor of a material whose entries are all constant.
@@ -43,7 +45,7 @@ fn constant(scene: &Scene, material: &Material) -> Result<Option<Tensor<f64>>> {
 impl Problem {
     /// The mean of A over a cell, triangles first.
     pub fn mean_conductivity(&self, cell: usize) -> Tensor<f64> {
-        let Coefficients { triangles, quads } = &self.coefficients;
+        let Coefficients { triangles, quads, .. } = &*self.coefficients;
         let Some(quad) = cell.checked_sub(triangles.len()) else { return triangles[cell] };
         match &quads[quad] {
             QuadCoefficient::Constant(tensor) => *tensor,

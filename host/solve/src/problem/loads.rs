@@ -29,19 +29,19 @@ pub struct Loads {
 }
 
 impl Loads {
-    /// Integrates all data of `scene` at time `time`.
+    /// Integrates all data of `problem` at time `time`.
     ///
     /// # Errors
     /// Data that are not finite, a negative Robin coefficient.
-    pub fn at_time(scene: &Scene, problem: &Problem, time: f64) -> Result<Self> {
-        let source = Sum::source(scene, time);
+    pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
+        let source = Sum::source(&problem.scene, time);
         let mut loads = Self::default();
         if !source.is_zero() {
             loads.integrate_source(&source, problem)?;
         }
         for edge in 0..problem.ends.len() {
             if problem.kinds[edge] != EdgeKind::Interior {
-                loads.add_edge(scene, problem, edge, time)?;
+                loads.add_edge(problem, edge, time)?;
             }
         }
         Ok(loads)
@@ -66,12 +66,12 @@ impl Loads {
     }
 
     /// Edges come in the order of the blocks, so contact and Dirichlet data line up by themselves.
-    fn add_edge(&mut self, scene: &Scene, problem: &Problem, edge: usize, time: f64) -> Result<()> {
+    fn add_edge(&mut self, problem: &Problem, edge: usize, time: f64) -> Result<()> {
         let Some(boundary) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
-        let boundary = &scene.boundaries[boundary];
+        let boundary = &problem.scene.boundaries[boundary];
         let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
         let name = &boundary.name.value;
-        let mean = |field, base| Sum::new(scene, name, field, base, time).mean(segment);
+        let mean = |field, base| Sum::new(&problem.scene, name, field, base, time).mean(segment);
         let index = edge as u32;
         match &boundary.condition {
             Condition::Dirichlet { value } => self.dirichlet.push(mean(Field::Value, value)?),
@@ -83,10 +83,10 @@ impl Loads {
             }
             Condition::Robin { coefficient, ambient } => {
                 let (h, outside) = (
-                    Sum::alone(scene, coefficient, time),
-                    Sum::new(scene, name, Field::Ambient, ambient, time),
+                    Sum::alone(&problem.scene, coefficient, time),
+                    Sum::new(&problem.scene, name, Field::Ambient, ambient, time),
                 );
-                nowhere_negative(scene, coefficient, segment, &h)?;
+                nowhere_negative(&problem.scene, coefficient, segment, &h)?;
                 let both = mean_on_edge(segment, |x, y| h.at(x, y) * outside.at(x, y));
                 let robin = Robin {
                     edge: index,

@@ -7,7 +7,6 @@ use signorini_kernel::edges::{Edges, Side};
 
 use super::Problem;
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 
 /// Loads whose sum is this small against their sizes are in balance: what quadrature leaves.
 const BALANCE: f64 = 1e-9;
@@ -27,11 +26,10 @@ impl Parts {
     /// # Errors
     /// A part without a solution, or with more than one where contact could decide, named by a
     /// point in it.
-    pub fn examine(scene: &Scene, problem: &Problem) -> Result<Self> {
+    pub fn examine(problem: &Problem) -> Result<Self> {
         let triangles = problem.mesh.triangles.len();
         let mut cells = vec![Part::default(); triangles + problem.mesh.quads.len()];
-        let counts =
-            Self::counts(problem, &mut cells).map_err(|error| refused(scene, problem, error))?;
+        let counts = Self::counts(problem, &mut cells).map_err(|error| refused(problem, error))?;
         Ok(Self { counts, cells, triangles })
     }
 
@@ -73,8 +71,8 @@ impl Parts {
 }
 
 /// The sentence for parts that nothing holds, if there are any and their loads balance.
-pub(super) fn floating(scene: &Scene, problem: &Problem) -> Option<String> {
-    let parts = Parts::examine(scene, problem).ok()?;
+pub(super) fn floating(problem: &Problem) -> Option<String> {
+    let parts = Parts::examine(problem).ok()?;
     let first =
         (0..problem.cells()).find(|&cell| parts.support(parts.of_cell(cell)) == Support::None)?;
     let more = match parts.counts.floating {
@@ -98,7 +96,7 @@ fn near(problem: &Problem, cell: usize) -> String {
     format!("the connected part of the mesh around ({x}, {y})")
 }
 
-fn refused(scene: &Scene, problem: &Problem, error: signorini_kernel::Error) -> InputError {
+fn refused(problem: &Problem, error: signorini_kernel::Error) -> InputError {
     use signorini_kernel::Error as E;
     let near = |cell| near(problem, cell);
     let size = format!("{BALANCE:e} of the sum of their sizes, edge by edge");
@@ -120,5 +118,5 @@ fn refused(scene: &Scene, problem: &Problem, error: signorini_kernel::Error) -> 
         ),
         other => (other.to_string(), "see the numbers of the scene".to_owned()),
     };
-    InputError::new(format!("boundary: {message}")).file(&scene.path).hint(hint)
+    InputError::new(format!("boundary: {message}")).file(&problem.scene.path).hint(hint)
 }

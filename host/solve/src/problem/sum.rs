@@ -46,14 +46,8 @@ impl<'s> Sum<'s> {
     }
 
     /// `field` of the boundary that an edge lies on, where its condition has such a field.
-    pub fn on_edge(
-        scene: &'s Scene,
-        problem: &Problem,
-        edge: usize,
-        field: Field,
-        time: f64,
-    ) -> Option<Self> {
-        let boundary = &scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+    pub fn on_edge(problem: &'s Problem, edge: usize, field: Field, time: f64) -> Option<Self> {
+        let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
         let base = match (&boundary.condition, field) {
             (Condition::Dirichlet { value }, Field::Value) => value,
             (Condition::Contact { gap, .. }, Field::Gap) => gap,
@@ -61,7 +55,7 @@ impl<'s> Sum<'s> {
             (Condition::Robin { ambient, .. }, Field::Ambient) => ambient,
             _ => return None,
         };
-        Some(Self::new(scene, &boundary.name.value, field, base, time))
+        Some(Self::new(&problem.scene, &boundary.name.value, field, base, time))
     }
 
     /// Where the field stands in the scene file.

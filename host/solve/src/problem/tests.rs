@@ -1,7 +1,7 @@
 //! Curves inside the domain, slits, and tables that act nowhere.
 
-use super::Problem;
-use crate::fixtures::scene;
+use super::{Assembled, Problem};
+use crate::fixtures::{self, scene};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
@@ -215,7 +215,7 @@ fn the_threshold_of_a_balance_is_said() -> Result<()> {
         SCENE.replace("kind = \"dirichlet\"\nvalue = \"1\"", "kind = \"neumann\"\nflux = \"0\"");
     let scene = scene(&text)?;
     let problem = Problem::new(&scene, grid(2, Cells::Quads))?;
-    let error = super::Parts::examine(&scene, &problem).expect_err("no unique solution");
+    let error = super::Parts::examine(&problem).expect_err("no unique solution");
     let said = error.to_string();
     assert!(
         said.contains("balance by themselves (their sum is at most 1e-9 of the sum of their sizes"),
@@ -240,5 +240,19 @@ fn a_part_that_nothing_holds_is_said() -> Result<()> {
     // Torn apart there are two of them.
     let said = warnings(&text, torn(grid(2, Cells::Mixed), |_| true))?;
     assert!(said.len() == 2 && said[1].contains("nor 1 more: u is determined"), "{said:?}");
+    Ok(())
+}
+
+#[test]
+fn the_diagonal_has_the_bits_of_the_assembled_one() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let (_, problem) =
+            fixtures::on_grid(fixtures::SMOOTH, fixtures::distorted(grid(4, cells)))?;
+        let [diagonal, load] = problem.diagonal_and_load().expect("numbers that f64 holds");
+        let assembled = Assembled::<f64>::new(&problem).expect("the same");
+        let system = assembled.system().expect("the same");
+        let expected: Vec<_> = system.matrix().iter().map(|row| row.diagonal()).collect();
+        assert_eq!((diagonal, &load[..]), (expected, system.load()), "{cells:?}");
+    }
     Ok(())
 }

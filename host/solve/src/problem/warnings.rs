@@ -3,15 +3,15 @@
 use super::solvability::floating;
 use super::{EdgeKind, Problem};
 use signorini_scene::mesh::coincident::{Segment, coincident};
-use signorini_scene::scene::{Condition, Field, Scene};
+use signorini_scene::scene::{Condition, Field};
 
 /// The sentences, the gravest first.
-pub(super) fn warnings(scene: &Scene, problem: &Problem) -> Vec<String> {
+pub(super) fn warnings(problem: &Problem) -> Vec<String> {
     slit(problem)
         .into_iter()
-        .chain(floating(scene, problem))
-        .chain(idle_default(scene, problem))
-        .chain(idle_loads(scene, problem))
+        .chain(floating(problem))
+        .chain(idle_default(problem))
+        .chain(idle_loads(problem))
         .collect()
 }
 
@@ -44,24 +44,25 @@ fn slit(problem: &Problem) -> Option<String> {
 }
 
 /// A default that somebody wrote a condition into, on a boundary that is all named.
-fn idle_default(scene: &Scene, problem: &Problem) -> Option<String> {
-    let default = scene.boundaries.iter().find(|boundary| boundary.name.value == "default")?;
+fn idle_default(problem: &Problem) -> Option<String> {
+    let default =
+        problem.scene.boundaries.iter().find(|boundary| boundary.name.value == "default")?;
     let kind = match &default.condition {
         Condition::Neumann { .. } => return None,
         condition => condition.kind(),
     };
-    is_idle(scene, problem, "default").then(|| {
+    is_idle(problem, "default").then(|| {
         format!("[boundary.default] ({kind}) acts nowhere: every boundary edge lies in a curve with a table of its own")
     })
 }
 
 /// Inputs and outputs of a default that covers no edge.
-fn idle_loads(scene: &Scene, problem: &Problem) -> Vec<String> {
-    let inputs = scene.inputs.iter().filter(|input| input.field.value != Field::Source);
+fn idle_loads(problem: &Problem) -> Vec<String> {
+    let inputs = problem.scene.inputs.iter().filter(|input| input.field.value != Field::Source);
     let inputs = inputs.map(|input| (&input.name, &input.of));
     let outputs =
-        scene.outputs.iter().filter_map(|output| Some((&output.name, output.of.as_ref()?)));
-    let idle = inputs.chain(outputs).filter(|(_, of)| is_idle(scene, problem, &of.value));
+        problem.scene.outputs.iter().filter_map(|output| Some((&output.name, output.of.as_ref()?)));
+    let idle = inputs.chain(outputs).filter(|(_, of)| is_idle(problem, &of.value));
     idle.map(|(name, of)| {
         format!("[{}] is about no edge: [boundary.{}] covers none", name.key, of.value)
     })
@@ -69,10 +70,10 @@ fn idle_loads(scene: &Scene, problem: &Problem) -> Vec<String> {
 }
 
 /// Whether a boundary of the scene covers no edge; only a default can.
-fn is_idle(scene: &Scene, problem: &Problem, name: &str) -> bool {
+fn is_idle(problem: &Problem, name: &str) -> bool {
     let of = |edge: usize| problem.binding.boundary(problem.ends[edge]);
     name == "default"
-        && !outer(problem).filter_map(of).any(|at| scene.boundaries[at].name.value == name)
+        && !outer(problem).filter_map(of).any(|at| problem.scene.boundaries[at].name.value == name)
 }
 
 /// The edges on the boundary.

@@ -23,7 +23,6 @@ use super::{
 };
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
-use signorini_scene::scene::Scene;
 
 /// Sweeps per √N, from below: a problem that needs more is only solved sooner by the factor.
 const SWEEPS: f64 = 10.0;
@@ -44,45 +43,34 @@ pub fn prefers_factor(problem: &Problem) -> bool {
 
 /// The kernel's factor or the direct solver where a factor is less work, and sweeps where it is not or where
 /// neither has an answer.
-pub(super) fn in_f64(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<Solution> {
+pub(super) fn in_f64(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
     if prefers_factor(problem) {
-        if let Some(found) = by_factor::<f64>(scene, problem, parts, options)? {
+        if let Some(found) = by_factor::<f64>(problem, parts, options)? {
             return Ok(found);
         }
         // Who has no answer leaves it to the kernel to say why.
-        if let Ok(found) = direct::directly(scene, problem, parts, options)
+        if let Ok(found) = direct::directly(problem, parts, options)
             && found.status == Status::Converged
         {
             return Ok(found);
         }
     }
-    by_kernel::<f64>(scene, problem, parts, options)
+    by_kernel::<f64>(problem, parts, options)
 }
 
 /// The same without the direct solver, which works in f64.
-pub(super) fn in_f32(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<Solution> {
+pub(super) fn in_f32(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
     if prefers_factor(problem)
-        && let Some(found) = by_factor::<f32>(scene, problem, parts, options)?
+        && let Some(found) = by_factor::<f32>(problem, parts, options)?
     {
         return Ok(found);
     }
-    by_kernel::<f32>(scene, problem, parts, options)
+    by_kernel::<f32>(problem, parts, options)
 }
 
 /// The answer of the kernel's factor alone. Nothing where a part is held by nothing, which leaves the matrix
 /// singular, where the factor would be too large, or where it leaves digits open.
 pub(super) fn by_factor<R: Scalar>(
-    scene: &Scene,
     problem: &Problem,
     parts: &Parts,
     options: &Options,
@@ -90,7 +78,7 @@ pub(super) fn by_factor<R: Scalar>(
     if parts.counts.floating > 0 {
         return Ok(None);
     }
-    let unfit = unfit::<R>(scene);
+    let unfit = unfit::<R>(&problem.scene);
     let mut clock = Clock::start();
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.set_parts(parts);
@@ -107,5 +95,5 @@ pub(super) fn by_factor<R: Scalar>(
     }
     let (ran, factored, scalar) = (Ran::Factor, Some(factored), options.scalar);
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(scene, problem, parts, &assembled, solved).map(Some)
+    conclude(problem, parts, &assembled, solved).map(Some)
 }

@@ -11,21 +11,16 @@ use crate::problem::{Assembled, Parts, Problem};
 use crate::progress::stage;
 use crate::reference::{self, Factor, ReferenceError};
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 
-pub(super) fn directly(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<Solution> {
-    let unfit = unfit::<f64>(scene);
+pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+    let unfit = unfit::<f64>(&problem.scene);
     let mut clock = Clock::start();
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
     let system = assembled.system().map_err(&unfit)?;
     let assembly = clock.lap();
     let failed = |error: ReferenceError| {
-        InputError::new(format!("the direct solver found no solution: {error}")).file(&scene.path)
+        InputError::new(format!("the direct solver found no solution: {error}"))
+            .file(&problem.scene.path)
     };
     let mut u = assembled.start();
     let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
@@ -45,7 +40,7 @@ pub(super) fn directly(
     let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
     let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
     let solved = Solved { outcome, ran, factored, u, low: Vec::new(), scalar, assembly, clock };
-    conclude(scene, problem, parts, &assembled, solved)
+    conclude(problem, parts, &assembled, solved)
 }
 
 /// K and b with the Dirichlet columns moved to the right: what the reference takes.

@@ -1,6 +1,7 @@
 //! One contact problem solved: by the kernel in either scalar, or by the faer reference.
 
 mod auto;
+mod conclude;
 mod direct;
 mod factored;
 mod ldlt;
@@ -20,9 +21,7 @@ pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
 pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
-pub use units::{choose as choose_units, choose_for_inputs, in_units, times};
-
-use std::time::Instant;
+pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
 
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::conjugate::ConjugateBuffers;
@@ -31,42 +30,39 @@ use signorini_kernel::refinement::{self, RefinementBuffers};
 use signorini_kernel::rows::{self, Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings, Status};
-use signorini_kernel::{Error as KernelError, Libm, Real, contact, flux};
+use signorini_kernel::{Error as KernelError, Libm};
 
-use crate::certify::{Certified, Data};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::progress::stage;
 use crate::scalar::Scalar;
+use conclude::{Clock, Solved, conclude};
 pub use direct::Reduced;
 pub use ldlt::{Exchanges, Ldlt};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
-use signorini_scene::scene::units::Units;
 pub use solution::centre_floating;
 
-/// Solves `problem`, which `scene` states on a mesh; where its numbers are far from 1, in units in which
+/// Solves `problem`; where its numbers are far from 1, in units in which
 /// they are not ([`Solution::units`]).
 ///
 /// # Errors
 /// No solution, numbers that the scalar type cannot hold, a singular matrix.
-pub fn solve(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let units = choose_units(scene, problem)?;
-    if units == Units::default() {
-        return solve_in_its_units(scene, problem, options);
-    }
-    let (scene, problem) = in_units(scene, problem, &units)?;
-    let solution = solve_in_its_units(&scene, &problem, options)?;
-    Ok(Solution { units, ..times(&units, solution) })
+pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
+    let scaled = Scaled::new(problem, choose_units(problem)?)?;
+    let solution = solve_in_its_units(scaled.problem(), options)?;
+    let units = scaled.units;
+    let Some(other) = scaled.other() else { return Ok(solution) };
+    Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
 }
 
-fn solve_in_its_units(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let parts = Parts::examine(scene, problem)?;
+fn solve_in_its_units(problem: &Problem, options: &Options) -> Result<Solution> {
+    let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
-        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(scene, problem, &parts, options),
-        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(scene, problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(scene, problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(scene, problem, &parts, options),
-        (SolverKind::Direct, ScalarKind::F64) => direct::directly(scene, problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(problem, &parts, options),
+        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options),
+        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
             Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
                 .hint("leave out --scalar, or use --solver auto")
@@ -92,13 +88,8 @@ fn overflow<R: Scalar>(scene: &Scene) -> Error {
         .into()
 }
 
-fn by_kernel<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    options: &Options,
-) -> Result<Solution> {
-    let unfit = unfit::<R>(scene);
+fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+    let unfit = unfit::<R>(&problem.scene);
     let mut clock = Clock::start();
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.set_parts(parts);
@@ -117,45 +108,7 @@ fn by_kernel<R: Scalar>(
     let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(scene, problem, parts, &assembled, solved)
-}
-
-/// An iterate, and the time up to its assembly.
-struct Solved<R> {
-    outcome: Outcome<R>,
-    ran: Ran,
-    factored: Option<Factored>,
-    u: Vec<R>,
-    /// The low part of u, or nothing.
-    low: Vec<R>,
-    scalar: ScalarKind,
-    assembly: f64,
-    /// Started after the assembly.
-    clock: Clock,
-}
-
-/// Fluxes, certificate and what is read off.
-fn conclude<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    parts: &Parts,
-    assembled: &Assembled<R>,
-    solved: Solved<R>,
-) -> Result<Solution> {
-    let unfit = unfit::<R>(scene);
-    let Solved { outcome, ran, factored, u, low, scalar, assembly, mut clock } = solved;
-    if outcome.status == Status::NotFinite {
-        return Err(overflow::<R>(scene));
-    }
-    let solve = clock.lap();
-    stage("fluxes and error bound");
-    let fluxes = Fluxes::recover(assembled, &u, &low).map_err(&unfit)?;
-    let flux = clock.lap();
-    let data = Data::new(scene, problem)?;
-    let certified = Certified::new(scene, problem, parts, assembled, &data, &u).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux, certificate: clock.lap() };
-    let found = Found { outcome, ran, factored, u, fluxes, certified, seconds };
-    Ok(finish(problem, parts, assembled, found, scalar))
+    conclude(problem, parts, &assembled, solved)
 }
 
 /// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor; `low`
@@ -211,92 +164,4 @@ fn sweep<R: Scalar, const WIDTH: usize>(
         },
     };
     refinement::run::<R, u32, Libm, WIDTH>(system, boundary, settings, rounds, u, buffers)
-}
-
-struct Clock(Instant);
-
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    fn lap(&mut self) -> f64 {
-        let lap = self.0.elapsed().as_secs_f64();
-        self.0 = Instant::now();
-        lap
-    }
-}
-
-struct Fluxes<R> {
-    flux: Vec<R>,
-    mismatch: f64,
-    force: f64,
-}
-
-impl<R: Scalar> Fluxes<R> {
-    fn recover(
-        assembled: &Assembled<R>,
-        u: &[R],
-        low: &[R],
-    ) -> std::result::Result<Self, KernelError> {
-        let edges = assembled.edges();
-        let mut flux = vec![R::ZERO; u.len()];
-        let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
-        let found = flux::recover(edges, stiffness, cells, u, low, &mut flux)?;
-        let (boundary, lower) = (assembled.boundary()?, assembled.lower());
-        let force = contact::force(edges.counts(), &boundary, lower, u, &flux).wide();
-        let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
-        Ok(Self { flux, mismatch, force })
-    }
-}
-
-struct Found<R> {
-    outcome: Outcome<R>,
-    ran: Ran,
-    factored: Option<Factored>,
-    u: Vec<R>,
-    fluxes: Fluxes<R>,
-    certified: Certified,
-    seconds: Seconds,
-}
-
-fn finish<R: Scalar>(
-    problem: &Problem,
-    parts: &Parts,
-    assembled: &Assembled<R>,
-    found: Found<R>,
-    scalar: ScalarKind,
-) -> Solution {
-    let Found { outcome, ran, factored, u, fluxes, certified, seconds } = found;
-    let counts = problem.topology.counts;
-    let lower = assembled.lower();
-    let active = (0..counts.contact).filter(|&at| contact::is_active(counts, lower, &u, at));
-    let active: Vec<usize> = active.collect();
-    let mut solution = Solution {
-        scalar,
-        status: outcome.status,
-        sweeps: outcome.sweeps,
-        conjugate: outcome.conjugate,
-        ran,
-        factored,
-        units: Units::default(),
-        algebraic_residual: outcome.residual.scaled().wide(),
-        omega: outcome.omega.wide(),
-        u: u.iter().map(|x| x.wide()).collect(),
-        flux: fluxes.flux.iter().map(|x| x.wide()).collect(),
-        mismatch: fluxes.mismatch,
-        contact_force: fluxes.force,
-        contact_length: active.iter().fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
-        contact_active: active.len(),
-        parts: parts.counts,
-        bound: certified.bound,
-        no_bound: certified.no_bound,
-        certified: certified.answer,
-        seconds,
-    };
-    if parts.counts.floating > 0 {
-        let (u, vertices) = (&mut solution.u, &mut solution.certified.vertices);
-        centre_floating(problem, parts, u, vertices);
-    }
-    solution
 }

@@ -1,6 +1,7 @@
 //! A solved problem and what is read off it.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use serde::Serialize;
 use signorini_kernel::Real;
@@ -32,6 +33,8 @@ pub struct Solution {
     pub factored: Option<Factored>,
     /// The units in which it was solved; all numbers here are in the scene's.
     pub units: Units,
+    /// The problem in these units, where they are not the scene's.
+    pub scaled: Option<Arc<Problem>>,
     /// The scaled complementarity residual.
     pub algebraic_residual: f64,
     /// The last relaxation factor; 0 for the direct solver.

@@ -19,7 +19,6 @@ use super::{Options, SolverKind, solve, unfit};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
 
 /// The smaller part of a golden section.
@@ -40,20 +39,15 @@ const NARROWEST: f64 = 1e-5;
 ///
 /// # Errors
 /// No solution; a goal that the scalar type cannot reach.
-pub fn tuned_omega(
-    scene: &Scene,
-    problem: &Problem,
-    precision: Precision,
-    goal: f64,
-) -> Result<f64> {
+pub fn tuned_omega(problem: &Problem, precision: Precision, goal: f64) -> Result<f64> {
     match precision {
-        Precision::F32 => Trials::<f32>::new(scene, problem, goal)?.best(),
-        Precision::F64 | Precision::Mixed => Trials::<f64>::new(scene, problem, goal)?.best(),
+        Precision::F32 => Trials::<f32>::new(problem, goal)?.best(),
+        Precision::F64 | Precision::Mixed => Trials::<f64>::new(problem, goal)?.best(),
     }
     .ok_or_else(|| {
         let message = format!("no ω brings the error down to {goal:e} of what it was");
         let hint = "ask for less, or sweep in f64";
-        InputError::new(message).file(&scene.path).hint(hint).into()
+        InputError::new(message).file(&problem.scene.path).hint(hint).into()
     })
 }
 
@@ -70,14 +64,14 @@ impl<'p, R: Scalar> Trials<'p, R> {
     ///
     /// # Errors
     /// No solution, numbers that the scalar type cannot hold.
-    pub fn new(scene: &Scene, problem: &'p Problem, goal: f64) -> Result<Self> {
+    pub fn new(problem: &'p Problem, goal: f64) -> Result<Self> {
         let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(scene, problem, &direct)?.u;
-        let mut assembled = Assembled::new(problem).map_err(unfit::<R>(scene))?;
-        assembled.set_parts(&Parts::examine(scene, problem)?);
+        let solution = solve(problem, &direct)?.u;
+        let mut assembled = Assembled::new(problem).map_err(unfit::<R>(&problem.scene))?;
+        assembled.set_parts(&Parts::examine(problem)?);
         let mut trials = Self { assembled, solution, goal: 0.0 };
         let start = trials.assembled.start();
-        trials.goal = goal * trials.error(&start).map_err(unfit::<R>(scene))?;
+        trials.goal = goal * trials.error(&start).map_err(unfit::<R>(&problem.scene))?;
         Ok(trials)
     }
 

@@ -1,8 +1,9 @@
 //! The units in which a problem is solved: those in which its numbers are near 1.
 
-use crate::problem::{Assembled, Problem};
+use std::sync::Arc;
+
+use crate::problem::Problem;
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 
 use super::Solution;
@@ -14,7 +15,7 @@ const NEAR: i32 = 20;
 ///
 /// # Errors
 /// Numbers whose energy f64 cannot hold.
-pub fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
+pub fn choose(problem: &Problem) -> Result<Units> {
     let [u, conductivity] = sizes(problem).map(power);
     // An even power, whose root is a power of two as well.
     let conductivity = conductivity & !1;
@@ -26,13 +27,19 @@ pub fn choose(scene: &Scene, problem: &Problem) -> Result<Units> {
             units.u.log10(),
             units.conductivity.log10()
         );
-        return Err(InputError::new(message).file(scene.file()).hint("choose other units").into());
+        return Err(InputError::new(message)
+            .file(problem.scene.file())
+            .hint("choose other units")
+            .into());
     }
     // Normal numbers begin at 2^−1022, and fluxes are smaller than u.
     if u < -960 {
         let message =
             format!("u of about 1e{:.0} is too small for f64 to hold its digits", units.u.log10());
-        return Err(InputError::new(message).file(scene.file()).hint("choose other units").into());
+        return Err(InputError::new(message)
+            .file(problem.scene.file())
+            .hint("choose other units")
+            .into());
     }
     let is_near = |exponent: i32| exponent.abs() <= NEAR;
     let all = [u, conductivity, u + conductivity].into_iter().all(is_near);
@@ -47,16 +54,16 @@ const SILENT: f64 = 1e-6;
 ///
 /// # Errors
 /// As for [`choose`].
-pub fn choose_for_inputs(scene: &Scene, problem: &Problem) -> Result<Units> {
-    let (mut ones, mut with_inputs) = (scene.clone(), problem.clone());
-    let silent = ones.inputs.iter_mut().filter(|input| input.default == 0.0);
-    silent.for_each(|input| input.default = 1.0);
-    // Where 1 is not admissible, nothing is known of the inputs.
-    if ones == *scene || with_inputs.set_time(&ones, problem.time).is_err() {
-        return choose(scene, problem);
+pub fn choose_for_inputs(problem: &Problem) -> Result<Units> {
+    let values: Vec<_> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    if !values.contains(&0.0) {
+        return choose(problem);
     }
-    let [[own, _], [of_inputs, _]] = [sizes(problem), sizes(&with_inputs)];
-    if own >= SILENT * of_inputs { choose(scene, problem) } else { choose(&ones, &with_inputs) }
+    let ones: Vec<_> = values.iter().map(|&value| if value == 0.0 { 1.0 } else { value }).collect();
+    // Where 1 is not admissible, nothing is known of the inputs.
+    let Ok(with_ones) = problem.with_inputs(&ones) else { return choose(problem) };
+    let [[own, _], [of_inputs, _]] = [sizes(problem), sizes(&with_ones)];
+    choose(if own >= SILENT * of_inputs { problem } else { &with_ones })
 }
 
 /// The size of u, and that of A: the geometric mean of its extremes. What is given outside of transfer edges
@@ -68,12 +75,10 @@ fn sizes(problem: &Problem) -> [f64; 2] {
         numbers.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
     let given = most(&mut { given });
-    let Ok(assembled) = Assembled::<f64>::new(problem) else { return [given, 1.0] };
-    let Ok(system) = assembled.system() else { return [given, 1.0] };
-    let diagonals: Vec<f64> = system.matrix().iter().map(|row| row.diagonal()).collect();
+    let Ok([diagonals, load]) = problem.diagonal_and_load() else { return [given, 1.0] };
     let stiffest = most(&mut diagonals.iter().copied());
     let softest = diagonals.iter().copied().fold(stiffest, f64::min);
-    let loads = system.load().iter().zip(&diagonals);
+    let loads = load.iter().zip(&diagonals);
     let driven = most(&mut loads.map(|(load, diagonal)| load / diagonal));
     [given.max(driven), stiffest.sqrt() * softest.sqrt()]
 }
@@ -88,15 +93,38 @@ fn exp2(n: i32) -> f64 {
     f64::from(n.clamp(-1000, 1000)).exp2()
 }
 
-/// A problem in `units`, with the scene that states it.
-///
-/// # Errors
-/// Data that are not finite in these units.
-pub fn in_units(scene: &Scene, problem: &Problem, units: &Units) -> Result<(Scene, Problem)> {
-    let scene = units.scene(scene);
-    let mut scaled = Problem::new(&scene, problem.mesh.clone())?;
-    scaled.set_time(&scene, problem.time)?;
-    Ok((scene, scaled))
+/// A problem in units of its own, posed in them once: in those of the scene where these are 1.
+#[derive(Debug)]
+pub struct Scaled<'p> {
+    /// In the scene's units.
+    pub own: &'p Problem,
+    /// What 1 stands for in the other one.
+    pub units: Units,
+    other: Option<Arc<Problem>>,
+}
+
+impl<'p> Scaled<'p> {
+    /// `own` in `units`.
+    ///
+    /// # Errors
+    /// Data that are not finite in these units.
+    pub fn new(own: &'p Problem, units: Units) -> Result<Self> {
+        let other = match units == Units::default() {
+            true => None,
+            false => Some(Arc::new(own.in_units(&units)?)),
+        };
+        Ok(Self { own, units, other })
+    }
+
+    /// The problem in these units.
+    pub fn problem(&self) -> &Problem {
+        self.other.as_deref().unwrap_or(self.own)
+    }
+
+    /// The same, where these are not the scene's.
+    pub fn other(self) -> Option<Arc<Problem>> {
+        self.other
+    }
 }
 
 /// A solution in `units` becomes one in the scene's; with their inverse, the other way round.

@@ -7,7 +7,6 @@ use super::{BENT, Baked, Controller, fixtures, source};
 use crate::compiled::{FIRMWARE, printed, ran};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -25,20 +24,19 @@ fn main() {
 ";
 
 fn same_bits<R: Scalar, const WIDTH: usize>(cells: Cells, bits: impl Fn(R) -> u64) -> Result<()> {
-    let (scene, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
-    same_bits_of::<R, WIDTH>(&scene, &problem, bits)
+    let (_, problem) = fixtures::on_grid(BENT, grid(3, cells))?;
+    same_bits_of::<R, WIDTH>(&problem, bits)
 }
 
 /// Outputs of the module and of the host's controller.
 pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
-    scene: &Scene,
     problem: &Problem,
     bits: impl Fn(R) -> u64,
 ) -> Result<()> {
-    let baked = Baked::<R>::new(scene, problem)?;
+    let baked = Baked::<R>::new(problem)?;
     let mut controller = Controller::<R, WIDTH>::new(&baked);
     let lines = [0.3, -0.2].map(|lift| {
-        let defaults = scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
+        let defaults = problem.scene.inputs.iter().skip(1).map(|input| R::narrow(input.default));
         let inputs: Vec<R> = std::iter::once(R::narrow(lift)).chain(defaults).collect();
         let (outputs, _) = controller.tick(&inputs).expect("a tick");
         format!("Ok({:?})\n", outputs.into_iter().map(&bits).collect::<Vec<_>>())
@@ -49,8 +47,8 @@ pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
 
 #[test]
 fn a_kernel_of_another_version_is_refused() -> Result<()> {
-    let (scene, problem) = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
-    let text = source(&Baked::<f32>::new(&scene, &problem)?) + "fn main() {}\n";
+    let (_, problem) = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
+    let text = source(&Baked::<f32>::new(&problem)?) + "fn main() {}\n";
     let own = format!("is_version({:?})", signorini_kernel::VERSION);
     assert!(text.contains(&own), "{}", signorini_kernel::VERSION);
     assert_eq!(ran(&text), Ok(String::new()));
@@ -74,15 +72,15 @@ fn both_kinds_of_cells_in_f64() -> Result<()> {
 fn nonparametric_quads_in_f32() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(3, Cells::Quads));
-    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
-    same_bits_of::<f32, { rows::QUADS }>(&scene, &problem, |x| x.to_bits().into())
+    let (_, problem) = fixtures::on_grid(&text, mesh)?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())
 }
 
 #[test]
 fn with_a_setting() -> Result<()> {
     let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
-    let (of_fast, problem) = scene(BENT, Cells::Mixed, fast)?;
-    same_bits_of::<f32, { rows::QUADS }>(&of_fast, &problem, |x| x.to_bits().into())?;
+    let problem = scene(BENT, Cells::Mixed, fast)?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())?;
     let plain = Setting {
         start: Start::Cold,
         omega: Omega::Fixed(1.4),
@@ -90,16 +88,16 @@ fn with_a_setting() -> Result<()> {
         certificate: false,
         ..Setting::default()
     };
-    let (of_plain, problem) = scene(unbounded(), Cells::Mixed, plain)?;
-    same_bits_of::<f32, { rows::QUADS }>(&of_plain, &problem, |x| x.to_bits().into())
+    let problem = scene(unbounded(), Cells::Mixed, plain)?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())
 }
 
 #[test]
 fn a_firmware_need_not_know_the_model() -> Result<()> {
     let factored = Setting { solver: Some(Method::Factor), ..Setting::default() };
     for setting in [Setting::default(), factored] {
-        let (scene, problem) = scene(BENT, Cells::Mixed, setting)?;
-        let text = source(&Baked::<f32>::new(&scene, &problem)?) + FIRMWARE;
+        let problem = scene(BENT, Cells::Mixed, setting)?;
+        let text = source(&Baked::<f32>::new(&problem)?) + FIRMWARE;
         assert_eq!(printed(&text), "true [true, true, true] OutOfTime true\n", "{setting:?}");
     }
     Ok(())

@@ -65,33 +65,26 @@ fn anisotropy() -> Result<(Scene, Problem)> {
 }
 
 /// What the host's own direct solver says for this lift.
-fn reference(scene: &Scene, problem: &Problem, lift: f64) -> Result<Solution> {
-    let (mut scene, mut problem) = (scene.clone(), problem.clone());
-    scene.inputs[0].default = lift;
-    problem.set_time(&scene, 0.0)?;
-    solve(&scene, &problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+fn reference(problem: &Problem, lift: f64) -> Result<Solution> {
+    let problem = problem.with_inputs(&[lift])?;
+    solve(&problem, &Options { solver: SolverKind::Direct, ..Options::default() })
 }
 
-fn swept(scene: &Scene, problem: &Problem) -> Result<Report<f64>> {
-    let plain = Scene { setting: None, ..scene.clone() };
-    let baked = Baked::<f64>::new(&plain, problem)?;
+fn swept(problem: &Problem) -> Result<Report<f64>> {
+    let baked = Baked::<f64>::new(&problem.with_setting(None))?;
     Ok(Controller::<f64, TRIANGLES>::new(&baked).tick(&[0.0]).expect("a tick").1)
 }
 
 /// Ticks as the direct solver has them, u to `allowed` and the bound to a thousandth.
-fn as_directly_solved<R: Scalar>(
-    scene: &Scene,
-    problem: &Problem,
-    allowed: Tolerance,
-) -> Result<()> {
-    let baked = Baked::<R>::new(scene, problem)?;
+fn as_directly_solved<R: Scalar>(problem: &Problem, allowed: Tolerance) -> Result<()> {
+    let baked = Baked::<R>::new(problem)?;
     let mut controller = Controller::<R, TRIANGLES>::new(&baked);
     for lift in [0.0, 0.0, 1.0, -2.0, 0.5] {
         let (outputs, report) = controller.tick(&[R::narrow(lift)]).expect("a tick");
         let solved = controller.solved().expect("a factor");
         let what = format!("{} {lift}: {solved:?} {report:?}", R::NAME);
         assert!(report.ended == Ended::Exact && report.sweeps == 0 && solved.rounds <= 8, "{what}");
-        let expected = reference(scene, problem, lift)?;
+        let expected = reference(problem, lift)?;
         let size = expected.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
         let pairs = controller.u().iter().zip(&expected.u);
         let off = pairs.fold(0.0, |most: f64, (u, expected)| most.max((u.wide() - expected).abs()));
@@ -113,18 +106,18 @@ fn as_directly_solved<R: Scalar>(
 
 #[test]
 fn a_contrast_of_a_million() -> Result<()> {
-    let (scene, problem) = contrast()?;
-    as_directly_solved::<f64>(&scene, &problem, FACTORED)?;
-    as_directly_solved::<f32>(&scene, &problem, FACTORED_NARROW)
+    let (_, problem) = contrast()?;
+    as_directly_solved::<f64>(&problem, FACTORED)?;
+    as_directly_solved::<f32>(&problem, FACTORED_NARROW)
 }
 
 #[test]
 fn an_anisotropy_of_a_hundred_million() -> Result<()> {
-    let (scene, problem) = anisotropy()?;
-    assert_eq!(swept(&scene, &problem)?.ended, Ended::OutOfSweeps);
-    as_directly_solved::<f64>(&scene, &problem, FACTORED_OBLIQUE)?;
+    let (_, problem) = anisotropy()?;
+    assert_eq!(swept(&problem)?.ended, Ended::OutOfSweeps);
+    as_directly_solved::<f64>(&problem, FACTORED_OBLIQUE)?;
     // In f32 the element matrices are those of another problem.
-    let error = Baked::<f32>::new(&scene, &problem).expect_err("refused").to_string();
+    let error = Baked::<f32>::new(&problem).expect_err("refused").to_string();
     assert!(error.contains("too oblique"), "{error}");
     Ok(())
 }
@@ -138,21 +131,21 @@ fn every_kind_of_input_gives_what_sweeps_give() -> Result<()> {
     ];
     let text = format!("{BENT}[setting]\nsolver = \"factor\"\n");
     for cells in [Cells::Quads, Cells::Mixed] {
-        let (scene, problem) = fixtures::on_grid(&text, grid(5, cells))?;
-        super::ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
+        let (_, problem) = fixtures::on_grid(&text, grid(5, cells))?;
+        super::ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
     }
-    let (scene, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
-    super::ticks::<f64, TRIANGLES>(&scene, &problem, &steps, TICK)?;
-    super::ticks::<f32, TRIANGLES>(&scene, &problem, &steps, TICK_NARROW)
+    let (_, problem) = fixtures::on_grid(&text, grid(5, Cells::Triangles))?;
+    super::ticks::<f64, TRIANGLES>(&problem, &steps, TICK)?;
+    super::ticks::<f32, TRIANGLES>(&problem, &steps, TICK_NARROW)
 }
 
 #[test]
 fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
-    let (of_factor, problem) = scene(BENT, Cells::Mixed, factor())?;
-    same_bits_of::<f32, { rows::QUADS }>(&of_factor, &problem, |x| x.to_bits().into())?;
+    let problem = scene(BENT, Cells::Mixed, factor())?;
+    same_bits_of::<f32, { rows::QUADS }>(&problem, |x| x.to_bits().into())?;
     let plain = Setting { certificate: false, start: Start::Cold, ..factor() };
-    let (of_plain, problem) = scene(unbounded(), Cells::Triangles, plain)?;
-    same_bits_of::<f64, TRIANGLES>(&of_plain, &problem, f64::to_bits)
+    let problem = scene(unbounded(), Cells::Triangles, plain)?;
+    same_bits_of::<f64, TRIANGLES>(&problem, f64::to_bits)
 }
 
 #[test]
@@ -167,16 +160,15 @@ fn a_module_without_contact() -> Result<()> {
     let text =
         text.replace("[output.force]\nkind = \"force\"\n[output.length]\nkind = \"length\"\n", "");
     let setting = Setting { certificate: false, ..factor() };
-    let (scene, problem) = scene(&text, Cells::Triangles, setting)?;
-    same_bits_of::<f32, TRIANGLES>(&scene, &problem, |x| x.to_bits().into())
+    let problem = scene(&text, Cells::Triangles, setting)?;
+    same_bits_of::<f32, TRIANGLES>(&problem, |x| x.to_bits().into())
 }
 
 #[test]
 fn the_factor_is_counted() -> Result<()> {
-    let (of_factor, problem) = scene(BENT, Cells::Triangles, factor())?;
-    let (of_sweeps, _) = scene(BENT, Cells::Triangles, Setting { solver: None, ..factor() })?;
-    let (with, without) =
-        (Baked::<f32>::new(&of_factor, &problem)?, Baked::<f32>::new(&of_sweeps, &problem)?);
+    let problem = scene(BENT, Cells::Triangles, factor())?;
+    let swept = scene(BENT, Cells::Triangles, Setting { solver: None, ..factor() })?;
+    let (with, without) = (Baked::<f32>::new(&problem)?, Baked::<f32>::new(&swept)?);
     let (counts, entries) = (problem.topology.counts, with.entries().expect("a factor"));
     // Every free unknown but the last few is coupled with another one.
     assert!(entries > counts.free && without.entries().is_none());
@@ -199,12 +191,9 @@ fn entries<R: Scalar>(candidate: &Candidate<R>) -> Option<usize> {
 
 #[test]
 fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
-    let (asked, problem) = anisotropy()?;
-    let with = |solver| {
-        let setting = Setting { solver, ..Setting::default() };
-        Scene { setting: Some(setting), ..asked.clone() }
-    };
-    let choose = |scene: &Scene| Choice::<f64>::new(scene, &problem, Some(ModelKind::Full), false);
+    let (_, asked) = anisotropy()?;
+    let with = |solver| asked.with_setting(Some(Setting { solver, ..Setting::default() }));
+    let choose = |problem: &Problem| Choice::<f64>::new(problem, Some(ModelKind::Full), false);
     let choice = choose(&with(None))?;
     let [factored, swept] = &choice.candidates[..] else { panic!("two models") };
     assert!(choice.chosen == 0 && entries(factored).is_some() && entries(swept).is_none());
@@ -219,7 +208,9 @@ fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
     // Where there is no room for the factor.
     let flash = Some(factored.needs.flash - 1);
     let target = Target { flash, ram: None, tick: None, clock: None };
-    let choice = choose(&Scene { target: Some(target), ..with(None) })?;
+    let open = with(None);
+    let small = Scene { target: Some(target), ..Scene::clone(&open.scene) };
+    let choice = choose(&open.restated(small))?;
     assert!(entries(choice.candidate()).is_none());
     Ok(())
 }
@@ -227,8 +218,8 @@ fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
 #[test]
 fn bake_takes_the_one_that_costs_less() -> Result<()> {
     let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
-    for (scene, problem) in [coarse, super::standard("strip.toml")?] {
-        let choice = Choice::<f32>::new(&scene, &problem, Some(ModelKind::Full), false)?;
+    for (_, problem) in [coarse, super::standard("strip.toml")?] {
+        let choice = Choice::<f32>::new(&problem, Some(ModelKind::Full), false)?;
         let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
         let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
         assert!(

@@ -100,27 +100,22 @@ fn to_the_end<R: Scalar>() -> Limits<R> {
 }
 
 fn ticks<R: Scalar, const WIDTH: usize>(
-    scene: &Scene,
     problem: &Problem,
     steps: &[&[f64]],
     allowed: Tolerance,
 ) -> Result<()> {
-    let baked = Baked::<R>::new(scene, problem)?;
+    let baked = Baked::<R>::new(problem)?;
     let mut warm = Controller::<R, WIDTH>::new(&baked);
     for values in steps {
         let inputs: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
         let (found, report) = warm.tick_within(&inputs, to_the_end()).expect("a tick");
         let cold = Controller::<R, WIDTH>::new(&baked).tick_within(&inputs, to_the_end());
         let (cold, _) = cold.expect("a cold tick");
-        let (mut scene, mut problem) = (scene.clone(), problem.clone());
-        for (input, value) in scene.inputs.iter_mut().zip(*values) {
-            input.default = *value;
-        }
-        problem.set_time(&scene, 0.0)?;
-        let solution = solve(&scene, &problem, &Options::default())?;
-        let expected = outputs(&scene, &problem, &solution)?;
+        let problem = problem.with_inputs(values)?;
+        let solution = solve(&problem, &Options::default())?;
+        let expected = outputs(&problem, &solution)?;
         let fluxes = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
-        let wanted = wanted(&scene);
+        let wanted = wanted(&problem.scene);
         let names = wanted.iter().map(|output| &output.name.value);
         for ((name, found), cold) in
             names.zip(&found).zip(&cold).filter(|((name, _), _)| *name != "bound")
@@ -147,11 +142,11 @@ fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
         &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5],
         &[0.1, 0.9, -0.3, 0.5, -0.7, -0.5],
     ];
-    let (scene, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
-    ticks::<f64, { rows::TRIANGLES }>(&scene, &problem, &steps, TICK)?;
+    let (_, problem) = fixtures::on_grid(BENT, grid(5, Cells::Triangles))?;
+    ticks::<f64, { rows::TRIANGLES }>(&problem, &steps, TICK)?;
     for cells in [Cells::Quads, Cells::Mixed] {
-        let (scene, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
-        ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
+        let (_, problem) = fixtures::on_grid(BENT, grid(5, cells))?;
+        ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
     }
     Ok(())
 }
@@ -161,10 +156,10 @@ fn every_kind_of_input_gives_what_the_solver_gives() -> Result<()> {
 fn nonparametric_quads() -> Result<()> {
     let text = format!("{BENT}[setting]\nelement = \"nonparametric\"\n");
     let mesh = fixtures::distorted(grid(5, Cells::Quads));
-    let (scene, problem) = fixtures::on_grid(&text, mesh)?;
+    let (_, problem) = fixtures::on_grid(&text, mesh)?;
     let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
-    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
-    let baked = Baked::<f64>::new(&scene, &problem)?;
+    ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+    let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.bends.len(), problem.mesh.quads.len());
     assert!(source(&baked).contains("bends: &QUAD_BENDS"));
     Ok(())
@@ -172,17 +167,17 @@ fn nonparametric_quads() -> Result<()> {
 
 #[test]
 fn standard_scenes_in_both_scalars() -> Result<()> {
-    let (scene, problem) = standard("strip.toml")?;
+    let (_, problem) = standard("strip.toml")?;
     let steps: [&[f64]; 2] = [&[0.0], &[0.1]];
-    ticks::<f64, { rows::QUADS }>(&scene, &problem, &steps, TICK)?;
-    ticks::<f32, { rows::QUADS }>(&scene, &problem, &steps, TICK_NARROW)
+    ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
+    ticks::<f32, { rows::QUADS }>(&problem, &steps, TICK_NARROW)
 }
 
 #[test]
 fn a_load_that_depends_on_time_is_refused_by_its_key() -> Result<()> {
     let text = BENT.replace("flux = \"1 - y\"", "flux = \"1 - t\"");
-    let (scene, problem) = fixtures::on_grid(&text, grid(2, Cells::Triangles))?;
-    let error = Baked::<f64>::new(&scene, &problem).expect_err("no clock");
+    let (_, problem) = fixtures::on_grid(&text, grid(2, Cells::Triangles))?;
+    let error = Baked::<f64>::new(&problem).expect_err("no clock");
     assert!(error.to_string().contains("boundary.right.flux"), "{error}");
     Ok(())
 }
@@ -197,8 +192,8 @@ fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
         .replace("of = \"right\"", "of = \"top\"")
         .replace("of = \"dirichlet\"", "of = \"right\"");
     let text = text.replace("of = \"top\"", "of = \"dirichlet\"");
-    let (scene, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
-    let baked = Baked::<f64>::new(&scene, &problem)?;
+    let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
+    let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.corners.len(), 1);
     let mut controller = Controller::<f64, { rows::TRIANGLES }>::new(&baked);
     let (outputs, _) =
@@ -218,16 +213,16 @@ fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
 
 #[test]
 fn a_part_that_contact_alone_holds_is_refused() -> Result<()> {
-    let (scene, problem) = standard("membrane.toml")?;
-    let error = Baked::<f32>::new(&scene, &problem).expect_err("no way out");
+    let (_, problem) = standard("membrane.toml")?;
+    let error = Baked::<f32>::new(&problem).expect_err("no way out");
     assert!(error.to_string().contains("contact alone holds"), "{error}");
     Ok(())
 }
 
 #[test]
 fn the_text_holds_every_number_once_more() -> Result<()> {
-    let (scene, problem) = standard("strip.toml")?;
-    let baked = Baked::<f32>::new(&scene, &problem)?;
+    let (_, problem) = standard("strip.toml")?;
+    let baked = Baked::<f32>::new(&problem)?;
     let text = source(&baked);
     for number in baked.stiffness_of_triangles.iter().flatten() {
         assert!(text.contains(&format!("{number:?}")), "{number}");

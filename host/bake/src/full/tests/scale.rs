@@ -15,6 +15,7 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Scaled, choose_for_inputs};
 
 /// Inputs at which some of the contact is active.
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];
@@ -41,8 +42,8 @@ fn tick<R: Scalar>(baked: &Baked<R>, limits: Limits<R>) -> Found<R> {
 }
 
 fn baked<R: Scalar>(units: Units) -> Result<Baked<R>> {
-    let (scene, problem) = bent(units)?;
-    Baked::new(&scene, &problem)
+    let (_, problem) = bent(units)?;
+    Baked::new(&problem)
 }
 
 /// Flux, force, length, probe and bound, and what the report has of them.
@@ -53,8 +54,9 @@ fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
 }
 
 fn factored<R: Scalar>(units: Units) -> Result<Baked<R>> {
-    let (scene, problem) = bent(units)?;
-    Baked::new(&scene, &problem)?.with_factor(&scene, &problem)
+    let (_, problem) = bent(units)?;
+    let scaled = Scaled::new(&problem, choose_for_inputs(&problem)?)?;
+    Baked::of_scaled(&scaled)?.with_factor(scaled.problem())
 }
 
 fn change_nothing<R: Scalar>(baked: fn(Units) -> Result<Baked<R>>, all: &[Units]) -> Result<()> {
@@ -89,8 +91,8 @@ fn other_units_change_no_digit() -> Result<()> {
 fn without_units_f32_is_lost() -> Result<()> {
     let near = numbers(&tick(&baked::<f32>(NEAR)?, to_the_end()));
     let bound = |k| -> Result<f64> {
-        let (scene, problem) = bent(powers(0, k))?;
-        let baked = Baked::<f32>::in_its_units(&scene, &problem, Face::new(&scene, &problem))?;
+        let (_, problem) = bent(powers(0, k))?;
+        let baked = Baked::<f32>::in_its_units(&problem, Face::new(&problem))?;
         let found = numbers(&tick(&baked, to_the_end()));
         Ok(found[4] / powers(0, k).energy() / near[4])
     };
@@ -102,8 +104,8 @@ fn without_units_f32_is_lost() -> Result<()> {
 /// The text and this machine agree on outputs and report.
 #[test]
 fn the_text_has_the_same_units() -> Result<()> {
-    let (scene, problem) = bent(powers(-60, -41))?;
-    let baked = Baked::<f32>::new(&scene, &problem)?;
+    let (_, problem) = bent(powers(-60, -41))?;
+    let baked = Baked::<f32>::new(&problem)?;
     let limits = Limits { error: 1e-20, ..baked.limits() };
     let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
@@ -149,9 +151,9 @@ fn limits_are_in_the_units_of_the_scene() -> Result<()> {
 #[test]
 fn fields_are_in_the_units_of_the_scene() -> Result<()> {
     let solved = |units| {
-        let (mut scene, problem) = bent(units)?;
-        scene.setting = Some(Setting { scalar: Some(Precision::F32), ..Setting::default() });
-        engine::solve(&scene, &problem)
+        let (_, problem) = bent(units)?;
+        let setting = Setting { scalar: Some(Precision::F32), ..Setting::default() };
+        engine::solve(&problem.with_setting(Some(setting)))
     };
     let (near, units) = (solved(NEAR)?, powers(-60, -40));
     let far = solved(units)?;
@@ -187,10 +189,10 @@ fn answers_that_the_scalar_cannot_hold_are_refused() -> Result<()> {
 #[test]
 fn inputs_that_the_scalar_loses_are_refused() -> Result<()> {
     let refused = |text: &str, culprit: &str| -> Result<()> {
-        let (scene, problem) = fixtures::on_grid(text, grid(3, Cells::Triangles))?;
-        let error = Baked::<f32>::new(&scene, &problem).expect_err("lost").to_string();
+        let (_, problem) = fixtures::on_grid(text, grid(3, Cells::Triangles))?;
+        let error = Baked::<f32>::new(&problem).expect_err("lost").to_string();
         assert!(error.contains(culprit), "{error}");
-        Baked::<f64>::new(&scene, &problem)?;
+        Baked::<f64>::new(&problem)?;
         Ok(())
     };
     refused(&BENT.replace("default = 0.7", "default = 1e-40"), "input.level: f32 cannot hold")?;
@@ -207,8 +209,8 @@ fn a_large_input_after_defaults_of_zero_has_a_bound() -> Result<()> {
     let text = "mesh = \"grid\"\n[material.default]\nconductivity = \"1e-9\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
                 value = \"0\"\n[boundary.contact]\nkind = \"contact\"\n[input.heat]\nof = \"source\"\nfield = \"f\"\n\
                 pattern = \"1e9*x\"\n[output.bound]\nkind = \"bound\"\n";
-    let (scene, problem) = fixtures::on_grid(text, grid(4, Cells::Triangles))?;
-    let baked = Baked::<f32>::new(&scene, &problem)?;
+    let (_, problem) = fixtures::on_grid(text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<f32>::new(&problem)?;
     for heat in [1.0_f32, 1e6, -1e6, 1e10] {
         let mut controller = Controller::<f32, { rows::TRIANGLES }>::new(&baked);
         let (_, report) = controller.tick_within(&[heat], to_the_end()).expect("a tick");

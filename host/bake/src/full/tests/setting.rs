@@ -9,7 +9,6 @@ use super::{BENT, Baked, Controller, fixtures};
 use crate::full::sizes;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Omega, Setting, Start};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -19,10 +18,9 @@ pub(super) fn unbounded() -> &'static str {
     BENT.split("[output.bound]").next().unwrap_or_default()
 }
 
-pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<(Scene, Problem)> {
-    let (mut scene, problem) = fixtures::on_grid(text, grid(4, cells))?;
-    scene.setting = Some(setting);
-    Ok((scene, problem))
+pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<Problem> {
+    let (_, problem) = fixtures::on_grid(text, grid(4, cells))?;
+    Ok(problem.with_setting(Some(setting)))
 }
 
 /// u, τ and report.
@@ -30,8 +28,8 @@ type Told<R> = (Vec<R>, Vec<R>, Report<R>);
 
 /// Those of ticks with these lifts of the gap.
 fn ticks<R: Scalar>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
-    let (scene, problem) = scene(unbounded(), Cells::Quads, setting)?;
-    let baked = Baked::<R>::new(&scene, &problem)?;
+    let problem = scene(unbounded(), Cells::Quads, setting)?;
+    let baked = Baked::<R>::new(&problem)?;
     let mut controller = Controller::<R, QUADS>::new(&baked);
     let tick = |&lift: &f64| {
         let inputs = [lift, 0.7, 0.0, 0.0, 0.0, 0.0].map(R::narrow);
@@ -110,8 +108,8 @@ fn the_square_root_moves_omega_and_not_the_answer() -> Result<()> {
 fn without_the_bound_nothing_of_it_is_kept() -> Result<()> {
     let without = Setting { certificate: false, ..Setting::default() };
     let of = |setting| -> Result<_> {
-        let (scene, problem) = scene(unbounded(), Cells::Mixed, setting)?;
-        let baked = Baked::<f32>::new(&scene, &problem)?;
+        let problem = scene(unbounded(), Cells::Mixed, setting)?;
+        let baked = Baked::<f32>::new(&problem)?;
         Ok((sizes(&baked), baked.index(), baked.width(), super::source(&baked)))
     };
     let (with, without) = (of(Setting::default())?, of(without)?);
@@ -125,8 +123,8 @@ fn without_the_bound_nothing_of_it_is_kept() -> Result<()> {
 #[test]
 fn what_no_module_can_have_is_refused_by_its_key() -> Result<()> {
     let says = |text: &str, setting: Setting, words: &[&str]| -> Result<()> {
-        let (scene, problem) = scene(text, Cells::Triangles, setting)?;
-        let error = Baked::<f64>::new(&scene, &problem).expect_err("refused").to_string();
+        let problem = scene(text, Cells::Triangles, setting)?;
+        let error = Baked::<f64>::new(&problem).expect_err("refused").to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{error}");
         Ok(())
     };
@@ -137,10 +135,10 @@ fn what_no_module_can_have_is_refused_by_its_key() -> Result<()> {
     says(BENT, Setting { omega: Omega::Fixed(2.0), ..plain }, &["setting.omega"])?;
     // Rounded to f32 it is 2.
     let close = Setting { omega: Omega::Fixed(2.0 - 1e-12), ..plain };
-    let (scene, problem) = scene(BENT, Cells::Triangles, close)?;
-    let refused = Baked::<f32>::new(&scene, &problem).expect_err("refused").to_string();
+    let problem = scene(BENT, Cells::Triangles, close)?;
+    let refused = Baked::<f32>::new(&problem).expect_err("refused").to_string();
     assert!(refused.contains("is not inside (0, 2) in f32"), "{refused}");
-    let baked = Baked::<f64>::new(&scene, &problem)?;
+    let baked = Baked::<f64>::new(&problem)?;
     let mut controller = Controller::<f64, TRIANGLES>::new(&baked);
     assert!(controller.tick(&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0]).is_ok());
     Ok(())

@@ -57,11 +57,11 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
     let scene = Scene { setting, ..Scene::read(&path)? };
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
     let moments = log(scene.inputs.len());
-    let (model, ticks) = replay(&scene, &problem, &moments, None, |_| {})?;
+    let (model, ticks) = replay(&problem, &moments, None, |_| {})?;
 
-    let choice = Choice::<f32>::new(&scene, &problem, None, false)?;
+    let choice = Choice::<f32>::new(&problem, None, false)?;
     let module = match &choice.candidate().model {
-        Model::Condensed(baked) => condensed::source(&Face::new(&scene, &problem), baked),
+        Model::Condensed(baked) => condensed::source(&Face::new(&problem), baked),
         Model::Full(baked) => full::source(baked),
     };
     let narrow = |moment: &Moment| moment.inputs.iter().map(|(_, x)| *x as f32).collect();

@@ -14,16 +14,12 @@ use super::super::moment::Moment;
 use super::super::psor::Given;
 use super::vertices::Vertices;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Field, Scene};
+use signorini_scene::scene::{Condition, Field};
 use signorini_solve::problem::{EdgeKind, Problem, Sum};
 use signorini_solve::quadrature::{TRIANGLE_POINTS, mean_on_edge, on_triangle};
 
 /// Rows over all vertices by number; those on D have none.
-pub(super) fn matrix(
-    scene: &Scene,
-    problem: &Problem,
-    vertices: &Vertices,
-) -> Vec<BTreeMap<usize, f64>> {
+pub(super) fn matrix(problem: &Problem, vertices: &Vertices) -> Vec<BTreeMap<usize, f64>> {
     let mut rows = vec![BTreeMap::new(); vertices.counts.edges()];
     let mut add = |v: u32, w: u32, value: f64| {
         let [v, w] = [v, w].map(|vertex| vertices.number[vertex as usize]);
@@ -40,7 +36,7 @@ pub(super) fn matrix(
         }
     }
     for edge in 0..problem.ends.len() {
-        let Some(Condition::Robin { coefficient, .. }) = condition(scene, problem, edge) else {
+        let Some(Condition::Robin { coefficient, .. }) = condition(problem, edge) else {
             continue;
         };
         let h = |x, y| coefficient.value.eval(x, y, 0.0);
@@ -59,7 +55,7 @@ pub(super) fn matrix(
 
 /// The data of one tick.
 pub(super) fn data(problem: &Problem, vertices: &Vertices, moment: &Moment) -> Result<Given<f64>> {
-    let counts = vertices.counts;
+    let (problem, counts) = (&moment.on(problem), vertices.counts);
     let mut load = vec![0.0; counts.edges()];
     add_source(problem, vertices, moment, &mut load)?;
     let (mut lower, mut dirichlet) =
@@ -71,7 +67,7 @@ pub(super) fn data(problem: &Problem, vertices: &Vertices, moment: &Moment) -> R
             EdgeKind::Contact => Field::Gap,
             _ => continue,
         };
-        let sum = Sum::on_edge(&moment.scene, problem, edge, field, moment.time);
+        let sum = Sum::on_edge(problem, edge, field, problem.time);
         let Some(sum) = sum else { continue };
         for vertex in problem.ends[edge] {
             let at = vertices.number[vertex as usize];
@@ -102,7 +98,7 @@ fn add_source(
     moment: &Moment,
     load: &mut [f64],
 ) -> Result<()> {
-    let f = Sum::source(&moment.scene, moment.time);
+    let f = Sum::source(&problem.scene, problem.time);
     if f.is_zero() {
         return Ok(());
     }
@@ -127,14 +123,13 @@ fn add_flux(
     edge: usize,
     load: &mut [f64],
 ) -> Result<()> {
-    let (scene, time) = (&moment.scene, moment.time);
     let field = match problem.kinds[edge] {
         EdgeKind::Contact | EdgeKind::Neumann => Field::Flux,
         EdgeKind::Robin => Field::Ambient,
         EdgeKind::Interior | EdgeKind::Dirichlet => return Ok(()),
     };
-    let Some(sum) = Sum::on_edge(scene, problem, edge, field, time) else { return Ok(()) };
-    let transfer = |x, y| match condition(scene, problem, edge) {
+    let Some(sum) = Sum::on_edge(problem, edge, field, problem.time) else { return Ok(()) };
+    let transfer = |x, y| match condition(problem, edge) {
         Some(Condition::Robin { coefficient, .. }) => coefficient.value.eval(x, y, 0.0),
         _ => 1.0,
     };
@@ -152,9 +147,9 @@ fn add_flux(
     Ok(())
 }
 
-fn condition<'s>(scene: &'s Scene, problem: &Problem, edge: usize) -> Option<&'s Condition> {
+fn condition(problem: &Problem, edge: usize) -> Option<&Condition> {
     let boundary = problem.binding.boundary(problem.ends[edge])?;
-    Some(&scene.boundaries[boundary].condition)
+    Some(&problem.scene.boundaries[boundary].condition)
 }
 
 /// λ of end `k` along an edge.

@@ -6,7 +6,7 @@ use super::Conforming;
 use super::assembly::gradients;
 use crate::baseline::record::PointError;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Exact, Scene};
+use signorini_scene::scene::{Condition, Exact};
 use signorini_solve::pointwise::{POINTS, exact_at};
 use signorini_solve::problem::EdgeKind;
 use signorini_solve::quadrature::{gauss, on_triangle};
@@ -14,7 +14,6 @@ use signorini_solve::quadrature::{gauss, on_triangle};
 /// Of u as values at all vertices of the mesh, by the rules of [`signorini_solve::norms`]. The flux is A∇u_h.
 pub(super) fn errors(
     conforming: &Conforming,
-    scene: &Scene,
     exact: &Exact,
     u: &[f64],
     force: f64,
@@ -24,13 +23,13 @@ pub(super) fn errors(
     let rule = gauss(POINTS);
     let mut sums = PointError::default();
     for (cell, corners) in problem.mesh.triangles.iter().enumerate() {
-        let material = &scene.materials[problem.binding.materials[cell] as usize];
+        let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
         let places = corners.map(|v| problem.mesh.vertices[v as usize]);
         let values = corners.map(|v| u[v as usize]);
         let (hats, _) = gradients(places);
         let slope = [0, 1].map(|k| (0..3).map(|v| values[v] * hats[v][k]).sum::<f64>());
         for point in on_triangle(places, &rule) {
-            let (value, gradient) = exact_at(scene, exact, point.x, time)?;
+            let (value, gradient) = exact_at(&problem.scene, exact, point.x, time)?;
             let [x, y] = point.x;
             let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
             let here: f64 = (0..3).map(|v| values[v] * point.reference[v]).sum();
@@ -41,7 +40,7 @@ pub(super) fn errors(
             sums.l2 += point.weight * (value - here).powi(2);
         }
     }
-    let (exact_force, exact_length) = on_contact(conforming, scene, exact)?;
+    let (exact_force, exact_length) = on_contact(conforming, exact)?;
     Ok(PointError {
         energy: sums.energy.sqrt(),
         combined: None,
@@ -54,23 +53,23 @@ pub(super) fn errors(
 
 /// ∫_C (σ·n − q) of the exact solution, and the length on which it is more than rounding: by Gauss points
 /// on every edge, which leave an error of order h^{3/2} where contact ends inside one.
-fn on_contact(conforming: &Conforming, scene: &Scene, exact: &Exact) -> Result<(f64, f64)> {
+fn on_contact(conforming: &Conforming, exact: &Exact) -> Result<(f64, f64)> {
     const ROUNDING: f64 = 1e-9;
     let (problem, time) = (&conforming.problem, conforming.problem.time);
     let (mut force, mut length) = (0.0, 0.0);
     for edge in (0..problem.ends.len()).filter(|&e| problem.kinds[e] == EdgeKind::Contact) {
         let (cell, _) = problem.topology.first_side(edge);
-        let material = &scene.materials[problem.binding.materials[cell] as usize];
+        let material = &problem.scene.materials[problem.binding.materials[cell] as usize];
         let [a, b] = problem.segment(edge);
         let normal = [b[1] - a[1], a[0] - b[0]];
         let boundary = problem.binding.boundary(problem.ends[edge]);
-        let q = boundary.and_then(|at| match &scene.boundaries[at].condition {
+        let q = boundary.and_then(|at| match &problem.scene.boundaries[at].condition {
             Condition::Contact { flux, .. } => Some(&flux.value),
             _ => None,
         });
         for &[t, weight] in f64::GAUSS[7] {
             let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-            let (_, [ux, uy]) = exact_at(scene, exact, [x, y], time)?;
+            let (_, [ux, uy]) = exact_at(&problem.scene, exact, [x, y], time)?;
             let [xx, xy, yy] = material.conductivity.each_ref().map(|a| a.value.eval(x, y, 0.0));
             let out = (xx * ux + xy * uy) * normal[0] + (xy * ux + yy * uy) * normal[1];
             let given = q.map_or(0.0, |q| q.eval(x, y, time)) * problem.lengths[edge];

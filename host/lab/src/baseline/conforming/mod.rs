@@ -21,7 +21,6 @@ use super::psor::{Given, Psor};
 use super::quadratic::{Matrix, Quadratic, Tick};
 use crate::baseline::record::{Baseline, PointError};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::{EdgeKind, Parts, Problem};
 use vertices::Vertices;
 
@@ -43,20 +42,20 @@ pub struct Conforming {
 }
 
 impl Conforming {
-    /// `scene` as it stands on the triangles of `problem`.
+    /// The scene of `problem` as it stands on its triangles.
     ///
     /// # Errors
     /// Data that are not finite; a problem without a solution.
-    pub fn new(scene: &Scene, problem: &Problem) -> Result<Self> {
-        Self::over(scene, problem, &[Moment::at(scene, problem.time)])
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Self::over(problem, &[Moment::at(&problem.scene, problem.time)])
     }
 
-    pub(super) fn over(scene: &Scene, problem: &Problem, moments: &[Moment]) -> Result<Self> {
-        let mut problem = Problem::new(scene, mesh::cut(&problem.mesh))?;
-        problem.set_time(scene, moments[0].time)?;
+    pub(super) fn over(problem: &Problem, moments: &[Moment]) -> Result<Self> {
+        let mut problem = Problem::new(&problem.scene, mesh::cut(&problem.mesh))?;
+        problem.set_time(moments[0].time)?;
         let vertices = Vertices::of(&problem);
         let mut matrix = Matrix::new();
-        for (at, row) in assembly::matrix(scene, &problem, &vertices).iter().enumerate() {
+        for (at, row) in assembly::matrix(&problem, &vertices).iter().enumerate() {
             let own = row.get(&at).copied().unwrap_or(0.0);
             let others = row.iter().filter(|&(&column, _)| column != at);
             let others = others.map(|(&column, &value)| (column, value));
@@ -68,7 +67,7 @@ impl Conforming {
         let (reduced, loads) = reduce(&matrix, vertices.counts.unknowns(), &ticks);
         let data = loads.into_iter().zip(&ticks);
         let data = data.map(|(load, given)| Tick { load, lower: given.lower.clone() }).collect();
-        let parts = Parts::examine(scene, &problem)?;
+        let parts = Parts::examine(&problem)?;
         let floating = floating(&problem, &parts, &vertices)?;
         let (quadratic, _) = Quadratic::new(reduced, floating, data)?;
         let (values, force, length) = (Vec::new(), 0.0, 0.0);
@@ -111,13 +110,13 @@ impl Conforming {
     ///
     /// # Errors
     /// An exact solution that is not finite at a quadrature point.
-    pub fn errors(&self, scene: &Scene) -> Result<Option<PointError>> {
-        let Some(exact) = &scene.exact else { return Ok(None) };
-        errors::errors(self, scene, exact, &self.values, self.force, self.length).map(Some)
+    pub fn errors(&self) -> Result<Option<PointError>> {
+        let Some(exact) = &self.problem.scene.exact else { return Ok(None) };
+        errors::errors(self, exact, &self.values, self.force, self.length).map(Some)
     }
 
     /// Its sweeps against the others; `target` as for all.
-    pub(super) fn compete(&self, scene: &Scene, target: f64) -> Result<Vec<Baseline>> {
+    pub(super) fn compete(&self, target: f64) -> Result<Vec<Baseline>> {
         let widest = |rows: std::ops::Range<usize>| {
             rows.map(|row| self.matrix.row(row).count() - 1).max().unwrap_or(0)
         };
@@ -129,7 +128,7 @@ impl Conforming {
             13..=16 => self.sweep::<16>(target),
             _ => self.sweep::<32>(target),
         }?;
-        let error = self.errors(scene)?;
+        let error = self.errors()?;
         baselines.iter_mut().for_each(|baseline| baseline.error = error);
         Ok(baselines)
     }

@@ -14,8 +14,8 @@ fn errors_of_the_catalogue() {
     {
         let scene = catalogue(name);
         let problem = Problem::new(&scene, grid(32, Cells::Triangles)).unwrap();
-        let conforming = Conforming::new(&scene, &problem).unwrap();
-        let error = conforming.errors(&scene).unwrap().unwrap();
+        let conforming = Conforming::new(&problem).unwrap();
+        let error = conforming.errors().unwrap().unwrap();
         CONFORMING.check_relative(name, error.energy, energy);
         CONFORMING.check_relative(name, error.l2, l2);
         assert!(error.force < 0.03 && error.length < 0.1, "{name}: {error:?}");
@@ -29,7 +29,7 @@ fn quads_are_cut_into_the_same_triangles() {
     let scene = catalogue("h-tri");
     let of = |cells| {
         let problem = Problem::new(&scene, grid(8, cells)).unwrap();
-        let conforming = Conforming::new(&scene, &problem).unwrap();
+        let conforming = Conforming::new(&problem).unwrap();
         (conforming.unknowns(), conforming.force)
     };
     let ((n, force), (quads, of_quads)) = (of(Cells::Triangles), of(Cells::Quads));

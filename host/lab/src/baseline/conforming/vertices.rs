@@ -20,7 +20,7 @@ pub(super) struct Vertices {
 impl Vertices {
     pub fn of(problem: &Problem) -> Self {
         let mut block = vec![0_u8; problem.mesh.vertices.len()];
-        for (ends, kind) in problem.ends.iter().zip(&problem.kinds) {
+        for (ends, kind) in problem.ends.iter().zip(&*problem.kinds) {
             let own = match kind {
                 EdgeKind::Dirichlet => 2,
                 EdgeKind::Contact => 1,

@@ -34,11 +34,9 @@ pub struct Answer {
     pub certified: certify::Answer,
 }
 
-/// A case that was answered: the scene with the inputs of the answer, its problem, and the answer.
+/// A case that was answered: its problem with the inputs of the answer, and the answer.
 pub struct Attempt {
-    /// The scene, its inputs at those of the answer.
-    pub scene: Scene,
-    /// What it states on the mesh.
+    /// The scene on its mesh, its inputs at those of the answer.
     pub problem: Problem,
     /// The answer.
     pub answer: Answer,
@@ -57,10 +55,10 @@ pub fn attempt(case: &Case) -> Result<Attempt> {
     match case.effort.way {
         Way::Sweeps | Way::Direct => {
             let options = options(case, &problem);
-            let answer = Answer::from(solve(&scene, &problem, &options)?);
-            Ok(Attempt { scene, problem, answer })
+            let answer = Answer::from(solve(&problem, &options)?);
+            Ok(Attempt { problem, answer })
         }
-        Way::Full | Way::Condensed => ticks(case, scene, problem),
+        Way::Full | Way::Condensed => ticks(case, problem),
     }
 }
 
@@ -75,18 +73,14 @@ fn options(case: &Case, problem: &Problem) -> Options {
 }
 
 /// The earlier ticks, whatever they say, and then the one that is judged.
-fn ticks(case: &Case, scene: Scene, problem: Problem) -> Result<Attempt> {
-    let parts = Parts::examine(&scene, &problem)?.counts;
-    let condensed = scene.setting.and_then(|set| set.model) == Some(ModelKind::Condensed);
+fn ticks(case: &Case, problem: Problem) -> Result<Attempt> {
+    let parts = Parts::examine(&problem)?.counts;
+    let condensed = problem.scene.setting.and_then(|set| set.model) == Some(ModelKind::Condensed);
     // There an engine answers for the scene's own inputs.
     let own = !condensed && parts.contact + parts.floating > 0;
-    let mut moved = scene.clone();
-    if !own {
-        moved.inputs.iter_mut().zip(&case.effort.inputs).for_each(|(of, &to)| of.default = to);
-    }
-    let at = Problem::new(&moved, problem.mesh.clone())?;
-    let inputs: Vec<f64> = moved.inputs.iter().map(|input| input.default).collect();
-    let answer = engine::with(&scene, &problem, |engine| {
+    let at = problem.with_inputs(if own { &[] } else { &case.effort.inputs })?;
+    let inputs: Vec<f64> = at.scene.inputs.iter().map(|input| input.default).collect();
+    let answer = engine::with(&problem, |engine| {
         for earlier in &case.effort.earlier {
             // What an extreme tick says is its own affair; what it leaves behind is not.
             let _ = engine.tick(earlier);
@@ -100,7 +94,7 @@ fn ticks(case: &Case, scene: Scene, problem: Problem) -> Result<Attempt> {
         }
         engine.answer(&at)
     })?;
-    Ok(Attempt { scene: moved, problem: at, answer: Answer::from(answer) })
+    Ok(Attempt { problem: at, answer: Answer::from(answer) })
 }
 
 impl From<Solution> for Answer {

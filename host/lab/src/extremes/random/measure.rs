@@ -11,7 +11,6 @@ use super::case::{Case, Truth};
 use super::nested::{Apart, Side, apart};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::refine::refined;
-use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::{Distance, distance_on};
@@ -19,7 +18,7 @@ use signorini_solve::certify::robin::missed;
 use signorini_solve::norms::errors;
 use signorini_solve::problem::Problem;
 use signorini_solve::quadrature::{gauss, on_panels};
-use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, in_units, solve};
+use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, solve};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -74,28 +73,27 @@ const RESOLVED: f64 = 1e-4;
 /// # Errors
 /// A scene that cannot be stated in its own units.
 pub fn measure(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
-    let units = choose_units(&attempt.scene, &attempt.problem)?;
+    let units = choose_units(&attempt.problem)?;
     let answer = attempt.answer.clone().divided(&units);
-    let (scene, problem) = match units == Units::default() {
-        true => (attempt.scene.clone(), attempt.problem.clone()),
-        false => in_units(&attempt.scene, &attempt.problem, &units)?,
+    let problem = match units == Units::default() {
+        true => attempt.problem.clone(),
+        false => attempt.problem.in_units(&units)?,
     };
     let Some(bound) = answer.bound else { return Ok(None) };
     // An answer without s and τ has nothing to be measured.
-    let held = Held { scene: &scene, problem: &problem, answer: &answer, bound };
+    let held = Held { problem: &problem, answer: &answer, bound };
     let mut found = match case.truth {
         Truth::Finer => held.by_finer(case)?,
         Truth::Catalogue | Truth::Made => Some(held.by_exact()?),
     };
     if let Some(found) = &mut found {
-        found.best = directly(&scene, &problem).ok().and_then(|of| of.bound).map(|of| of.total);
+        found.best = directly(&problem).ok().and_then(|of| of.bound).map(|of| of.total);
     }
     Ok(found)
 }
 
 /// An answer in its units.
 struct Held<'a> {
-    scene: &'a Scene,
     problem: &'a Problem,
     answer: &'a Answer,
     bound: ErrorBound,
@@ -108,9 +106,8 @@ impl Held<'_> {
     }
 
     fn by_exact(&self) -> Result<Measured> {
-        let (scene, problem) = (self.scene, self.problem);
-        let own = self.side();
-        let within = apart(scene, &own, &own, 0, &gauss(POINTS))?;
+        let (problem, own) = (self.problem, self.side());
+        let within = apart(&own, &own, 0, &gauss(POINTS))?;
         let mut found = Measured {
             bound: Some(self.bound),
             of_u_bound: self.bound.of_u,
@@ -119,15 +116,15 @@ impl Held<'_> {
             energy: within.energy,
             ..Measured::default()
         };
-        if let Some(exact) = &scene.exact {
-            let by = |panels| distance_on(panels, scene, exact, problem, &own.admissible);
+        if let Some(exact) = &problem.scene.exact {
+            let by = |panels| distance_on(panels, exact, problem, &own.admissible);
             let mut distance = by(1)?;
             // Kinks and layers inside cells take more points.
             if self.is_off(&distance) {
                 distance = by(PANELS)?;
             }
             found.combined = distance.combined;
-            found.of_u = errors(scene, exact, problem, own.u, &self.answer.flux)?.energy;
+            found.of_u = errors(exact, problem, own.u, &self.answer.flux)?.energy;
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
@@ -145,24 +142,24 @@ impl Held<'_> {
 
     /// What 8 points of the edges of R miss.
     fn missed(&self) -> Result<f64> {
-        let (scene, problem) = (self.scene, self.problem);
+        let problem = self.problem;
         let laws = problem.loads.robin.iter();
-        let squares = laws.map(|law| missed(scene, problem, law.edge as usize, problem.time));
+        let squares = laws.map(|law| missed(problem, law.edge as usize, problem.time));
         let squares = squares.map(|of| of.map(|of| of * of));
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
     fn by_finer(&self, case: &Case) -> Result<Option<Measured>> {
-        let (scene, problem, own) = (self.scene, self.problem, self.side());
+        let (problem, own) = (self.problem, self.side());
         // One in so many cases gets the finest that is allowed for.
         let most = UNKNOWNS[usize::from(case.number.is_multiple_of(97))];
         let (mut mesh, mut levels) = (refined(&problem.mesh)?, 1);
         while levels < LEVELS && 8 * mesh.cells() <= most {
             (mesh, levels) = (refined(&mesh)?, levels + 1);
         }
-        let mut finer = Problem::new(scene, mesh)?;
-        finer.set_time(scene, problem.time)?;
-        let Ok(solution) = directly(scene, &finer) else { return Ok(None) };
+        let mut finer = Problem::new(&problem.scene, mesh)?;
+        finer.set_time(problem.time)?;
+        let Ok(solution) = directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
         let fine = Side { problem: &finer, admissible: certified.admissible(), u };
@@ -171,7 +168,7 @@ impl Held<'_> {
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);
         for (panels, points) in RULES {
             let rule = on_panels(panels, &gauss(points));
-            let next = apart(scene, &own, &fine, levels, &rule)?;
+            let next = apart(&own, &fine, levels, &rule)?;
             uncertain = difference(&found, &next);
             found = next;
             if !is_above(&found) {
@@ -197,7 +194,7 @@ fn difference(one: &Apart, other: &Apart) -> [f64; 2] {
     [(one.combined - other.combined).abs(), (one.of_u - other.of_u).abs()]
 }
 
-fn directly(scene: &Scene, problem: &Problem) -> Result<Solution> {
+fn directly(problem: &Problem) -> Result<Solution> {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(scene, problem, &options)
+    solve(problem, &options)
 }

@@ -4,7 +4,7 @@
 //! is known at any point of the finer mesh, without a search.
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Scene};
+use signorini_scene::scene::Condition;
 use signorini_solve::certify::admissible::{Admissible, Chordal};
 use signorini_solve::certify::cell::{Cell, Jet};
 use signorini_solve::certify::conductivity::{Conductivity, inverse, product};
@@ -37,7 +37,6 @@ pub struct Apart {
 
 /// Both with what their boundary data add to s.
 struct Study<'a> {
-    scene: &'a Scene,
     coarse: Part<'a>,
     fine: Part<'a>,
     levels: u32,
@@ -62,15 +61,9 @@ struct OnCell<'a> {
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn apart(
-    scene: &Scene,
-    coarse: &Side,
-    fine: &Side,
-    levels: u32,
-    rule: &[[f64; 2]],
-) -> Result<Apart> {
-    let (coarse, fine) = (Part::new(scene, coarse)?, Part::new(scene, fine)?);
-    let study = Study { scene, coarse, fine, levels };
+pub fn apart(coarse: &Side, fine: &Side, levels: u32, rule: &[[f64; 2]]) -> Result<Apart> {
+    let (coarse, fine) = (Part::new(coarse)?, Part::new(fine)?);
+    let study = Study { coarse, fine, levels };
     let fine = study.fine.side;
     let mut squares = Apart::default();
     let mut last = None;
@@ -95,8 +88,8 @@ pub fn apart(
 }
 
 impl<'a> Part<'a> {
-    fn new(scene: &'a Scene, side: &'a Side<'a>) -> Result<Self> {
-        let deviations = Deviations::at_time(scene, side.problem, side.problem.time)?;
+    fn new(side: &'a Side<'a>) -> Result<Self> {
+        let deviations = Deviations::at_time(side.problem, side.problem.time)?;
         Ok(Self { side, deviations })
     }
 
@@ -160,7 +153,7 @@ impl Study<'_> {
         rule: &[[f64; 2]],
         squares: &mut Apart,
     ) -> Result<()> {
-        let conductivity = Conductivity::of(self.scene, self.fine.side.problem, at);
+        let conductivity = Conductivity::of(self.fine.side.problem, at);
         for point in own.cell.points(rule) {
             let there = Point { reference: self.in_parent(at, point.reference), ..point };
             let (s, of_parent) = (own.s(point.reference)?.gradient, parent.s(there.reference)?);
@@ -181,9 +174,9 @@ impl Study<'_> {
     fn robin(&self, edge: usize) -> Result<f64> {
         let (fine, coarse) = (self.fine.side, self.coarse.side);
         let boundary = fine.problem.binding.boundary(fine.problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &self.scene.boundaries[boundary].condition);
+        let boundary = boundary.map(|boundary| &fine.problem.scene.boundaries[boundary].condition);
         let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
-        let h = Sum::alone(self.scene, coefficient, fine.problem.time);
+        let h = Sum::alone(&fine.problem.scene, coefficient, fine.problem.time);
         let (at, side) = fine.problem.topology.first_side(edge);
         let parent = self.parent(at);
         let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::nested::{Side, apart};
 use super::residual::residual;
 use super::*;
+use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
@@ -39,22 +40,22 @@ fn scene(ambient: &str) -> Scene {
     Scene::parse(&text, Path::new("test.toml")).unwrap()
 }
 
-fn solved(scene: &Scene, problem: &Problem) -> Solution {
+fn solved(problem: &Problem) -> Solution {
     let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    solve(scene, problem, &options).unwrap()
+    solve(problem, &options).unwrap()
 }
 
 /// Of a scene on a mesh and on one `levels` finer: the distance, and both bounds.
 fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]) {
     let coarse = Problem::new(scene, grid(2, cells)).unwrap();
-    let mut mesh = coarse.mesh.clone();
+    let mut mesh = Mesh::clone(&coarse.mesh);
     (0..levels).for_each(|_| mesh = refined(&mesh).unwrap());
     let fine = Problem::new(scene, mesh).unwrap();
-    let (one, other) = (solved(scene, &coarse), solved(scene, &fine));
+    let (one, other) = (solved(&coarse), solved(&fine));
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
     let of = Side { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
     let its = Side { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
-    (apart(scene, &of, &its, levels, &gauss(4)).unwrap().combined, bounds)
+    (apart(&of, &its, levels, &gauss(4)).unwrap().combined, bounds)
 }
 
 /// The finer answer is nearly the truth: its distance is nearly the error, and never above both bounds.
@@ -81,9 +82,9 @@ fn what_eight_points_miss_of_u_ext_is_in_the_bound() {
 fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let scene = scene("x");
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
-    let own = solved(&scene, &problem);
+    let own = solved(&problem);
     let side = || Side { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
-    RESIDUAL.check("itself", apart(&scene, &side(), &side(), 0, &gauss(4)).unwrap().combined);
+    RESIDUAL.check("itself", apart(&side(), &side(), 0, &gauss(4)).unwrap().combined);
     let found = residual(&problem, &own.u).unwrap();
     RESIDUAL.check("scaled", found.scaled);
     RESIDUAL.check("rounding", found.rounding);
@@ -101,9 +102,9 @@ fn made_scenes_are_solved_by_what_they_were_made_for() {
         let scene = Scene::parse(&case.scene, Path::new("made.toml")).unwrap();
         let Ok(problem) = Problem::new(&scene, case.mesh.clone()) else { continue };
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let Ok(own) = solve(&scene, &problem, &options) else { continue };
+        let Ok(own) = solve(&problem, &options) else { continue };
         let (Some(bound), Some(exact)) = (own.bound, &scene.exact) else { continue };
-        let found = distance(&scene, exact, &problem, &own.certified.admissible()).unwrap();
+        let found = distance(exact, &problem, &own.certified.admissible()).unwrap();
         if bound.gap >= 100.0 * bound.rounding {
             let what = format!("case {}", case.number);
             MADE.check_relative(what, bound.gap, found.identity);

@@ -18,8 +18,8 @@ const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambien
 const SINGLE: &str = "f32 with libm";
 
 /// A row for each function that the loads call, after one for f32 with libm, which any of them adds to.
-pub(super) fn rows(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>> {
-    let loads = loads(scene, problem);
+pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
+    let loads = loads(problem);
     let mut uses: Vec<Use> =
         Elementary::ALL.into_iter().filter_map(|function| Use::of(&loads, function)).collect();
     if uses.is_empty() {
@@ -29,9 +29,9 @@ pub(super) fn rows(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>
         0,
         Use { name: SINGLE, arithmetic: Arithmetic::Single, keys: all(&uses), calls: 0 },
     );
-    let unfit = unfit::<f64>(scene);
+    let unfit = unfit::<f64>(&problem.scene);
     let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
-    let before = State::from(solved(scene, problem)?);
+    let before = State::from(solved(problem)?);
     let costs = Costs::measured();
     let row = |used: Use| -> Result<FunctionCost> {
         let mut row = FunctionCost {
@@ -41,7 +41,7 @@ pub(super) fn rows(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>
             saved: costs.saved_by(used.name).unwrap_or_default(),
             ..FunctionCost::default()
         };
-        match replaced(scene, problem, used.arithmetic) {
+        match replaced(problem, used.arithmetic) {
             Ok(solution) => {
                 let after = State::from(solution);
                 let change = Change::between(&assembled, &before, &after).map_err(&unfit)?;
@@ -82,30 +82,28 @@ fn all<'s>(uses: &[Use<'s>]) -> Vec<&'s str> {
 }
 
 /// Every load, and the number of cells or edges that it stands on.
-fn loads<'s>(scene: &'s Scene, problem: &Problem) -> Vec<(&'s Located<Expression>, usize)> {
-    let mut edges = vec![0; scene.boundaries.len()];
-    for (&ends, &kind) in problem.ends.iter().zip(&problem.kinds) {
+fn loads(problem: &Problem) -> Vec<(&Located<Expression>, usize)> {
+    let mut edges = vec![0; problem.scene.boundaries.len()];
+    for (&ends, &kind) in problem.ends.iter().zip(&*problem.kinds) {
         if let (Some(at), true) = (problem.binding.boundary(ends), kind != EdgeKind::Interior) {
             edges[at] += 1;
         }
     }
-    let on_boundaries = scene.boundaries.iter().zip(edges).flat_map(|(boundary, edges)| {
+    let on_boundaries = problem.scene.boundaries.iter().zip(edges).flat_map(|(boundary, edges)| {
         FIELDS.iter().filter_map(move |&field| Some((boundary.condition.load(field)?, edges)))
     });
-    std::iter::once((&scene.source, problem.cells())).chain(on_boundaries).collect()
+    std::iter::once((&problem.scene.source, problem.cells())).chain(on_boundaries).collect()
 }
 
 /// The solution with all loads evaluated in `arithmetic`.
-fn replaced(scene: &Scene, problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
-    let mut scene = scene.clone();
+fn replaced(problem: &Problem, arithmetic: Arithmetic) -> Result<Solution> {
+    let mut scene = Scene::clone(&problem.scene);
     each_load(&mut scene, |load| load.value = load.value.with_arithmetic(arithmetic));
-    let mut problem = problem.clone();
-    problem.set_time(&scene, problem.time)?;
-    solved(&scene, &problem)
+    solved(&problem.with_loads_of(scene)?)
 }
 
-fn solved(scene: &Scene, problem: &Problem) -> Result<Solution> {
-    solve(scene, problem, &Options { solver: SolverKind::Direct, ..Options::default() })
+fn solved(problem: &Problem) -> Result<Solution> {
+    solve(problem, &Options { solver: SolverKind::Direct, ..Options::default() })
 }
 
 impl From<Solution> for State {

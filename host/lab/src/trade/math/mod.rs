@@ -12,16 +12,15 @@ mod tests;
 
 use super::record::FunctionCost;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::Problem;
 
-/// A row for every function that the loads of `scene` call, one for f32 alone where they call any, and
-/// those of the kernel's square root; at the time of `problem`, which is that of `scene`.
+/// A row for every function that the loads of `problem` call, one for f32 alone where they call any, and
+/// those of the kernel's square root; at its time.
 ///
 /// # Errors
 /// A scene that has no solution as it stands, or none in f32.
-pub fn of_scene(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>> {
-    let mut rows = loads::rows(scene, problem)?;
-    rows.extend(roots::rows(scene, problem)?);
+pub fn of_scene(problem: &Problem) -> Result<Vec<FunctionCost>> {
+    let mut rows = loads::rows(problem)?;
+    rows.extend(roots::rows(problem)?);
     Ok(rows)
 }

@@ -12,19 +12,18 @@ use super::super::record::FunctionCost;
 use super::change::{Change, State};
 use signorini_bake::costs::Costs;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::solve::unfit;
 
 const NAME: &str = "sqrt";
 
 /// A row for the search, from cold solves in f32, and one for the length of the contact set, if any.
-pub(super) fn rows(scene: &Scene, problem: &Problem) -> Result<Vec<FunctionCost>> {
-    let parts = Parts::examine(scene, problem)?;
-    let wide = Assembled::<f64>::new(problem).map_err(unfit::<f64>(scene))?;
-    let mut single = Assembled::<f32>::new(problem).map_err(unfit::<f32>(scene))?;
+pub(super) fn rows(problem: &Problem) -> Result<Vec<FunctionCost>> {
+    let parts = Parts::examine(problem)?;
+    let wide = Assembled::<f64>::new(problem).map_err(unfit::<f64>(&problem.scene))?;
+    let mut single = Assembled::<f32>::new(problem).map_err(unfit::<f32>(&problem.scene))?;
     single.set_parts(&parts);
-    compared(&wide, &single).map_err(unfit::<f32>(scene))
+    compared(&wide, &single).map_err(unfit::<f32>(&problem.scene))
 }
 
 type Solve = fn(&Assembled<f32>) -> std::result::Result<Cold, Error>;

@@ -10,7 +10,7 @@ use signorini_solve::problem::Problem;
 
 fn rows(scene: &Scene) -> Result<Vec<FunctionCost>> {
     let problem = Problem::new(scene, gmsh::read(&scene.mesh.value)?)?;
-    of_scene(scene, &problem)
+    of_scene(&problem)
 }
 
 fn scene(name: &str) -> Scene {

@@ -8,7 +8,6 @@ use super::places::Places;
 use super::reference::Reference;
 use crate::baseline::record::PointError;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 use signorini_solve::certify::admissible::{Admissible, OnCell};
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::{apply, dot, product};
@@ -28,15 +27,10 @@ struct Certified<'d, 's> {
 
 impl Reference {
     /// The norms over the domain; force and length are left 0.
-    pub(super) fn errors(
-        &self,
-        scene: &Scene,
-        problem: &Problem,
-        answer: &Answer,
-    ) -> Result<PointError> {
+    pub(super) fn errors(&self, problem: &Problem, answer: &Answer) -> Result<PointError> {
         let inside = self.points.iter().map(|point| point.x);
         let places = self.places.of(problem, inside, self.robin.iter().map(|point| point.x))?;
-        let combined = |of| self.combined(scene, problem, &places, of);
+        let combined = |of| self.combined(problem, &places, of);
         let combined = answer.certified.as_ref().map(combined).transpose()?;
         Ok(PointError { combined, ..self.broken(problem, &places, answer) })
     }
@@ -59,14 +53,8 @@ impl Reference {
     }
 
     /// The distance of S and τ, as [`signorini_solve::certify::exact`] has it.
-    fn combined(
-        &self,
-        scene: &Scene,
-        problem: &Problem,
-        places: &Places,
-        admissible: &Admissible,
-    ) -> Result<f64> {
-        let deviations = Deviations::at_time(scene, problem, problem.time)?;
+    fn combined(&self, problem: &Problem, places: &Places, admissible: &Admissible) -> Result<f64> {
+        let deviations = Deviations::at_time(problem, problem.time)?;
         let certified = |at| Certified {
             cell: Cell::of(problem, at),
             s: admissible.on_cell(problem, at, &deviations),

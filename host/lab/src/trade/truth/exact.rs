@@ -3,7 +3,7 @@
 use signorini_kernel::geometry::scaled_normal;
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Exact, Field, Scene};
+use signorini_scene::scene::{Exact, Field};
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::{Conductivity, apply, dot, product};
 use signorini_solve::certify::sampled::Sampled;
@@ -29,11 +29,11 @@ pub(super) struct Contact {
 }
 
 /// ‖A^½∇u‖
-pub(super) fn energy(scene: &Scene, u: &impl Sampled, problem: &Problem) -> Result<f64> {
+pub(super) fn energy(u: &impl Sampled, problem: &Problem) -> Result<f64> {
     let rule = gauss(POINTS);
     let mut square = 0.0;
     for at in 0..problem.cells() {
-        let conductivity = Conductivity::of(scene, problem, at);
+        let conductivity = Conductivity::of(problem, at);
         let points = Cell::of(problem, at).points(&rule);
         for (point, u) in points.iter().zip(u.on_cell(at, &points)?.iter()) {
             let a = conductivity.at(point.x);
@@ -44,12 +44,12 @@ pub(super) fn energy(scene: &Scene, u: &impl Sampled, problem: &Problem) -> Resu
 }
 
 /// Force and length of contact.
-pub(super) fn contact(scene: &Scene, exact: &Exact, problem: &Problem) -> Result<Contact> {
+pub(super) fn contact(exact: &Exact, problem: &Problem) -> Result<Contact> {
     let counts = problem.topology.counts;
     let rule = on_panels(PANELS, &gauss(8));
     let mut samples = Samples::default();
     for edge in counts.free..counts.unknowns() {
-        samples.add_edge(scene, exact, problem, edge, &rule)?;
+        samples.add_edge(exact, problem, edge, &rule)?;
     }
     let threshold = TOUCHING * samples.largest;
     let touching = samples.openings.iter().filter(|[opening, _]| *opening <= threshold);
@@ -69,21 +69,20 @@ struct Samples {
 impl Samples {
     fn add_edge(
         &mut self,
-        scene: &Scene,
         exact: &Exact,
         problem: &Problem,
         edge: usize,
         rule: &[[f64; 2]],
     ) -> Result<()> {
-        let data = |field| Sum::on_edge(scene, problem, edge, field, problem.time);
+        let data = |field| Sum::on_edge(problem, edge, field, problem.time);
         let (Some(q), Some(gap)) = (data(Field::Flux), data(Field::Gap)) else { return Ok(()) };
         let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
         // As long as the edge, and outward.
         let normal: [f64; 2] = scaled_normal(a, b).into();
-        let conductivity = Conductivity::of(scene, problem, problem.topology.first_side(edge).0);
+        let conductivity = Conductivity::of(problem, problem.topology.first_side(edge).0);
         for &[t, weight] in rule {
             let x = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-            let (u, gradient) = exact_at(scene, exact, x, problem.time)?;
+            let (u, gradient) = exact_at(&problem.scene, exact, x, problem.time)?;
             let (q, psi) = (q.finite(q.at(x[0], x[1]), x)?, gap.finite(gap.at(x[0], x[1]), x)?);
             let sigma = dot(apply(&conductivity.at(x), gradient), normal);
             self.force += weight * (sigma - length * q);

@@ -94,12 +94,12 @@ impl Truth {
         };
         let problem = Problem::new(scene, mesh.clone())?;
         let recent = Recent::default();
-        let deviations = Deviations::at_time(scene, &problem, problem.time)?;
-        let tables = recent.of(scene, exact, &problem, &deviations)?;
+        let deviations = Deviations::at_time(&problem, problem.time)?;
+        let tables = recent.of(exact, &problem, &deviations)?;
         Ok(Self {
             source: Source::Exact(Box::new(exact.clone()), recent),
-            energy: exact::energy(scene, &tables.u, &problem)?,
-            contact: exact::contact(scene, exact, &problem)?,
+            energy: exact::energy(&tables.u, &problem)?,
+            contact: exact::contact(exact, &problem)?,
         })
     }
 
@@ -136,15 +136,15 @@ impl Truth {
         self.contact.length
     }
 
-    /// How far `answer`, found for `problem`, is from it. `scene` is what it was made for, in any
-    /// setting; `problem` belongs to the same domain, with the loads of t = 0.
+    /// How far `answer`, found for `problem`, is from it. `problem` belongs to the scene that
+    /// this was made for, in any setting, with the loads of t = 0.
     ///
     /// # Errors
     /// Data that are not finite at a quadrature point.
-    pub fn errors(&self, scene: &Scene, problem: &Problem, answer: &Answer) -> Result<PointError> {
+    pub fn errors(&self, problem: &Problem, answer: &Answer) -> Result<PointError> {
         let inside = match &self.source {
-            Source::Exact(exact, recent) => exactly(scene, exact, recent, problem, answer)?,
-            Source::Reference(reference) => reference.errors(scene, problem, answer)?,
+            Source::Exact(exact, recent) => exactly(exact, recent, problem, answer)?,
+            Source::Reference(reference) => reference.errors(problem, answer)?,
         };
         Ok(PointError {
             force: (self.contact.force - answer.force).abs(),
@@ -156,18 +156,17 @@ impl Truth {
 
 /// The norms over the domain, against an exact solution.
 fn exactly(
-    scene: &Scene,
     exact: &Exact,
     recent: &Recent,
     problem: &Problem,
     answer: &Answer,
 ) -> Result<PointError> {
-    let deviations = &Deviations::at_time(scene, problem, problem.time)?;
-    let tables = recent.of(scene, exact, problem, deviations)?;
+    let deviations = &Deviations::at_time(problem, problem.time)?;
+    let tables = recent.of(exact, problem, deviations)?;
     let (u, lift) = (&tables.u, &tables.lift);
-    let errors = norms::of_fields(scene, problem, u, answer.u, answer.flux)?;
+    let errors = norms::of_fields(problem, u, answer.u, answer.flux)?;
     let combined = |admissible| {
-        Study { scene, exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
+        Study { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
     };
     Ok(PointError {
         energy: errors.energy,

@@ -56,8 +56,8 @@ impl Reference {
     pub(super) fn new(scene: &Scene, mesh: Mesh) -> Result<Self> {
         let problem = Problem::new(scene, mesh)?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(scene, &problem, &options)?;
-        let (mut points, robin) = sampled(scene, &problem, &solution)?;
+        let solution = solve(&problem, &options)?;
+        let (mut points, robin) = sampled(&problem, &solution)?;
         let change = recovery::smooth(&problem, &mut points);
         let certified = |total| total * std::f64::consts::FRAC_1_SQRT_2 + change;
         let Solution { contact_force: force, contact_length: length, bound, .. } = solution;
@@ -90,17 +90,13 @@ impl Reference {
 }
 
 /// Values at the points of all cells and of the Robin boundary.
-fn sampled(
-    scene: &Scene,
-    problem: &Problem,
-    solution: &Solution,
-) -> Result<(Vec<Inside>, Vec<OnRobin>)> {
-    let deviations = Deviations::at_time(scene, problem, problem.time)?;
+fn sampled(problem: &Problem, solution: &Solution) -> Result<(Vec<Inside>, Vec<OnRobin>)> {
+    let deviations = Deviations::at_time(problem, problem.time)?;
     let certified = solution.certified.admissible();
     // Without a bound nobody mended τ.
     let tau = if solution.bound.is_some() { certified.tau } else { &solution.flux };
     let sampler =
-        Sampler { scene, problem, u: &solution.u, s: Admissible { tau, ..certified }, deviations };
+        Sampler { problem, u: &solution.u, s: Admissible { tau, ..certified }, deviations };
     let mut inside = Vec::new();
     for at in 0..problem.cells() {
         sampler.add_cell(at, &mut inside)?;
@@ -114,7 +110,6 @@ fn sampled(
 }
 
 struct Sampler<'a> {
-    scene: &'a Scene,
     problem: &'a Problem,
     u: &'a [f64],
     s: Admissible<'a>,
@@ -123,8 +118,8 @@ struct Sampler<'a> {
 
 impl Sampler<'_> {
     fn add_cell(&self, at: usize, inside: &mut Vec<Inside>) -> Result<()> {
-        let (scene, problem) = (self.scene, self.problem);
-        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        let problem = self.problem;
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let field = CellField::new(problem, at, self.u, self.s.tau);
         let s = self.s.on_cell(problem, at, &self.deviations);
         for point in points(&cell) {
@@ -140,12 +135,12 @@ impl Sampler<'_> {
 
     /// σ·n = h(u_ext − u) there, with u = s.
     fn add_robin(&self, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
-        let (scene, problem) = (self.scene, self.problem);
+        let problem = self.problem;
         let boundary = problem.binding.boundary(problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &scene.boundaries[boundary].condition);
+        let boundary = boundary.map(|boundary| &problem.scene.boundaries[boundary].condition);
         let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(()) };
-        let transfer = Sum::alone(scene, coefficient, problem.time);
-        let ambient = Sum::on_edge(scene, problem, edge, Field::Ambient, problem.time);
+        let transfer = Sum::alone(&problem.scene, coefficient, problem.time);
+        let ambient = Sum::on_edge(problem, edge, Field::Ambient, problem.time);
         let Some(ambient) = ambient else { return Ok(()) };
         let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
         for [t, weight] in gauss(ON_EDGES) {

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::places::fingerprint;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Exact, Scene};
+use signorini_scene::scene::Exact;
 use signorini_solve::certify::deviation::Deviations;
 use signorini_solve::certify::sampled::{Lifted, Solution, Table};
 use signorini_solve::problem::Problem;
@@ -32,7 +32,6 @@ impl Recent {
     /// Those on the mesh of `problem`.
     pub(super) fn of(
         &self,
-        scene: &Scene,
         exact: &Exact,
         problem: &Problem,
         deviations: &Deviations,
@@ -46,7 +45,7 @@ impl Recent {
         }
         let tables = match known {
             Some(at) => recent.remove(at).1,
-            None => Arc::new(Tables::new(scene, exact, problem, deviations)?),
+            None => Arc::new(Tables::new(exact, problem, deviations)?),
         };
         recent.insert(0, (key, tables.clone()));
         Ok(tables)
@@ -54,13 +53,8 @@ impl Recent {
 }
 
 impl Tables {
-    fn new(
-        scene: &Scene,
-        exact: &Exact,
-        problem: &Problem,
-        deviations: &Deviations,
-    ) -> Result<Self> {
-        let solution = Solution { scene, exact, time: problem.time };
+    fn new(exact: &Exact, problem: &Problem, deviations: &Deviations) -> Result<Self> {
+        let solution = Solution { exact, problem };
         Ok(Self {
             u: Table::of(&solution, problem)?,
             lift: Table::of(&Lifted { problem, deviations }, problem)?,
@@ -79,9 +73,9 @@ mod tests {
         let recent = Recent::default();
         let on = |n| {
             let (scene, problem) = on_grid(SMOOTH, grid(n, Cells::Quads)).unwrap();
-            let deviations = Deviations::at_time(&scene, &problem, 0.0).unwrap();
+            let deviations = Deviations::at_time(&problem, 0.0).unwrap();
             let exact = scene.exact.as_ref().unwrap();
-            recent.of(&scene, exact, &problem, &deviations).unwrap()
+            recent.of(exact, &problem, &deviations).unwrap()
         };
         let [two, three] = [2, 3].map(on);
         assert!(Arc::ptr_eq(&two, &on(2)) && Arc::ptr_eq(&three, &on(3)));

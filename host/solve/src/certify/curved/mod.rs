@@ -26,7 +26,6 @@ use crate::problem::Problem;
 use crate::quadrature::gauss;
 use panels::Panels;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 pub use cross::half_triangle;
 pub use inside::{of_rough_sides, points};
@@ -60,8 +59,8 @@ pub struct Curved {
 ///
 /// # Errors
 /// Data that are not finite or not differentiable at a quadrature point.
-pub fn curved(scene: &Scene, problem: &Problem, time: f64) -> Result<Vec<Curved>> {
-    Ok(bends(scene, problem, time)?.records)
+pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
+    Ok(bends(problem, time)?.records)
 }
 
 /// The records, and what they leave out.
@@ -77,9 +76,9 @@ pub struct Bends {
 ///
 /// # Errors
 /// As for [`curved`].
-pub fn bends(scene: &Scene, problem: &Problem, time: f64) -> Result<Bends> {
-    let deviations = Deviations::at_time(scene, problem, time)?;
-    let (records, dropped) = (records(scene, problem, &deviations.found)?, deviations.dropped);
+pub fn bends(problem: &Problem, time: f64) -> Result<Bends> {
+    let deviations = Deviations::at_time(problem, time)?;
+    let (records, dropped) = (records(problem, &deviations.found)?, deviations.dropped);
     let mut of_cells = BTreeMap::new();
     for record in &records {
         let (at, _) = problem.topology.first_side(record.edge as usize);
@@ -89,13 +88,13 @@ pub fn bends(scene: &Scene, problem: &Problem, time: f64) -> Result<Bends> {
     Ok(Bends { records, left_out: dropped + missed })
 }
 
-fn records(scene: &Scene, problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
+fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
     let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
     let mut records = Vec::with_capacity(deviations.len());
     for deviation in deviations {
-        let extension = Extension::new(scene, problem, deviation)?;
+        let extension = Extension::new(problem, deviation)?;
         let mut record = extension.integrate()?;
-        record.missed = extension.missed(scene, problem)?;
+        record.missed = extension.missed(problem)?;
         // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
         for earlier in extensions.iter().filter(|other| other.at == extension.at) {
             record.energy += 2.0 * extension.cross(earlier)?;
@@ -119,9 +118,9 @@ struct Extension<'d, 's> {
 }
 
 impl<'d, 's> Extension<'d, 's> {
-    fn new(scene: &'s Scene, problem: &Problem, deviation: &'d Deviation<'s>) -> Result<Self> {
+    fn new(problem: &'s Problem, deviation: &'d Deviation<'s>) -> Result<Self> {
         let (at, side) = problem.topology.first_side(deviation.edge);
-        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(scene, problem, at));
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let panels = Panels::along(deviation)?;
         let mended = mended(deviation, &panels)?;
         Ok(Self { deviation, at, side, cell, conductivity, panels, mended })
@@ -160,8 +159,8 @@ impl<'d, 's> Extension<'d, 's> {
     }
 
     /// ‖A^½∇·‖ of what the panels' points leave out.
-    fn missed(&self, scene: &Scene, problem: &Problem) -> Result<f64> {
-        let energy = CellEnergy::of(scene, problem, self.at);
+    fn missed(&self, problem: &Problem) -> Result<f64> {
+        let energy = CellEnergy::of(problem, self.at);
         let found = energy.of_extension(self.side, &self.panels.missed(self.deviation)?);
         // Near a singular place w′ is nearly all of ∇v.
         let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };

@@ -60,14 +60,14 @@ fn by_differences(
 }
 
 fn check_against_differences(mesh: Mesh, scene: &str, allowed: Tolerance) -> Result<usize> {
-    let (scene, problem) = fixtures::on_grid(scene, mesh)?;
-    let records = curved(&scene, &problem, 0.0)?;
-    let deviations = Deviations::at_time(&scene, &problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(scene, mesh)?;
+    let records = curved(&problem, 0.0)?;
+    let deviations = Deviations::at_time(&problem, 0.0)?;
     let mut energies = BTreeMap::new();
     for record in &records {
         let deviation = deviations.on(record.edge as usize).expect("a curved edge");
         let (at, side) = problem.topology.first_side(deviation.edge);
-        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&problem, at));
         *energies.entry(at).or_insert(0.0) += record.energy;
         let v = |reference: [f64; 3]| value(&cell, side, deviation, reference);
         for (k, &found) in record.coupling.iter().enumerate() {
@@ -87,7 +87,7 @@ fn check_against_differences(mesh: Mesh, scene: &str, allowed: Tolerance) -> Res
         }
     }
     for (&at, &energy) in &energies {
-        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+        let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&problem, at));
         let all = |reference: [f64; 3]| {
             let sides = deviations.found.iter().map(|d| (d, problem.topology.first_side(d.edge)));
             let here = sides.filter(|&(_, (cell, _))| cell == at);
@@ -131,8 +131,8 @@ fn a_parabola_over_its_chord() -> Result<()> {
     // below a cut square (E the bottom, A = I): ∇λ_b + t∇λ_c = (1/l)(1, t − 1) for the apex above b.
     let scene = PARABOLA;
     let n = 4;
-    let (scene, problem) = fixtures::on_grid(scene, grid(n, Cells::Triangles))?;
-    let records = curved(&scene, &problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(scene, grid(n, Cells::Triangles))?;
+    let records = curved(&problem, 0.0)?;
     let length = 1.0 / f64::from(n);
     assert_eq!(records.len(), 2 * n as usize);
     // |T| ∫ |w′ ∇λ_b + (t w′ − w) ∇λ_c|² with ∇λ_b = (1, −1)/l, ∇λ_c = (0, 1)/l, w′ = l²(1 − 2t):
@@ -155,10 +155,10 @@ fn an_input_bends_an_edge_like_its_boundarys_own_expression() -> Result<()> {
     let (input, own) = ("sin(2*x) - 0.3*x*y^2", "sin(2*x) + y^3 - 0.3*x*y^2");
     let text = CURVED.replace(own, input)
         + "[input.lift]\nof = \"default\"\nfield = \"value\"\npattern = \"2*y^3\"\ndefault = 0.5\n";
-    let (scene, problem) = fixtures::on_grid(&text, grid(2, Cells::Mixed))?;
-    let with_input = curved(&scene, &problem, 0.0)?;
-    let (scene, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Mixed))?;
-    let expected = curved(&scene, &problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(&text, grid(2, Cells::Mixed))?;
+    let with_input = curved(&problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Mixed))?;
+    let expected = curved(&problem, 0.0)?;
     assert_eq!(with_input.len(), expected.len());
     for (found, expected) in with_input.iter().zip(&expected) {
         PARABOLIC.check("mean", found.mean - expected.mean);
@@ -171,8 +171,8 @@ fn an_input_bends_an_edge_like_its_boundarys_own_expression() -> Result<()> {
 fn affine_data_leave_no_record() -> Result<()> {
     let affine = PARABOLA.replace("-x^2", "12.3 - 0.7*x + 3e5*y");
     for cells in [Cells::Triangles, Cells::Quads] {
-        let (scene, problem) = fixtures::on_grid(&affine, grid(7, cells))?;
-        assert_eq!(curved(&scene, &problem, 0.0)?, []);
+        let (_, problem) = fixtures::on_grid(&affine, grid(7, cells))?;
+        assert_eq!(curved(&problem, 0.0)?, []);
     }
     Ok(())
 }
@@ -181,8 +181,8 @@ fn affine_data_leave_no_record() -> Result<()> {
 fn with_gap(gap: &str) -> Result<Curved> {
     let scene = PARABOLA.replace("-x^2", gap);
     assert_ne!(scene, PARABOLA);
-    let (scene, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
-    let mut records = curved(&scene, &problem, 0.0)?;
+    let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
+    let mut records = curved(&problem, 0.0)?;
     records.retain(|record| {
         let [a, b] = problem.segment(record.edge as usize);
         (a[0] - 0.3) * (b[0] - 0.3) < 0.0
@@ -235,8 +235,8 @@ fn a_jump_inside_an_edge_has_no_bound() -> Result<()> {
     );
     for (gap, bound) in [("sign(x - 0.3)", false), ("abs(x - 0.3)", true), ("-x^2", true)] {
         let scene = PARABOLA.replace("-x^2", gap);
-        let (scene, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
-        assert_eq!(Data::<f64>::new(&scene, &problem)?.has_bound(), bound, "{gap}");
+        let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
+        assert_eq!(Data::<f64>::new(&problem)?.has_bound(), bound, "{gap}");
     }
     Ok(())
 }
@@ -267,8 +267,8 @@ fn single_singular_points_do_no_harm() -> Result<()> {
 #[test]
 fn smooth_data_have_regular_panels() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
-        let (scene, problem) = fixtures::on_grid(CURVED, fixtures::distorted(grid(2, cells)))?;
-        for deviation in &Deviations::at_time(&scene, &problem, 0.0)?.found {
+        let (_, problem) = fixtures::on_grid(CURVED, fixtures::distorted(grid(2, cells)))?;
+        for deviation in &Deviations::at_time(&problem, 0.0)?.found {
             assert_eq!(Panels::along(deviation)?, Panels::regular());
         }
     }
@@ -276,8 +276,8 @@ fn smooth_data_have_regular_panels() -> Result<()> {
     let far = PARABOLA.replace("-x^2", "-(x - 1e3)^2").replace("1e6*y", "1e6*(y - 1e3)/1e-6");
     let mut mesh = grid(2, Cells::Triangles);
     mesh.vertices.iter_mut().for_each(|x| *x = [1e3 + 1e-6 * x[0], 1e3 + 1e-6 * x[1]]);
-    let (scene, problem) = fixtures::on_grid(&far, mesh)?;
-    for deviation in &Deviations::at_time(&scene, &problem, 0.0)?.found {
+    let (_, problem) = fixtures::on_grid(&far, mesh)?;
+    for deviation in &Deviations::at_time(&problem, 0.0)?.found {
         assert_eq!(Panels::along(deviation)?, Panels::regular());
     }
     assert_eq!(Panels::regular().rule(), on_panels(PANELS, &gauss(POINTS)));
@@ -295,15 +295,15 @@ fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
         .replace("-2 + exp(x)*(1 + x^2)/20", "-3 - abs(x - 0.43) - max(x, -0.83)");
     assert_ne!(scene, CURVED);
     for cells in [Cells::Triangles, Cells::Quads] {
-        let (scene, problem) = fixtures::on_grid(&scene, grid(1, cells))?;
-        let deviations = Deviations::at_time(&scene, &problem, 0.0)?;
-        let (records, mut pairs) = (curved(&scene, &problem, 0.0)?, 0);
+        let (_, problem) = fixtures::on_grid(&scene, grid(1, cells))?;
+        let deviations = Deviations::at_time(&problem, 0.0)?;
+        let (records, mut pairs) = (curved(&problem, 0.0)?, 0);
         for at in 0..problem.cells() {
             let here =
                 records.iter().filter(|of| problem.topology.first_side(of.edge as usize).0 == at);
             let (found, sides) = here.fold((0.0, 0), |(sum, n), of| (sum + of.energy, n + 1));
             pairs += usize::from(sides > 1);
-            let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&scene, &problem, at));
+            let (cell, a) = (Cell::of(&problem, at), Conductivity::of(&problem, at));
             let lift = Lift::on_cell(&problem, at, &deviations);
             let mut expected = 0.0;
             for point in cell.points(&on_panels(300, &gauss(2))) {
@@ -334,10 +334,10 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
         for cells in [Cells::Triangles, Cells::Quads] {
             let (scene, problem) = fixtures::on_grid(&(text.clone() + exact), grid(4, cells))?;
             let options = Options { solver: SolverKind::Direct, ..Options::default() };
-            let solution = solve(&scene, &problem, &options)?;
+            let solution = solve(&problem, &options)?;
             let exact = scene.exact.as_ref().expect("an exact solution");
             let admissible = solution.certified.admissible();
-            let found = distance(&scene, exact, &problem, &admissible)?;
+            let found = distance(exact, &problem, &admissible)?;
             let ratio = solution.bound.expect("a bound").gap / found.identity;
             CURVED_ENERGY.check(format_args!("{gap}, {cells:?}"), ratio - 1.0);
         }
@@ -347,8 +347,8 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
 
 /// Whether data on y = 0 or x = 0 allow for a bound, and why not.
 fn refusal(text: &str) -> Result<Option<NoBound>> {
-    let (scene, problem) = fixtures::on_grid(text, grid(2, Cells::Triangles))?;
-    Ok(Data::<f64>::new(&scene, &problem)?.no_bound().cloned())
+    let (_, problem) = fixtures::on_grid(text, grid(2, Cells::Triangles))?;
+    Ok(Data::<f64>::new(&problem)?.no_bound().cloned())
 }
 
 #[test]

@@ -10,16 +10,16 @@ use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// Both at some inputs of size `amount` around the defaults; bounds are the business of other tests.
-fn compare(scene: &Scene, problem: &Problem, amount: f64, rounds: usize) -> Result<Vec<f64>> {
-    let condensate = condense(scene, problem)?;
-    assert_eq!(condensate.inputs, 1 + scene.inputs.len());
+fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<Vec<f64>> {
+    let condensate = condense(problem)?;
+    assert_eq!(condensate.inputs, 1 + problem.scene.inputs.len());
     let mut lengths = Vec::new();
     for round in 0..rounds {
         let moved = condensate.defaults.iter().enumerate();
         let p: Vec<f64> = moved
             .map(|(at, p)| if at == 0 { 1.0 } else { p + amount * scatter(31 * round + at) })
             .collect();
-        let (full, solution, expected) = full_at(scene, problem, &p)?;
+        let (full, solution, expected) = full_at(problem, &p)?;
         let x = condensate.solve(&p).expect("a solution");
         let found = condensate.outputs(&p, &x);
         let scale = solution.largest_flux();
@@ -53,8 +53,8 @@ fn compare(scene: &Scene, problem: &Problem, amount: f64, rounds: usize) -> Resu
 fn inputs_of_all_fields_on_all_cells() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         for mesh in [grid(5, cells), distorted(grid(4, cells))] {
-            let (scene, problem) = on_grid(ALL, mesh)?;
-            let lengths = compare(&scene, &problem, 0.3, 6)?;
+            let (_, problem) = on_grid(ALL, mesh)?;
+            let lengths = compare(&problem, 0.3, 6)?;
             assert!(lengths.iter().any(|length| (0.1..1.9).contains(length)), "{lengths:?}");
         }
     }
@@ -64,8 +64,8 @@ fn inputs_of_all_fields_on_all_cells() -> Result<()> {
 #[test]
 fn nonparametric_quads() -> Result<()> {
     let text = format!("{ALL}\n[setting]\nelement = \"nonparametric\"\n");
-    let (scene, problem) = on_grid(&text, distorted(grid(4, Cells::Quads)))?;
-    compare(&scene, &problem, 0.3, 4).map(|_| ())
+    let (_, problem) = on_grid(&text, distorted(grid(4, Cells::Quads)))?;
+    compare(&problem, 0.3, 4).map(|_| ())
 }
 
 #[test]
@@ -76,8 +76,8 @@ fn a_varying_tensor_and_a_jump() -> Result<()> {
     );
     assert_ne!(varying, ALL);
     for cells in [Cells::Triangles, Cells::Quads] {
-        let (scene, problem) = on_grid(&varying, grid(4, cells))?;
-        compare(&scene, &problem, 0.3, 4)?;
+        let (_, problem) = on_grid(&varying, grid(4, cells))?;
+        compare(&problem, 0.3, 4)?;
     }
     Ok(())
 }
@@ -89,10 +89,10 @@ fn without_contact_the_model_is_linear() -> Result<()> {
         .replace("[input.depth]\nof = \"contact\"\nfield = \"gap\"\npattern = \"(1 - x)*(0.2 + 0.1*x)*(1+x)\"\n", "")
         .replace("[output.force]\nkind = \"force\"\n", "")
         .replace("[output.length]\nkind = \"length\"\nof = \"contact\"\n", "");
-    let (scene, problem) = on_grid(&linear, grid(4, Cells::Mixed))?;
-    let condensate = condense(&scene, &problem)?;
+    let (_, problem) = on_grid(&linear, grid(4, Cells::Mixed))?;
+    let condensate = condense(&problem)?;
     assert_eq!(condensate.contact, 0);
-    compare(&scene, &problem, 0.5, 3)?;
+    compare(&problem, 0.5, 3)?;
     let bound = condensate.bound(&condensate.defaults, &[]).expect("a bound");
     assert!((0.5..2.0).contains(&(bound / condensate.energy_unit)), "{bound}");
     Ok(())
@@ -114,7 +114,7 @@ fn the_standard_scenes() -> Result<()> {
         let mesh = gmsh::read(&scene.mesh.value)?;
         let problem = Problem::new(&scene, mesh)?;
         println!("{name}");
-        compare(&scene, &problem, amount, 2)?;
+        compare(&problem, amount, 2)?;
     }
     Ok(())
 }

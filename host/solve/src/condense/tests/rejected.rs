@@ -5,13 +5,13 @@ use crate::condense::{check_size, condense};
 use signorini_scene::mesh::structured::{Cells, grid};
 
 fn refusal(text: &str) -> Result<String> {
-    let (scene, problem) = on_grid(text, grid(2, Cells::Triangles))?;
-    Ok(condense(&scene, &problem).expect_err("not to be condensed").to_string())
+    let (_, problem) = on_grid(text, grid(2, Cells::Triangles))?;
+    Ok(condense(&problem).expect_err("not to be condensed").to_string())
 }
 
 fn reason(text: &str) -> Result<String> {
-    let (scene, problem) = on_grid(text, grid(2, Cells::Triangles))?;
-    Ok(condense(&scene, &problem)?.certificate.expect_err("no bound"))
+    let (_, problem) = on_grid(text, grid(2, Cells::Triangles))?;
+    Ok(condense(&problem)?.certificate.expect_err("no bound"))
 }
 
 #[test]
@@ -43,8 +43,8 @@ fn a_part_that_a_single_edge_holds() -> Result<()> {
         for one in 0..4 {
             let mut mesh = grid(2, cells);
             mesh.curves[0].edges = vec![mesh.curves[0].edges[one]];
-            let (scene, problem) = on_grid(text, mesh)?;
-            let refusal = condense(&scene, &problem).expect_err("singular").to_string();
+            let (_, problem) = on_grid(text, mesh)?;
+            let refusal = condense(&problem).expect_err("singular").to_string();
             assert!(refusal.contains("a single contact edge"), "{cells:?}: {refusal}");
         }
     }
@@ -53,11 +53,10 @@ fn a_part_that_a_single_edge_holds() -> Result<()> {
 
 #[test]
 fn more_fields_than_memory_holds() -> Result<()> {
-    let (scene, problem) = on_grid(ALL, grid(2, Cells::Triangles))?;
-    check_size(&scene, &problem)?;
-    let (scene, problem) = on_grid(ALL, grid(240, Cells::Quads))?;
-    let message =
-        check_size(&scene, &problem).expect_err("480 fields of 231 000 edges").to_string();
+    let (_, problem) = on_grid(ALL, grid(2, Cells::Triangles))?;
+    check_size(&problem)?;
+    let (_, problem) = on_grid(ALL, grid(240, Cells::Quads))?;
+    let message = check_size(&problem).expect_err("480 fields of 231 000 edges").to_string();
     assert!(message.contains("480 contact edges on a mesh of 231120 edges"), "{message}");
     Ok(())
 }

@@ -25,7 +25,6 @@ use crate::problem::{Assembled, Loads, Parts, Problem};
 use correction::Correction;
 use rounds::Rounds;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
 
 type Refused<T> = std::result::Result<T, KernelError>;
 
@@ -107,10 +106,10 @@ impl<'p> Mixed<'p> {
 ///
 /// # Errors
 /// No solution, numbers that f32 cannot hold.
-pub fn mixed(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solution> {
-    let unfit = unfit::<f32>(scene);
+pub fn mixed(problem: &Problem, options: &Options) -> Result<Solution> {
+    let unfit = unfit::<f32>(&problem.scene);
     let options = Options { scalar: ScalarKind::F64, ..*options };
-    let parts = Parts::examine(scene, problem)?;
+    let parts = Parts::examine(problem)?;
     let mut clock = Clock::start();
     let mut mixed = Mixed::new(problem, &parts).map_err(&unfit)?;
     let assembly = clock.lap();
@@ -119,5 +118,5 @@ pub fn mixed(scene: &Scene, problem: &Problem, options: &Options) -> Result<Solu
     let (low, scalar) = (Vec::new(), options.scalar);
     let (ran, factored) = (Ran::Sweeps, None);
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
-    conclude(scene, problem, &parts, &mixed.wide, solved)
+    conclude(problem, &parts, &mixed.wide, solved)
 }

@@ -50,18 +50,18 @@ fn same(name: &str, found: &Solution, kernel: &Solution, allowed: [Tolerance; 2]
 #[test]
 fn the_factor_alone_answers_like_the_kernel_on_every_standard_scene() -> Result<()> {
     for path in standard_scenes() {
-        let (scene, problem) = read(&path)?;
+        let (_, problem) = read(&path)?;
         let name = path.file_stem().unwrap().to_string_lossy();
-        let parts = Parts::examine(&scene, &problem)?;
-        let kernel = solve(&scene, &problem, &Options::default())?;
-        let found = by_factor::<f64>(&scene, &problem, &parts, &AUTO)?.expect("a factor");
+        let parts = Parts::examine(&problem)?;
+        let kernel = solve(&problem, &Options::default())?;
+        let found = by_factor::<f64>(&problem, &parts, &AUTO)?.expect("a factor");
         same(&name, &found, &kernel, [AGREEMENT, BOUND_OF_FACTOR]);
         let single = Options { scalar: ScalarKind::F32, ..AUTO };
-        let found = by_factor::<f32>(&scene, &problem, &parts, &single)?.expect("a factor");
+        let found = by_factor::<f32>(&problem, &parts, &single)?.expect("a factor");
         assert!(found.converged() && found.ran == Ran::Factor, "{name}");
         let far = distance(&found.u, &kernel.u);
         FACTOR_NARROW.check(&name, far);
-        let chosen = solve(&scene, &problem, &AUTO)?;
+        let chosen = solve(&problem, &AUTO)?;
         same(&name, &chosen, &kernel, [AGREEMENT, BOUND_OF_FACTOR]);
     }
     Ok(())
@@ -75,17 +75,17 @@ fn small_meshes_are_swept_and_large_ones_factored() -> Result<()> {
         (Cells::Mixed, ScalarKind::F32),
     ] {
         let auto = Options { scalar, ..AUTO };
-        let (scene, problem) = on_grid(SMOOTH, grid(8, cells))?;
-        let small = solve(&scene, &problem, &auto)?;
+        let (_, problem) = on_grid(SMOOTH, grid(8, cells))?;
+        let small = solve(&problem, &auto)?;
         assert_eq!((small.ran, small.factored), (Ran::Sweeps, None));
-        let (scene, problem) = on_grid(SMOOTH, grid(40, cells))?;
-        let large = solve(&scene, &problem, &auto)?;
+        let (_, problem) = on_grid(SMOOTH, grid(40, cells))?;
+        let large = solve(&problem, &auto)?;
         let factored = large.factored.expect("a factor");
         assert_eq!((large.ran, large.sweeps), (Ran::Factor, 0), "{cells:?}");
         assert!(factored.entries > problem.topology.counts.unknowns());
         assert!(large.ending().contains("by a factor of"), "{}", large.ending());
         assert!(!large.ending().contains("sweeps"), "{}", large.ending());
-        let kernel = solve(&scene, &problem, &Options { scalar, ..Options::default() })?;
+        let kernel = solve(&problem, &Options { scalar, ..Options::default() })?;
         let of_u = if scalar == ScalarKind::F64 { AGREEMENT } else { FACTOR_NARROW };
         same("large", &large, &kernel, [of_u, BOUND_OF_FACTOR_NARROW]);
     }
@@ -94,27 +94,27 @@ fn small_meshes_are_swept_and_large_ones_factored() -> Result<()> {
 
 #[test]
 fn what_nothing_holds_goes_to_the_direct_solver() -> Result<()> {
-    let (scene, problem) = on_grid(LOOSE, grid(40, Cells::Triangles))?;
-    let found = solve(&scene, &problem, &AUTO)?;
+    let (_, problem) = on_grid(LOOSE, grid(40, Cells::Triangles))?;
+    let found = solve(&problem, &AUTO)?;
     assert_eq!((found.ran, found.sweeps), (Ran::Direct, 0));
-    let direct = solve(&scene, &problem, &Options { solver: SolverKind::Direct, ..AUTO })?;
+    let direct = solve(&problem, &Options { solver: SolverKind::Direct, ..AUTO })?;
     assert_eq!(distance(&found.u, &direct.u), 0.0);
-    let single = solve(&scene, &problem, &Options { scalar: ScalarKind::F32, ..AUTO })?;
+    let single = solve(&problem, &Options { scalar: ScalarKind::F32, ..AUTO })?;
     assert!(single.converged() && single.ran == Ran::Sweeps, "{}", single.ending());
     Ok(())
 }
 
 #[test]
 fn the_direct_solver_has_steps_and_tells_a_tolerance_that_it_misses() -> Result<()> {
-    let (scene, problem) = on_grid(SMOOTH, grid(8, Cells::Triangles))?;
+    let (_, problem) = on_grid(SMOOTH, grid(8, Cells::Triangles))?;
     let with = |tolerance| Options { solver: SolverKind::Direct, tolerance, ..AUTO };
-    let found = solve(&scene, &problem, &with(None))?;
+    let found = solve(&problem, &with(None))?;
     assert_eq!((found.ran, found.sweeps), (Ran::Direct, 0));
     assert!(found.ending().contains("active-set steps") && !found.ending().contains("sweeps"));
     assert!(found.factored.expect("a factor").exchanges > 0);
-    let met = solve(&scene, &problem, &with(Some(1e-9)))?;
+    let met = solve(&problem, &with(Some(1e-9)))?;
     assert!(met.ending().starts_with("converged"), "{}", met.ending());
-    let missed = solve(&scene, &problem, &with(Some(1e-30)))?;
+    let missed = solve(&problem, &with(Some(1e-30)))?;
     assert!(missed.ending().starts_with("rounding-limit"), "{}", missed.ending());
     Ok(())
 }

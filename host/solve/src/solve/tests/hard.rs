@@ -23,10 +23,10 @@ fn with_tensor(name: &str, tensor: [f64; 3]) -> Result<(Scene, Problem)> {
 fn the_factor_takes_over_where_sweeps_do_not_end() -> Result<()> {
     // Condition 10⁸; and one on which the edges that touch are not the ones that sweeps left.
     for tensor in [[1e4 + 1.0, 1e2, 1.0], [9000.001, 3000.0, 1000.0]] {
-        let (scene, problem) = with_tensor("t-h-tri.toml", tensor)?;
-        let found = solve(&scene, &problem, &Options::default())?;
+        let (_, problem) = with_tensor("t-h-tri.toml", tensor)?;
+        let found = solve(&problem, &Options::default())?;
         let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-        let reference = solve(&scene, &problem, &direct)?;
+        let reference = solve(&problem, &direct)?;
         let what = format!("{tensor:?}: {:?}, {:?}", found.status, found.factored);
         assert!(found.converged() && found.sweeps == 10_000, "{what}");
         let factored = found.factored.expect("a factor");
@@ -42,10 +42,10 @@ fn the_factor_takes_over_where_sweeps_do_not_end() -> Result<()> {
 
 #[test]
 fn where_sweeps_end_there_is_no_factor() -> Result<()> {
-    let (scene, problem) = read(&meshes("catalogue").join("t-h-tri.toml"))?;
-    assert_eq!(solve(&scene, &problem, &Options::default())?.factored, None);
+    let (_, problem) = read(&meshes("catalogue").join("t-h-tri.toml"))?;
+    assert_eq!(solve(&problem, &Options::default())?.factored, None);
     let few = Options { max_sweeps: 20, ..Options::default() };
-    let cut = solve(&scene, &problem, &few)?;
+    let cut = solve(&problem, &few)?;
     assert!(!cut.converged() && cut.sweeps == 20 && cut.factored.is_none());
     Ok(())
 }
@@ -59,12 +59,12 @@ fn other_units_change_no_digit() -> Result<()> {
     ] {
         let (scene, problem) = read(&meshes("catalogue").join(name).with_extension("toml"))?;
         let options = Options { scalar, ..Options::default() };
-        let plain = solve(&scene, &problem, &options)?;
+        let plain = solve(&problem, &options)?;
         assert_eq!(plain.units, Units::default());
         // Loads of 1e−150 and a conductivity of 1e90: nothing that f32 could hold.
         let far = Units { u: 2f64.powi(-500), conductivity: 2f64.powi(300) };
         let scaled = far.inverse().scene(&scene);
-        let found = solve(&scaled, &Problem::new(&scaled, problem.mesh.clone())?, &options)?;
+        let found = solve(&Problem::new(&scaled, problem.mesh.clone())?, &options)?;
         let expected: Vec<f64> = plain.u.iter().map(|u| u * far.u).collect();
         assert_eq!(found.u, expected, "{name}");
         assert_eq!(found.contact_force, plain.contact_force * far.flux(), "{name}");
@@ -80,7 +80,7 @@ fn energies_beyond_f64_are_refused() -> Result<()> {
     let (scene, problem) = read(&meshes("catalogue").join("a-tri.toml"))?;
     let huge = Units { u: 2f64.powi(-600), conductivity: 1.0 }.scene(&scene);
     let problem = Problem::new(&huge, problem.mesh)?;
-    let error = solve(&huge, &problem, &Options::default()).unwrap_err();
+    let error = solve(&problem, &Options::default()).unwrap_err();
     assert!(error.to_string().contains("energy that f64 cannot hold"), "{error}");
     Ok(())
 }
@@ -89,13 +89,13 @@ fn energies_beyond_f64_are_refused() -> Result<()> {
 fn f32_refuses_a_tensor_that_it_cannot_tell_from_a_singular_one() -> Result<()> {
     let f32 = Options { scalar: ScalarKind::F32, ..Options::default() };
     for name in ["t-h-tri.toml", "h-quad.toml"] {
-        let (scene, problem) = with_tensor(name, [9000.001, 3000.0, 1000.0])?;
-        let error = solve(&scene, &problem, &f32).unwrap_err();
+        let (_, problem) = with_tensor(name, [9000.001, 3000.0, 1000.0])?;
+        let error = solve(&problem, &f32).unwrap_err();
         assert!(error.to_string().contains("too oblique"), "{name}: {error}");
-        assert!(solve(&scene, &problem, &Options::default()).is_ok(), "{name}");
+        assert!(solve(&problem, &Options::default()).is_ok(), "{name}");
         // Anisotropy along the cells' own axes is no obstacle.
-        let (scene, problem) = with_tensor(name, [1e6, 0.0, 1e-6])?;
-        assert!(solve(&scene, &problem, &f32).is_ok(), "{name}");
+        let (_, problem) = with_tensor(name, [1e6, 0.0, 1e-6])?;
+        assert!(solve(&problem, &f32).is_ok(), "{name}");
     }
     Ok(())
 }

@@ -43,11 +43,11 @@ fn distance(u: &[f64], reference: &[f64]) -> f64 {
 #[test]
 fn mixed_precision_is_as_accurate_as_f64_on_every_standard_scene() -> Result<()> {
     for path in standard_scenes() {
-        let (scene, problem) = read(&path)?;
+        let (_, problem) = read(&path)?;
         let direct = Options { solver: SolverKind::Direct, ..Options::default() };
-        let reference = solve(&scene, &problem, &direct)?;
-        let found = mixed(&scene, &problem, &Options::default())?;
-        let pure = solve(&scene, &problem, &Options::default())?;
+        let reference = solve(&problem, &direct)?;
+        let found = mixed(&problem, &Options::default())?;
+        let pure = solve(&problem, &Options::default())?;
         let far = distance(&found.u, &reference.u);
         let name = path.file_stem().unwrap().to_string_lossy();
         println!(
@@ -67,8 +67,8 @@ fn mixed_precision_is_as_accurate_as_f64_on_every_standard_scene() -> Result<()>
 
 #[test]
 fn a_limit_of_sweeps_is_kept_and_the_iterate_feasible() -> Result<()> {
-    let (scene, problem) = read(&meshes("catalogue/h-tri.toml"))?;
-    let mut prepared = Mixed::new(&problem, &Parts::examine(&scene, &problem)?).unwrap();
+    let (_, problem) = read(&meshes("catalogue/h-tri.toml"))?;
+    let mut prepared = Mixed::new(&problem, &Parts::examine(&problem)?).unwrap();
     let settings =
         Settings { relaxation: Relaxation::Fixed(1.9), max_sweeps: 12, ..Settings::default() };
     let mut u = prepared.assembled().start();
@@ -82,8 +82,8 @@ fn a_limit_of_sweeps_is_kept_and_the_iterate_feasible() -> Result<()> {
 
 #[test]
 fn nothing_is_left_to_do_from_the_solution() -> Result<()> {
-    let (scene, problem) = read(&meshes("catalogue/h-tri.toml"))?;
-    let mut prepared = Mixed::new(&problem, &Parts::examine(&scene, &problem)?).unwrap();
+    let (_, problem) = read(&meshes("catalogue/h-tri.toml"))?;
+    let mut prepared = Mixed::new(&problem, &Parts::examine(&problem)?).unwrap();
     let settings = Settings { tolerance: 1e-12, ..Settings::default() };
     let mut u = prepared.assembled().start();
     let cold = prepared.run(settings, &mut u).unwrap();
@@ -100,9 +100,9 @@ fn nothing_is_left_to_do_from_the_solution() -> Result<()> {
 fn the_tuned_factor_needs_the_fewest_sweeps() -> Result<()> {
     let goal = 1e-4;
     for path in standard_scenes() {
-        let (scene, problem) = read(&path)?;
-        let omega = tuned_omega(&scene, &problem, Precision::F64, goal)?;
-        let trials = Trials::<f64>::new(&scene, &problem, goal)?;
+        let (_, problem) = read(&path)?;
+        let omega = tuned_omega(&problem, Precision::F64, goal)?;
+        let trials = Trials::<f64>::new(&problem, goal)?;
         let count = |relaxation| trials.sweeps(relaxation, 50_000).unwrap().unwrap_or(u32::MAX);
         let tuned = count(Relaxation::Fixed(omega));
         let auto = count(Relaxation::Adaptive(1.0));
@@ -122,8 +122,8 @@ fn the_tuned_factor_needs_the_fewest_sweeps() -> Result<()> {
 
 #[test]
 fn f32_cannot_be_tuned_for_what_it_cannot_reach() -> Result<()> {
-    let (scene, problem) = read(&meshes("catalogue/patch-mixed.toml"))?;
-    let refused = tuned_omega(&scene, &problem, Precision::F32, 1e-12).expect_err("refused");
+    let (_, problem) = read(&meshes("catalogue/patch-mixed.toml"))?;
+    let refused = tuned_omega(&problem, Precision::F32, 1e-12).expect_err("refused");
     let said = refused.to_string();
     assert!(said.contains("no ω brings the error down to 1e-12"), "{said}");
     Ok(())

@@ -1,0 +1,137 @@
+//! What joins cells: edges by number, and what lies on each.
+
+use signorini_kernel::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::Mesh as KernelMesh;
+use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::{Error as KernelError, error::CellId};
+
+use super::Binding;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::mesh::Mesh;
+use signorini_scene::scene::{Condition, Scene};
+
+/// What lies on an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// Between two cells.
+    Interior,
+    /// Given value.
+    Dirichlet,
+    /// Given flux.
+    Neumann,
+    /// Transfer law.
+    Robin,
+    /// Unilateral contact.
+    Contact,
+}
+
+impl EdgeKind {
+    /// Its name in `edges.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Interior => "interior",
+            Self::Dirichlet => "dirichlet",
+            Self::Neumann => "neumann",
+            Self::Robin => "robin",
+            Self::Contact => "contact",
+        }
+    }
+
+    pub(super) fn of(condition: &Condition) -> Self {
+        match condition {
+            Condition::Dirichlet { .. } => Self::Dirichlet,
+            Condition::Neumann { .. } => Self::Neumann,
+            Condition::Robin { .. } => Self::Robin,
+            Condition::Contact { .. } => Self::Contact,
+        }
+    }
+
+    fn block(self) -> Block {
+        match self {
+            Self::Interior | Self::Neumann | Self::Robin => Block::Free,
+            Self::Contact => Block::Contact,
+            Self::Dirichlet => Block::Dirichlet,
+        }
+    }
+}
+
+/// Edge numbering of a mesh, owned; see [`signorini_kernel::edges`] for the order.
+#[derive(Debug, Clone, Default)]
+pub struct Topology {
+    /// The edge of each side of each triangle.
+    pub of_triangles: Vec<[u32; 3]>,
+    /// The edge of each side of each quad.
+    pub of_quads: Vec<[u32; 4]>,
+    /// The half-edges of each edge.
+    pub half_edges: Vec<[u32; 2]>,
+    /// Sizes of the blocks.
+    pub counts: EdgeCounts,
+}
+
+impl Topology {
+    /// The kernel's view of it.
+    ///
+    /// # Errors
+    /// Never for a topology that [`super::Problem::new`] made.
+    pub fn edges(&self) -> std::result::Result<Edges<'_, u32>, KernelError> {
+        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+
+    /// The cell (triangles first) and the side of it that an edge is directed along; its normal
+    /// points out of that cell.
+    pub fn first_side(&self, edge: usize) -> (usize, usize) {
+        let triangles = self.of_triangles.len();
+        let half = self.half_edges[edge][0] as usize;
+        match half.checked_sub(3 * triangles) {
+            None => (half / 3, half % 3),
+            Some(rest) => (triangles + rest / 4, rest % 4),
+        }
+    }
+
+    /// Numbers the edges of `mesh`, which the kernel has seen as `kernel_mesh`.
+    pub(super) fn number(
+        scene: &Scene,
+        mesh: &Mesh,
+        kernel_mesh: &KernelMesh<f64, u32>,
+        binding: &Binding,
+    ) -> Result<Self> {
+        let sides = kernel_mesh.half_edges();
+        let mut topology = Self {
+            of_triangles: vec![[0; 3]; mesh.triangles.len()],
+            of_quads: vec![[0; 4]; mesh.quads.len()],
+            half_edges: vec![[0; 2]; sides],
+            counts: EdgeCounts::default(),
+        };
+        let buffers = NumberingBuffers {
+            of_triangles: &mut topology.of_triangles,
+            of_quads: &mut topology.of_quads,
+            half_edges: &mut topology.half_edges,
+            at_vertex: &mut vec![[0; 2]; mesh.vertices.len()],
+            next: &mut vec![0; sides],
+        };
+        let block = |ends| {
+            let boundary = binding.boundary(ends)?;
+            Some(EdgeKind::of(&scene.boundaries[boundary].condition).block())
+        };
+        let counts = number(kernel_mesh, buffers, block).map(|edges| edges.counts());
+        topology.counts = counts.map_err(|error| match error {
+            KernelError::NoCondition(ends) => binding.unbound(scene, mesh, ends),
+            error => wrong_mesh(scene, error),
+        })?;
+        topology.half_edges.truncate(topology.counts.edges());
+        Ok(topology)
+    }
+}
+
+/// A mesh that the kernel refuses.
+pub(super) fn wrong_mesh(scene: &Scene, error: KernelError) -> InputError {
+    let what = match error {
+        KernelError::Degenerate(CellId::Triangle(_) | CellId::Quad(_)) => {
+            "the mesh has a cell too thin for the scalar type"
+        }
+        _ => "the mesh is not usable",
+    };
+    InputError::new(format!("{what}: {error}"))
+        .file(&scene.mesh.value)
+        .hint("cells are numbered from 0, triangles first, in the order of the file")
+}
