@@ -121,7 +121,8 @@ fn any_number_of_edges<R: Scalar>() {
                 }
                 let before = (controller.x().to_vec(), outputs.clone());
                 for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                    let refused = |at| Some(Error::NotFinite { of: Array::Inputs, at });
+                    // p_0 is the constant 1.
+                    let refused = |j: usize| Some(Error::NotFinite { of: Array::Load, at: 1 + j });
                     let wrong = R::narrow(wrong);
                     assert_eq!(controller.tick(&[wrong, R::ZERO]).err(), refused(0));
                     assert_eq!(controller.tick(&[R::ZERO, wrong]).err(), refused(1));

@@ -31,12 +31,12 @@ table! {
         "quadrature of lifts in triangles";
     IDENTITY_KINKED: "bound of a condensed model where contact ends within a cell, relative", 2e-3,
         "quadrature of the norms";
-    IDENTITY_BOUNDED: "how far the identity is above the bound of any x, relative", 1e-3,
+    IDENTITY_BOUNDED: "how far the identity is above the bound of any x, relative", 1e-14,
         "quadrature of the norms";
     JUMP: "what the bound for u_h has above that for s, against their distance, relative", 2e-5,
         "lifts have no gradient at the opposite vertex";
-    CORNER: "what corners know of given values and gaps", 1e-12,
+    CORNER: "what corners know of given values and gaps", 1e-14,
         "data of two evaluations";
-    SAME_BOUND: "bound of one problem by another way, relative", 1e-6,
+    SAME_BOUND: "bound of one problem by another way, relative", 1e-10,
         "two solves";
 }

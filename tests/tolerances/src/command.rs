@@ -9,16 +9,16 @@ table! {
         "ticks of the full model end at a share of the bound";
     COARSE_START: "bound of a tick from a coarse mesh against one without, relative", 0.05,
         "both end at a share of the bound";
-    PROMISED: "error of a fragment that is solved again, relative", 1e-6,
+    PROMISED: "error of a fragment that is solved again, relative", 1e-14,
         "the digits in the file";
-    KEPT: "errors of fragments in git, relative", 0.05,
+    KEPT: "errors of fragments in git, relative", 2e-5,
         "they were measured on other machines, perhaps";
     PRINTED: "force in the summary against the catalogue", 1e-6,
         "six digits are given";
-    DIRECT: "force by sweeps against the direct solver, relative", 1e-7,
+    DIRECT: "force by sweeps against the direct solver, relative", 2e-11,
         "the kernel stops when it takes the error for 1e-10";
-    DIRECT_NARROW: "force by sweeps in f32 against the direct solver, relative", 1e-4,
+    DIRECT_NARROW: "force by sweeps in f32 against the direct solver, relative", 2e-6,
         "data rounded to f32";
-    GUARANTEE: "how far the error is above its bound at grazing and switching contact, relative", 1e-4,
+    GUARANTEE: "how far the error is above its bound at grazing and switching contact, relative", 1e-14,
         "quadrature of the norms";
 }

@@ -183,7 +183,8 @@ mod tests {
     fn both_edges_open() {
         let problem = Problem::parse(HEADER).unwrap();
         let x = problem.solve(&[1.0, 1.0], &mut [true; 2]).unwrap();
-        assert_eq!(x, [2.0, 2.0]);
+        // Two divisions, each rounded once.
+        assert!(x.iter().all(|x| (x - 2.0).abs() <= 2.0 * f64::EPSILON), "{x:?}");
     }
 
     #[test]
