@@ -92,7 +92,7 @@ fn code(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Pairs of files that import each other, then pairs of folders.
+/// Files that import each other, perhaps through others, then pairs of folders.
 fn circles(files: &Files) -> Vec<String> {
     let only_tests: BTreeSet<Module> =
         files.iter().flat_map(|(at, text)| test_modules(at, text)).collect();
@@ -103,13 +103,22 @@ fn circles(files: &Files) -> Vec<String> {
         .map(|(at, text)| (at, imported(at, text, files)))
         .collect();
     let related = |a: &Module, b: &Module| a.starts_with(b) || b.starts_with(a);
+    let next = |at: &Module| {
+        let others = imports.get(at).into_iter().flatten();
+        others.filter(|other| counts(other) && !related(at, other)).cloned().collect::<Vec<_>>()
+    };
+    let beyond: BTreeMap<&Module, BTreeSet<Module>> =
+        imports.keys().map(|&at| (at, reached(at, next))).collect();
     let mut found = BTreeSet::new();
     let mut folders = BTreeSet::new();
     for (&at, others) in &imports {
+        let back = |other: &Module| beyond.get(other).is_some_and(|reached| reached.contains(at));
+        let circle: BTreeSet<_> = beyond[at].iter().filter(|other| back(other)).collect();
+        if circle.contains(at) {
+            let names: Vec<_> = circle.iter().map(|module| module.join("::")).collect();
+            found.insert(format!("{} import each other", names.join(" and ")));
+        }
         for other in others.iter().filter(|other| counts(other)) {
-            if !related(at, other) && imports.get(other).is_some_and(|back| back.contains(at)) {
-                found.insert(pair(&at.join("::"), &other.join("::")));
-            }
             if let (Some(from), Some(to)) = (at.first(), other.first()) {
                 folders.insert((from.clone(), to.clone()));
             }
@@ -121,6 +130,17 @@ fn circles(files: &Files) -> Vec<String> {
         }
     }
     found.into_iter().collect()
+}
+
+/// All modules that imports lead to from `at`; `at` itself where a circle leads back.
+fn reached(at: &Module, next: impl Fn(&Module) -> Vec<Module>) -> BTreeSet<Module> {
+    let (mut reached, mut ahead) = (BTreeSet::new(), next(at));
+    while let Some(module) = ahead.pop() {
+        if reached.insert(module.clone()) {
+            ahead.extend(next(&module));
+        }
+    }
+    reached
 }
 
 fn pair(a: &str, b: &str) -> String {
@@ -215,6 +235,14 @@ mod tests {
         assert_eq!(of(&[mesh, ("solve", "use crate::scene;\n")]), Vec::<String>::new());
         let found = of(&[mesh, ("solve", "fn f() { crate::mesh::read(); }\n")]);
         assert_eq!(found, ["mesh and solve import each other"]);
+    }
+
+    #[test]
+    fn a_circle_of_three_files_is_found() {
+        let [a, b] = [("m::a", "use super::b;\n"), ("m::b", "use super::c;\n")];
+        assert_eq!(of(&[a, b, ("m::c", "fn f() {}\n")]), Vec::<String>::new());
+        let found = of(&[a, b, ("m::c", "use super::a::x;\n")]);
+        assert_eq!(found, ["m::a and m::b and m::c import each other"]);
     }
 
     #[test]

@@ -50,7 +50,7 @@ mod walk;
 pub use crate::verdict::{Certificate, Verdict};
 pub use extension::Curved;
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
-pub use stability::{Stability, stability};
+pub use stability::stability;
 
 use crate::assembly::CellLoads;
 use crate::averages;
@@ -64,6 +64,26 @@ use crate::index::{Index, read};
 use crate::mesh::Mesh;
 use crate::real::Real;
 use crate::stiffness::Stiffness;
+
+/// What surplus in the cells costs. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
+/// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
+/// ```text
+///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the doubt, about 1/A.
+/// ```
+/// Where conductivities jump, the second knows that large fluxes stand beside small w_T.
+///
+/// Where shape and A of a cell are oblique together, the entries of its element matrix cancel in det A. Rounded, they carry ε
+/// times κ = (terms of det A, added up)/(det A) of the cell's energy, which each step of the bound sees: all of it is less than
+/// 64 ε κ of the bound.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stability<R> {
+    /// max w_T
+    pub largest: R,
+    /// max w_T/√d_T
+    pub weighed: R,
+    /// 64 ε max κ
+    pub oblique: R,
+}
 
 /// What stays from one certificate to the next: mesh, A and the ways out (borrowed).
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,7 @@
 //! The sums over the mesh that a certificate is drawn from.
 
-use super::stability::Stability;
 use super::sum::Sum;
-use super::{Certificate, Verdict};
+use super::{Certificate, Stability, Verdict};
 use crate::real::Real;
 
 /// One cell's share of everything.

@@ -4,7 +4,7 @@
 //! What leaves through a transfer edge counts there too: 1 through an edge with ∫h = H adds ∫(1/|E|)²/h, 1/H where h is
 //! constant.
 
-use super::{Metric, quad, triangle};
+use super::{Metric, Stability, quad, triangle};
 use crate::boundary::Boundary;
 use crate::cells::{Cells, Either};
 use crate::edges::Edges;
@@ -12,26 +12,6 @@ use crate::error::{Array, Error, same_length};
 use crate::forest::Forest;
 use crate::index::{Index, read, write};
 use crate::real::Real;
-
-/// What surplus in the cells costs. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
-/// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
-/// ```text
-///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the doubt, about 1/A.
-/// ```
-/// Where conductivities jump, the second knows that large fluxes stand beside small w_T.
-///
-/// Where shape and A of a cell are oblique together, the entries of its element matrix cancel in det A. Rounded, they carry ε
-/// times κ = (terms of det A, added up)/(det A) of the cell's energy, which each step of the bound sees: all of it is less than
-/// 64 ε κ of the bound.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stability<R> {
-    /// max w_T
-    pub largest: R,
-    /// max w_T/√d_T
-    pub weighed: R,
-    /// 64 ε max κ
-    pub oblique: R,
-}
 
 /// The [`Stability`] of a mesh with this forest; `way` is scratch with one entry a cell.
 ///

@@ -6,7 +6,7 @@ use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, How};
 use super::imports::imports;
-use super::items::Item;
+use super::list::Item;
 use super::rescaling::Rescaling;
 use crate::controller::{self, Parts};
 use signorini_solve::scalar::Scalar;

@@ -6,7 +6,7 @@ use signorini_kernel::condensed::tableau::Start;
 use signorini_kernel::sparse::direct::normalise;
 use signorini_kernel::sparse::{self, Factor};
 
-use super::items::List;
+use super::list::List;
 use signorini_scene::error::Result;
 use signorini_solve::problem::{Assembled, Problem};
 use signorini_solve::scalar::Scalar;

@@ -1,7 +1,5 @@
 //! The statics and the memory of a baked module, each with its name, its meaning and its size.
 
-use std::fmt::Debug;
-
 use signorini_kernel::boundary::{Neumann, Robin};
 use signorini_kernel::cells::{Quad, Triangle};
 use signorini_kernel::certificate::{Curved, POINTS};
@@ -12,8 +10,8 @@ use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;
 use super::data::Pattern;
+use super::list::{Item, List};
 use super::output::Output;
-use crate::text::array;
 use signorini_solve::scalar::Scalar;
 
 /// What the model takes of a device, code and stack aside.
@@ -33,52 +31,6 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
             Sizes { ram: bytes(memory::<R, u16>(baked)), flash: bytes(statics::<R, u16>(baked)) }
         }
         _ => Sizes { ram: bytes(memory::<R, u32>(baked)), flash: bytes(statics::<R, u32>(baked)) },
-    }
-}
-
-/// A static, or a field of the controller.
-#[derive(Debug, Clone)]
-pub(super) struct Item {
-    pub name: String,
-    pub doc: String,
-    /// Its type.
-    pub of: String,
-    /// Its initial value.
-    pub value: String,
-    pub bytes: usize,
-}
-
-/// Arrays of the module; empty ones are left out.
-#[derive(Debug, Default)]
-pub(super) struct List(Vec<Item>);
-
-impl List {
-    /// An array of entries that are `T` on the target.
-    pub fn put<T>(&mut self, name: &str, doc: &str, of: &str, entries: &[impl Debug]) {
-        if entries.is_empty() {
-            return;
-        }
-        self.0.push(Item {
-            name: name.to_owned(),
-            doc: doc.to_owned(),
-            of: format!("[{of}; {}]", entries.len()),
-            value: array(entries, 4),
-            bytes: size_of::<T>() * entries.len(),
-        });
-    }
-
-    /// Memory for as many zeros.
-    pub fn reserve<T>(&mut self, name: &str, doc: &str, of: &str, zero: &str, length: usize) {
-        if length == 0 {
-            return;
-        }
-        self.0.push(Item {
-            name: name.to_owned(),
-            doc: doc.to_owned(),
-            of: format!("[{of}; {length}]"),
-            value: format!("[{zero}; {length}]"),
-            bytes: size_of::<T>() * length,
-        });
     }
 }
 

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use super::arrays::Baked;
 use super::data::Pattern;
 use super::imports::imports;
-use super::items::{Item, named};
+use super::items::named;
+use super::list::Item;
 use super::output::Output;
 use signorini_solve::scalar::Scalar;
 

@@ -21,6 +21,7 @@ mod factored;
 mod faint;
 mod imports;
 mod items;
+mod list;
 mod listing;
 mod output;
 mod rescaling;
