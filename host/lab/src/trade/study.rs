@@ -72,6 +72,10 @@ impl Study {
         let mut scene = read.at_rest();
         // What a scene declares of its device is no limit here.
         scene.target = scene.target.filter(|_| target != Target::Host);
+        // On a board it is measured as it is baked: in f32 unless its setting says otherwise.
+        if let (Some(_), Some(setting)) = (target.board(), &mut scene.setting) {
+            setting.scalar.get_or_insert(Precision::F32);
+        }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { scene, name, target, folder, with_peers, at_rest })
     }
@@ -320,6 +324,16 @@ impl Study {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_setting_without_a_scalar_is_measured_as_it_is_baked() {
+        let file = root().unwrap().join("tests/firmware/scenes/levee-plain.toml");
+        let scalar = |target| {
+            let study = Study::open(&file, target, "out/plain".into(), false).unwrap();
+            study.scene.setting.unwrap().scalar
+        };
+        assert_eq!((scalar(Target::M4f), scalar(Target::Host)), (Some(Precision::F32), None));
+    }
 
     #[test]
     fn every_point_of_a_board_has_a_module_of_its_own() {
