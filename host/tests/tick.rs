@@ -4,7 +4,7 @@ use signorini_tolerances::command::{BAKED, COARSE_START, MOVING_FORCE, REPLAYED}
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use signorini_bake::tick::{Budget, Moment, play};
+use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
@@ -175,7 +175,7 @@ fn refused(scene: &Path, out: &Path, more: &[&str]) -> String {
 #[test]
 fn other_units_change_no_digit() {
     let units = Units { u: 2f64.powi(-60), conductivity: 2f64.powi(-80) };
-    let moments = [0.0, 0.05].map(|time| Moment { time, inputs: Vec::new() });
+    let moments = [0.0, 0.05].map(|time| ScheduledTick { time, inputs: Vec::new() });
     for (name, scalar) in [
         (MOVING, ScalarKind::F32),
         (MOVING, ScalarKind::F64),
@@ -318,7 +318,7 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let on = |n| Problem::new(&scene, grid(n, cells)).expect("a problem");
         let (fine, coarse) = (on(24), on(12));
-        let moments = [Moment { time: 0.3, inputs: Vec::new() }];
+        let moments = [ScheduledTick { time: 0.3, inputs: Vec::new() }];
         let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
         let first = |coarse: Option<&Problem>| {
             let ticks = play(&fine, coarse, &moments, &budget, |_| ()).expect("a tick");

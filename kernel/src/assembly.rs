@@ -5,7 +5,7 @@
 
 use crate::boundary::Boundary;
 use crate::edges::{Edges, Side};
-use crate::element::lend;
+use crate::element::copy_row;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::features;
 use crate::index::{Index, read};
@@ -74,10 +74,10 @@ pub fn values<R: Real, I: Index>(
         for half in pair.iter().filter(|&&half| half != I::NONE) {
             match edges.side(half.at()) {
                 Side::Triangle(at, side) => {
-                    *own += lend(&read(stiffness.triangles, at), 3, side, &mut places);
+                    *own += copy_row(&read(stiffness.triangles, at), 3, side, &mut places);
                 }
                 Side::Quad(at, side) => {
-                    *own += lend(&read(stiffness.quads, at), 4, side, &mut places);
+                    *own += copy_row(&read(stiffness.quads, at), 4, side, &mut places);
                 }
             }
         }

@@ -16,14 +16,14 @@ use crate::index::{Index, read};
 use crate::real::Real;
 
 /// Fills `vertices` with s and `tau` with one value an edge, along its direction, from the means `u` over
-/// the edges. `bends` is that of [`crate::certificate::Metric`].
+/// the edges. `distortions` is that of [`crate::certificate::Metric`].
 ///
 /// # Errors
 /// Arrays of the wrong length.
 pub fn fill<R: Real, I: Index>(
     cells: &Cells<R, I>,
     loads: CellLoads<R>,
-    bends: &[[R; 2]],
+    distortions: &[[R; 2]],
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
@@ -33,14 +33,14 @@ pub fn fill<R: Real, I: Index>(
     same_length(Array::Unknowns, u.len(), tau.len())?;
     same_length_or_empty(Array::CellLoads, loads.triangles.len(), cells.triangles.len())?;
     same_length_or_empty(Array::CellLoads, loads.quads.len(), cells.quads.len())?;
-    same_length_or_empty(Array::Coefficients, bends.len(), cells.quads.len())?;
+    same_length_or_empty(Array::Coefficients, distortions.len(), cells.quads.len())?;
     vertices.fill(R::ZERO);
     tau.fill(R::ZERO);
     if features::TRIANGLES {
         of_triangles(cells, loads.triangles, u, vertices, tau);
     }
     if features::QUADS {
-        of_quads(cells, loads.quads, bends, u, vertices, tau);
+        of_quads(cells, loads.quads, distortions, u, vertices, tau);
     }
     let scaled = vertices.iter_mut().zip(cells.of_vertices);
     scaled.for_each(|(sum, &weight)| *sum *= weight);
@@ -70,7 +70,7 @@ fn of_triangles<R: Real, I: Index>(
 fn of_quads<R: Real, I: Index>(
     cells: &Cells<R, I>,
     loads: &[R],
-    bends: &[[R; 2]],
+    distortions: &[[R; 2]],
     u: &[R],
     vertices: &mut [R],
     tau: &mut [R],
@@ -83,10 +83,10 @@ fn of_quads<R: Real, I: Index>(
         let out = on_quad(&cell.k, &means, load);
         let flux = cell.turned(out.map(|flux| flux * cell.softness));
         add(&cell.edges, flux, tau);
-        let at_vertices = match bends.get(quad) {
-            Some(&bend) if features::BENT => {
+        let at_vertices = match distortions.get(quad) {
+            Some(&distortion) if features::DISTORTED => {
                 let means = cell.sides_in_mesh(means);
-                cell.packed(nonparametric::at_vertices(bend, &means))
+                cell.packed(nonparametric::at_vertices(distortion, &means))
             }
             _ => rannacher_turek::at_vertices(&means),
         };

@@ -10,7 +10,7 @@ pub const QUADS: bool = cfg!(feature = "quads");
 /// Cells in which A in reference coordinates is not constant.
 pub const VARYING: bool = cfg!(feature = "varying");
 /// Quads of the nonparametric element that are no parallelograms.
-pub const BENT: bool = cfg!(feature = "bent");
+pub const DISTORTED: bool = cfg!(feature = "distorted");
 /// Contact edges.
 pub const CONTACT: bool = cfg!(feature = "contact");
 /// Transfer laws.

@@ -107,14 +107,14 @@ pub fn grow<'a, R: Real, I: Index>(
     let mut search = Search { heap: Heap { order, place, size: 0 }, parent, distance, done: 0 };
     for (edge, pair) in edges.half_edges().iter().enumerate() {
         if pair[1] == I::NONE && is_root(edge) {
-            search.reach(edges, pair[0], R::ZERO, &cost);
+            search.relax(edges, pair[0], R::ZERO, &cost);
         }
     }
     while let Some(cell) = search.finish_nearest() {
         for half in edges.sides_of(cell) {
             if let Some((beyond, _)) = edges.beyond(half) {
                 let so_far = read(search.distance, cell);
-                search.reach(edges, beyond, so_far, &cost);
+                search.relax(edges, beyond, so_far, &cost);
             }
         }
     }
@@ -143,7 +143,7 @@ struct Heap<'a, I> {
 
 impl<R: Real, I: Index> Search<'_, R, I> {
     /// Offers the cell of `half` a way that leaves through `half` and costs `beyond` from there.
-    fn reach(&mut self, edges: &Edges<I>, half: I, beyond: R, cost: &impl Fn(usize) -> R) {
+    fn relax(&mut self, edges: &Edges<I>, half: I, beyond: R, cost: &impl Fn(usize) -> R) {
         let Some(cell) = edges.cell_of(half.at()) else { return };
         let length = beyond + cost(cell);
         let finished = self.heap.is_finished(cell, self.done);

@@ -14,7 +14,7 @@
 use crate::boundary::Boundary;
 use crate::csr::Csr;
 use crate::edges::{EdgeCounts, Edges, Side};
-use crate::element::{around, lend};
+use crate::element::{adjacent, copy_row};
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::real::Real;
@@ -251,9 +251,9 @@ fn gather_triangles<R: Real, I: Index, const WIDTH: usize>(
 ) {
     let (k, opposite) = (k.as_flattened(), -omega);
     for ((row, &[first, second]), &load) in rows.iter_mut().zip(half_edges).zip(load) {
-        let Some([a, b]) = around(k, first.at()) else { break };
+        let Some([a, b]) = adjacent(k, first.at()) else { break };
         let (mut c, mut d, mut sum) = (R::ZERO, R::ZERO, a + b);
-        if let Some(others) = around(k, second.at()) {
+        if let Some(others) = adjacent(k, second.at()) {
             [c, d] = others;
             sum += c + d;
         }
@@ -278,9 +278,9 @@ fn gather_cells<R: Real, I: Index, const WIDTH: usize>(
         for half in pair.iter().filter(|&&half| half != I::NONE) {
             own += match edges.side(half.at()) {
                 Side::Triangle(at, side) => {
-                    lend(&read(stiffness.triangles, at), 3, side, &mut places)
+                    copy_row(&read(stiffness.triangles, at), 3, side, &mut places)
                 }
-                Side::Quad(at, side) => lend(&read(stiffness.quads, at), 4, side, &mut places),
+                Side::Quad(at, side) => copy_row(&read(stiffness.quads, at), 4, side, &mut places),
             };
         }
         row.put(entries, load, omega / (own + addend));

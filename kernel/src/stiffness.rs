@@ -110,7 +110,7 @@ fn fill_triangles<R: Real, I: Index>(
     triangles: &mut [[R; 3]],
 ) -> Result<(), Error> {
     // Becomes NaN with the first matrix that is not finite, and stays it.
-    let mut doubt = R::ZERO;
+    let mut sum = R::ZERO;
     match coefficient {
         Coefficient::Uniform(_) if triangles.is_empty() => {}
         Coefficient::Uniform(tensor) => {
@@ -118,7 +118,7 @@ fn fill_triangles<R: Real, I: Index>(
             for (vertices, k) in mesh.triangles().iter().zip(triangles.iter_mut()) {
                 let Some(corners) = mesh.corners(vertices) else { break };
                 *k = crouzeix_raviart::stiffness(corners, tensor);
-                doubt += (k[0] + k[1] + k[2]) * R::ZERO;
+                sum += (k[0] + k[1] + k[2]) * R::ZERO;
             }
         }
         Coefficient::PerCell(tensors) | Coefficient::PerPoint(tensors) => {
@@ -126,11 +126,11 @@ fn fill_triangles<R: Real, I: Index>(
             for ((at, (vertices, &tensor)), k) in cells.zip(triangles.iter_mut()) {
                 let tensor = checked(tensor, CellId::Triangle(at))?;
                 *k = crouzeix_raviart::stiffness(mesh.triangle(vertices), tensor);
-                doubt += (k[0] + k[1] + k[2]) * R::ZERO;
+                sum += (k[0] + k[1] + k[2]) * R::ZERO;
             }
         }
     }
-    if doubt.finite() {
+    if sum.finite() {
         return Ok(());
     }
     triangles.iter().enumerate().try_for_each(|(at, k)| check_entries(k, at))

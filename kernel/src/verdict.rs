@@ -8,7 +8,7 @@ use crate::real::Real;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Certificate<R> {
     /// The root of gap²: the bound where f, g and q have no oscillation.
-    pub gap: R,
+    pub duality_gap: R,
     /// ‖A^{−½}(τ − σ_h)‖, with ∫_R ((τ − σ_h)·n)²/h where there is a Robin boundary: what more sweeps
     /// would remove. Early in a solve it may be more than the total: reports of ticks call that the total
     /// ([`Certificate::as_parts`]).
@@ -20,7 +20,7 @@ pub struct Certificate<R> {
     /// oscillation + √(gap² + oscillation²) + rounding: never less than the error of s and τ.
     pub total: R,
     /// total + ‖A^½∇_h(s − u_h)‖: never less than ‖A^½∇_h(u − u_h)‖, the error of the edge means in the energy norm,
-    /// cell by cell. Where s lifts curved boundary data on bent quads, the norm of that is added to that of the rest.
+    /// cell by cell. Where s lifts curved boundary data on distorted quads, the norm of that is added to that of the rest.
     pub of_u: R,
 }
 

@@ -6,7 +6,7 @@ mod strip;
 use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE, padded};
 use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::condensed::tableau::{Start, Tableau};
+use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, sor};
 use signorini_kernel::error::Array;
 use signorini_kernel::limits::Deadline;
@@ -41,7 +41,7 @@ impl<R: Real> Work<R> {
         };
         let Work { blocks, exchanged, columns: [column, next], .. } = &mut work;
         let exchanged_at_first = vec![false; n];
-        let start = Start { blocks: strip.blocks(), exchanged: &exchanged_at_first };
+        let start = InitialTableau { blocks: strip.blocks(), exchanged: &exchanged_at_first };
         Tableau::new(strip.order, blocks, exchanged, [column, next])?.reset(&start)?;
         Ok(work)
     }
@@ -51,7 +51,7 @@ impl<R: Real> Work<R> {
         let tableau = Tableau::new(strip.order, blocks, exchanged, [column, next])?;
         let sweeps = Sweeps { omega: R::ONE, tolerance: R::ZERO, most: 3 };
         let nothing = vec![false; padded(strip.order)];
-        let start = Start { blocks: strip.blocks(), exchanged: &nothing };
+        let start = InitialTableau { blocks: strip.blocks(), exchanged: &nothing };
         let mut method = Pivots { tableau, start, most, sweeps };
         let progress = method.solve(
             &strip.matrix()?,
@@ -288,7 +288,7 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         contact: strip.order,
         matrix: strip.blocks(),
         x: &given,
-        start: Start { blocks: strip.blocks(), exchanged: &nothing },
+        start: InitialTableau { blocks: strip.blocks(), exchanged: &nothing },
         load: &[],
         outputs: &[],
         certificate: None,

@@ -8,7 +8,7 @@ mod strip;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{Start, Tableau};
+use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
@@ -77,7 +77,7 @@ impl<R: Scalar> Plate<R> {
             contact: EDGES,
             matrix: self.strip.blocks(),
             x: &[],
-            start: Start { blocks: self.strip.blocks(), exchanged: &self.nothing },
+            start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
             outputs: &[Measure::Linear { of_inputs, of_contact }],
             certificate: None,

@@ -9,7 +9,7 @@ use signorini_kernel::certificate::Verdict;
 use signorini_kernel::condensed::blocks::{count, padded};
 use signorini_kernel::condensed::method::Sweeps;
 use signorini_kernel::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::condensed::{Condensed, tableau::Start};
+use signorini_kernel::condensed::{Condensed, tableau::InitialTableau};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_tolerances::kernel::CONDENSED;
@@ -64,7 +64,7 @@ fn with_model<T>(
         contact: EDGES,
         matrix: strip.blocks(),
         x: &[],
-        start: Start { blocks: strip.blocks(), exchanged: &[false; EDGES] },
+        start: InitialTableau { blocks: strip.blocks(), exchanged: &[false; EDGES] },
         load: &load,
         outputs: &[],
         certificate: None,

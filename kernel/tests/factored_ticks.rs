@@ -7,7 +7,7 @@ use plate::Side;
 use plate::factor::{Baked, Store};
 use plate::foundation::{Foundation, GAP};
 use signorini_kernel::boundary::{Boundary, Robin};
-use signorini_kernel::certificate::Given;
+use signorini_kernel::certificate::LoadCase;
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{self, Base, DataMemory, Full, Functional};
 use signorini_kernel::rows::QUADS;
@@ -217,7 +217,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
                 (0..edges.counts().contact).map(|at| given.contact_flux(at)).collect();
             let boundary = Boundary::new(&edges, given.neumann(), &robin, &flux)?;
             let data = second.data(&foundation)?;
-            let data = Data { given: Given { boundary, ..data.given }, ..data };
+            let data = Data { given: LoadCase { boundary, ..data.given }, ..data };
             solve(&mut tick, data)?;
             let mut swept = Store::new(&foundation)?;
             let (mut reference, _) = swept.of(&foundation, &baked)?;

@@ -8,7 +8,7 @@ mod strip;
 use signorini_kernel::condensed::blocks::padded;
 use signorini_kernel::condensed::method::Sweeps;
 use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::Start;
+use signorini_kernel::condensed::tableau::InitialTableau;
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::condition::{BoundaryEdge, Condition};
 use signorini_kernel::contact::within_law;
@@ -125,7 +125,7 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             contact: n,
             matrix: strip.blocks(),
             x: &[],
-            start: Start { blocks: &[], exchanged: &[] },
+            start: InitialTableau { blocks: &[], exchanged: &[] },
             load: &load,
             outputs: &outputs,
             certificate: None,

@@ -62,7 +62,7 @@ fn linear_functions_are_exact() {
     for quad in QUADS.into_iter().chain(PARALLELOGRAMS) {
         let axes = nonparametric::axes(quad);
         let means: [f64; 4] = std::array::from_fn(|i| 0.5 * (u(quad[i]) + u(quad[(i + 1) % 4])));
-        let at_vertices = nonparametric::at_vertices(axes.bend(), &means);
+        let at_vertices = nonparametric::at_vertices(axes.distortion(), &means);
         (0..4).for_each(|i| LINEAR.check(format_args!("{quad:?}"), at_vertices[i] - u(quad[i])));
         for reference in [[0.0, 0.0], [0.3, 0.9], [1.0, 0.5]] {
             let place = rannacher_turek::place(quad, reference);
@@ -136,8 +136,8 @@ fn both_elements_are_the_same_on_parallelograms() {
             let [slope, same] = [one, other].map(|e| e.gradient(quad, reference, means));
             BASIS.check_over(format_args!("{quad:?}"), (slope - same).norm(), slope.norm());
         }
-        let bend = nonparametric::axes(quad).bend();
-        let values = nonparametric::at_vertices(bend, &means);
+        let distortion = nonparametric::axes(quad).distortion();
+        let values = nonparametric::at_vertices(distortion, &means);
         let same = rannacher_turek::at_vertices(&means);
         BASIS.check_each(format_args!("{quad:?}, at vertices"), &values, &same);
     }

@@ -8,7 +8,7 @@ use std::cell::Cell;
 use plate::Side;
 use plate::foundation::{Foundation, GAP};
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::certificate::{Certificate, Given, Ground, Verdict};
+use signorini_kernel::certificate::{Certificate, Discretization, LoadCase, Verdict};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::error::Array;
 use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
@@ -66,7 +66,7 @@ impl Store {
 
     fn on<'a>(
         &'a mut self,
-        ground: Ground<'a, f64, u16>,
+        ground: Discretization<'a, f64, u16>,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
         let [load, vertices, bubbles, tau, u] = &mut self.numbers;
         let rows = Rows::new(&ground.edges, &mut self.rows)?;
@@ -324,7 +324,7 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
     let data = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..data.given.ends };
-    let data = Data { given: Given { ends, ..data.given }, lower: &lower, ..data };
+    let data = Data { given: LoadCase { ends, ..data.given }, lower: &lower, ..data };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
@@ -347,7 +347,7 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
     let (gap, lower) = (vec![[2.0; 2]; counts.contact], vec![2.0; counts.contact]);
     let good = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..good.given.ends };
-    let raised = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
+    let raised = Data { given: LoadCase { ends, ..good.given }, lower: &lower, ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     tick.begin(raised)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
@@ -365,12 +365,12 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let quads: Vec<_> = given.quads.iter().map(|k| k.map(|k| heavy(&k))).collect();
     let stiffness = Stiffness { triangles: &triangles, quads: &quads };
     let mut store = Store::new(&foundation)?;
-    let mut tick = store.on(Ground { stiffness, ..foundation.ground()? })?;
+    let mut tick = store.on(Discretization { stiffness, ..foundation.ground()? })?;
     let high = f64::MAX / 1e33;
     let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
     let good = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..good.given.ends };
-    let data = Data { given: Given { ends, ..good.given }, lower: &lower, ..good };
+    let data = Data { given: LoadCase { ends, ..good.given }, lower: &lower, ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let report =
         tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
@@ -391,7 +391,7 @@ fn takes(
         (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
     let good = data(foundation)?;
     let loads = CellLoads { triangles: &triangles, quads: &quads };
-    let given = Given { loads, ..good.given };
+    let given = LoadCase { loads, ..good.given };
     match tick.begin(Data { given, lower: &lower, dirichlet: &dirichlet }) {
         Ok(mut running) => {
             running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
@@ -480,9 +480,9 @@ fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
         let refused = [
             Data { lower: &lower, ..good_data },
             Data { dirichlet: &dirichlet, ..good_data },
-            Data { given: Given { loads, ..given }, ..good_data },
-            Data { given: Given { ends: gap, ..given }, ..good_data },
-            Data { given: Given { oscillation: poison, ..given }, ..good_data },
+            Data { given: LoadCase { loads, ..given }, ..good_data },
+            Data { given: LoadCase { ends: gap, ..given }, ..good_data },
+            Data { given: LoadCase { oscillation: poison, ..given }, ..good_data },
         ];
         for data in refused {
             assert!(matches!(tick.begin(data), Err(Error::NotFinite { .. })));

@@ -9,7 +9,7 @@ pub struct Target {
     /// The cells.
     pub cells: Cells,
     /// The case.
-    pub case: Case,
+    pub case: TabledCase,
     /// n.
     pub n: u32,
     /// |u − u_h|_{1,h}.
@@ -22,7 +22,7 @@ pub struct Target {
 
 /// The cases with a full table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Case {
+pub enum TabledCase {
     /// A.
     A,
     /// B.
@@ -33,7 +33,7 @@ pub enum Case {
     HGap,
 }
 
-impl Case {
+impl TabledCase {
     /// Its exact solution.
     pub fn exact(self) -> Exact {
         match self {
@@ -46,8 +46,8 @@ impl Case {
 }
 
 /// Four meshes in a row: n = 8, 16, 32, 64 with (h1, l2, force).
-const fn row(cells: Cells, case: Case, v: [(f64, f64, f64); 4]) -> [Target; 4] {
-    const fn target(cells: Cells, case: Case, n: u32, v: (f64, f64, f64)) -> Target {
+const fn row(cells: Cells, case: TabledCase, v: [(f64, f64, f64); 4]) -> [Target; 4] {
+    const fn target(cells: Cells, case: TabledCase, n: u32, v: (f64, f64, f64)) -> Target {
         Target { cells, case, n, h1: v.0, l2: v.1, force: v.2 }
     }
     [
@@ -61,26 +61,26 @@ const fn row(cells: Cells, case: Case, v: [(f64, f64, f64); 4]) -> [Target; 4] {
 /// Contact on y = 0, Dirichlet elsewhere.
 #[rustfmt::skip]
 pub const CATALOGUE: [[Target; 4]; 8] = [
-    row(Cells::Triangles, Case::A, [
+    row(Cells::Triangles, TabledCase::A, [
         (1.72375e-1, 6.27152e-3, 0.249009), (8.69757e-2, 1.60512e-3, 0.249693),
         (4.36144e-2, 4.04491e-4, 0.249917), (2.18266e-2, 1.01391e-4, 0.249978)]),
-    row(Cells::Triangles, Case::B, [
+    row(Cells::Triangles, TabledCase::B, [
         (8.69604e-2, 3.02135e-3, 1.000378), (4.37635e-2, 7.60749e-4, 1.000088),
         (2.19455e-2, 1.90684e-4, 1.000021), (1.09877e-2, 4.77197e-5, 1.000005)]),
-    row(Cells::Triangles, Case::H, [
+    row(Cells::Triangles, TabledCase::H, [
         (1.92773e-1, 7.78699e-3, 0.958411), (9.74473e-2, 1.97915e-3, 0.952483),
         (4.88908e-2, 4.96205e-4, 0.950931), (2.44903e-2, 1.25870e-4, 0.950367)]),
-    row(Cells::Triangles, Case::HGap, [
+    row(Cells::Triangles, TabledCase::HGap, [
         (7.89787e-2, 3.55531e-3, 0.943432), (4.06534e-2, 8.76970e-4, 0.949018),
         (2.05596e-2, 2.20735e-4, 0.950045), (1.03607e-2, 6.54656e-5, 0.950143)]),
-    row(Cells::Quads, Case::A, [
+    row(Cells::Quads, TabledCase::A, [
         (1.22687e-1, 3.49463e-3, 0.251941), (6.14230e-2, 8.75774e-4, 0.250498),
         (3.07214e-2, 2.19030e-4, 0.250124), (1.53620e-2, 5.47563e-5, 0.250031)]),
-    row(Cells::Quads, Case::B, [
+    row(Cells::Quads, TabledCase::B, [
         (5.05215e-2, 1.30822e-3, 0.999581), (2.53347e-2, 3.28758e-4, 0.999894),
         (1.26856e-2, 8.24016e-5, 0.999973), (6.34733e-3, 2.06269e-5, 0.999993)]),
-    row(Cells::Quads, Case::H, QUAD_H),
-    row(Cells::Quads, Case::HGap, QUAD_H),
+    row(Cells::Quads, TabledCase::H, QUAD_H),
+    row(Cells::Quads, TabledCase::HGap, QUAD_H),
 ];
 
 /// x² − y² lies in the space of quads, so H and H_g have the same errors there.
@@ -90,8 +90,8 @@ const QUAD_H: [(f64, f64, f64); 4] = [
     (1.20886e-2, 8.79228e-5, 0.950240), (6.03066e-3, 2.61708e-5, 0.950236)];
 
 /// The active contact edges on triangles at n = 8, 16, 32, 64.
-pub const ACTIVE: [(Case, [usize; 4]); 2] =
-    [(Case::A, [9, 17, 33, 65]), (Case::H, [10, 18, 36, 72])];
+pub const ACTIVE: [(TabledCase, [usize; 4]); 2] =
+    [(TabledCase::A, [9, 17, 33, 65]), (TabledCase::H, [10, 18, 36, 72])];
 
 /// ‖σ − σ_h‖ of A at n = 32. Where f = 0 and A = I it is the error of the gradient.
 pub const FLUX_OF_A: [(Cells, f64); 2] =
@@ -106,10 +106,10 @@ pub const JUMPS: [(f64, f64, f64); 4] = [
 ];
 
 /// T(s, κ) on triangles: (s, κ, of, n, energy error, force).
-pub const TRANSFORMED: [(f64, f64, Case, u32, Option<f64>, f64); 3] = [
-    (0.5, 1.0, Case::A, 32, Some(4.69682e-2), 0.25058),
-    (3.0, 1.0, Case::H, 32, Some(1.63102e-1), 0.942766),
-    (0.0, 10.0, Case::H, 8, None, 1.8555),
+pub const TRANSFORMED: [(f64, f64, TabledCase, u32, Option<f64>, f64); 3] = [
+    (0.5, 1.0, TabledCase::A, 32, Some(4.69682e-2), 0.25058),
+    (3.0, 1.0, TabledCase::H, 32, Some(1.63102e-1), 0.942766),
+    (0.0, 10.0, TabledCase::H, 8, None, 1.8555),
 ];
 
 /// B mirrored on the smoothly moved grid, Neumann on the sides: cells, n, unknowns, then

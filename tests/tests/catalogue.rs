@@ -9,7 +9,7 @@ use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, Solution, solve};
 use signorini_tests::grid::{Cells, Grid};
 use signorini_tests::targets::{
-    ACTIVE, BENCHMARK, CATALOGUE, Case, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED,
+    ACTIVE, BENCHMARK, CATALOGUE, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED, TabledCase,
 };
 use signorini_tolerances::twins::{CATALOGUE as WITHIN, RATE, TOTAL_FORCE, TRAPEZOID_RATE};
 
@@ -18,12 +18,12 @@ fn catalogue(name: &str) -> String {
     std::fs::read_to_string(folder.join(format!("{name}-tri.toml"))).expect("a catalogue scene")
 }
 
-fn scene_of(case: Case) -> String {
+fn scene_of(case: TabledCase) -> String {
     catalogue(match case {
-        Case::A => "a",
-        Case::B => "b",
-        Case::H => "h",
-        Case::HGap => "hg",
+        TabledCase::A => "a",
+        TabledCase::B => "b",
+        TabledCase::H => "h",
+        TabledCase::HGap => "hg",
     })
 }
 
@@ -115,7 +115,7 @@ fn errors_forces_and_rates_of_the_catalogue() {
                 let level = target.n.ilog2() as usize - 3;
                 assert_eq!(solution.contact_active, active[level], "{what}");
             }
-            if target.case == Case::A && target.n == 32 {
+            if target.case == TabledCase::A && target.n == 32 {
                 let flux = FLUX_OF_A.iter().find(|(cells, _)| *cells == target.cells);
                 WITHIN.check_relative(&what, errors.flux, flux.expect("both cells are listed").1);
             }
@@ -149,7 +149,7 @@ fn jumps_of_any_size() {
 fn oblique_and_stretched_tensors() {
     for (s, kappa, case, n, energy, force) in TRANSFORMED {
         let Some(energy) = energy else { continue };
-        let text = catalogue(if case == Case::A { "t-a" } else { "t-h" });
+        let text = catalogue(if case == TabledCase::A { "t-a" } else { "t-h" });
         let grid = Grid::catalogue(n, Cells::Triangles);
         let Run { solution, errors, .. } = run(&text, mesh(&grid, at_bottom));
         WITHIN.check_relative(format_args!("T({s}, {kappa})"), errors.energy, energy);

@@ -15,7 +15,7 @@ use signorini_kernel::tick::Limits;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Quantity, Scene};
 use signorini_scene::setting::Setting;
-use signorini_solve::condense::{Condensate, Recovery, recoverable};
+use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -207,7 +207,7 @@ fn full_models_that_are_cut_off_in_f32() {
 }
 
 /// What rounding may do to Σ w max(r, 0): ε of each term of r, once for every term.
-fn rounding<R: Scalar>(of: &Condensate, p: &[f64], x: &[f64]) -> f64 {
+fn rounding<R: Scalar>(of: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
     let size = |i: usize| {
         let row = &of.matrix[i * of.contact..(i + 1) * of.contact];
         let of_x: f64 = row.iter().zip(x).map(|(entry, x)| (entry * x).abs()).sum();
@@ -222,7 +222,7 @@ fn rounding<R: Scalar>(of: &Condensate, p: &[f64], x: &[f64]) -> f64 {
 fn condensed_ticks<R: Scalar>(
     name: &str,
     problem: &Problem,
-    (condensate, recovery): (&Condensate, &Recovery),
+    (condensate, recovery): (&CondensedModel, &Recovery),
     random: &mut Random,
 ) -> u32 {
     let mut pulled = 0;

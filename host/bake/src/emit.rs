@@ -4,8 +4,8 @@ use signorini_image::chosen::Chosen;
 
 use crate::choice::{Choice, Model};
 use crate::condensed;
-use crate::face::Face;
 use crate::full;
+use crate::module_api::ModuleApi;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -23,7 +23,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let candidate = choice.candidate();
     let (model, features, source) = match &candidate.model {
         Model::Condensed(baked) => {
-            ("condensed", Vec::new(), condensed::source(&Face::new(problem), baked))
+            ("condensed", Vec::new(), condensed::source(&ModuleApi::new(problem), baked))
         }
         Model::Full(baked) => ("full", baked.features(), full::source(baked)),
     };

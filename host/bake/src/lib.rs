@@ -4,7 +4,7 @@
 //!   Scene, Problem ─┬─► superposition: loads as base + Σ input · pattern ─► full ──────┬─► source
 //!                   └─► condense: a dense problem on contact edges ───────► condensed ─┘  face, text
 //! ```
-//! Whatever the model, the module has one face ([`face`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
+//! Whatever the model, the module has one interface ([`module_api`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
 //! `Controller`.
 
 pub mod budget;
@@ -19,9 +19,9 @@ pub mod emit;
 pub mod engine;
 pub mod explain;
 pub mod export;
-pub mod face;
 pub mod full;
 mod item;
+pub mod module_api;
 pub mod range;
 pub mod setting;
 pub mod superposition;

@@ -30,7 +30,7 @@ pub struct Trial {
 
 /// What one tick did.
 #[derive(Debug, Clone, Copy)]
-struct Tick {
+struct TickWork {
     pivots: u32,
     sweeps: u32,
     rounds: u32,
@@ -53,7 +53,7 @@ pub fn of_condensed<R: Scalar>(
         let visited = [std::mem::replace(&mut before, now), now];
         prices.push(price(&Done { pivots, sweeps, visited }));
         let settled = is_settled(report.ended);
-        Some(Tick { pivots, sweeps, rounds: 0, looks: [0, 0], settled })
+        Some(TickWork { pivots, sweeps, rounds: 0, looks: [0, 0], settled })
     });
     let trial = summary(ticks);
     let mut prices: Vec<f64> = prices.into_iter().skip(1).flatten().collect();
@@ -83,7 +83,7 @@ fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &
         let (sweeps, settled) = (report.sweeps, is_settled(report.ended));
         let looks = [controller.certificates(), measurements(sweeps, report.omega.wide())];
         updates += f64::from(sweeps + rounds) * baked.unknowns() as f64;
-        ticks.push(Tick { pivots, sweeps, rounds, looks, settled });
+        ticks.push(TickWork { pivots, sweeps, rounds, looks, settled });
     }
     summary(ticks.into_iter())
 }
@@ -100,9 +100,9 @@ fn is_settled(ended: Ended) -> bool {
 }
 
 /// The work of the first tick, which begins cold, is left out.
-fn summary(ticks: impl Iterator<Item = Tick>) -> Trial {
-    let ticks: Vec<Tick> = ticks.collect();
-    let both = |count: fn(&Tick) -> u32| {
+fn summary(ticks: impl Iterator<Item = TickWork>) -> Trial {
+    let ticks: Vec<TickWork> = ticks.collect();
+    let both = |count: fn(&TickWork) -> u32| {
         let mut counts: Vec<u32> = ticks.iter().skip(1).map(count).collect();
         counts.sort_unstable();
         let median = counts.get(counts.len() / 2).copied().unwrap_or(0);

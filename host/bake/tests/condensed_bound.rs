@@ -11,7 +11,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::certify::exact::{Distance, distance};
-use signorini_solve::condense::{Condensate, Recovery, condense, recoverable};
+use signorini_solve::condense::{CondensedModel, Recovery, condense, recoverable};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::fixtures::{
     EVERY_INPUT, PARABOLA, SMOOTH, distorted, full_at, on_grid, scatter, scene, with_four_sides,
@@ -22,7 +22,7 @@ use signorini_solve::problem::Problem;
 struct Model {
     scene: Scene,
     problem: Problem,
-    condensate: Condensate,
+    condensate: CondensedModel,
     recovery: Recovery,
 }
 
@@ -219,7 +219,7 @@ fn of_a_part_that_contact_alone_holds() -> Result<()> {
         for x in [vec![0.0; n], some(1e-3), some(0.1), some(-1.0)] {
             let bound = model.condensate.bound(p, &x).expect("a bound");
             let found = model.distance(p, &x)?;
-            println!("{cells:?}: bound {bound:.4} {found:?}, reach {:.3}", form.reach);
+            println!("{cells:?}: bound {bound:.4} {found:?}, stability {:.3}", form.stability);
             assert!(bound >= found.combined && bound >= found.identity, "{bound} {found:?}");
         }
         assert_eq!(model.condensate.bound(p, &vec![1.0; n]), None, "no way out");
@@ -259,7 +259,7 @@ fn of_a_tick_in_f32() -> Result<()> {
                     found.identity,
                     total,
                 );
-                cut_off += usize::from(bound.algebraic > 0.1 * bound.gap);
+                cut_off += usize::from(bound.algebraic > 0.1 * bound.duality_gap);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Inputs that change from tick to tick where contact alone holds the domain, and every tick is a warm solve.
 
-use signorini_bake::tick::{Budget, Moment, play};
+use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::fixtures::on_grid;
@@ -27,7 +27,7 @@ default = 0.0
 #[test]
 fn a_bound_is_that_of_the_inputs_of_its_tick() -> Result<()> {
     let (_, problem) = on_grid(HELD_BY_CONTACT, grid(4, Cells::Triangles))?;
-    let moment = |time, rain| Moment { time, inputs: vec![(0, rain)] };
+    let moment = |time, rain| ScheduledTick { time, inputs: vec![(0, rain)] };
     let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
     let ticks = play(&problem, None, &[moment(0.0, 0.0), moment(1.0, 1.0)], &budget, |_| ())?;
     let [dry, wet] = [0, 1].map(|at| ticks[at].bound.expect("a bound").oscillation);

@@ -3,10 +3,10 @@
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::condensed::blocks::padded;
-use signorini_kernel::condensed::certificate::Answer;
+use signorini_kernel::condensed::certificate::Candidate;
 use signorini_kernel::condensed::sor;
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::scalar::Scalar;
 
 use crate::group;
@@ -15,7 +15,7 @@ use crate::strip::Strip;
 /// Squares across the height: half of the contact edges.
 const SIZES: [u32; 3] = [8, 16, 32];
 
-type Stage = fn(&mut Bencher, &Condensate);
+type Stage = fn(&mut Bencher, &CondensedModel);
 
 pub fn stages<R: Scalar>(criterion: &mut Criterion) {
     let condensates = SIZES.map(|n| {
@@ -46,12 +46,12 @@ pub fn stages<R: Scalar>(criterion: &mut Criterion) {
 /// The exact method, with sweeps to fall back on.
 const EXACT: Work = Work { pivots: Some(40), sweeps: 20 };
 
-fn baked<R: Scalar>(condensate: &Condensate, certified: bool) -> Baked<R> {
+fn baked<R: Scalar>(condensate: &CondensedModel, certified: bool) -> Baked<R> {
     Baked::new(condensate, EXACT, certified).expect("the scalar holds the model")
 }
 
 /// One dense sweep.
-fn sweep<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate) {
+fn sweep<R: Scalar>(bencher: &mut Bencher, condensate: &CondensedModel) {
     baked::<R>(condensate, false).with_model(|model| {
         let matrix = model.matrix().expect("as many blocks as it takes");
         let load = vec![R::ONE; padded(condensate.contact)];
@@ -61,7 +61,7 @@ fn sweep<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate) {
 }
 
 /// A warm tick of the exact method, its outputs included; u_D is up and down by 10 %.
-fn tick<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate, certified: bool) {
+fn tick<R: Scalar>(bencher: &mut Bencher, condensate: &CondensedModel, certified: bool) {
     let baked = baked::<R>(condensate, certified);
     let mut controller = Controller::new(&baked);
     let mut inputs = [0.9, 1.1].map(|factor| R::narrow(factor * condensate.defaults[1]));
@@ -72,13 +72,13 @@ fn tick<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate, certified: bo
 }
 
 /// The bound of a solution.
-fn bound<R: Scalar>(bencher: &mut Bencher, condensate: &Condensate) {
+fn bound<R: Scalar>(bencher: &mut Bencher, condensate: &CondensedModel) {
     let p = &condensate.defaults;
     let x = condensate.solve(p).expect("there is a solution");
     let residual = condensate.residual(p, &x);
     let narrow = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect::<Vec<_>>();
     let [inputs, x, residual] = [p, &x, &residual].map(|numbers| narrow(numbers));
-    let answer = Answer { inputs: &inputs, x: &x, residual: &residual };
+    let answer = Candidate { inputs: &inputs, x: &x, residual: &residual };
     baked::<R>(condensate, true).with_model(|model| {
         let form = model.certificate.as_ref().expect("the strip has a bound");
         let columns = inputs.len() + x.len() + form.vertices.len();

@@ -18,7 +18,7 @@ pub struct Search<'p> {
 
 /// A point as the cell it lies in sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct LocatedPoint {
     /// The cell, triangles first.
     pub cell: u32,
     /// Reference coordinates, as [`crate::quadrature::Point`] has them.
@@ -47,22 +47,22 @@ impl<'p> Search<'p> {
 
     /// The cell that holds a point; where boundaries are curved and none does, the middle of the
     /// nearest of those around it. `None`: the mesh has no cells.
-    pub fn find(&self, point: [f64; 2]) -> Option<Place> {
+    pub fn find(&self, point: [f64; 2]) -> Option<LocatedPoint> {
         let [x, y] = self.square(point);
         let near = &self.squares[y * self.lines + x];
         near.iter().find_map(|&cell| self.within(cell, point)).or_else(|| self.nearest(near, point))
     }
 
     /// The same for one of many points that follow each other: `last` is where the one before lies.
-    pub fn find_near(&self, last: Option<Place>, point: [f64; 2]) -> Option<Place> {
+    pub fn find_near(&self, last: Option<LocatedPoint>, point: [f64; 2]) -> Option<LocatedPoint> {
         last.and_then(|last| self.within(last.cell, point)).or_else(|| self.find(point))
     }
 
-    fn within(&self, cell: u32, point: [f64; 2]) -> Option<Place> {
-        Some(Place { cell, reference: self.fields[cell as usize].locate(point)? })
+    fn within(&self, cell: u32, point: [f64; 2]) -> Option<LocatedPoint> {
+        Some(LocatedPoint { cell, reference: self.fields[cell as usize].locate(point)? })
     }
 
-    fn nearest(&self, near: &[u32], point: [f64; 2]) -> Option<Place> {
+    fn nearest(&self, near: &[u32], point: [f64; 2]) -> Option<LocatedPoint> {
         let all = 0..self.fields.len() as u32;
         let candidates: Vec<u32> = if near.is_empty() { all.collect() } else { near.to_vec() };
         let distance = |&cell: &u32| {
@@ -74,7 +74,7 @@ impl<'p> Search<'p> {
             CellField::Triangle(..) => [1.0 / 3.0; 3],
             CellField::Quad(..) => [0.5, 0.5, 0.0],
         };
-        Some(Place { cell, reference })
+        Some(LocatedPoint { cell, reference })
     }
 
     fn enter(&mut self, cell: usize) {

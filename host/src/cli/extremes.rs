@@ -67,7 +67,7 @@ impl Arguments {
             let error = InputError::new(format!("--only {only}: no case has this in its name"));
             return Err(error.hint("leave it out for a table of all studies").into());
         }
-        super::place::writable(&self.out)?;
+        super::scene_arguments::writable(&self.out)?;
         let bar = steps(plan.len());
         let kept = Kept::open(&self.out)?;
         let record = plan.run(&kept, || bar.inc(1));
@@ -95,10 +95,10 @@ impl Arguments {
     /// Whole scenes.
     fn at_random(self, count: u32) -> Result<u8> {
         let (seed, out) = (self.seed, &self.out);
-        super::place::writable(out)?;
+        super::scene_arguments::writable(out)?;
         let plan = match self.case {
-            Some(case) => random::Plan::one(seed, case),
-            None => random::Plan::new(seed, count),
+            Some(case) => random::RandomPlan::one(seed, case),
+            None => random::RandomPlan::new(seed, count),
         };
         let (bar, start) = (steps(plan.len()), Instant::now());
         let keep = |rows: &[Row]| {

@@ -5,7 +5,7 @@ mod condense;
 mod export;
 mod extremes;
 mod honoured;
-mod place;
+mod scene_arguments;
 mod solve;
 mod tick;
 mod trade;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::place::Place;
+use super::scene_arguments::SceneArguments;
 use signorini_bake::engine;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::adapted;
@@ -40,7 +40,7 @@ sweeps. What solved the scene is printed, and stands in summary.json as `solver_
 #[command(after_help = format!("{EXAMPLES}\n\n{}", signorini_scene::expression::vocabulary()))]
 pub struct Arguments {
     #[command(flatten)]
-    place: Place,
+    place: SceneArguments,
     /// Scalar type of the kernel [default: that of the scene's setting, else f64]
     #[arg(long, value_enum)]
     scalar: Option<ScalarKind>,

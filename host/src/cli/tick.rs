@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::honoured::Command;
-use super::place::Place;
+use super::scene_arguments::SceneArguments;
 use signorini_bake::tick::baked::replay;
 use signorini_bake::tick::columns::ticks_csv;
-use signorini_bake::tick::{Budget, Tick, log, picture, play, schedule};
+use signorini_bake::tick::{Budget, TickRecord, log, picture, play, schedule};
 use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::{adapted, gmsh};
@@ -43,7 +43,7 @@ A tick that its budget cuts off is normal: its status says so, and the exit stat
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    place: Place,
+    place: SceneArguments,
     /// Number of ticks from t = 0, by the step of the scene or, without [time], by 1 [default: to the
     /// end of the scene]
     #[arg(long, value_name = "N", conflicts_with = "log", value_parser = clap::value_parser!(u32).range(1..=i64::from(schedule::MOST)))]
@@ -88,7 +88,7 @@ impl Arguments {
             warn(&coarse.warnings);
         }
         let bar = steps(moments.len());
-        let done = |tick: &Tick| {
+        let done = |tick: &TickRecord| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
         };
@@ -104,7 +104,7 @@ impl Arguments {
         write_atomically(&out.join("ticks.csv"), &table)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         report(&problem, &model, &ticks, &out);
-        Ok(if ticks.iter().any(Tick::failed) { 3 } else { 0 })
+        Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
     }
 
     fn budget(&self, scene: &Scene) -> Budget {
@@ -118,7 +118,7 @@ impl Arguments {
     }
 }
 
-fn report(problem: &Problem, model: &str, ticks: &[Tick], out: &Path) {
+fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
     let [first, .., last] = [ticks.first(), ticks.last()].map(|tick| tick.map_or(0.0, |t| t.time));
     let unknowns = problem.topology.counts.unknowns();
     say(format_args!("{}", problem.scene.title));
@@ -136,7 +136,7 @@ fn report(problem: &Problem, model: &str, ticks: &[Tick], out: &Path) {
 }
 
 /// How many ticks ended in which way, in the order of their first.
-fn endings(ticks: &[Tick]) -> String {
+fn endings(ticks: &[TickRecord]) -> String {
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for tick in ticks {
         match counts.iter_mut().find(|(status, _)| *status == tick.status) {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use signorini_lab::trade::campaign::{Campaign, Ended};
-use signorini_lab::trade::front::{Tolerance, Wish};
+use signorini_lab::trade::front::{Goal, Tolerance};
 use signorini_lab::trade::shard::Shard;
 use signorini_lab::trade::table::text;
 use signorini_lab::trade::target::Target;
@@ -64,7 +64,7 @@ fn budget(text: &str) -> std::result::Result<f64, String> {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
-        let wish = Wish { budget: self.budget_cycles, error: self.max_error };
+        let wish = Goal { budget: self.budget_cycles, error: self.max_error };
         if self.no_peers && self.scenes.is_empty() && self.out.is_none() {
             let message =
                 "--no-peers without a scene: the record of the standard scenes has all solvers";
@@ -104,7 +104,7 @@ impl Arguments {
 }
 
 /// A wish that nothing meets is wrong input; the studies are written all the same.
-fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Wish) -> Result<u8> {
+fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Goal) -> Result<u8> {
     let unmet = trades.iter().find(|(_, trade)| trade.recommendation.point.is_none());
     match unmet {
         Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {

@@ -37,7 +37,7 @@ pub struct Cell<R, I, const SIDES: usize, const ENTRIES: usize> {
     /// Of triangles: 1/(4 det A).
     pub compliance: R,
     /// Of triangles: the same times Σ|K|.
-    pub doubt: R,
+    pub uncertainty: R,
     /// What the side before the last takes of the surplus: ½ or 0.
     pub spread: R,
     /// The edges of its sides.
@@ -78,7 +78,7 @@ impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SID
         alpha: R::ZERO,
         softness: R::ZERO,
         compliance: R::ZERO,
-        doubt: R::ZERO,
+        uncertainty: R::ZERO,
         spread: R::ZERO,
         edges: [I::FIRST; SIDES],
         vertices: [I::FIRST; SIDES],

@@ -148,6 +148,6 @@ impl<R: Real, I: Index> Triangle<R, I> {
 
     fn set_compliance(&mut self, compliance: R) {
         let size = self.k.iter().fold(R::ZERO, |sum, entry| sum + entry.magnitude());
-        (self.compliance, self.doubt) = (compliance, compliance * size);
+        (self.compliance, self.uncertainty) = (compliance, compliance * size);
     }
 }

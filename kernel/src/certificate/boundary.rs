@@ -2,7 +2,7 @@
 
 use super::extension::{extension, jump, of_means, of_s};
 use super::parts::Parts;
-use super::{Continuous, Given, Ground};
+use super::{Continuous, Discretization, LoadCase};
 use crate::edges::Side;
 use crate::features;
 use crate::index::{Index, read};
@@ -10,8 +10,8 @@ use crate::real::Real;
 
 /// Adds it all to the sums and to the indicators of the cells.
 pub(super) fn add<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
     u: &[R],
     s: Continuous<R>,
     tau: &[R],
@@ -56,7 +56,7 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
-    parts.ripple += moved + ripple(ground, given, s);
+    parts.perturbation += moved + perturbation(ground, given, s);
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
         let edge = curved.edge.at();
@@ -67,13 +67,13 @@ pub(super) fn add<R: Real, I: Index>(
     }
 }
 
-fn ends<R: Real, I: Index>(ground: &Ground<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
+fn ends<R: Real, I: Index>(ground: &Discretization<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
     s.at(&ground.edges.endpoints(&ground.mesh, edge))
 }
 
 /// Mean of s − ψ over a contact edge: (e_a + e_b)/2 + 2d/3.
 fn excess<R: Real, I: Index>(
-    ground: &Ground<R, I>,
+    ground: &Discretization<R, I>,
     s: Continuous<R>,
     edge: usize,
     gap: &[R; 2],
@@ -136,9 +136,13 @@ impl<R: Real> Transfer<R> {
 }
 
 /// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
-/// ripple's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
+/// perturbation's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
 /// rounding may do, s does as well, and ψ moves by what is missing.
-fn ripple<R: Real, I: Index>(ground: &Ground<R, I>, given: &Given<R, I>, s: Continuous<R>) -> R {
+fn perturbation<R: Real, I: Index>(
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    s: Continuous<R>,
+) -> R {
     let (edges, k) = (&ground.edges, ground.stiffness);
     let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
     let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();

@@ -1,7 +1,7 @@
 //! What s carries into a boundary cell where ψ or u_D leaves its chord, and its part of the bound.
 
 use super::parts::Parts;
-use super::{Continuous, Given, Ground};
+use super::{Continuous, Discretization, LoadCase};
 use crate::edges::Side;
 use crate::element::{crouzeix_raviart, rannacher_turek};
 use crate::index::{Index, read};
@@ -57,8 +57,8 @@ impl<R: Real> InCell<R> {
 
 /// s in the cell of a curved edge.
 pub(super) fn of_s<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
     s: Continuous<R>,
     edge: usize,
 ) -> InCell<R> {
@@ -76,10 +76,10 @@ pub(super) fn of_s<R: Real, I: Index>(
     }
 }
 
-/// u_h there; nothing on a bent quad, where it is no sum of these functions. On other quads
+/// u_h there; nothing on a distorted quad, where it is no sum of these functions. On other quads
 /// X² − Y² = (b₁ + b₃ − b₀ − b₂)/4 with the bubbles b of the sides.
 pub(super) fn of_means<R: Real, I: Index>(
-    ground: &Ground<R, I>,
+    ground: &Discretization<R, I>,
     u: &[R],
     edge: usize,
 ) -> Option<InCell<R>> {
@@ -94,8 +94,8 @@ pub(super) fn of_means<R: Real, I: Index>(
             let [u0, u1, u2, u3] = means;
             let arch = R::THREE * R::HALF * R::QUARTER * ((u1 - u0) + (u3 - u2));
             let corners = rannacher_turek::at_vertices(&means);
-            let is_bent = ground.metric.bend(at) != [R::ZERO; 2];
-            (!is_bent).then(|| InCell::quad(corners, [-arch, arch, -arch, arch], R::ZERO))
+            let is_distorted = ground.metric.distortion(at) != [R::ZERO; 2];
+            (!is_distorted).then(|| InCell::quad(corners, [-arch, arch, -arch, arch], R::ZERO))
         }
     }
 }

@@ -8,7 +8,7 @@
 //! Where A is constant and F affine, so is B, and the element matrix tells it. Elsewhere B is stored at
 //! the points of an 8×8 Gauss rule, which triangles take through the collapsed square.
 
-use crate::element::rannacher_turek::Place;
+use crate::element::rannacher_turek::MappedPoint;
 use crate::features;
 use crate::geometry::doubled_area;
 use crate::real::Real;
@@ -25,9 +25,9 @@ pub struct Metric<'a, R> {
     /// Where a cell stands in `at_points`, triangles first; beyond its end where B is constant. May be
     /// empty: B is constant everywhere then.
     pub place: &'a [u32],
-    /// The bend of every quad ([`crate::element::nonparametric::Axes::bend`]), where u_h is nonparametric on them; empty where it is
-    /// parametric, or where no quad is bent: then they say the same at vertices.
-    pub bends: &'a [[R; 2]],
+    /// The distortion of every quad ([`crate::element::nonparametric::Axes::distortion`]), where u_h is nonparametric on them; empty where it is
+    /// parametric, or where no quad is distorted: then they say the same at vertices.
+    pub distortions: &'a [[R; 2]],
 }
 
 impl<'a, R: Real> Metric<'a, R> {
@@ -40,10 +40,10 @@ impl<'a, R: Real> Metric<'a, R> {
         self.at_points.get(*self.place.get(cell)? as usize)
     }
 
-    /// The bend of a quad, counted among the quads; 0 where u_h is parametric on it.
-    pub(super) fn bend(&self, quad: usize) -> [R; 2] {
-        if features::BENT {
-            self.bends.get(quad).copied().unwrap_or_default()
+    /// The distortion of a quad, counted among the quads; 0 where u_h is parametric on it.
+    pub(super) fn distortion(&self, quad: usize) -> [R; 2] {
+        if features::DISTORTED {
+            self.distortions.get(quad).copied().unwrap_or_default()
         } else {
             [R::ZERO; 2]
         }
@@ -64,7 +64,7 @@ pub fn of_triangle<R: Real>([p, q, r]: [[R; 2]; 3], a: Tensor<R>) -> Tensor<R> {
 }
 
 /// B of a quad at a point where its coefficient is `a`.
-pub fn of_quad<R: Real>(place: &Place<R>, a: Tensor<R>) -> Tensor<R> {
+pub fn of_quad<R: Real>(place: &MappedPoint<R>, a: Tensor<R>) -> Tensor<R> {
     let [along, across] = place.directions();
     pulled_back(along, across, place.determinant, a)
 }

@@ -27,7 +27,7 @@
 //! * The small difference A∇s − τ is formed from large terms: its error, at most 2 ε times their sum,
 //!   goes through the same quadratic form, and the root of the sum is added.
 //! * Data are rounded once when they are stored: a boundary value moves by ε|u_D|, and the energy of
-//!   such a ripple on the cells along the boundary is added too.
+//!   such a perturbation on the cells along the boundary is added too.
 //!
 //! * Squares of numbers near the smallest normal one are lost: a root of that number is added.
 //!
@@ -68,7 +68,7 @@ use crate::stiffness::Stiffness;
 /// What surplus in the cells costs. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
 /// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
 /// ```text
-///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the doubt, about 1/A.
+///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the uncertainty, about 1/A.
 /// ```
 /// Where conductivities jump, the second knows that large fluxes stand beside small w_T.
 ///
@@ -87,7 +87,7 @@ pub struct Stability<R> {
 
 /// What stays from one certificate to the next: mesh, A and the ways out (borrowed).
 #[derive(Debug, Clone, Copy)]
-pub struct Ground<'a, R, I> {
+pub struct Discretization<'a, R, I> {
     /// The mesh; of its coordinates nothing is read.
     pub mesh: Mesh<'a, R, I>,
     /// Its numbered edges.
@@ -96,7 +96,7 @@ pub struct Ground<'a, R, I> {
     pub stiffness: Stiffness<'a, R>,
     /// Cells with their element matrices, from leaves to roots.
     pub cells: Cells<'a, R, I>,
-    /// A in reference coordinates where it varies inside a cell, and the bends of quads.
+    /// A in reference coordinates where it varies inside a cell, and the distortions of quads.
     pub metric: Metric<'a, R>,
     /// What rounding can do at most: [`stability`].
     pub stability: Stability<R>,
@@ -104,7 +104,7 @@ pub struct Ground<'a, R, I> {
 
 /// Loads and boundary data of one tick (borrowed).
 #[derive(Debug, Clone, Copy)]
-pub struct Given<'a, R, I> {
+pub struct LoadCase<'a, R, I> {
     /// ∫_T f of every cell.
     pub loads: CellLoads<'a, R>,
     /// Conditions on the boundary edges.
@@ -138,19 +138,19 @@ pub struct Buffers<'a, R> {
 /// # Errors
 /// Arrays of the wrong length.
 pub fn certify<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
     iterate: Iterate<R>,
     buffers: Buffers<R>,
 ) -> Result<Verdict<R>, Error> {
-    let Ground { mesh, edges, cells, .. } = ground;
+    let Discretization { mesh, edges, cells, .. } = ground;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     let (u, lower) = (iterate.u, iterate.lower);
     same_length(Array::Triangles, cells.triangles.len(), edges.of_triangles().len())?;
     same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
-    averages::fill(cells, given.loads, ground.metric.bends, u, vertices, tau)?;
+    averages::fill(cells, given.loads, ground.metric.distortions, u, vertices, tau)?;
     conforming::impose(mesh, edges, u, lower, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);

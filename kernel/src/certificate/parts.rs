@@ -6,7 +6,7 @@ use crate::real::Real;
 
 /// One cell's share of everything.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share<R> {
+pub(super) struct CellTerms<R> {
     /// ‖A^½∇s − A^{−½}τ‖²
     pub gap: R,
     /// ‖A^{−½}(τ − σ_h)‖²
@@ -14,9 +14,9 @@ pub(super) struct Share<R> {
     /// ‖A^½∇(s − u_h)‖²
     pub nonconforming: R,
     /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
-    pub doubt: R,
+    pub uncertainty: R,
     /// The same of `nonconforming`.
-    pub doubt_of_u: R,
+    pub uncertainty_of_u: R,
     /// (∫f)² + Στ², the terms of the balance.
     pub terms: R,
 }
@@ -27,12 +27,12 @@ pub(super) struct Parts<R> {
     pub gap: Sum<R>,
     pub algebraic: R,
     pub nonconforming: R,
-    /// ‖A^½∇v‖² of what s has above the chords of its boundary data, on bent quads.
+    /// ‖A^½∇v‖² of what s has above the chords of its boundary data, on distorted quads.
     pub lifted: R,
-    pub doubt: R,
-    pub doubt_of_u: R,
+    pub uncertainty: R,
+    pub uncertainty_of_u: R,
     /// The square of what storing the data has done.
-    pub ripple: R,
+    pub perturbation: R,
     /// What rounding can have done to `gap` itself.
     pub direct: R,
     /// The same of `nonconforming`.
@@ -42,12 +42,12 @@ pub(super) struct Parts<R> {
 
 impl<R: Real> Parts<R> {
     #[inline(always)]
-    pub fn add(&mut self, share: Share<R>) {
+    pub fn add(&mut self, share: CellTerms<R>) {
         self.gap.add(share.gap);
         self.algebraic += share.algebraic;
         self.nonconforming += share.nonconforming;
-        self.doubt += share.doubt;
-        self.doubt_of_u += share.doubt_of_u;
+        self.uncertainty += share.uncertainty;
+        self.uncertainty_of_u += share.uncertainty_of_u;
         self.terms += share.terms;
     }
 
@@ -57,15 +57,16 @@ impl<R: Real> Parts<R> {
         let gap = root(self.gap.value());
         let times = |count: u32| R::from_count(count) * R::EPSILON;
         // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
-        let doubt = times(4) * root(self.doubt);
+        let uncertainty = times(4) * root(self.uncertainty);
         // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
         let all = |squares: R| times(2) * root(R::from_count(cells as u32) * squares);
         let plainly = stability.largest * all(self.terms);
-        let unbalanced = plainly.or_smaller(stability.weighed * all(self.doubt));
+        let unbalanced = plainly.or_smaller(stability.weighed * all(self.uncertainty));
         let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
         // Squares below the smallest normal number are lost, some in every cell.
         let lost = (R::ONE + stability.largest) * root(R::from_count(16 * cells as u32) * R::TINY);
-        let rounding = doubt + unbalanced + root(self.ripple) + lifted + lost + times(16) * gap;
+        let rounding =
+            uncertainty + unbalanced + root(self.perturbation) + lifted + lost + times(16) * gap;
         let rounding = rounding + times(4) * oscillation;
         let both = root(gap * gap + oscillation * oscillation);
         // √(gap²) underflows before gap does.
@@ -77,10 +78,11 @@ impl<R: Real> Parts<R> {
         let jump = root(self.nonconforming.or_larger(R::ZERO) + self.direct_of_u);
         // A plain sum over the cells loses half an ε of itself in each, its root half of that.
         let summed = times(16) + R::QUARTER * times(cells as u32);
-        let doubt_of_u = times(4) * root(self.doubt_of_u) + summed * jump + lost;
-        let apart = jump + root(self.lifted) + doubt_of_u;
+        let uncertainty_of_u = times(4) * root(self.uncertainty_of_u) + summed * jump + lost;
+        let apart = jump + root(self.lifted) + uncertainty_of_u;
         let of_u = total + (apart + stability.oblique * apart);
-        let certificate = Certificate { gap, algebraic, oscillation, rounding, total, of_u };
+        let certificate =
+            Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u };
         let known = certificate.of_u.finite() && algebraic.finite();
         if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
     }

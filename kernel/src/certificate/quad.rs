@@ -9,7 +9,7 @@
 //! constant, ∫(B∇̂ŝ − τ̂)·B^{−1}(B∇̂ŝ − τ̂) is a sum over these six. Elsewhere it is taken at points.
 
 use super::metric::{POINTS, inverse_form, of_parallelogram};
-use super::parts::Share;
+use super::parts::CellTerms;
 use crate::cells::Quad;
 use crate::element::nonparametric;
 use crate::element::rannacher_turek::product;
@@ -24,11 +24,11 @@ pub(super) struct Values<R> {
     pub bubbles: [R; 4],
 }
 
-/// u_h on a quad: means over the sides, and the bend where it is nonparametric.
+/// u_h on a quad: means over the sides, and the distortion where it is nonparametric.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Means<R> {
     pub means: [R; 4],
-    pub bend: [R; 2],
+    pub distortion: [R; 2],
 }
 
 /// `tau`: outward fluxes through the sides; `u`: means over them.
@@ -38,7 +38,7 @@ pub(super) fn share<R: Real, I: Index>(
     tau: [R; 4],
     u: [R; 4],
     load: R,
-) -> Share<R> {
+) -> CellTerms<R> {
     let b = of_parallelogram(&cell.k);
     let [constant, along_x, along_y, rest] = modes(s);
     let (flux, flux_x, flux_y) = flux_modes(tau);
@@ -70,12 +70,12 @@ pub(super) fn share<R: Real, I: Index>(
     // Rounding of K moves B by ε·spread, which relative to B is up to ε times this.
     let condition = spread * softness;
     let moved = moved(condition, large + gap);
-    Share {
+    CellTerms {
         gap,
         algebraic,
         nonconforming,
-        doubt: condition * large + softness * terms + moved,
-        doubt_of_u: condition * (large + nonconforming) + moved,
+        uncertainty: condition * large + softness * terms + moved,
+        uncertainty_of_u: condition * (large + nonconforming) + moved,
         terms,
     }
 }
@@ -90,13 +90,13 @@ pub(super) fn energy<R: Real, I: Index>(
         None => flux_energy(of_parallelogram(&cell.k), out),
         Some(points) => {
             let s = Values { corners: [R::ZERO; 4], bubbles: [R::ZERO; 4] };
-            let u = Means { means: [R::ZERO; 4], bend: [R::ZERO; 2] };
+            let u = Means { means: [R::ZERO; 4], distortion: [R::ZERO; 2] };
             share_at_points(points, s, u, cell.sides_in_mesh(out), [R::ZERO; 4], R::ZERO).gap
         }
     }
 }
 
-/// What a square of the balance counts in the doubt, at least: about 1/A.
+/// What a square of the balance counts in the uncertainty, at least: about 1/A.
 pub(super) fn softness<R: Real, I: Index>(
     cell: &Quad<R, I>,
     points: Option<&[Tensor<R>; POINTS * POINTS]>,
@@ -187,7 +187,7 @@ fn squares<R: Real>([t0, t1, t2, t3]: [R; 4], load: R) -> R {
     t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + load * load
 }
 
-/// What an error of `condition` · ε in B, relative to B, adds to the doubt about a form of this size.
+/// What an error of `condition` · ε in B, relative to B, adds to the uncertainty about a form of this size.
 fn moved<R: Real>(condition: R, size: R) -> R {
     R::HALF * R::QUARTER * condition * condition * size
 }
@@ -207,10 +207,10 @@ pub(super) fn share_at_points<R: Real>(
     tau: [R; 4],
     difference: [R; 4],
     load: R,
-) -> Share<R> {
+) -> CellTerms<R> {
     let terms = squares(tau, load);
-    let (mut gap, mut algebraic, mut doubt) = (R::ZERO, R::ZERO, R::ZERO);
-    let (mut nonconforming, mut doubt_of_u) = (R::ZERO, R::ZERO);
+    let (mut gap, mut algebraic, mut uncertainty) = (R::ZERO, R::ZERO, R::ZERO);
+    let (mut nonconforming, mut uncertainty_of_u) = (R::ZERO, R::ZERO);
     let mut tensors = points.iter();
     for &[y, weight_y] in R::GAUSS[POINTS - 1] {
         for &[x, weight_x] in R::GAUSS[POINTS - 1] {
@@ -223,18 +223,18 @@ pub(super) fn share_at_points<R: Real>(
             algebraic += weight * inverse_form(b, raviart_thomas(difference, [x, y]));
             let large = terms + flow[0] * flow[0] + flow[1] * flow[1];
             let softness = weight * (b.xx + b.yy) / (b.xx * b.yy - b.xy * b.xy);
-            doubt += softness * large;
+            uncertainty += softness * large;
             let energy = (slope[0] * flow[0] + slope[1] * flow[1]).magnitude();
-            doubt += weight * moved(sensitivity(b), energy + square);
-            let of_u = nonparametric::reference_gradient(u.bend, [x, y], u.means);
+            uncertainty += weight * moved(sensitivity(b), energy + square);
+            let of_u = nonparametric::reference_gradient(u.distortion, [x, y], u.means);
             let jump = form(b, minus(slope, of_u));
             let own = apply(b, of_u);
             nonconforming += weight * jump;
-            doubt_of_u += softness * (large + own[0] * own[0] + own[1] * own[1]);
-            doubt_of_u += weight * moved(sensitivity(b), energy + jump);
+            uncertainty_of_u += softness * (large + own[0] * own[0] + own[1] * own[1]);
+            uncertainty_of_u += weight * moved(sensitivity(b), energy + jump);
         }
     }
-    Share { gap, algebraic, nonconforming, doubt, doubt_of_u, terms }
+    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms }
 }
 
 /// ∇̂ŝ

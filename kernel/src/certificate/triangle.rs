@@ -9,7 +9,7 @@
 //! ‖A^½∇(s − u_h)‖² is the same form in the fluxes of A∇s less those of A∇u_h, whether A is constant or not.
 
 use super::metric::{POINTS, inverse_form};
-use super::parts::Share;
+use super::parts::CellTerms;
 use crate::cells::Triangle;
 use crate::element::crouzeix_raviart::product;
 use crate::index::Index;
@@ -24,7 +24,7 @@ pub(super) fn share<R: Real, I: Index>(
     tau: [R; 3],
     u: [R; 3],
     load: R,
-) -> Share<R> {
+) -> CellTerms<R> {
     let k = &cell.k;
     let third = load * R::THIRD;
     let flows = flows(k, s);
@@ -36,12 +36,12 @@ pub(super) fn share<R: Real, I: Index>(
     let jump = [gap[0] + algebraic[0], gap[1] + algebraic[1], gap[2] + algebraic[2]];
     let linear = R::HALF * (k[0] + k[1] + k[2]) * third * third;
     let terms = squares(tau, load);
-    Share {
+    CellTerms {
         gap: cell.compliance * (form(k, gap) - linear),
         algebraic: cell.compliance * form(k, algebraic),
         nonconforming: cell.compliance * form(k, jump),
-        doubt: cell.doubt * sum_of_squares(flows, terms),
-        doubt_of_u: cell.doubt * sum_of_squares(flows, of_means(k, u)),
+        uncertainty: cell.uncertainty * sum_of_squares(flows, terms),
+        uncertainty_of_u: cell.uncertainty * sum_of_squares(flows, of_means(k, u)),
         terms,
     }
 }
@@ -92,17 +92,17 @@ pub(super) fn energy<R: Real, I: Index>(
     }
 }
 
-/// What a square of the balance counts in the doubt: about 1/A.
+/// What a square of the balance counts in the uncertainty: about 1/A.
 pub(super) fn softness<R: Real, I: Index>(
     cell: &Triangle<R, I>,
     points: Option<&[Tensor<R>; POINTS * POINTS]>,
 ) -> R {
     match points {
-        None => cell.doubt,
+        None => cell.uncertainty,
         Some(points) => {
             let (k, none) = (cell.stiffness_in_mesh(), [R::ZERO; 3]);
             let unit = [R::ONE, R::ZERO, R::ZERO];
-            share_at_points(points, (&k, cell.compliance), none, unit, none, R::ZERO).doubt
+            share_at_points(points, (&k, cell.compliance), none, unit, none, R::ZERO).uncertainty
         }
     }
 }
@@ -125,7 +125,7 @@ pub(super) fn share_at_points<R: Real>(
     tau: [R; 3],
     u: [R; 3],
     load: R,
-) -> Share<R> {
+) -> CellTerms<R> {
     let third = load * R::THIRD;
     let flows = flows(k, s);
     let own = product(k, &u);
@@ -153,10 +153,10 @@ pub(super) fn share_at_points<R: Real>(
     }
     let terms = squares(tau, load);
     let size = k.iter().fold(R::ZERO, |sum, entry| sum + entry.magnitude());
-    let doubt = compliance * size * sum_of_squares(flows, terms);
-    let doubt_of_u = compliance * size * sum_of_squares(flows, of_means(k, u));
+    let uncertainty = compliance * size * sum_of_squares(flows, terms);
+    let uncertainty_of_u = compliance * size * sum_of_squares(flows, of_means(k, u));
     let nonconforming = mean * form(k, jump);
-    Share { gap, algebraic, nonconforming, doubt, doubt_of_u, terms }
+    CellTerms { gap, algebraic, nonconforming, uncertainty, uncertainty_of_u, terms }
 }
 
 /// τ̂ = Σ_k τ_k (x̂ − opposite vertex) on the reference triangle.

@@ -1,8 +1,8 @@
 //! The walk over the packed cells: each is balanced and then gives its share of the bound.
 
-use super::parts::{Parts, Share};
+use super::parts::{CellTerms, Parts};
 use super::quad::{self, Means, Values};
-use super::{Continuous, Given, Ground, Metric, triangle};
+use super::{Continuous, Discretization, LoadCase, Metric, triangle};
 use crate::cells::{Either, Quad, Triangle, pick};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -10,8 +10,8 @@ use crate::real::Real;
 
 /// The walk over the cells from the leaves: balances each and takes its share.
 pub(super) fn over_cells<R: Real, I: Index>(
-    ground: &Ground<R, I>,
-    given: &Given<R, I>,
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
     u: &[R],
     s: Continuous<R>,
     tau: &mut [R],
@@ -73,7 +73,7 @@ fn of_triangle_cell<R: Real, I: Index>(
     u: &[R],
     load: R,
     tau: &mut [R],
-) -> Option<Share<R>> {
+) -> Option<CellTerms<R>> {
     if !features::TRIANGLES {
         return None;
     }
@@ -96,7 +96,7 @@ fn of_quad_cell<R: Real, I: Index>(
     u: &[R],
     load: R,
     tau: &mut [R],
-) -> Option<Share<R>> {
+) -> Option<CellTerms<R>> {
     if !features::QUADS {
         return None;
     }
@@ -109,7 +109,7 @@ fn of_quad_cell<R: Real, I: Index>(
             let difference = cell.sides_in_mesh(quad::difference(cell, out, u, load));
             let (corners, bubbles) = (cell.vertices_in_mesh(corners), cell.sides_in_mesh(bubbles));
             let [out, means] = [out, u].map(|packed| cell.sides_in_mesh(packed));
-            let u = Means { means, bend: metric.bend(number) };
+            let u = Means { means, distortion: metric.distortion(number) };
             quad::share_at_points(points, Values { corners, bubbles }, u, out, difference, load)
         }
     })

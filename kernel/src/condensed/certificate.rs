@@ -12,7 +12,7 @@
 //! What keeps τ from being admissible is r = Sx − b: it must be 0 on open edges and not negative on those
 //! that touch. Fluxes w_i that bring 1 in through contact edge i and out elsewhere mend it, and
 //! ```text
-//!   ‖A^{−½} Σ δ_i w_i‖ ≤ U · reach · ‖δ‖
+//!   ‖A^{−½} Σ δ_i w_i‖ ≤ U · stability · ‖δ‖
 //! ```
 //! is added to the first part. The function of the edge means, u_h, is off by ‖A^½∇_h(s − u_h)‖ more, which is a form
 //! of the same numbers: [`Certificate::of_u`].
@@ -72,7 +72,7 @@ pub struct Form<'a, R> {
     /// Corners.
     pub corners: &'a [Corner<'a, R>],
     /// √λ_max of the energies of the mending fluxes w_i.
-    pub reach: R,
+    pub stability: R,
     /// Where contact alone holds one part of the domain: the physical flux of a unit of r_i on each contact edge of it,
     /// 0 on the others. What is mended then leaves through its edge that is pressed most. Empty elsewhere.
     pub floating: &'a [R],
@@ -88,7 +88,7 @@ pub struct Form<'a, R> {
 
 /// An answer to judge (borrowed).
 #[derive(Debug, Clone, Copy)]
-pub struct Answer<'a, R> {
+pub struct Candidate<'a, R> {
     /// p, the constant 1 first.
     pub inputs: &'a [R],
     /// x ≥ 0
@@ -107,11 +107,11 @@ impl<R: Real> Form<'_, R> {
     /// Arrays of the wrong length.
     pub fn certify(
         &self,
-        answer: &Answer<R>,
+        answer: &Candidate<R>,
         z: &mut [R],
         sum: &mut [R],
     ) -> Result<Verdict<R>, Error> {
-        let Answer { inputs, x, residual } = *answer;
+        let Candidate { inputs, x, residual } = *answer;
         same_length(Array::Load, self.oscillation.len(), inputs.len())?;
         same_length(Array::Load, self.largest_load.len(), inputs.len())?;
         same_length(Array::Contact, residual.len(), x.len())?;
@@ -119,15 +119,17 @@ impl<R: Real> Form<'_, R> {
         same_length(Array::Scratch, z.len(), columns)?;
         self.lay_out(inputs, x, z);
         let norm = self.norm(&self.factor, x, z, sum)?;
-        let doubt = self.doubt(inputs, x);
-        let Some(mended) = self.mend(x, residual, doubt) else { return Ok(Verdict::Unpressed) };
-        let Some(corner) = self.corners(answer, doubt)? else { return Ok(Verdict::BelowGap) };
+        let uncertainty = self.uncertainty(inputs, x);
+        let Some(mended) = self.mend(x, residual, uncertainty) else {
+            return Ok(Verdict::Unpressed);
+        };
+        let Some(corner) = self.corners(answer, uncertainty)? else { return Ok(Verdict::BelowGap) };
         // Everything in the unit of energy, until the end: squares stay within the scalar's range.
-        let algebraic = self.reach * mended.known;
+        let algebraic = self.stability * mended.known;
         let first = norm.value + algebraic;
         let gap = (first * first + corner).rounded_sqrt().or_larger(first);
         let all = R::from_count(x.len() as u32).rounded_sqrt();
-        let hidden = norm.rounding + self.reach * (all * doubt + mended.hidden);
+        let hidden = norm.rounding + self.stability * (all * uncertainty + mended.hidden);
         let sizes = self.oscillation.iter().zip(inputs);
         let oscillation = sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
         // Sums of so many terms at most, none of which is negative.
@@ -144,7 +146,8 @@ impl<R: Real> Form<'_, R> {
             [gap, algebraic, oscillation, rounding, total, of_u].map(|part| self.unit * part);
         // Next to underflow products are off by more than a part of themselves.
         let [rounding, total, of_u] = [rounding, total, of_u].map(|part| part + R::TINY);
-        let certificate = Certificate { gap, algebraic, oscillation, rounding, total, of_u };
+        let certificate =
+            Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u };
         let known = of_u.finite() && algebraic.finite();
         Ok(if known { Verdict::Certified(certificate) } else { Verdict::NotFinite })
     }
@@ -180,7 +183,7 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// By how much an entry of r can be off.
-    fn doubt(&self, inputs: &[R], x: &[R]) -> R {
+    fn uncertainty(&self, inputs: &[R], x: &[R]) -> R {
         let largest = x.iter().fold(R::ZERO, |most, &x| most.or_larger(x));
         let loads = self.largest_load.iter().zip(inputs);
         let loads = loads.fold(R::ZERO, |sum, (&b, p)| sum + b * p.magnitude());
@@ -189,7 +192,7 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// ‖δ‖
-    fn mend(&self, x: &[R], residual: &[R], doubt: R) -> Option<Mended<R>> {
+    fn mend(&self, x: &[R], residual: &[R], uncertainty: R) -> Option<Mended<R>> {
         let amount = |x: R, r: R| if x > R::ZERO || r < R::ZERO { -r } else { R::ZERO };
         let amounts = x.iter().zip(residual).map(|(&x, &r)| amount(x, r));
         let square = amounts.clone().fold(R::ZERO, |sum, amount| sum + amount * amount);
@@ -204,14 +207,14 @@ impl<R: Real> Form<'_, R> {
         }
         let fluxes = amounts.zip(self.floating);
         let total = fluxes.fold(R::ZERO, |sum, (amount, &flux)| sum + amount * flux);
-        let hidden = self.floating.iter().fold(R::ZERO, |sum, &flux| sum + flux * doubt);
+        let hidden = self.floating.iter().fold(R::ZERO, |sum, &flux| sum + flux * uncertainty);
         let (total, hidden) = (total.magnitude() / pressed.1, R::TWO * hidden / pressed.1);
         let bears = pressed.0 / pressed.1 > total + hidden;
         bears.then(|| Mended { known: (square + total * total).rounded_sqrt(), hidden })
     }
 
     /// 2∫_C (τ·n − q)(s − ψ)
-    fn corners(&self, answer: &Answer<R>, doubt: R) -> Result<Option<R>, Error> {
+    fn corners(&self, answer: &Candidate<R>, uncertainty: R) -> Result<Option<R>, Error> {
         let mut sum = R::ZERO;
         for corner in self.corners {
             same_length(Array::Load, corner.excess.len(), answer.inputs.len())?;
@@ -224,7 +227,7 @@ impl<R: Real> Form<'_, R> {
             }
             let edge = usize::from(corner.edge);
             if read(answer.x, edge) == R::ZERO {
-                let flux = read(answer.residual, edge).or_larger(R::ZERO) + R::TWO * doubt;
+                let flux = read(answer.residual, edge).or_larger(R::ZERO) + R::TWO * uncertainty;
                 sum += flux * (excess.or_larger(R::ZERO) + slack);
             }
         }
@@ -232,7 +235,7 @@ impl<R: Real> Form<'_, R> {
     }
 }
 
-/// ‖δ‖, and what rounding adds beside √n times the doubt of an entry.
+/// ‖δ‖, and what rounding adds beside √n times the uncertainty of an entry.
 struct Mended<R> {
     known: R,
     hidden: R,

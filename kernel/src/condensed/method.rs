@@ -11,7 +11,7 @@ use super::blocks::Blocks;
 use super::pivoting::{self, Found, settle};
 use super::sizes;
 use super::sor;
-use super::tableau::{Start, Tableau};
+use super::tableau::{InitialTableau, Tableau};
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::limits::Deadline;
 use crate::real::Real;
@@ -19,7 +19,7 @@ use crate::report::Ended;
 
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
+pub struct SolveSummary {
     /// What ended it.
     pub ended: Ended,
     /// Exchanges.
@@ -40,7 +40,7 @@ pub trait Method<R: Real> {
         load: &[R],
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
-    ) -> Result<Progress, Error>;
+    ) -> Result<SolveSummary, Error>;
 }
 
 /// No edge is in contact: all outputs are linear in the inputs.
@@ -54,9 +54,9 @@ impl<R: Real> Method<R> for Linear {
         _: &[R],
         _: Iterate<R>,
         _: &mut Deadline<F>,
-    ) -> Result<Progress, Error> {
+    ) -> Result<SolveSummary, Error> {
         same_length(Array::Contact, matrix.order(), 0)?;
-        Ok(Progress { ended: Ended::Exact, pivots: 0, sweeps: 0 })
+        Ok(SolveSummary { ended: Ended::Exact, pivots: 0, sweeps: 0 })
     }
 }
 
@@ -79,7 +79,7 @@ impl<R: Real> Method<R> for Sweeps<R> {
         load: &[R],
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
-    ) -> Result<Progress, Error> {
+    ) -> Result<SolveSummary, Error> {
         if !(self.omega > R::ZERO && self.omega < R::TWO) {
             return Err(Error::Relaxation);
         }
@@ -109,9 +109,9 @@ impl<R: Real> Sweeps<R> {
         own: R,
         x: &mut [R],
         deadline: &mut Deadline<F>,
-    ) -> Result<Progress, Error> {
+    ) -> Result<SolveSummary, Error> {
         let sane = self.tolerance.or_larger(R::ONE / R::from_count(1024)) * own;
-        let mut progress = Progress { ended: Ended::OutOfSweeps, pivots: 0, sweeps: 0 };
+        let mut progress = SolveSummary { ended: Ended::OutOfSweeps, pivots: 0, sweeps: 0 };
         while progress.sweeps < self.most {
             if !deadline.allows_a_sweep() {
                 progress.ended = Ended::OutOfTime;
@@ -140,7 +140,7 @@ pub struct Pivots<'a, R> {
     /// The tableau, kept from tick to tick.
     pub tableau: Tableau<'a, R>,
     /// Where it began.
-    pub start: Start<'a, R>,
+    pub start: InitialTableau<'a, R>,
     /// Most exchanges of a solve.
     pub most: u32,
     /// What follows where they do not suffice.
@@ -154,7 +154,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         load: &[R],
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
-    ) -> Result<Progress, Error> {
+    ) -> Result<SolveSummary, Error> {
         let mut iterate = iterate;
         let lent = iterate.lend();
         let most = self.most;
@@ -162,10 +162,10 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         let (found, pivots) =
             pivoting::find(matrix, load, &mut self.tableau, &self.start, may_exchange, lent)?;
         if found == Found::Exact {
-            return Ok(Progress { ended: Ended::Exact, pivots, sweeps: 0 });
+            return Ok(SolveSummary { ended: Ended::Exact, pivots, sweeps: 0 });
         }
         match self.sweeps.solve(matrix, load, iterate.lend(), deadline) {
-            Ok(rest) => Ok(Progress { pivots, ..rest }),
+            Ok(rest) => Ok(SolveSummary { pivots, ..rest }),
             Err(error) => {
                 // No matrix that is positive definite comes here; any other begins anew.
                 self.tableau.reset(&self.start)?;

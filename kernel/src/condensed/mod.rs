@@ -34,10 +34,10 @@ use crate::real::Real;
 use crate::report::Report;
 use crate::verdict::Verdict;
 use blocks::{Block, Blocks};
-use certificate::{Answer, Form};
-use method::{Method, Progress};
+use certificate::{Candidate, Form};
+use method::{Method, SolveSummary};
 use outputs::Measure;
-use tableau::Start;
+use tableau::InitialTableau;
 
 /// A baked model (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +49,7 @@ pub struct Condensed<'a, R> {
     /// x of the answer in which the first tick begins; zeros are assumed where it ends.
     pub x: &'a [R],
     /// Where the exact method begins; empty for sweeps alone.
-    pub start: Start<'a, R>,
+    pub start: InitialTableau<'a, R>,
     /// B by columns: [`blocks::padded`] entries for each input, the constant first.
     pub load: &'a [R],
     /// The outputs.
@@ -121,14 +121,14 @@ impl<R: Real> Condensed<'_, R> {
         let progress = method.solve(&matrix, memory.load, memory.iterate.lend(), deadline)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
-        let answer = Answer { inputs, x, residual };
+        let answer = Candidate { inputs, x, residual };
         let verdict = match &self.certificate {
             Some(form) => form.certify(&answer, memory.combination, memory.sum)?,
             None if self.has_bound => Verdict::NotAsked,
             None => Verdict::Unavailable,
         };
         let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
-        let Progress { ended, pivots, sweeps } = progress;
+        let SolveSummary { ended, pivots, sweeps } = progress;
         Ok(Report { ended, exchanges: pivots, sweeps, active, verdict })
     }
 

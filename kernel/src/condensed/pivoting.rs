@@ -15,7 +15,7 @@
 use super::Iterate;
 use super::blocks::{Blocks, SIDE, groups, multiply_add};
 use super::sizes;
-use super::tableau::{Start, Tableau};
+use super::tableau::{InitialTableau, Tableau};
 use crate::error::Error;
 use crate::real::Real;
 
@@ -49,7 +49,7 @@ pub fn find<R: Real>(
     matrix: &Blocks<R>,
     load: &[R],
     tableau: &mut Tableau<R>,
-    start: &Start<R>,
+    start: &InitialTableau<R>,
     may_exchange: impl FnMut(u32) -> bool,
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {

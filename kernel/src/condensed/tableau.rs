@@ -37,7 +37,7 @@ pub struct Tableau<'a, R> {
 
 /// Where a tableau begins (borrowed): S with nothing exchanged, or what the host has prepared.
 #[derive(Debug, Clone, Copy)]
-pub struct Start<'a, R> {
+pub struct InitialTableau<'a, R> {
     /// T, in [`count`] blocks.
     pub blocks: &'a [Block<R>],
     /// Which unknowns are exchanged in it, `padded` entries.
@@ -81,7 +81,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// # Errors
     /// A tableau of another order.
     #[inline(never)]
-    pub fn reset(&mut self, start: &Start<R>) -> Result<(), Error> {
+    pub fn reset(&mut self, start: &InitialTableau<R>) -> Result<(), Error> {
         same_length(Array::MatrixValues, start.blocks.len(), self.blocks.len())?;
         same_length(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
         self.waiting = None;

@@ -18,7 +18,7 @@ use nalgebra::Vector2;
 use crate::index::read;
 use crate::real::Real;
 use crate::tensor::Tensor;
-use rannacher_turek::Place;
+use rannacher_turek::MappedPoint;
 
 /// Which functions u_h is made of on quads. On parallelograms they are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -37,7 +37,7 @@ impl QuadElement {
         self,
         quad: [[R; 2]; 4],
         rule: &[[R; 2]],
-        tensor: impl FnMut(usize, &Place<R>) -> Tensor<R>,
+        tensor: impl FnMut(usize, &MappedPoint<R>) -> Tensor<R>,
     ) -> [R; 6] {
         match self {
             Self::Parametric => rannacher_turek::stiffness(quad, rule, tensor),
@@ -110,7 +110,7 @@ fn diagonal<R: Real>(sides: usize, k: &[R], i: usize) -> R {
 
 /// Copies the entries of one side's row counterclockwise; returns the diagonal one.
 #[inline(always)]
-pub(crate) fn lend<'v, R: Real + 'v>(
+pub(crate) fn copy_row<'v, R: Real + 'v>(
     k: &[R],
     sides: usize,
     side: usize,
@@ -127,7 +127,7 @@ pub(crate) fn lend<'v, R: Real + 'v>(
 /// The two entries of a triangle's side in an array of all triangles' entries: towards the next side
 /// and the one before. `None` where `half_edge` is beyond them.
 #[inline(always)]
-pub(crate) fn around<R: Copy>(k: &[R], half_edge: usize) -> Option<[R; 2]> {
+pub(crate) fn adjacent<R: Copy>(k: &[R], half_edge: usize) -> Option<[R; 2]> {
     let next = *k.get(half_edge)?;
     // Two reads, not one at a chosen position: one instruction less for each.
     let first = half_edge.is_multiple_of(3);

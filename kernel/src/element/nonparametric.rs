@@ -2,7 +2,7 @@
 //! itself, with edge means as degrees of freedom.
 //!
 //! The origin is the mean p of the vertices, and the axes e₁, e₂ join the middles of opposite sides.
-//! With X̂ = x̂ − ½, Ŷ = ŷ − ½ and the bend w = a − b + c − d = w₁e₁ + w₂e₂ of the quad abcd
+//! With X̂ = x̂ − ½, Ŷ = ŷ − ½ and the distortion w = a − b + c − d = w₁e₁ + w₂e₂ of the quad abcd
 //! ```text
 //!   F(x̂, ŷ) = p + X̂e₁ + Ŷe₂ + X̂Ŷw,     X = X̂ (1 + w₁Ŷ),  Y = Ŷ (1 + w₂X̂),
 //!   dx dy = det(e₁, e₂) (1 + w₁Ŷ + w₂X̂) dx̂ dŷ.
@@ -31,7 +31,7 @@
 use nalgebra::Vector2;
 
 use super::above_diagonal;
-use super::rannacher_turek::{Place, place};
+use super::rannacher_turek::{MappedPoint, place};
 use crate::geometry::scaled_normal;
 use crate::real::Real;
 use crate::tensor::Tensor;
@@ -43,7 +43,7 @@ pub struct Axes<R: Real> {
     cofactors: [Vector2<R>; 2],
     /// det(e₁, e₂), the area of the quad.
     area: R,
-    bend: [R; 2],
+    distortion: [R; 2],
 }
 
 /// The axes of a convex quad.
@@ -53,20 +53,20 @@ pub fn axes<R: Real>(quad: [[R; 2]; 4]) -> Axes<R> {
     let cofactors = [scaled_normal([R::ZERO; 2], e2), -scaled_normal([R::ZERO; 2], e1)];
     let [a, b, c, d] = quad.map(|[x, y]| Vector2::new(x, y));
     let (w, per_area) = ((a - b) + (c - d), R::ONE / middle.determinant);
-    let bend = cofactors.map(|row| row.dot(&w) * per_area);
-    Axes { cofactors, area: middle.determinant, bend }
+    let distortion = cofactors.map(|row| row.dot(&w) * per_area);
+    Axes { cofactors, area: middle.determinant, distortion }
 }
 
 impl<R: Real> Axes<R> {
     /// (w₁, w₂), zero on a parallelogram; |w₁| + |w₂| < 2 on a convex quad.
-    pub fn bend(&self) -> [R; 2] {
-        self.bend
+    pub fn distortion(&self) -> [R; 2] {
+        self.distortion
     }
 
     /// φ₀ … φ₃ at reference coordinates (x̂, ŷ) in \[0, 1\]².
     pub fn basis(&self, reference: [R; 2]) -> [R; 4] {
-        let [x, y] = affine(self.bend, reference);
-        let (bubble, quarter) = (bubble(self.bend, [x, y]), R::QUARTER);
+        let [x, y] = affine(self.distortion, reference);
+        let (bubble, quarter) = (bubble(self.distortion, [x, y]), R::QUARTER);
         [quarter - y - bubble, quarter + x + bubble, quarter + y - bubble, quarter - x + bubble]
     }
 
@@ -81,7 +81,7 @@ impl<R: Real> Axes<R> {
 
     /// C ∇φ_i.
     fn scaled_gradients(&self, reference: [R; 2]) -> [Vector2<R>; 4] {
-        let ([x, y], [w1, w2]) = (affine(self.bend, reference), self.bend);
+        let ([x, y], [w1, w2]) = (affine(self.distortion, reference), self.distortion);
         let [by_x, by_y] = self.cofactors;
         let bubble =
             by_x * (R::THREE * x + R::QUARTER * w2) - by_y * (R::THREE * y + R::QUARTER * w1);
@@ -90,7 +90,7 @@ impl<R: Real> Axes<R> {
 
     /// (1 + w₁Ŷ + w₂X̂) / det(e₁, e₂)
     fn density(&self, [x, y]: [R; 2]) -> R {
-        let [w1, w2] = self.bend;
+        let [w1, w2] = self.distortion;
         (R::ONE + w1 * (y - R::HALF) + w2 * (x - R::HALF)) / self.area
     }
 }
@@ -108,14 +108,14 @@ fn bubble<R: Real>([w1, w2]: [R; 2], [x, y]: [R; 2]) -> R {
     square * (x * x - y * y) + linear - R::QUARTER * eighth * (w1 * w1 - w2 * w2)
 }
 
-/// The derivatives of Σ_i means_i φ_i by x̂ and ŷ, at reference coordinates in \[0, 1\]², on a quad with this bend;
-/// with the bend 0 they are those of the parametric element, on any quad.
+/// The derivatives of Σ_i means_i φ_i by x̂ and ŷ, at reference coordinates in \[0, 1\]², on a quad with this distortion;
+/// with the distortion 0 they are those of the parametric element, on any quad.
 pub fn reference_gradient<R: Real>(
-    bend @ [w1, w2]: [R; 2],
+    distortion @ [w1, w2]: [R; 2],
     reference: [R; 2],
     [u0, u1, u2, u3]: [R; 4],
 ) -> [R; 2] {
-    let ([x, y], [hat_x, hat_y]) = (affine(bend, reference), reference.map(|z| z - R::HALF));
+    let ([x, y], [hat_x, hat_y]) = (affine(distortion, reference), reference.map(|z| z - R::HALF));
     let curved = (u1 - u0) + (u3 - u2);
     let by_x = (u1 - u3) + curved * (R::THREE * x + R::QUARTER * w2);
     let by_y = (u2 - u0) - curved * (R::THREE * y + R::QUARTER * w1);
@@ -131,7 +131,7 @@ pub fn reference_gradient<R: Real>(
 pub fn stiffness<R: Real>(
     quad: [[R; 2]; 4],
     rule: &[[R; 2]],
-    mut tensor: impl FnMut(usize, &Place<R>) -> Tensor<R>,
+    mut tensor: impl FnMut(usize, &MappedPoint<R>) -> Tensor<R>,
 ) -> [R; 6] {
     let axes = axes(quad);
     above_diagonal(rule, |point, reference, weight| {
@@ -140,12 +140,12 @@ pub fn stiffness<R: Real>(
     })
 }
 
-/// u_h at vertices 0 to 3 from its means over the sides, on a quad with this bend.
-pub fn at_vertices<R: Real>(bend: [R; 2], &[u0, u1, u2, u3]: &[R; 4]) -> [R; 4] {
+/// u_h at vertices 0 to 3 from its means over the sides, on a quad with this distortion.
+pub fn at_vertices<R: Real>(distortion: [R; 2], &[u0, u1, u2, u3]: &[R; 4]) -> [R; 4] {
     let (mean, curved) = (R::QUARTER * ((u0 + u2) + (u1 + u3)), (u1 + u3) - (u0 + u2));
     let (zero, one) = (R::ZERO, R::ONE);
     [[zero, zero], [one, zero], [one, one], [zero, one]].map(|corner| {
-        let [x, y] = affine(bend, corner);
-        mean + x * (u1 - u3) + y * (u2 - u0) + curved * bubble(bend, [x, y])
+        let [x, y] = affine(distortion, corner);
+        mean + x * (u1 - u3) + y * (u2 - u0) + curved * bubble(distortion, [x, y])
     })
 }

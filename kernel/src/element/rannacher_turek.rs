@@ -22,7 +22,7 @@ use crate::tensor::Tensor;
 
 /// The bilinear map at one reference point.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<R: Real> {
+pub struct MappedPoint<R: Real> {
     /// F(x̂, ŷ)
     pub x: [R; 2],
     /// det DF > 0 in a convex quad.
@@ -32,14 +32,14 @@ pub struct Place<R: Real> {
 }
 
 /// The point of `quad` at reference coordinates (x̂, ŷ) in \[0, 1\]².
-pub fn place<R: Real>([a, b, c, d]: [[R; 2]; 4], [x, y]: [R; 2]) -> Place<R> {
+pub fn place<R: Real>([a, b, c, d]: [[R; 2]; 4], [x, y]: [R; 2]) -> MappedPoint<R> {
     let point = |v: [R; 2]| Vector2::new(v[0], v[1]);
     let (bottom, top) = (point(b) - point(a), point(c) - point(d));
     let (left, right) = (point(d) - point(a), point(c) - point(b));
     let along_x = bottom * (R::ONE - y) + top * y;
     let along_y = left * (R::ONE - x) + right * x;
     let at = point(a) + bottom * x + (left * (R::ONE - x) + right * x) * y;
-    Place {
+    MappedPoint {
         x: [at.x, at.y],
         determinant: along_x.x * along_y.y - along_x.y * along_y.x,
         jacobian: Matrix2::from_columns(&[along_x, along_y]),
@@ -47,7 +47,7 @@ pub fn place<R: Real>([a, b, c, d]: [[R; 2]; 4], [x, y]: [R; 2]) -> Place<R> {
     }
 }
 
-impl<R: Real> Place<R> {
+impl<R: Real> MappedPoint<R> {
     /// The columns of DF here: along x̂, along ŷ.
     pub fn directions(&self) -> [[R; 2]; 2] {
         let [along_x, along_y] = [self.jacobian.column(0), self.jacobian.column(1)];
@@ -100,7 +100,7 @@ impl<R: Real> Place<R> {
 pub fn stiffness<R: Real>(
     quad: [[R; 2]; 4],
     rule: &[[R; 2]],
-    mut tensor: impl FnMut(usize, &Place<R>) -> Tensor<R>,
+    mut tensor: impl FnMut(usize, &MappedPoint<R>) -> Tensor<R>,
 ) -> [R; 6] {
     above_diagonal(rule, |point, reference, weight| {
         let place = place(quad, reference);

@@ -4,7 +4,7 @@ use super::curved::CurvedSum;
 use super::pattern::{DataMemory, Pattern};
 use crate::assembly::CellLoads;
 use crate::boundary::{Boundary, Neumann, Robin};
-use crate::certificate::{Curved, Given};
+use crate::certificate::{Curved, LoadCase};
 use crate::conforming::VertexData;
 use crate::edges::Edges;
 use crate::error::{Array, Error, same_length_or_empty};
@@ -76,7 +76,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
     ) -> Result<Data<'d, R, I>, Error> {
         let contact_flux = own_or(self.contact_flux, base.contact_flux);
         let (neumann, robin) = (own_or(self.neumann, base.neumann), own_or(self.robin, base.robin));
-        let given = Given {
+        let given = LoadCase {
             loads: CellLoads {
                 triangles: own_or(self.triangles, base.loads.triangles),
                 quads: own_or(self.quads, base.loads.quads),

@@ -1,6 +1,6 @@
 //! Outputs: numbers read off an answer.
 
-use super::pattern::Share;
+use super::pattern::Contribution;
 use crate::contact;
 use crate::edges::EdgeCounts;
 use crate::features;
@@ -16,23 +16,23 @@ pub enum Functional<'a, R, I> {
     /// ∫(τ·n − q) ≥ 0 over these contact edges, counted from the first one; τ within the law of contact.
     Force(&'a [I]),
     /// The length of those of these contact edges that are active, with the length of each.
-    Length(&'a [Share<R, I>]),
+    Length(&'a [Contribution<R, I>]),
     /// u at a point: a sum over edges, with the weight of each.
-    Probe(&'a [Share<R, I>]),
+    Probe(&'a [Contribution<R, I>]),
     /// The error bound; infinite where there is none.
     Bound,
 }
 
 /// What outputs are read off.
-pub(super) struct Answer<'t, 'a, R: Real, I, const WIDTH: usize> {
+pub(super) struct TickState<'t, 'a, R: Real, I, const WIDTH: usize> {
     pub tick: &'t Tick<'a, R, I, WIDTH>,
     pub data: &'t Data<'a, R, I>,
     pub report: &'t Report<R>,
 }
 
 impl<R: Real, I: Index> Functional<'_, R, I> {
-    pub(super) fn of<const WIDTH: usize>(&self, answer: &Answer<R, I, WIDTH>) -> R {
-        let Answer { tick, data, report } = answer;
+    pub(super) fn of<const WIDTH: usize>(&self, answer: &TickState<R, I, WIDTH>) -> R {
+        let TickState { tick, data, report } = answer;
         let (u, tau, lower) = (tick.u(), tick.tau(), data.lower);
         let EdgeCounts { free, contact, .. } = tick.counts();
         let given = |at: usize| data.given.boundary.contact_flux(at);
@@ -65,6 +65,6 @@ impl<R: Real, I: Index> Functional<'_, R, I> {
     }
 }
 
-fn sum<R: Real, I: Index>(shares: &[Share<R, I>], take: impl Fn(usize, R) -> R) -> R {
+fn sum<R: Real, I: Index>(shares: &[Contribution<R, I>], take: impl Fn(usize, R) -> R) -> R {
     shares.iter().fold(R::ZERO, |sum, share| sum + take(share.at.at(), share.weight))
 }

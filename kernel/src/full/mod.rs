@@ -17,9 +17,9 @@ mod pattern;
 pub use curved::{CurvedPart, CurvedSum, Product};
 pub use data::Base;
 pub use functional::Functional;
-pub use pattern::{Chord, DataMemory, Pattern, Points, Share};
+pub use pattern::{Contribution, DataMemory, EdgeTrace, Pattern, Points};
 
-use crate::certificate::{Ground, Verdict};
+use crate::certificate::{Discretization, Verdict};
 use crate::conforming::VertexData;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
@@ -27,13 +27,13 @@ use crate::index::{Index, read};
 use crate::real::Real;
 use crate::relaxation::Relaxation;
 use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
-use functional::Answer;
+use functional::TickState;
 
 /// A baked scene (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Full<'a, R, I> {
     /// Mesh, A and ways out.
-    pub ground: Ground<'a, R, I>,
+    pub ground: Discretization<'a, R, I>,
     /// Loads and boundary data where all inputs are 0.
     pub base: Base<'a, R, I>,
     /// What each input adds for each unit of its value.
@@ -106,7 +106,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
         *progress = tick.progress();
         let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
-        let answer = Answer { tick: &tick, data: &data, report: &report };
+        let answer = TickState { tick: &tick, data: &data, report: &report };
         let mut is_known = true;
         for (output, functional) in outputs.iter_mut().zip(self.outputs) {
             *output = functional.of(&answer);

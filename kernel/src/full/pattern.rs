@@ -8,7 +8,7 @@ use crate::real::Real;
 
 /// An integral or mean at one place of an array.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Share<R, I> {
+pub struct Contribution<R, I> {
     /// The place.
     pub at: I,
     /// What one unit of the input adds there.
@@ -17,7 +17,7 @@ pub struct Share<R, I> {
 
 /// What one unit of an input adds to ψ or u_D on an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chord<R, I> {
+pub struct EdgeTrace<R, I> {
     /// The place of the edge in its block.
     pub at: I,
     /// To the mean.
@@ -41,22 +41,22 @@ pub enum Pattern<'a, R, I> {
     /// ∫f of triangles and of quads.
     Source {
         /// By number of the triangle.
-        triangles: &'a [Share<R, I>],
+        triangles: &'a [Contribution<R, I>],
         /// By number of the quad.
-        quads: &'a [Share<R, I>],
+        quads: &'a [Contribution<R, I>],
     },
     /// ∫g, by number of the record.
-    Neumann(&'a [Share<R, I>]),
+    Neumann(&'a [Contribution<R, I>]),
     /// ∫q, by number of the contact edge.
-    ContactFlux(&'a [Share<R, I>]),
+    ContactFlux(&'a [Contribution<R, I>]),
     /// ψ
-    Gap(&'a [Chord<R, I>]),
+    Gap(&'a [EdgeTrace<R, I>]),
     /// u_D
-    Value(&'a [Chord<R, I>]),
+    Value(&'a [EdgeTrace<R, I>]),
     /// u_ext
     Ambient {
         /// ∫h u_ext, by number of the transfer law.
-        integrals: &'a [Share<R, I>],
+        integrals: &'a [Contribution<R, I>],
         /// At points, where that is not constant along every edge.
         points: &'a [Points<R, I>],
     },
@@ -115,11 +115,11 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
     }
 }
 
-fn each<R: Real, I: Index>(shares: &[Share<R, I>], mut each: impl FnMut(usize, R)) {
+fn each<R: Real, I: Index>(shares: &[Contribution<R, I>], mut each: impl FnMut(usize, R)) {
     shares.iter().for_each(|share| each(share.at.at(), share.weight));
 }
 
-fn add<R: Real, I: Index>(shares: &[Share<R, I>], p: R, sums: &mut [R]) {
+fn add<R: Real, I: Index>(shares: &[Contribution<R, I>], p: R, sums: &mut [R]) {
     each(shares, |at, weight| {
         if let Some(sum) = sums.get_mut(at) {
             *sum += p * weight;
@@ -128,12 +128,12 @@ fn add<R: Real, I: Index>(shares: &[Share<R, I>], p: R, sums: &mut [R]) {
 }
 
 fn add_chords<R: Real, I: Index>(
-    chords: &[Chord<R, I>],
+    chords: &[EdgeTrace<R, I>],
     p: R,
     means: &mut [R],
     ends: &mut [[R; 2]],
 ) {
-    for Chord { at, mean, ends: [first, second] } in chords {
+    for EdgeTrace { at, mean, ends: [first, second] } in chords {
         let (Some(of_mean), Some(pair)) = (means.get_mut(at.at()), ends.get_mut(at.at())) else {
             break;
         };

@@ -16,7 +16,7 @@ use crate::condensed::Iterate;
 use crate::condensed::blocks::{Block, Blocks, multiply_add, padded};
 use crate::condensed::pivoting::{self, Found};
 use crate::condensed::sizes;
-use crate::condensed::tableau::{Start, Tableau};
+use crate::condensed::tableau::{InitialTableau, Tableau};
 use crate::error::{Array, Error, same_length};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -51,7 +51,7 @@ pub struct Factored<'a, R, I> {
     /// 1/√S_ii: P entries.
     pub scale: &'a [R],
     /// Where exchanges begin: B blocks, P entries.
-    pub start: Start<'a, R>,
+    pub start: InitialTableau<'a, R>,
 }
 
 /// Memory of a contact problem (borrowed).

@@ -4,7 +4,7 @@ use super::contact::{Defect, Exact, Factored, Memory, SLACK, Solved};
 use super::factor::Factor;
 use crate::boundary::Boundary;
 use crate::condensed::blocks::{Block, Blocks, SIDE, count};
-use crate::condensed::tableau::Start;
+use crate::condensed::tableau::InitialTableau;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read, write};
 use crate::real::Real;
@@ -14,7 +14,7 @@ use crate::solver::{Settings, Status};
 
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress<R> {
+pub struct SolveSummary<R> {
     /// How it ended: `Converged`, `RoundingLimit` where corrections are down to rounding, or `Stalled` where they
     /// stopped to shrink before that.
     pub status: Status,
@@ -63,7 +63,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
             return Ok(None);
         }
         none.fill(false);
-        let start = Start { blocks: schur, exchanged: none };
+        let start = InitialTableau { blocks: schur, exchanged: none };
         let mut exact = Exact::new(Factored { factor, schur, scale, start }, contact)?;
         exact.restart()?;
         Ok(Some(Self { exact, places }))
@@ -82,7 +82,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         settings: &Settings<R>,
         u: &mut [R],
         low: &mut [R],
-    ) -> Result<Option<Progress<R>>, Error> {
+    ) -> Result<Option<SolveSummary<R>>, Error> {
         same_length(Array::Scratch, low.len(), u.len())?;
         let rows = Rows { system, boundary };
         let Some(solved) = self.exact.solve(&rows, system.lower(), self.places, u, low)? else {
@@ -101,7 +101,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
             false => Status::Stalled,
         };
         let Solved { pivots, rounds, .. } = solved;
-        Ok(Some(Progress { status, residual, pivots, rounds }))
+        Ok(Some(SolveSummary { status, residual, pivots, rounds }))
     }
 }
 

@@ -30,6 +30,6 @@ pub mod factor;
 pub use cells::Balance;
 pub(crate) use contact::SLACK;
 pub use contact::{Exact, Factored, Memory, Solved};
-pub use direct::{Direct, DirectMemory, Progress};
+pub use direct::{Direct, DirectMemory, SolveSummary};
 pub use elimination::Pattern;
 pub use factor::Factor;

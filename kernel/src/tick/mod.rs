@@ -5,7 +5,7 @@
 //!    ▲                        │
 //!    └──── the next tick starts from this one's iterate and active set
 //! ```
-//! Mesh, A and forest stay ([`Ground`]); loads, gaps and Dirichlet values change with every tick, and
+//! Mesh, A and forest stay ([`Discretization`]); loads, gaps and Dirichlet values change with every tick, and
 //! nothing is built anew but the rows. Data that are not finite, or so large that their answer may overflow, are
 //! refused before anything changes: the last answer and its report stay.
 //!
@@ -37,7 +37,7 @@ pub use substitutions::Substitutions;
 pub use uncertified::UncertifiedSweeps;
 
 use crate::assembly;
-use crate::certificate::{Given, Ground};
+use crate::certificate::{Discretization, LoadCase};
 use crate::edges::EdgeCounts;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::Index;
@@ -67,7 +67,7 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
 /// A contact problem whose data change from tick to tick.
 #[derive(Debug)]
 pub struct Tick<'a, R: Real, I, const WIDTH: usize> {
-    ground: Ground<'a, R, I>,
+    ground: Discretization<'a, R, I>,
     memory: Memory<'a, R, I, WIDTH>,
     search: Search<R>,
     report: Option<Report<R>>,
@@ -77,7 +77,7 @@ pub struct Tick<'a, R: Real, I, const WIDTH: usize> {
 #[derive(Debug, Clone, Copy)]
 pub struct Data<'a, R, I> {
     /// Loads and boundary data, as the certificate takes them.
-    pub given: Given<'a, R, I>,
+    pub given: LoadCase<'a, R, I>,
     /// Means of ψ, one a contact edge.
     pub lower: &'a [R],
     /// Means of u_D, one a Dirichlet edge.
@@ -90,7 +90,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// # Errors
     /// Arrays of the wrong length, a start that is not finite, an ω outside (0, 2).
     pub fn new(
-        ground: Ground<'a, R, I>,
+        ground: Discretization<'a, R, I>,
         memory: Memory<'a, R, I, WIDTH>,
         relaxation: Relaxation<R>,
     ) -> Result<Self, Error> {
@@ -187,7 +187,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
 }
 
 /// Lengths and finiteness of everything that a tick may change.
-fn check<R: Real, I: Index>(data: &Data<R, I>, ground: &Ground<R, I>) -> Result<(), Error> {
+fn check<R: Real, I: Index>(data: &Data<R, I>, ground: &Discretization<R, I>) -> Result<(), Error> {
     let counts = ground.edges.counts();
     let Data { given, lower, dirichlet } = data;
     same_length(Array::LowerBounds, lower.len(), counts.contact)?;

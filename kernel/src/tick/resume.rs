@@ -1,7 +1,7 @@
 //! Ticks from owned memory: everything is borrowed for one tick, and the next one goes on from there.
 
 use super::{Memory, Tick};
-use crate::certificate::Ground;
+use crate::certificate::Discretization;
 use crate::edges::EdgeCounts;
 use crate::error::{Array, Error, same_length};
 use crate::index::Index;
@@ -43,7 +43,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// # Errors
     /// Arrays of the wrong length, [`Progress::NONE`].
     pub fn resume(
-        ground: Ground<'a, R, I>,
+        ground: Discretization<'a, R, I>,
         memory: Memory<'a, R, I, WIDTH>,
         progress: Progress<R>,
     ) -> Result<Self, Error> {
@@ -67,7 +67,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 
 /// Lengths of the memory.
 pub(super) fn check<R: Real, I: Index, const WIDTH: usize>(
-    ground: &Ground<R, I>,
+    ground: &Discretization<R, I>,
     memory: &Memory<R, I, WIDTH>,
 ) -> Result<(), Error> {
     let counts = ground.edges.counts();

@@ -9,7 +9,7 @@ use heapless::Vec;
 use super::fit;
 use crate::boundary::Boundary;
 use crate::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use crate::certificate::{Ground, Metric, Stability, of_quad, stability};
+use crate::certificate::{Discretization, Metric, Stability, of_quad, stability};
 use crate::conforming::VertexData;
 use crate::edges::Edges;
 use crate::element::rannacher_turek::place;
@@ -178,13 +178,13 @@ impl<
         mesh: Mesh<'a, R, I>,
         edges: Edges<'a, I>,
         stiffness: Stiffness<'a, R>,
-    ) -> Result<Ground<'a, R, I>, Error> {
+    ) -> Result<Discretization<'a, R, I>, Error> {
         if let Some(cell) = self.cut_off.checked_sub(1) {
             return Err(Error::NoWayOut { cell });
         }
         let Self { triangles, quads, of_vertices, of_edges, order, .. } = self;
         let cells = Cells::baked(triangles, quads, of_vertices, of_edges, order);
-        Ok(Ground {
+        Ok(Discretization {
             mesh,
             edges,
             stiffness,

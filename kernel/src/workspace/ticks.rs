@@ -4,7 +4,7 @@ use super::bound::Allowed;
 use super::{Workspace, ends, stiffness_of};
 use crate::assembly::CellLoads;
 use crate::boundary::Boundary;
-use crate::certificate::{Given, Verdict};
+use crate::certificate::{LoadCase, Verdict};
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::index::Index;
@@ -69,7 +69,7 @@ impl<
         let stiffness = stiffness_of(&self.triangles, &self.quads);
         let ground = self.equilibration.ground(*mesh, edges, stiffness)?;
         let data = Data {
-            given: Given {
+            given: LoadCase {
                 loads: CellLoads { triangles: &self.source_triangles, quads: &self.source_quads },
                 boundary: Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?,
                 ends: ends(&self.gap_ends, &self.dirichlet_ends),

@@ -7,7 +7,7 @@ use signorini_kernel::signorini::System;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::sparse::elimination::PatternBuffers;
 use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Memory, Pattern, Progress};
+use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Memory, Pattern, SolveSummary};
 use signorini_kernel::{Error, Index, Real};
 
 /// Solves with the free unknowns eliminated as `order` says, twice; `None` where the kernel finds no answer.
@@ -18,7 +18,7 @@ pub fn solve<R: Real, I: Index>(
     order: &[I],
     u: &mut [R],
     low: &mut [R],
-) -> Result<Option<[Progress<R>; 2]>, Error> {
+) -> Result<Option<[SolveSummary<R>; 2]>, Error> {
     let counts = system.counts();
     let [mut place, mut parent, mut scratch] = [(); 3].map(|()| vec![I::FIRST; counts.free]);
     let mut pointers = vec![0; counts.free + 1];

@@ -2,7 +2,7 @@
 
 use signorini_kernel::condensed::Iterate;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::tableau::Start;
+use signorini_kernel::condensed::tableau::InitialTableau;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::edges::EdgeCounts;
 use signorini_kernel::rows::{QUADS, Row, Rows};
@@ -73,7 +73,7 @@ impl Baked {
     pub fn view(&self) -> Factored<'_, f64, u16> {
         let Self { counts, places, pointers, rows, values, inverse, schur, scale, none } = self;
         let factor = Factor::baked(places, pointers, rows, values, inverse, *counts);
-        Factored { factor, schur, scale, start: Start { blocks: schur, exchanged: none } }
+        Factored { factor, schur, scale, start: InitialTableau { blocks: schur, exchanged: none } }
     }
 }
 

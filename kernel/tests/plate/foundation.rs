@@ -3,7 +3,7 @@
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{self, Given, Ground, Metric};
+use signorini_kernel::certificate::{self, Discretization, LoadCase, Metric};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::element::rannacher_turek;
 use signorini_kernel::equilibrium::is_root;
@@ -91,7 +91,7 @@ impl Foundation {
         let (triangles, quads) = (&mut self.triangles, &mut self.quads);
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let cells = pack(&mesh, &edges, stiffness, &[], compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place, bends: &[] };
+        let metric = Metric { at_points: points, place, distortions: &[] };
         let mut way = vec![0.0; edges.cells()];
         self.stability =
             certificate::stability(&edges, &cells, metric, &boundary, &forest, &mut way)?;
@@ -107,15 +107,15 @@ impl Foundation {
     }
 
     fn metric(&self) -> Metric<'_, f64> {
-        Metric { at_points: &self.points, place: &self.place, bends: &[] }
+        Metric { at_points: &self.points, place: &self.place, distortions: &[] }
     }
 
-    pub fn ground(&self) -> Result<Ground<'_, f64, u16>, Error> {
+    pub fn ground(&self) -> Result<Discretization<'_, f64, u16>, Error> {
         let edges = self.plate.edges()?;
         let [order, parent, place] = &self.ways;
         let forest = Forest::new(&edges, order, parent, place)?;
         let [of_vertices, of_edges] = &self.weights;
-        Ok(Ground {
+        Ok(Discretization {
             mesh: self.plate.mesh()?,
             edges,
             stiffness: self.stiffness(),
@@ -125,8 +125,8 @@ impl Foundation {
         })
     }
 
-    pub fn given(&self) -> Result<Given<'_, f64, u16>, Error> {
-        Ok(Given {
+    pub fn given(&self) -> Result<LoadCase<'_, f64, u16>, Error> {
+        Ok(LoadCase {
             loads: CellLoads { triangles: &self.loads.0, quads: &self.loads.1 },
             boundary: self.boundary()?,
             ends: VertexData { gap: &self.gap, given: &self.given },

@@ -4,7 +4,8 @@ use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{
-    Buffers, Curved, Given, Ground, Metric, Stability, certify, of_quad, of_triangle, stability,
+    Buffers, Curved, Discretization, LoadCase, Metric, Stability, certify, of_quad, of_triangle,
+    stability,
 };
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::edges::Block;
@@ -20,7 +21,7 @@ use crate::scene::{Draw, Scalar};
 const NONE: u16 = u16::MAX;
 
 /// What of the ground stays in memory.
-pub struct Ways<R> {
+pub struct EquilibrationForest<R> {
     order: Vec<u16>,
     parent: Vec<u16>,
     places: Vec<u16>,
@@ -33,7 +34,7 @@ pub struct Ways<R> {
     stability: Stability<R>,
 }
 
-impl<R: Scalar> Ways<R> {
+impl<R: Scalar> EquilibrationForest<R> {
     /// With A at the points of the cells whose number is a multiple of `every`; of none where that is 0.
     pub fn new(arrays: &Arrays<R>, every: usize) -> Result<Self, Error> {
         let (edges, boundary, mesh) = (arrays.edges()?, arrays.boundary()?, arrays.mesh()?);
@@ -74,7 +75,7 @@ impl<R: Scalar> Ways<R> {
             ways.place[at] = ways.points.len() as u32;
             ways.points.push(at_points(arrays, at));
         }
-        let metric = Metric { at_points: &ways.points, place: &ways.place, bends: &[] };
+        let metric = Metric { at_points: &ways.points, place: &ways.place, distortions: &[] };
         ways.stability = stability(
             &edges,
             &cells,
@@ -86,16 +87,19 @@ impl<R: Scalar> Ways<R> {
         Ok(ways)
     }
 
-    pub fn ground<'a>(&'a self, arrays: &'a Arrays<R>) -> Result<Ground<'a, R, u16>, Error> {
+    pub fn ground<'a>(
+        &'a self,
+        arrays: &'a Arrays<R>,
+    ) -> Result<Discretization<'a, R, u16>, Error> {
         let edges = arrays.edges()?;
         let forest = Forest::new(&edges, &self.order, &self.parent, &self.places)?;
         let (of_vertices, of_edges) = (&self.of_vertices, &self.of_edges);
-        Ok(Ground {
+        Ok(Discretization {
             mesh: arrays.mesh()?,
             edges,
             stiffness: arrays.stiffness(),
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
-            metric: Metric { at_points: &self.points, place: &self.place, bends: &[] },
+            metric: Metric { at_points: &self.points, place: &self.place, distortions: &[] },
             stability: self.stability,
         })
     }
@@ -145,14 +149,14 @@ fn more<R: Scalar>(arrays: &Arrays<R>) -> More<R> {
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let (curved, transfer) = more(arrays);
     for every in [0, 1, 2] {
-        let ways = Ways::new(arrays, every)?;
+        let ways = EquilibrationForest::new(arrays, every)?;
         journal.digest("forest", (&ways.order, &ways.parent, &ways.places));
         journal.digest("cells", (&ways.triangles, &ways.quads));
         journal.digest("weights", (&ways.of_vertices, &ways.of_edges));
         journal.line("reach", ways.stability.largest);
         journal.line("weighed", ways.stability.weighed);
         journal.line("oblique", ways.stability.oblique);
-        let given = Given {
+        let given = LoadCase {
             loads: arrays.cell_loads(),
             boundary: arrays.boundary()?,
             ends: arrays.ends(),
@@ -162,11 +166,11 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         };
         certified(arrays, &ways, &given, journal)?;
         let oscillation = R::of(0.125);
-        let bent = Given { curved: &curved, transfer: &transfer, oscillation, ..given };
+        let bent = LoadCase { curved: &curved, transfer: &transfer, oscillation, ..given };
         certified(arrays, &ways, &bent, journal)?;
     }
     closed(arrays, journal)?;
-    let ways = Ways::new(arrays, 0)?;
+    let ways = EquilibrationForest::new(arrays, 0)?;
     nothing(arrays, &ways, journal)
 }
 
@@ -179,7 +183,7 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
         let edge = usize::from(law.edge);
         let way_out = is_root(&arrays.edges()?, &arrays.boundary()?, edge);
         journal.line("a way out", way_out);
-        let given = Given {
+        let given = LoadCase {
             loads: arrays.cell_loads(),
             boundary: arrays.boundary()?,
             ends: arrays.ends(),
@@ -187,7 +191,7 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
             transfer: &[],
             oscillation: R::ZERO,
         };
-        certified(&arrays, &Ways::new(&arrays, 0)?, &given, journal)?;
+        certified(&arrays, &EquilibrationForest::new(&arrays, 0)?, &given, journal)?;
     }
     Ok(())
 }
@@ -195,7 +199,7 @@ fn closed<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Er
 /// All zeros: what is left of the bound is what squares near the smallest number may lose.
 fn nothing<R: Scalar>(
     arrays: &Arrays<R>,
-    ways: &Ways<R>,
+    ways: &EquilibrationForest<R>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
     let ground = ways.ground(arrays)?;
@@ -204,7 +208,7 @@ fn nothing<R: Scalar>(
     let counts = arrays.counts;
     let pairs = |count: usize| vec![[R::ZERO; 2]; count];
     let (gap, ends) = (pairs(counts.contact), pairs(counts.dirichlet));
-    let given = Given {
+    let given = LoadCase {
         loads: CellLoads { triangles: &triangles, quads: &quads },
         boundary: Boundary::new(&ground.edges, &[], &[], &[])?,
         ends: VertexData { gap: &gap, given: &ends },
@@ -224,8 +228,8 @@ fn nothing<R: Scalar>(
 
 fn certified<R: Scalar>(
     arrays: &Arrays<R>,
-    ways: &Ways<R>,
-    given: &Given<R, u16>,
+    ways: &EquilibrationForest<R>,
+    given: &LoadCase<R, u16>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
     let all = arrays.counts.edges();

@@ -6,7 +6,7 @@ use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::condensed::factor::Factor;
 use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{Start, Tableau};
+use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::limits::Deadline;
 
@@ -87,7 +87,7 @@ impl<R: Scalar> Model<R> {
             factor: Factor { columns: &self.columns, norms: &self.norms },
             vertices: &self.vertices,
             corners: &corners,
-            reach: R::of(1.5),
+            stability: R::of(1.5),
             floating: &self.floating,
             oscillation: &[R::of(0.125), R::of(0.25), R::of(0.0625)],
             row_sum: R::of(2.5),
@@ -106,7 +106,7 @@ impl<R: Scalar> Model<R> {
             contact: order,
             matrix: self.strip.blocks(),
             x: &[],
-            start: Start { blocks: self.strip.blocks(), exchanged: &self.nothing },
+            start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
             outputs: &outputs,
             certificate: Some(certificate),
@@ -155,7 +155,7 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
     let (mut exchanged, nothing) = (vec![false; size], vec![false; size]);
     let mut columns = [(); 2].map(|()| vec![R::ZERO; size]);
     let mut numbers = [(); 3].map(|()| vec![R::ZERO; size]);
-    let start = Start { blocks: strip.blocks(), exchanged: &nothing };
+    let start = InitialTableau { blocks: strip.blocks(), exchanged: &nothing };
     let mut draw = Draw(29);
     for at in 0..30 {
         let pull = [-0.25, 0.01, -0.125, 0.5, 1e4][at % 5];

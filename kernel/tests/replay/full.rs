@@ -3,8 +3,8 @@
 use signorini_kernel::certificate::Curved;
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::full::{
-    Base, Chord, CurvedPart, CurvedSum, DataMemory, Full, Functional, Memory, Pattern, Points,
-    Product, Share,
+    Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Memory,
+    Pattern, Points, Product,
 };
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::tick::{
@@ -13,20 +13,20 @@ use signorini_kernel::tick::{
 use signorini_kernel::{Error, Libm, Relaxation};
 
 use crate::arrays::Arrays;
-use crate::bound::Ways;
+use crate::bound::EquilibrationForest;
 use crate::journal::Journal;
 use crate::scene::{Draw, Scalar};
 
 /// Every third place, with a random weight.
-fn shares<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Share<R, u16>> {
+fn shares<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Contribution<R, u16>> {
     let places = (0..count).step_by(3);
-    places.map(|at| Share { at: at as u16, weight: R::of(0.5 * draw.signed()) }).collect()
+    places.map(|at| Contribution { at: at as u16, weight: R::of(0.5 * draw.signed()) }).collect()
 }
 
-fn chords<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<Chord<R, u16>> {
+fn chords<R: Scalar>(count: usize, draw: &mut Draw) -> Vec<EdgeTrace<R, u16>> {
     let chord = |at: usize| {
         let ends = [R::of(0.5 * draw.signed()), R::of(0.5 * draw.signed())];
-        Chord { at: at as u16, mean: (ends[0] + ends[1]) * R::HALF, ends }
+        EdgeTrace { at: at as u16, mean: (ends[0] + ends[1]) * R::HALF, ends }
     };
     (0..count).step_by(2).map(chord).collect()
 }
@@ -75,7 +75,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         Functional::Probe(&probe),
         Functional::Bound,
     ];
-    let ways = Ways::new(arrays, 0)?;
+    let ways = EquilibrationForest::new(arrays, 0)?;
     let oscillation = [0.125, 0.0625, 0.25, 0.5, 0.03125, 0.125, 0.0625].map(R::of);
     let corner = |at: usize, place: usize| [at as u16, place as u16];
     let corners = [corner(1, 2 * counts.contact), corner(2 * counts.contact - 1, 0)];

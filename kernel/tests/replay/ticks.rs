@@ -1,7 +1,7 @@
 //! Ticks: what ends them, what they leave to the next one.
 
 use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::certificate::Given;
+use signorini_kernel::certificate::LoadCase;
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::rows::{QUADS, Row, Rows};
 use signorini_kernel::tick::{
@@ -10,12 +10,12 @@ use signorini_kernel::tick::{
 use signorini_kernel::{Error, Libm, Relaxation};
 
 use crate::arrays::Arrays;
-use crate::bound::Ways;
+use crate::bound::EquilibrationForest;
 use crate::journal::Journal;
 use crate::scene::{Draw, Scalar};
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
-    let ways = Ways::new(arrays, 4)?;
+    let ways = EquilibrationForest::new(arrays, 4)?;
     let ground = ways.ground(arrays)?;
     let (unknowns, all) = (arrays.counts.unknowns(), arrays.counts.edges());
     let mut memory = vec![Row::<R, u16, QUADS>::EMPTY; unknowns];
@@ -110,7 +110,7 @@ impl<R: Scalar> Input<R> {
     }
 
     fn data<'a>(&'a self, arrays: &'a Arrays<R>) -> Result<Data<'a, R, u16>, Error> {
-        let given = Given {
+        let given = LoadCase {
             loads: CellLoads { triangles: &self.cells[0], quads: &self.cells[1] },
             boundary: arrays.boundary()?,
             ends: VertexData { gap: &self.ends, given: &arrays.given },

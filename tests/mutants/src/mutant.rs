@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 /// Where something stands; lines and columns count from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-pub struct Place {
+pub struct SourcePosition {
     pub line: usize,
     pub column: usize,
 }
@@ -12,8 +12,8 @@ pub struct Place {
 /// From one place to before another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 pub struct Span {
-    pub start: Place,
-    pub end: Place,
+    pub start: SourcePosition,
+    pub end: SourcePosition,
 }
 
 /// One change of one place.

@@ -27,7 +27,7 @@ struct Tick {
 
 /// P by columns of its upper triangle; bounds act on the last `contact` unknowns.
 #[derive(Deserialize)]
-struct Given {
+struct Problem {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
@@ -69,7 +69,7 @@ struct Answer {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut lines = std::io::stdin().lock().lines();
     let Some(first) = lines.next() else { return Err("no problem given".into()) };
-    let given: Given = serde_json::from_str(&first?)?;
+    let given: Problem = serde_json::from_str(&first?)?;
     let mut workspace = None;
     for line in lines {
         let question: Question = serde_json::from_str(&line?)?;
@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn solve(
-    given: &Given,
+    given: &Problem,
     question: &Question,
     workspace: &mut Option<Problem>,
 ) -> Result<Answer, Box<dyn std::error::Error>> {
@@ -137,7 +137,7 @@ fn settings(question: &Question) -> Settings {
         .polish(question.manner == Manner::Polished)
 }
 
-fn matrix(given: &Given) -> CscMatrix<'_> {
+fn matrix(given: &Problem) -> CscMatrix<'_> {
     let n = given.starts.len() - 1;
     CscMatrix {
         nrows: n,
@@ -149,7 +149,7 @@ fn matrix(given: &Given) -> CscMatrix<'_> {
 }
 
 /// One row a bound: 1 on its unknown.
-fn constraints(given: &Given) -> CscMatrix<'static> {
+fn constraints(given: &Problem) -> CscMatrix<'static> {
     let n = given.starts.len() - 1;
     let free = n - given.contact;
     CscMatrix {

@@ -4,7 +4,7 @@ use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::certificate::{
-    self, Buffers, Certificate, Curved, Given, Ground, Metric, Verdict, certify,
+    self, Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Verdict, certify,
 };
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::edges::{Block, Edges};
@@ -105,7 +105,7 @@ impl<R: Bits> Foundation<R> {
         let [of_vertices, of_edges] = weights;
         let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
         let packed = pack(mesh, edges, stiffness, &alpha, &compliance, &forest, buffers)?;
-        let metric = Metric { at_points: points, place: at, bends: &[] };
+        let metric = Metric { at_points: points, place: at, distortions: &[] };
         *stability = certificate::stability(
             edges,
             &packed,
@@ -122,16 +122,16 @@ impl<R: Bits> Foundation<R> {
         &'a self,
         mesh: Mesh<'a, R, u16>,
         edges: Edges<'a, u16>,
-    ) -> Result<Ground<'a, R, u16>, Error> {
+    ) -> Result<Discretization<'a, R, u16>, Error> {
         let [order, parent, place] = &self.ways;
         let forest = Forest::new(&edges, order, parent, place)?;
         let [of_vertices, of_edges] = &self.weights;
-        Ok(Ground {
+        Ok(Discretization {
             mesh,
             edges,
             stiffness: Stiffness { triangles: &self.stiffness.0, quads: &self.stiffness.1 },
             cells: Cells::new(&self.triangles, &self.quads, of_vertices, of_edges, &forest)?,
-            metric: Metric { at_points: &self.points, place: &self.place, bends: &[] },
+            metric: Metric { at_points: &self.points, place: &self.place, distortions: &[] },
             stability: self.stability,
         })
     }
@@ -173,9 +173,9 @@ impl<R: Bits> Loads<R> {
     }
 
     /// As a certificate takes them.
-    pub fn given(&self, edges: &Edges<u16>) -> Result<Given<'_, R, u16>, Error> {
+    pub fn given(&self, edges: &Edges<u16>) -> Result<LoadCase<'_, R, u16>, Error> {
         let [gap, given] = &self.ends;
-        Ok(Given {
+        Ok(LoadCase {
             loads: CellLoads { triangles: &self.cells.0, quads: &self.cells.1 },
             boundary: self.conditions.boundary(edges)?,
             ends: VertexData { gap, given },
@@ -195,7 +195,7 @@ impl<R: Bits> Loads<R> {
 /// Certifies any iterate.
 pub fn judged<R: Bits>(
     bytes: &mut Bytes,
-    ground: &Ground<R, u16>,
+    ground: &Discretization<R, u16>,
     loads: &Loads<R>,
 ) -> Result<(), Error> {
     let edges = ground.edges.counts().edges();
@@ -219,7 +219,7 @@ pub fn judged<R: Bits>(
 
 /// All finite, and none negative.
 pub fn is_bound<R: Bits>(found: &Certificate<R>) {
-    let Certificate { gap, algebraic, oscillation, rounding, total, of_u } = *found;
+    let Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u } = *found;
     let parts = [gap, algebraic, oscillation, rounding, total, of_u];
     assert!(parts.iter().all(|part| part.finite()), "{found:?}");
     assert!(parts.iter().all(|part| *part >= R::ZERO), "{found:?}");

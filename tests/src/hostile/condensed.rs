@@ -9,11 +9,11 @@ use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::condensed::factor::Factor;
 use signorini_kernel::condensed::method::{Linear, Pivots, Sweeps};
 use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{Start, Tableau};
+use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
 use signorini_kernel::condensed::{Condensed, Iterate, Memory};
 use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
-use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::problem::Problem;
 
 use super::bytes::{Bits, Bytes};
@@ -70,7 +70,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
         jump: (m > 1).then_some(factor),
         vertices: &vertices,
         corners: &corners[..bytes.below(2)],
-        reach: bytes.real(),
+        stability: bytes.real(),
         floating: if bytes.flag() { &floating } else { &[] },
         oscillation: &oscillation,
         row_sum: bytes.real(),
@@ -85,7 +85,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     ];
     let exchanged: Vec<_> = (0..padded(n)).map(|_| bytes.flag()).collect();
     let load = bytes.reals(padded(n) * m);
-    let start = Start { blocks: &matrix, exchanged: &exchanged };
+    let start = InitialTableau { blocks: &matrix, exchanged: &exchanged };
     let certificate = bytes.flag().then_some(form);
     let x = bytes.reals(padded(n));
     let model = Condensed {
@@ -225,12 +225,12 @@ const WORKS: [Work; 3] = [
 ];
 
 fn bake<R: Bits>() -> Vec<Baked<R>> {
-    let condensed = |text: &str| -> Option<Condensate> {
+    let condensed = |text: &str| -> Option<CondensedModel> {
         let (scene, mesh) = scenes::of(text)?;
         condense(&Problem::new(&scene, mesh).ok()?).ok()
     };
     let condensates = scenes::TEXTS.iter().map(|text| condensed(text).expect("a sound scene"));
-    let baked = |condensate: &Condensate| {
+    let baked = |condensate: &CondensedModel| {
         WORKS.map(|work| Baked::new(condensate, work, true).expect("numbers of ordinary size"))
     };
     condensates.flat_map(|condensate| baked(&condensate)).collect()

@@ -1,6 +1,6 @@
 //! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
 
-use signorini_bake::tick::{Budget, Tick, play, schedule};
+use signorini_bake::tick::{Budget, TickRecord, play, schedule};
 use signorini_bake::{condensed, full};
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_scene::error::Result;
@@ -56,7 +56,7 @@ fn judged(problem: &Problem, solution: &Solution) {
         assert!(solution.u[free + at] >= solution.gap(problem, at), "below the gap: {}", said());
     }
     if let Some(bound) = solution.bound {
-        let parts = [bound.total, bound.gap, bound.algebraic, bound.oscillation];
+        let parts = [bound.total, bound.duality_gap, bound.algebraic, bound.oscillation];
         assert!(parts.iter().all(|&part| part.is_finite() && part >= 0.0), "{}", said());
     }
     judge(outputs(problem, solution), |values| {
@@ -65,13 +65,13 @@ fn judged(problem: &Problem, solution: &Solution) {
 }
 
 /// The first ticks of its schedule.
-fn played(problem: &Problem) -> Result<Vec<Tick>> {
+fn played(problem: &Problem) -> Result<Vec<TickRecord>> {
     let moments = schedule::moments(&problem.scene, problem.scene.time.is_none().then_some(2))?;
     let budget = Budget { scalar: ScalarKind::F64, sweeps: SWEEPS / 2, error: 0.0 };
     play(problem, None, &moments[..moments.len().min(3)], &budget, |_| {})
 }
 
-fn sane(tick: &Tick) {
+fn sane(tick: &TickRecord) {
     let numbers = [tick.contact_force, tick.contact_length, tick.combined].into_iter();
     let numbers = numbers.chain(tick.outputs.iter().copied());
     assert!(numbers.flatten().all(|x| x.is_finite()), "{tick:?}");

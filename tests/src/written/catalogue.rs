@@ -7,7 +7,7 @@ use crate::polynomial::Polynomial;
 
 /// A solution with A = k where X < 0 and 1 where X > 0, in contact where it should be (q = 0).
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct TwoMaterials {
     /// What the catalogue calls it.
     pub name: String,
     u: String,
@@ -17,7 +17,7 @@ pub struct Case {
     left: f64,
 }
 
-impl Case {
+impl TwoMaterials {
     fn new(name: String, u: &str, [gx, gy]: [&str; 2]) -> Self {
         let gradient = [gx.to_owned(), gy.to_owned()];
         let zero = || "0".to_owned();
@@ -97,7 +97,7 @@ impl Case {
         }
     }
 
-    /// A G for [`Case::plus`] that does for jumps too.
+    /// A G for [`TwoMaterials::plus`] that does for jumps too.
     pub fn lift(factors: [f64; 4]) -> Polynomial {
         Polynomial::new([[2, 0], [0, 2], [3, 0], [0, 3]].into_iter().zip(factors))
     }

@@ -6,7 +6,7 @@
 mod catalogue;
 mod smooth;
 
-pub use catalogue::Case;
+pub use catalogue::TwoMaterials;
 pub use smooth::{Contact, Smooth};
 
 /// What lies on a side other than the bottom.

@@ -2,7 +2,7 @@
 
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::solve::ScalarKind;
-use signorini_tests::written::{Case, Side, Units, Written};
+use signorini_tests::written::{Side, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{ALGEBRAIC, EDGE_MEAN, SHARPNESS};
 
 use crate::mesh::regular;
@@ -12,20 +12,26 @@ type Named = (String, Written);
 
 /// The catalogue's cases with conditions of A up to 10, and jumps.
 fn cases() -> Vec<Named> {
-    let plain = [Case::a(), Case::b(), Case::h(0.55), Case::h_gap(0.55)];
-    let jumps = [1e-4, 1e-2, 1e2, 1e4].map(Case::jump);
-    let named = |case: &Case| (case.name.clone(), case.written());
+    let plain =
+        [TwoMaterials::a(), TwoMaterials::b(), TwoMaterials::h(0.55), TwoMaterials::h_gap(0.55)];
+    let jumps = [1e-4, 1e-2, 1e2, 1e4].map(TwoMaterials::jump);
+    let named = |case: &TwoMaterials| (case.name.clone(), case.written());
     let mut cases: Vec<_> = plain.iter().chain(&jumps).map(named).collect();
-    cases.push(("T(0.5, 1) of A".to_owned(), Case::a().transformed(0.5, 1.0)));
-    cases.push(("T(0, 3) of B".to_owned(), Case::b().transformed(0.0, 3.0)));
+    cases.push(("T(0.5, 1) of A".to_owned(), TwoMaterials::a().transformed(0.5, 1.0)));
+    cases.push(("T(0, 3) of B".to_owned(), TwoMaterials::b().transformed(0.0, 3.0)));
     cases
 }
 
 /// Those of them that are farthest off when cut off.
 fn slow_cases() -> Vec<Named> {
-    let cases = [Case::b(), Case::h_gap(0.55), Case::jump(1e-4), Case::jump(1e4)];
+    let cases = [
+        TwoMaterials::b(),
+        TwoMaterials::h_gap(0.55),
+        TwoMaterials::jump(1e-4),
+        TwoMaterials::jump(1e4),
+    ];
     let mut cases: Vec<_> = cases.iter().map(|case| (case.name.clone(), case.written())).collect();
-    cases.push(("T(0.5, 1) of A".to_owned(), Case::a().transformed(0.5, 1.0)));
+    cases.push(("T(0.5, 1) of A".to_owned(), TwoMaterials::a().transformed(0.5, 1.0)));
     cases
 }
 
@@ -43,7 +49,7 @@ fn at_convergence_the_bound_is_close_to_the_error() {
             let what = format!("{name} on {cells:?}");
             let run = run(&text, regular(16, cells), &options(ScalarKind::F64, None));
             let found = run.certified().expect("held by Dirichlet edges");
-            let gap = found.bound.gap;
+            let gap = found.bound.duality_gap;
             SHARPNESS.check(&what, gap / found.combined - 1.0);
             assert!(gap <= CONVERGED * found.energy, "{what}: {found:?}");
             ALGEBRAIC.check_over(&what, found.bound.algebraic, gap);
@@ -61,7 +67,7 @@ fn cut_off_the_bound_is_not_far_from_the_error() {
                 let bound = run.solution.bound.expect("held by Dirichlet edges");
                 let energy = run.energy();
                 let what = format!("{name} on {cells:?} after {sweeps} sweeps");
-                assert!(bound.gap <= CUT_OFF * energy, "{what}: {bound:?}, {energy:e}");
+                assert!(bound.duality_gap <= CUT_OFF * energy, "{what}: {bound:?}, {energy:e}");
             }
         }
     }
@@ -70,7 +76,7 @@ fn cut_off_the_bound_is_not_far_from_the_error() {
 /// The bound cannot tell: it is right for any iterate.
 #[test]
 fn a_curved_gap_is_met_in_its_mean_over_an_edge() {
-    let text = Case::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
+    let text = TwoMaterials::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
     let Run { problem, solution, .. } =
         run(&text, regular(8, Cells::Mixed), &options(ScalarKind::F64, None));
     let edges = problem.topology.counts.free..problem.topology.counts.unknowns();
@@ -88,9 +94,9 @@ fn a_curved_gap_is_met_in_its_mean_over_an_edge() {
 #[test]
 fn at_a_jump_the_flux_of_the_soft_side_decides() {
     for k in [1e-4, 1e4] {
-        let text = Case::jump(k).written().scene([Side::Dirichlet; 3], Units::ONE);
+        let text = TwoMaterials::jump(k).written().scene([Side::Dirichlet; 3], Units::ONE);
         let run = run(&text, regular(8, Cells::Triangles), &options(ScalarKind::F64, Some(1)));
         let (bound, energy) = (run.solution.bound.expect("held"), run.energy());
-        assert!(bound.gap <= CONVERGED * energy, "J({k:e}): {bound:?}, {energy:e}");
+        assert!(bound.duality_gap <= CONVERGED * energy, "J({k:e}): {bound:?}, {energy:e}");
     }
 }

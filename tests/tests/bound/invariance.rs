@@ -2,7 +2,7 @@
 
 use signorini_solve::solve::ScalarKind;
 use signorini_tests::random::Random;
-use signorini_tests::written::{Case, Side, Units};
+use signorini_tests::written::{Side, TwoMaterials, Units};
 use signorini_tolerances::twins::{ORDER, UNITS};
 
 use crate::mesh::{KINDS, relisted, scaled, scattered};
@@ -12,7 +12,7 @@ const SIDES: [Side; 3] = [Side::Neumann, Side::Robin, Side::Dirichlet];
 
 #[test]
 fn cells_in_another_order() {
-    let text = Case::h_gap(0.55).written().scene(SIDES, Units::ONE);
+    let text = TwoMaterials::h_gap(0.55).written().scene(SIDES, Units::ONE);
     for cells in KINDS {
         let mesh = scattered(&mut Random::new(1), 6, cells);
         let [bound, other] = [mesh.clone(), relisted(mesh)].map(|mesh| {
@@ -25,7 +25,7 @@ fn cells_in_another_order() {
 
 #[test]
 fn units_of_length_and_of_u() {
-    let written = Case::h_gap(0.55).written();
+    let written = TwoMaterials::h_gap(0.55).written();
     for cells in KINDS {
         let ratio = |units: Units| {
             let mesh = scaled(scattered(&mut Random::new(2), 4, cells), units.length);

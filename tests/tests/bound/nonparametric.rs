@@ -6,7 +6,7 @@ use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_solve::problem::EdgeKind;
 use signorini_solve::solve::{Options, ScalarKind, SolverKind};
 use signorini_tests::random::Random;
-use signorini_tests::written::{Case, Side, Smooth, Units};
+use signorini_tests::written::{Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::twins::{
     BOUNDARY_FLUX, CONTACT_SIGN, FLUX_CONTINUITY, PATCH, SAME_ON_SQUARES, SHARPNESS, TRAPEZOID_RATE,
 };
@@ -57,7 +57,7 @@ fn linear_functions_are_exact_on_scattered_quads() {
         let run = direct(LINEAR, scattered(&mut Random::new(7), 5, cells));
         let found = run.certified().expect("held");
         PATCH.check("energy", found.energy / run.solution.energy(&run.problem));
-        PATCH.check("bound", found.bound.gap / run.solution.energy(&run.problem));
+        PATCH.check("bound", found.bound.duality_gap / run.solution.energy(&run.problem));
         assert_eq!(run.solution.contact_active, 10);
     }
 }
@@ -98,12 +98,12 @@ fn the_bound_holds_on_random_scenes() {
 
 /// Orders of h1, l2, flux and the bound between n = 16 and 32 on quads that stay trapezoids.
 fn rates(element: &str, place: Trapezoids) -> [f64; 4] {
-    let text = Case::b().written().scene([Side::Dirichlet; 3], Units::ONE);
+    let text = TwoMaterials::b().written().scene([Side::Dirichlet; 3], Units::ONE);
     let [coarse, fine] = [16, 32].map(|n| {
         let mesh = four_sides(trapezoids(n, place));
         let run = run(&with(element, &text), mesh, &options(ScalarKind::F64, None));
         let (errors, bound) = (run.errors(), run.solution.bound.expect("held"));
-        [errors.h1, errors.l2, errors.flux, bound.gap]
+        [errors.h1, errors.l2, errors.flux, bound.duality_gap]
     });
     std::array::from_fn(|k| (coarse[k] / fine[k]).log2())
 }
@@ -127,18 +127,18 @@ fn on_trapezoids_alone_the_parametric_element_does_not_converge() {
 
 #[test]
 fn on_trapezoids_the_bound_is_sharp() {
-    let text = Case::h(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
+    let text = TwoMaterials::h(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
     let mesh = four_sides(trapezoids(16, Trapezoids::Everywhere));
     let run = run(&with("nonparametric", &text), mesh, &options(ScalarKind::F64, None));
     let found = run.certified().expect("held");
-    SHARPNESS.check("H on trapezoids", found.bound.gap / found.combined - 1.0);
-    assert!(found.bound.gap <= 2.0 * found.energy, "{found:?}");
+    SHARPNESS.check("H on trapezoids", found.bound.duality_gap / found.combined - 1.0);
+    assert!(found.bound.duality_gap <= 2.0 * found.energy, "{found:?}");
 }
 
 /// On squares both elements are the same, and so is what they find.
 #[test]
 fn squares_know_no_difference() {
-    let text = Case::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
+    let text = TwoMaterials::h_gap(0.55).written().scene([Side::Dirichlet; 3], Units::ONE);
     let [one, other] = ["parametric", "nonparametric"].map(|element| {
         let mesh = four_sides(grid(8, Cells::Quads));
         run(&with(element, &text), mesh, &options(ScalarKind::F64, None)).solution

@@ -4,7 +4,7 @@ use signorini_kernel::element::QuadElement;
 use signorini_solve::solve::ScalarKind;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;
-use signorini_tests::written::{Case, Side, Smooth, Units, Written};
+use signorini_tests::written::{Side, Smooth, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{
     BOUND_ROUNDING, BOUND_ROUNDING_NARROW, GUARANTEE, GUARANTEE_SMOOTH, IDENTITY, IDENTITY_SMOOTH,
     LIFTED,
@@ -39,11 +39,11 @@ fn draw(random: &mut Random) -> Draw {
         return Draw { name, written: smooth.written(), smooth: true };
     }
     let (case, jumps) = match random.below(5) {
-        0 => (Case::a(), false),
-        1 => (Case::b(), false),
-        2 => (Case::h(between(random, 0.2, 0.9)), false),
-        3 => (Case::h_gap(between(random, 0.2, 0.9)), false),
-        _ => (Case::jump(power(random, -4.0, 4.0)), true),
+        0 => (TwoMaterials::a(), false),
+        1 => (TwoMaterials::b(), false),
+        2 => (TwoMaterials::h(between(random, 0.2, 0.9)), false),
+        3 => (TwoMaterials::h_gap(between(random, 0.2, 0.9)), false),
+        _ => (TwoMaterials::jump(power(random, -4.0, 4.0)), true),
     };
     let case = match random.below(2) {
         0 => case,
@@ -61,7 +61,7 @@ fn draw(random: &mut Random) -> Draw {
 
 /// A random G; where A jumps without terms of odd order across the jump.
 fn lift(random: &mut Random, jumps: bool) -> Polynomial {
-    let g = Case::lift([(); 4].map(|()| between(random, -1.0, 1.0)));
+    let g = TwoMaterials::lift([(); 4].map(|()| between(random, -1.0, 1.0)));
     let skew = Polynomial::new([([1, 2], between(random, -1.0, 1.0))]);
     if jumps { g } else { g.plus(&skew) }
 }
@@ -109,7 +109,7 @@ pub fn check(Trial { what, smooth, run }: &Trial) {
     let (guarantee, same) =
         if *smooth { (GUARANTEE_SMOOTH, IDENTITY_SMOOTH) } else { (GUARANTEE, IDENTITY) };
     guarantee.check_at_most(what, combined, bound.total);
-    same.check_relative(what, bound.gap, identity);
+    same.check_relative(what, bound.duality_gap, identity);
     let rounding = match run.solution.scalar {
         ScalarKind::F64 => BOUND_ROUNDING,
         ScalarKind::F32 => BOUND_ROUNDING_NARROW,
@@ -122,7 +122,7 @@ pub fn check(Trial { what, smooth, run }: &Trial) {
     let most = if run.problem.element == QuadElement::Nonparametric { 3.0 } else { 1.0 };
     let rest = (added - 4.0 * bound.rounding).max(0.0);
     LIFTED.check(what, (rest / found.nonconformity - most).max(0.0));
-    let both = (bound.gap.powi(2) + bound.oscillation.powi(2)).sqrt();
+    let both = (bound.duality_gap.powi(2) + bound.oscillation.powi(2)).sqrt();
     assert!(bound.total >= bound.oscillation + both, "{what}: {bound:?}");
 }
 

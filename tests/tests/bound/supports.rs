@@ -11,7 +11,7 @@ use signorini_solve::output::summary::Summary;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
-use signorini_tests::written::{Case, Contact, Side, Smooth, Units, Written};
+use signorini_tests::written::{Contact, Side, Smooth, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{GUARANTEE, IDENTITY};
 
 use crate::mesh::{KINDS, regular, scattered, split};
@@ -19,10 +19,10 @@ use crate::run::{Run, options, run};
 
 fn draw(random: &mut Random) -> Written {
     match random.below(5) {
-        0 => Case::a().written(),
-        1 => Case::b().written(),
-        2 => Case::h(random.between(0.2, 0.9)).written(),
-        3 => Case::jump(10f64.powf(random.between(-4.0, 4.0))).written(),
+        0 => TwoMaterials::a().written(),
+        1 => TwoMaterials::b().written(),
+        2 => TwoMaterials::h(random.between(0.2, 0.9)).written(),
+        3 => TwoMaterials::jump(10f64.powf(random.between(-4.0, 4.0))).written(),
         _ => Smooth { contact: Contact::Closed, ..Smooth::random(random) }.written(),
     }
 }
@@ -41,7 +41,7 @@ fn on_contact_alone(random: &mut Random, sweeps: Option<u32>) -> Run {
 fn holds(what: &str, run: &Run) {
     let found = run.certified().unwrap_or_else(|| panic!("{what}: no bound"));
     GUARANTEE.check_at_most(what, found.combined, found.bound.total);
-    IDENTITY.check_relative(what, found.bound.gap, found.identity);
+    IDENTITY.check_relative(what, found.bound.duality_gap, found.identity);
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn contact_alone_under_way_has_a_bound_that_holds_or_none() {
 fn a_part_on_contact_alone_beside_one_that_is_held() {
     let sides = [Side::Dirichlet, Side::Neumann, Side::Neumann];
     let slit = "[boundary.slit]\nkind = \"neumann\"\nflux = 0\n";
-    let text = Case::h(0.55).written().scene(sides, Units::ONE) + slit;
+    let text = TwoMaterials::h(0.55).written().scene(sides, Units::ONE) + slit;
     for cells in KINDS {
         let run = run(&text, split(regular(6, cells)), &options(ScalarKind::F64, None));
         let parts = run.solution.parts;

@@ -1,12 +1,12 @@
 //! The bound of f32 against the same form in f64, at the p and x of the target: rounding is covered.
 //!
-//! [`signorini_solve::condense::Condensate::bound`] is what tests of the host compare with exact solutions.
+//! [`signorini_solve::condense::CondensedModel::bound`] is what tests of the host compare with exact solutions.
 //! The kernel's total without its rounding may miss it by that rounding; then the total is above it.
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
-use signorini_tests::written::{Case, SIDES, Side, Smooth, Units};
+use signorini_tests::written::{SIDES, Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::twins::{BOUND_ROUNDING, BOUND_ROUNDING_NARROW, OSCILLATING};
 
 use crate::mesh::{KINDS, regular, scaled};
@@ -95,7 +95,12 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
     use Side::{Dirichlet, Neumann, Robin};
     let (mut all, mut has_corners, mut has_floating) = (Found::default(), false, false);
     let random = &mut Random::new(7);
-    let cases = [Case::jump(1e4), Case::jump(1e-4), Case::h(0.55), Case::b()];
+    let cases = [
+        TwoMaterials::jump(1e4),
+        TwoMaterials::jump(1e-4),
+        TwoMaterials::h(0.55),
+        TwoMaterials::b(),
+    ];
     let smooth = [(); 4].map(|()| Smooth::random(random).written());
     let all_written = cases.map(|case| case.written()).into_iter().chain(smooth);
     for (at, written) in all_written.enumerate() {

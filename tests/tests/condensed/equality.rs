@@ -16,7 +16,7 @@ use signorini_kernel::certificate::Verdict;
 use signorini_kernel::report::Ended;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::{Condensate, Measure};
+use signorini_solve::condense::{CondensedModel, Measure};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
@@ -47,7 +47,7 @@ fn inputs(model: &Model, amount: f64, random: &mut Random) -> Vec<f64> {
 }
 
 /// Y_p and Y_x of an output, its reactions being linear in p and x.
-fn linear(of: &Condensate, measure: &Measure) -> (Vec<f64>, Vec<f64>) {
+fn linear(of: &CondensedModel, measure: &Measure) -> (Vec<f64>, Vec<f64>) {
     let (of_inputs, of_contact, of_reaction) = match measure {
         Measure::Linear { of_inputs, of_contact } => (of_inputs, of_contact, &Vec::new()),
         Measure::Flux { of_inputs, of_contact, of_reaction } => {
@@ -126,7 +126,7 @@ fn check<R: Scalar>(model: &Model, allowed: Tolerance, amount: f64, seed: u64) -
 }
 
 /// 1/λ_min of S, by the inverse power method.
-fn condition(condensate: &Condensate) -> f64 {
+fn condition(condensate: &CondensedModel) -> f64 {
     let n = condensate.contact;
     let mut l: Vec<Vec<f64>> = condensate.matrix.chunks(n).map(<[f64]>::to_vec).collect();
     for j in 0..n {

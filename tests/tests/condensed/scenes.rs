@@ -5,7 +5,7 @@ use std::path::Path;
 use signorini_bake::condensed::{Baked, Work};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::{Condensate, condense};
+use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -22,7 +22,7 @@ pub struct Model {
     pub what: String,
     pub scene: Scene,
     pub problem: Problem,
-    pub condensate: Condensate,
+    pub condensate: CondensedModel,
 }
 
 impl Model {

@@ -27,7 +27,7 @@ const FLAGS: [&str; 9] = [
 
 /// One tick.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tick {
+pub struct PeerTick {
     /// From the load to the solution.
     pub instructions: u64,
     /// The solution.
@@ -42,7 +42,7 @@ pub struct Measured {
     /// Bytes of its memory, the heap included, the stack not.
     pub ram: u64,
     /// All ticks in order.
-    pub ticks: Vec<Tick>,
+    pub ticks: Vec<PeerTick>,
 }
 
 /// Builds and runs a peer.
@@ -91,20 +91,20 @@ pub fn kernel(folder: &Path) -> Result<Measured, String> {
 }
 
 /// Lines of an image: `@ heap BYTES`, then `COUNTS BITS BITS …` for every tick.
-fn parse(said: &str) -> Result<(u64, Vec<Tick>), String> {
+fn parse(said: &str) -> Result<(u64, Vec<PeerTick>), String> {
     let mut lines = said.lines();
     let heap = lines.next().and_then(|line| line.strip_prefix("@ heap ")?.parse().ok());
     let ticks: Option<_> = lines.map(tick).collect();
     heap.zip(ticks).ok_or_else(|| "the image prints something else than ticks".to_owned())
 }
 
-fn tick(line: &str) -> Option<Tick> {
+fn tick(line: &str) -> Option<PeerTick> {
     let (counts, bits) = line.split_once(' ')?;
     let counts: u32 = counts.parse().ok()?;
     let scalar = |bits| Some(f32::from_bits(u32::from_str_radix(bits, 16).ok()?));
     let x: Option<_> = bits.split(' ').map(scalar).collect();
     // The clock says u32::MAX where it went round.
-    (counts < u32::MAX).then_some(Tick { instructions: UNIT * u64::from(counts), x: x? })
+    (counts < u32::MAX).then_some(PeerTick { instructions: UNIT * u64::from(counts), x: x? })
 }
 
 /// Bytes of code, of initialised and of zeroed memory.
@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn ticks_are_counts_and_bits() {
         let said = "@ heap 4096\n215 3f800000 bf000000\n";
-        let tick = Tick { instructions: 8600, x: vec![1.0, -0.5] };
+        let tick = PeerTick { instructions: 8600, x: vec![1.0, -0.5] };
         assert_eq!(parse(said), Ok((4096, vec![tick])));
         let refused = Err("the image prints something else than ticks".to_owned());
         assert_eq!(parse("@ heap 4096\n4294967295 3f800000\n"), refused);

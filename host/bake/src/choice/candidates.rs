@@ -12,7 +12,7 @@ use crate::{condensed, trial};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, Setting};
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::unfit;
 
@@ -20,7 +20,7 @@ use signorini_solve::solve::unfit;
 /// out a bound that is asked for are no choice.
 pub(super) fn of_condensed<R: Scalar>(
     scene: &Scene,
-    condensate: &Condensate,
+    condensate: &CondensedModel,
     budget: &Budget,
 ) -> Result<Vec<Candidate<R>>> {
     let setting = checked::<R>(scene)?;
@@ -60,18 +60,18 @@ pub(super) fn of_condensed<R: Scalar>(
 }
 
 /// A matrix that the scalar type cannot tell from a singular one has no use there.
-fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &Condensate) -> Result<()> {
+fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &CondensedModel) -> Result<()> {
     /// Part of an answer that rounding of the matrix may take.
     const MOST: f64 = 1e-2;
     let Ok(form) = &condensate.certificate else { return Ok(()) };
     // reach² is 1/λ_min of the scaled matrix, or near to it.
-    let lost = form.reach.powi(2) * R::EPSILON.wide();
+    let lost = form.stability.powi(2) * R::EPSILON.wide();
     if lost <= MOST {
         return Ok(());
     }
     let message = format!(
         "the condensed problem is nearly singular (1/λ_min = {:.0e}): in {} it would be another one",
-        form.reach.powi(2),
+        form.stability.powi(2),
         R::NAME
     );
     let hint = "bake it with --scalar f64, or hold the domain more firmly: a larger transfer coefficient, a \
@@ -85,7 +85,7 @@ pub(super) fn time(needs: &Needs) -> f64 {
 
 fn condensed_as<R: Scalar>(
     scene: &Scene,
-    condensate: &Condensate,
+    condensate: &CondensedModel,
     budget: &Budget,
     setting: &Setting,
     [exact, certified]: [bool; 2],

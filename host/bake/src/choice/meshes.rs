@@ -47,7 +47,7 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
         true => trial::of_full(&baked, &defaults),
         false => Trial::default(),
     };
-    let tick = Tick { costs: Costs::measured(), problem, baked: &baked, trial };
+    let tick = TickCost { costs: Costs::measured(), problem, baked: &baked, trial };
     let needs = Needs { ticks: [0, 1].map(|of| tick.count(of)), ..memory };
     let solver = if baked.entries().is_some() { ", by a factor" } else { "" };
     let bound = if baked.is_certified() { "" } else { ", no error bound" };
@@ -67,14 +67,14 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
 const NO_BOUND: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
 
 /// Ticks of a trial: the median one has number 0, the longest 1.
-struct Tick<'a, R: Scalar> {
+struct TickCost<'a, R: Scalar> {
     costs: Costs,
     problem: &'a Problem,
     baked: &'a full::Baked<R>,
     trial: Trial,
 }
 
-impl<R: Scalar> Tick<'_, R> {
+impl<R: Scalar> TickCost<'_, R> {
     /// Instructions: load and rows, the solve with its looks at residual and bound, and what comes last; nothing where
     /// there was no tick.
     fn count(&self, of: usize) -> Option<f64> {

@@ -25,7 +25,7 @@ use meshes::of_full;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::condense::{Condensate, Recovery, check_size, recoverable};
+use signorini_solve::condense::{CondensedModel, Recovery, check_size, recoverable};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::choose_for_inputs;
@@ -90,7 +90,7 @@ pub struct Choice<R: Scalar> {
     /// Why a model was not considered.
     pub excluded: Vec<String>,
     /// What condensed candidates were made of, with the way back to the mesh.
-    origin: Option<(Condensate, Recovery)>,
+    origin: Option<(CondensedModel, Recovery)>,
 }
 
 impl<R: Scalar> Choice<R> {
@@ -177,7 +177,7 @@ impl<R: Scalar> Choice<R> {
     }
 
     /// The condensed model, where that is chosen, with what it was made of.
-    pub fn condensed(&self) -> Option<(&condensed::Baked<R>, &Condensate, &Recovery)> {
+    pub fn condensed(&self) -> Option<(&condensed::Baked<R>, &CondensedModel, &Recovery)> {
         let (condensate, recovery) = self.origin.as_ref()?;
         match &self.candidate().model {
             Model::Condensed(baked) => Some((baked, condensate, recovery)),

@@ -6,7 +6,7 @@ use crate::condensed::Work;
 use crate::costs::Costs;
 use crate::trial::Trial;
 use signorini_scene::setting::Setting;
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 
 /// Sweeps that follow where the exchanges of a tick do not suffice.
@@ -22,7 +22,7 @@ const AN_ENTRY: f64 = 4.0;
 /// then a product costs what a sweep does, and all columns of the bound's factor count, not half of them.
 pub(super) fn fixed<R: Scalar>(
     costs: &Costs,
-    condensate: &Condensate,
+    condensate: &CondensedModel,
     exact: bool,
     certified: bool,
 ) -> Option<f64> {
@@ -37,8 +37,8 @@ pub(super) fn fixed<R: Scalar>(
 }
 
 /// Entries of loads and outputs.
-pub(super) fn entries(condensate: &Condensate) -> usize {
-    let Condensate { contact, inputs, outputs, .. } = condensate;
+pub(super) fn entries(condensate: &CondensedModel) -> usize {
+    let CondensedModel { contact, inputs, outputs, .. } = condensate;
     let n = padded(*contact);
     n * inputs + outputs.len() * (n + inputs)
 }

@@ -10,9 +10,9 @@ use signorini_kernel::{Error, error::Array};
 
 use super::padding::{filled_up, matrix, narrow};
 use super::relaxation::best_omega;
-use super::start::Start;
+use super::start::InitialState;
 use signorini_scene::setting::{Omega, Setting, Start as From};
-use signorini_solve::condense::{self, Condensate};
+use signorini_solve::condense::{self, CondensedModel};
 use signorini_solve::scalar::Scalar;
 
 /// How much the solver of a baked model may do in a tick.
@@ -51,7 +51,7 @@ pub struct Baked<R: Scalar> {
     /// Whether the data allow for a bound, even if it is left out.
     pub has_bound: bool,
     pub(super) matrix: Vec<Block<R>>,
-    pub(super) start: Start<R>,
+    pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) bound: Result<Bound<R>, String>,
@@ -80,7 +80,7 @@ pub(super) struct Bound<R> {
     pub jump: Option<Columns<R>>,
     pub vertices: Vec<Vertex<R>>,
     pub corners: Vec<(u16, Vec<R>)>,
-    pub reach: R,
+    pub stability: R,
     pub floating: Vec<R>,
     pub oscillation: Vec<R>,
     pub row_sum: R,
@@ -93,7 +93,7 @@ impl<R: Scalar> Baked<R> {
     ///
     /// # Errors
     /// Numbers that the scalar type cannot hold.
-    pub fn new(condensate: &Condensate, work: Work, certified: bool) -> Result<Self, Error> {
+    pub fn new(condensate: &CondensedModel, work: Work, certified: bool) -> Result<Self, Error> {
         let n = condensate.contact;
         let bound = match &condensate.certificate {
             Err(reason) => Err(reason.clone()),
@@ -111,7 +111,7 @@ impl<R: Scalar> Baked<R> {
             cold: false,
             has_bound: condensate.certificate.is_ok(),
             matrix: matrix(condensate),
-            start: Start::new(condensate, n > 0 && work.pivots.is_some())?,
+            start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
@@ -206,7 +206,7 @@ impl<R: Scalar> Baked<R> {
         for form in std::iter::once(&bound.factor).chain(&bound.jump) {
             finite(Array::MatrixValues, &form.columns)?;
         }
-        finite(Array::Coefficients, &[bound.unit, bound.reach, R::ONE / bound.unit])
+        finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
     }
 }
 
@@ -270,7 +270,7 @@ impl<R: Scalar> Columns<R> {
 }
 
 impl<R: Scalar> Bound<R> {
-    fn new(condensate: &Condensate, form: &condense::Form) -> Self {
+    fn new(condensate: &CondensedModel, form: &condense::Form) -> Self {
         let n = condensate.contact;
         let order = condensate.inputs + n + form.vertices.len();
         let least = R::TINY.wide();
@@ -295,7 +295,7 @@ impl<R: Scalar> Bound<R> {
             jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
             vertices: form.vertices.iter().map(vertex).collect(),
             corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
-            reach: R::narrow(form.reach),
+            stability: R::narrow(form.stability),
             floating: narrow(&floating),
             oscillation: narrow(&oscillation),
             row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
@@ -310,7 +310,7 @@ impl<R: Scalar> Bound<R> {
             jump: self.jump.as_ref().map(Columns::view),
             vertices: &self.vertices,
             corners,
-            reach: self.reach,
+            stability: self.stability,
             floating: &self.floating,
             oscillation: &self.oscillation,
             row_sum: self.row_sum,

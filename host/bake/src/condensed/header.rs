@@ -3,15 +3,15 @@
 use std::fmt::Write as _;
 
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 
 /// Numbers a line.
 const ACROSS: usize = 8;
 
 /// minimise ½xᵀSx − (Bp)ᵀx over x ≥ 0: N, M, S by rows, B by columns and the default p, in f32; and which
 /// contact edge each unknown is on.
-pub fn header(scene: &Scene, condensate: &Condensate) -> String {
-    let Condensate { contact, inputs, matrix, load, defaults, edges, .. } = condensate;
+pub fn header(scene: &Scene, condensate: &CondensedModel) -> String {
+    let CondensedModel { contact, inputs, matrix, load, defaults, edges, .. } = condensate;
     let edges: Vec<_> = edges.chunks(2 * ACROSS).map(|line| format!("{line:?}")).collect();
     let edges = edges.join("\n   ").replace(['[', ']'], "");
     let mut text = format!(

@@ -2,7 +2,7 @@
 
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 
 pub(super) fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
@@ -16,7 +16,7 @@ pub(super) fn filled_up<R: Scalar>(column: &[f64]) -> Vec<R> {
 }
 
 /// Ŝ in blocks, padding 0.
-pub(super) fn matrix<R: Scalar>(condensate: &Condensate) -> Vec<Block<R>> {
+pub(super) fn matrix<R: Scalar>(condensate: &CondensedModel) -> Vec<Block<R>> {
     let n = condensate.contact;
     let entry = |row: usize, column: usize| {
         let inside = row < n && column < n;

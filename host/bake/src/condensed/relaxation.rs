@@ -1,6 +1,6 @@
 //! The relaxation factor of a condensed problem, found by trying.
 
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 
 /// Sweeps after which a factor counts as no good.
 const MOST: u32 = 400;
@@ -8,7 +8,7 @@ const MOST: u32 = 400;
 const SMALL: f64 = 1e-6;
 
 /// The ω with which sweeps from a cold start at the default inputs end first.
-pub(super) fn best_omega(condensate: &Condensate) -> f64 {
+pub(super) fn best_omega(condensate: &CondensedModel) -> f64 {
     let load = condensate.load_of(&condensate.defaults);
     let trial = |omega: f64| (sweeps(condensate, &load, omega), omega);
     let trials = (0..20).map(|step| trial(1.0 + 0.05 * f64::from(step)));
@@ -16,7 +16,7 @@ pub(super) fn best_omega(condensate: &Condensate) -> f64 {
     fewest.map_or(1.0, |(_, omega)| omega)
 }
 
-fn sweeps(condensate: &Condensate, load: &[f64], omega: f64) -> u32 {
+fn sweeps(condensate: &CondensedModel, load: &[f64], omega: f64) -> u32 {
     let n = condensate.contact;
     let size = load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
     let mut x = vec![0.0; n];

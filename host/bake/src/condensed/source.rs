@@ -8,11 +8,11 @@ use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::data;
 use crate::controller::{self, Parts};
-use crate::face::{About, Face};
+use crate::module_api::{About, ModuleApi};
 use signorini_solve::scalar::Scalar;
 
 /// The module.
-pub fn source<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let bytes = sizes(baked);
     let about = format!(
         "The condensed model in {}: {} contact edges, everything else eliminated exactly; {}. {} bytes of \
@@ -91,7 +91,7 @@ pub const SWEEPS: Sweeps<Scalar> =
     text
 }
 
-fn controller<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let solver = baked.solver();
     let is_exact = matches!(solver, Solver::Exchanges(_));
     let only = |text: &'static str| if is_exact { text } else { "" };
@@ -130,7 +130,7 @@ fn controller<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
 }
 
 /// The body of a tick.
-fn tick<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
     let method = match baked.solver() {
         Solver::Linear => "Linear".to_owned(),

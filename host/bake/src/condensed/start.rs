@@ -5,21 +5,21 @@ use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::condensed::tableau::{self, Tableau};
 
 use super::padding::{filled_up, matrix};
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 
 /// x of the default inputs and, for the exact method, the tableau that belongs to it: exchanged in f64 and
 /// rounded once, it is as good as a tableau can be.
 #[derive(Debug, Clone)]
-pub(super) struct Start<R> {
+pub(super) struct InitialState<R> {
     pub x: Vec<R>,
     pub blocks: Vec<Block<R>>,
     pub exchanged: Vec<bool>,
 }
 
-impl<R: Scalar> Start<R> {
+impl<R: Scalar> InitialState<R> {
     /// Where the default inputs have no solution, everything touches.
-    pub fn new(condensate: &Condensate, is_exact: bool) -> Result<Self, Error> {
+    pub fn new(condensate: &CondensedModel, is_exact: bool) -> Result<Self, Error> {
         let n = condensate.contact;
         let x = condensate.solve(&condensate.defaults).unwrap_or_else(|_| vec![0.0; n]);
         if !is_exact {
@@ -31,7 +31,7 @@ impl<R: Scalar> Start<R> {
         let nothing = exchanged.clone();
         let mut tableau = Tableau::new(n, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
         let given = matrix::<f64>(condensate);
-        tableau.reset(&tableau::Start { blocks: &given, exchanged: &nothing })?;
+        tableau.reset(&tableau::InitialTableau { blocks: &given, exchanged: &nothing })?;
         for open in (0..n).filter(|&edge| x[edge] > 0.0) {
             tableau.exchange(open, &mut answer)?;
         }
@@ -40,7 +40,7 @@ impl<R: Scalar> Start<R> {
         Ok(Self { x: filled_up(&x), blocks, exchanged })
     }
 
-    pub fn view(&self) -> tableau::Start<'_, R> {
-        tableau::Start { blocks: &self.blocks, exchanged: &self.exchanged }
+    pub fn view(&self) -> tableau::InitialTableau<'_, R> {
+        tableau::InitialTableau { blocks: &self.blocks, exchanged: &self.exchanged }
     }
 }

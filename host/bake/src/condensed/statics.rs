@@ -5,12 +5,12 @@ use std::fmt::{Debug, Write as _};
 use signorini_kernel::condensed::blocks::Block;
 
 use super::arrays::{Baked, Bound, Output, Solver};
-use crate::face::Face;
+use crate::module_api::ModuleApi;
 use crate::text::array;
 use signorini_solve::scalar::Scalar;
 
 /// A module of their own.
-pub(super) fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
+pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let mut text = String::new();
     let mut names = Vec::new();
     put(&mut text, "MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", {
@@ -23,9 +23,9 @@ pub(super) fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
             put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);
             let value = (baked.start.exchanged.len(), array(&baked.start.exchanged, 4));
             put(&mut text, "OPEN", "The edges that are open in it.", "bool", value);
-            "Start { blocks: &TABLEAU, exchanged: &OPEN }"
+            "InitialTableau { blocks: &TABLEAU, exchanged: &OPEN }"
         }
-        _ => "Start { blocks: &[], exchanged: &[] }",
+        _ => "InitialTableau { blocks: &[], exchanged: &[] }",
     };
     let _ = write!(
         text,
@@ -58,7 +58,7 @@ pub(super) fn data<R: Scalar>(face: &Face, baked: &Baked<R>) -> String {
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::condensed::{{{uses}outputs::Measure, tableau::Start, Condensed}};
+    use signorini_kernel::condensed::{{{uses}outputs::Measure, tableau::InitialTableau, Condensed}};
 
     use super::Scalar;
 {text}
@@ -168,7 +168,7 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
             jump: {jump},
             vertices: &VERTICES,
             corners: &[{}],
-            reach: {:?},
+            stability: {:?},
             floating: {floating},
             oscillation: &OSCILLATION,
             row_sum: {:?},
@@ -176,7 +176,7 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
             unit: {:?},
         }})",
         corners.join(", "),
-        bound.reach,
+        bound.stability,
         bound.row_sum,
         bound.unit
     )

@@ -3,7 +3,7 @@
 use super::{Baked, Controller, Work, source};
 use crate::choice::{Choice, Model};
 use crate::compiled::{FIRMWARE, printed};
-use crate::face::Face;
+use crate::module_api::ModuleApi;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::units::Units;
@@ -132,7 +132,7 @@ fn same_bits_of<R: Scalar>(problem: &Problem, baked: &Baked<R>, bits: fn(R) -> u
         format!("Ok({:?})\n", outputs.into_iter().map(bits).collect::<Vec<_>>())
     });
     assert!(problem.scene.inputs.is_empty() || lines[0] != lines[1]);
-    let text = source(&Face::new(problem), baked);
+    let text = source(&ModuleApi::new(problem), baked);
     assert_eq!(printed(&(text + MAIN)), lines.concat());
     Ok(())
 }
@@ -200,7 +200,7 @@ fn a_firmware_need_not_know_the_model() -> Result<()> {
         let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
         let condensate = condense(&problem)?;
         let baked = Baked::<f32>::new(&condensate, work, true).expect("numbers in range");
-        let text = source(&Face::new(&problem), &baked) + FIRMWARE;
+        let text = source(&ModuleApi::new(&problem), &baked) + FIRMWARE;
         let expected = format!("true [true, true, true] {ended} true\n");
         assert_eq!(printed(&text), expected, "{work:?}");
     }

@@ -3,20 +3,20 @@
 use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::solver::Status;
 
-use super::{Answer, Engine, status};
+use super::{Engine, TickSolution, status};
 use crate::choice::Choice;
 use crate::condensed::{Baked, Controller};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{ErrorBound, NoBound};
-use signorini_solve::condense::{Condensate, Recovery};
+use signorini_solve::condense::{CondensedModel, Recovery};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ran, ended_name, unfit};
 
 struct Condensed<'b, R: Scalar> {
     problem: &'b Problem,
-    condensate: &'b Condensate,
+    condensate: &'b CondensedModel,
     recovery: &'b Recovery,
     baked: &'b Baked<R>,
     controller: Controller<'b, R>,
@@ -71,7 +71,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
         self.controller = Controller::new(self.baked);
     }
 
-    fn answer(&self, problem: &Problem) -> Result<Answer> {
+    fn answer(&self, problem: &Problem) -> Result<TickSolution> {
         let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
         let p: Vec<f64> =
             std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
@@ -85,7 +85,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
         }
         let certificate = self.report.as_ref().and_then(|report| report.certificate());
         let certified = self.recovery.admissible(self.condensate, problem, &p, &x);
-        Ok(Answer {
+        Ok(TickSolution {
             status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
             ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
             ran: match self.report.map(|report| report.ended) {

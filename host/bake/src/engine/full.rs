@@ -4,7 +4,7 @@ use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_kernel::solver::Status;
 use signorini_kernel::tick::Report;
 
-use super::{Answer, Engine, status};
+use super::{Engine, TickSolution, status};
 use crate::full::{Baked, Controller};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
@@ -65,7 +65,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
         self.controller = Controller::new(self.baked);
     }
 
-    fn answer(&self, problem: &Problem) -> Result<Answer> {
+    fn answer(&self, problem: &Problem) -> Result<TickSolution> {
         let units = self.baked.units();
         let wide = |numbers: &[R], unit: f64| -> Vec<f64> {
             numbers.iter().map(|x| x.wide() * unit).collect()
@@ -81,7 +81,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             exchanges: solved.pivots,
             rounds: solved.rounds,
         });
-        let certified = certify::Answer {
+        let certified = certify::CertifiedFields {
             vertices: wide(self.controller.vertices(), units.u),
             bubbles: match self.controller.bubbles() {
                 [] => vec![0.0; u.len()],
@@ -90,7 +90,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             tau: tau.clone(),
             indicators: Vec::new(),
         };
-        Ok(Answer {
+        Ok(TickSolution {
             status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
             ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
             ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
@@ -112,7 +112,11 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
                 }
                 None => None,
             },
-            certified: if certificate.is_some() { certified } else { certify::Answer::default() },
+            certified: if certificate.is_some() {
+                certified
+            } else {
+                certify::CertifiedFields::default()
+            },
             u,
         })
     }

@@ -28,7 +28,7 @@ use signorini_solve::solve::{Factored, Ran};
 
 /// What a tick left, in f64.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct TickSolution {
     /// How it ended.
     pub status: Status,
     /// The same in the word of a tick's report.
@@ -58,10 +58,10 @@ pub struct Answer {
     /// Why there is no bound.
     pub no_bound: Option<NoBound>,
     /// What the bound is about; arrays are empty without one.
-    pub certified: certify::Answer,
+    pub certified: certify::CertifiedFields,
 }
 
-impl Answer {
+impl TickSolution {
     /// Σ|E| over the active contact edges.
     pub fn length(&self, problem: &Problem) -> f64 {
         let lengths = problem.lengths.iter().skip(problem.topology.counts.free);
@@ -94,7 +94,7 @@ pub trait Engine {
     ///
     /// # Errors
     /// Numbers that do not fit.
-    fn answer(&self, problem: &Problem) -> Result<Answer>;
+    fn answer(&self, problem: &Problem) -> Result<TickSolution>;
 }
 
 /// The setting of a scene with what is left open filled in: full, in f64.

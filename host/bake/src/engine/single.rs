@@ -8,7 +8,7 @@ use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, Relaxation, contact, flux};
 
-use super::{Answer, Engine, completed};
+use super::{Engine, TickSolution, completed};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{Omega, Precision, Setting};
 use signorini_solve::certify::{Certifier, Data, ErrorBound, NoBound};
@@ -180,7 +180,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
         self.u = self.assembled.start();
     }
 
-    fn answer(&self, problem: &Problem) -> Result<Answer> {
+    fn answer(&self, problem: &Problem) -> Result<TickSolution> {
         let unfit = unfit::<R>(&self.problem.scene);
         let (assembled, counts) = (&self.assembled, problem.topology.counts);
         let mut fluxes = vec![R::ZERO; self.u.len()];
@@ -194,7 +194,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
         let certified = self.certifier.as_ref().filter(|_| self.certificate.is_some());
         let certified = certified.map(|(certifier, _)| certifier.answer());
         let outcome = self.outcome.as_ref();
-        let mut answer = Answer {
+        let mut answer = TickSolution {
             status: outcome.map_or(Status::OutOfSweeps, |outcome| outcome.status),
             ended: outcome.map_or("out-of-sweeps", |outcome| status_name(outcome.status)),
             ran: Ran::Sweeps,

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{Answer, completed, with};
+use super::{TickSolution, completed, with};
 use crate::trial;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
@@ -38,8 +38,8 @@ pub fn solve(problem: &Problem) -> Result<Solution> {
         Ok((prepared, start.elapsed().as_secs_f64(), engine.answer(problem)?))
     })?;
     let length = answer.length(problem);
-    let Answer { status, ran, factored, sweeps, omega, residual, .. } = answer;
-    let Answer { u, flux, force, active, bound, no_bound, certified, .. } = answer;
+    let TickSolution { status, ran, factored, sweeps, omega, residual, .. } = answer;
+    let TickSolution { u, flux, force, active, bound, no_bound, certified, .. } = answer;
     let single = completed(&problem.scene).scalar == Some(Precision::F32);
     Ok(Solution {
         scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use signorini_kernel::cells::{Cells, Quad, Triangle};
-use signorini_kernel::certificate::{Ground, Metric, POINTS, Stability};
+use signorini_kernel::certificate::{Discretization, Metric, POINTS, Stability};
 use signorini_kernel::edges::{EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::stiffness::Stiffness;
@@ -12,11 +12,11 @@ use signorini_kernel::{Relaxation, Tensor};
 
 use super::data::Data;
 use super::factored::Factored;
-use super::faint::refuse_faint;
 use super::limits;
 use super::output::{Output, output};
 use super::scale::Scale;
-use crate::face::Face;
+use super::underflow::refuse_faint;
+use crate::module_api::ModuleApi;
 use crate::setting::checked;
 use crate::superposition::parts;
 use signorini_scene::error::{InputError, Result};
@@ -32,7 +32,7 @@ use signorini_solve::solve::unfit;
 #[derive(Debug, Clone)]
 pub struct Baked<R: Scalar> {
     /// Names, meanings, outputs.
-    pub face: Face,
+    pub face: ModuleApi,
     pub(super) counts: EdgeCounts,
     pub(super) vertices: Vec<[R; 2]>,
     pub(super) triangles: Vec<[u32; 3]>,
@@ -49,13 +49,13 @@ pub struct Baked<R: Scalar> {
     pub(super) order: Vec<u32>,
     pub(super) metric: Vec<[Tensor<R>; POINTS * POINTS]>,
     pub(super) metric_place: Vec<u32>,
-    pub(super) bends: Vec<[R; 2]>,
+    pub(super) distortions: Vec<[R; 2]>,
     pub(super) stability: Stability<R>,
     pub(super) data: Data<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) corners: Vec<[u32; 2]>,
     pub(super) start: R,
-    pub(super) how: How<R>,
+    pub(super) how: TickOptions<R>,
     /// Where the numbers above are not in the scene's units.
     pub(super) scale: Option<Scale<R>>,
     pub(super) factored: Option<Factored<R>>,
@@ -63,7 +63,7 @@ pub struct Baked<R: Scalar> {
 
 /// How its ticks are solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct How<R> {
+pub(super) struct TickOptions<R> {
     pub relaxation: Relaxation<R>,
     pub limits: Limits<R>,
     pub certified: bool,
@@ -73,7 +73,7 @@ pub(super) struct How<R> {
     pub fast: bool,
 }
 
-impl<R: Scalar> How<R> {
+impl<R: Scalar> TickOptions<R> {
     fn new(setting: &Setting, unknowns: usize) -> Self {
         Self {
             relaxation: match setting.omega {
@@ -115,7 +115,7 @@ impl<R: Scalar> Baked<R> {
     }
 
     /// The same in the units that `problem` is in.
-    pub(super) fn in_its_units(problem: &Problem, face: Face) -> Result<Self> {
+    pub(super) fn in_its_units(problem: &Problem, face: ModuleApi) -> Result<Self> {
         let setting = checked::<R>(&problem.scene)?;
         let held = Parts::examine(problem)?;
         refuse_loose(&problem.scene, &held)?;
@@ -130,7 +130,7 @@ impl<R: Scalar> Baked<R> {
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
-        let how = How::new(&setting, problem.topology.counts.unknowns());
+        let how = TickOptions::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
         let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
         let baked = if how.certified { baked } else { baked.without_bound() };
@@ -140,8 +140,13 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
-    fn of(face: Face, data: Data<R>, ground: &Ground<R, u32>, how: How<R>) -> Self {
-        let Ground { mesh, edges, stiffness, cells, metric, stability } = ground;
+    fn of(
+        face: ModuleApi,
+        data: Data<R>,
+        ground: &Discretization<R, u32>,
+        how: TickOptions<R>,
+    ) -> Self {
+        let Discretization { mesh, edges, stiffness, cells, metric, stability } = ground;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = !metric.at_points.is_empty();
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
@@ -164,7 +169,7 @@ impl<R: Scalar> Baked<R> {
             order: if needs_order { cells.order().to_vec() } else { Vec::new() },
             metric: metric.at_points.to_vec(),
             metric_place: if varies { metric.place.to_vec() } else { Vec::new() },
-            bends: metric.bends.to_vec(),
+            distortions: metric.distortions.to_vec(),
             stability: *stability,
             data,
             outputs: Vec::new(),
@@ -189,7 +194,7 @@ impl<R: Scalar> Baked<R> {
             order: Vec::new(),
             metric: Vec::new(),
             metric_place: Vec::new(),
-            bends: Vec::new(),
+            distortions: Vec::new(),
             corners: Vec::new(),
             data: self.data.without_bound(),
             ..self
@@ -197,9 +202,9 @@ impl<R: Scalar> Baked<R> {
     }
 
     /// What the certificate and the rows stand on.
-    pub(super) fn ground(&self) -> Ground<'_, R, u32> {
+    pub(super) fn ground(&self) -> Discretization<'_, R, u32> {
         let (of_triangles, of_quads) = (&self.of_triangles, &self.of_quads);
-        Ground {
+        Discretization {
             mesh: Mesh::baked(&self.vertices, &self.triangles, &self.quads),
             edges: Edges::baked(of_triangles, of_quads, &self.half_edges, self.counts),
             stiffness: Stiffness {
@@ -216,7 +221,7 @@ impl<R: Scalar> Baked<R> {
             metric: Metric {
                 at_points: &self.metric,
                 place: &self.metric_place,
-                bends: &self.bends,
+                distortions: &self.distortions,
             },
             stability: self.stability,
         }
@@ -228,7 +233,7 @@ impl<R: Scalar> Baked<R> {
             ("triangles", !self.of_triangles.is_empty()),
             ("quads", !self.of_quads.is_empty()),
             ("varying", !self.metric.is_empty()),
-            ("bent", !self.bends.is_empty()),
+            ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
             ("robin", !self.data.robin.is_empty()),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),

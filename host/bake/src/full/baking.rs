@@ -6,7 +6,7 @@ use super::arrays::Baked;
 use super::controller::Controller;
 use super::factored::Factored;
 use super::scale::Scale;
-use crate::face::Face;
+use crate::module_api::ModuleApi;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
@@ -29,7 +29,7 @@ impl<R: Scalar> Baked<R> {
     /// # Errors
     /// As for [`Baked::new`].
     pub fn of_scaled(problem: &Scaled) -> Result<Self> {
-        let face = Face::new(problem.own);
+        let face = ModuleApi::new(problem.own);
         let scale = match problem.units == Units::default() {
             true => None,
             false => Some(Scale::new(&problem.own.scene, problem.units)?),

@@ -2,7 +2,7 @@
 
 use signorini_kernel::boundary::{Neumann, Robin};
 use signorini_kernel::certificate::Curved;
-use signorini_kernel::full::{Chord, Points, Share};
+use signorini_kernel::full::{Contribution, EdgeTrace, Points};
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error as KernelError, error::Array};
 
@@ -36,12 +36,12 @@ pub(super) struct Data<R> {
 /// An input's pattern, owned.
 #[derive(Debug, Clone)]
 pub(super) enum Pattern<R> {
-    Source { triangles: Vec<Share<R, u32>>, quads: Vec<Share<R, u32>> },
-    Neumann(Vec<Share<R, u32>>),
-    ContactFlux(Vec<Share<R, u32>>),
-    Gap(Vec<Chord<R, u32>>),
-    Value(Vec<Chord<R, u32>>),
-    Ambient { integrals: Vec<Share<R, u32>>, points: Vec<Points<R, u32>> },
+    Source { triangles: Vec<Contribution<R, u32>>, quads: Vec<Contribution<R, u32>> },
+    Neumann(Vec<Contribution<R, u32>>),
+    ContactFlux(Vec<Contribution<R, u32>>),
+    Gap(Vec<EdgeTrace<R, u32>>),
+    Value(Vec<EdgeTrace<R, u32>>),
+    Ambient { integrals: Vec<Contribution<R, u32>>, points: Vec<Points<R, u32>> },
 }
 
 impl<R: Scalar> Data<R> {
@@ -147,7 +147,8 @@ impl<R: Scalar> Data<R> {
 impl<R: Scalar> Pattern<R> {
     /// Every number of it.
     pub fn weights(&self) -> Vec<R> {
-        let of = |shares: &[Share<R, u32>]| shares.iter().map(|share| share.weight).collect();
+        let of =
+            |shares: &[Contribution<R, u32>]| shares.iter().map(|share| share.weight).collect();
         match self {
             Self::Source { triangles, quads } => [of(triangles), of(quads)].concat(),
             Self::Neumann(shares) | Self::ContactFlux(shares) => of(shares),
@@ -177,16 +178,20 @@ fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     Robin { edge: law.edge, coefficient, ambient }
 }
 
-fn shares<R: Scalar>(weights: &[f64]) -> Vec<Share<R, u32>> {
+fn shares<R: Scalar>(weights: &[f64]) -> Vec<Contribution<R, u32>> {
     let entries = weights.iter().zip(0..).filter(|(weight, _)| **weight != 0.0);
-    entries.map(|(&weight, at)| Share { at, weight: R::narrow(weight) }).collect()
+    entries.map(|(&weight, at)| Contribution { at, weight: R::narrow(weight) }).collect()
 }
 
-fn chords<R: Scalar>(means: &[f64], ends: &[[f64; 2]]) -> Vec<Chord<R, u32>> {
+fn chords<R: Scalar>(means: &[f64], ends: &[[f64; 2]]) -> Vec<EdgeTrace<R, u32>> {
     let edges = means.iter().zip(ends).zip(0..);
     let acts = edges.filter(|((mean, ends), _)| **mean != 0.0 || **ends != [0.0; 2]);
-    acts.map(|((&mean, ends), at)| Chord { at, mean: R::narrow(mean), ends: ends.map(R::narrow) })
-        .collect()
+    acts.map(|((&mean, ends), at)| EdgeTrace {
+        at,
+        mean: R::narrow(mean),
+        ends: ends.map(R::narrow),
+    })
+    .collect()
 }
 
 fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
@@ -222,12 +227,12 @@ fn fluxes(edges: &[u32], part: &Part) -> Vec<f64> {
 fn oscillation<R: Scalar>(problem: &Problem, parts: &[Part], k: Stiffness<R>) -> Vec<R> {
     let moves = |part: &Part| part.ends.scale() > 0.0;
     let varies = parts.iter().skip(1).any(moves);
-    let ripple = |part| if varies { ripple(problem, part, k) } else { 0.0 };
-    parts.iter().map(|part| R::narrow(part.oscillation + ripple(part))).collect()
+    let perturbation = |part| if varies { perturbation(problem, part, k) } else { 0.0 };
+    parts.iter().map(|part| R::narrow(part.oscillation + perturbation(part))).collect()
 }
 
 /// As the kernel counts it: each value moves by 2ε, at 4Σ|K| of its cell for each square.
-fn ripple<R: Scalar>(problem: &Problem, part: &Part, k: Stiffness<R>) -> f64 {
+fn perturbation<R: Scalar>(problem: &Problem, part: &Part, k: Stiffness<R>) -> f64 {
     let free = problem.topology.counts.free;
     let size = |entries: &[R]| entries.iter().map(|k| k.wide().abs()).sum::<f64>();
     let ends = part.ends.gap.iter().chain(&part.ends.given).zip(free..);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use signorini_kernel::limits::Limits;
 
-use super::arrays::{Baked, How};
+use super::arrays::{Baked, TickOptions};
 use super::imports::imports;
 use super::list::Item;
 use super::rescaling::Rescaling;
@@ -163,7 +163,7 @@ fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
 
 /// How the kernel's tick comes to its answer.
 fn method<R: Scalar>(baked: &Baked<R>) -> String {
-    let How { fast, certified, .. } = baked.how;
+    let TickOptions { fast, certified, .. } = baked.how;
     let math = if fast { "Micromath" } else { "Libm" };
     let sweeps = if certified { "CertifiedSweeps" } else { "UncertifiedSweeps" };
     match baked.factored {

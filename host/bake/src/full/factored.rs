@@ -2,7 +2,7 @@
 
 use signorini_kernel::Index;
 use signorini_kernel::condensed::blocks::{Block, padded};
-use signorini_kernel::condensed::tableau::Start;
+use signorini_kernel::condensed::tableau::InitialTableau;
 use signorini_kernel::sparse::direct::normalise;
 use signorini_kernel::sparse::{self, Factor};
 
@@ -49,7 +49,7 @@ impl<R: Scalar> Factored<R> {
     pub fn view(&self) -> sparse::Factored<'_, R, u32> {
         let Self { ldlt, scale, none } = self;
         let factor: Factor<R, u32> = ldlt.factor();
-        let start = Start { blocks: &ldlt.schur, exchanged: none };
+        let start = InitialTableau { blocks: &ldlt.schur, exchanged: none };
         sparse::Factored { factor, schur: &ldlt.schur, scale, start }
     }
 

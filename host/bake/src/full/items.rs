@@ -3,7 +3,7 @@
 use signorini_kernel::boundary::{Neumann, Robin};
 use signorini_kernel::cells::{Quad, Triangle};
 use signorini_kernel::certificate::{Curved, POINTS};
-use signorini_kernel::full::{Chord, CurvedPart, Points, Product, Share};
+use signorini_kernel::full::{Contribution, CurvedPart, EdgeTrace, Points, Product};
 use signorini_kernel::rows::{QUADS, Row, TRIANGLES};
 use signorini_kernel::tick::Progress;
 use signorini_kernel::{Index, Tensor};
@@ -58,7 +58,7 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.put::<I>("ORDER", "The cells from roots to leaves of the forest.", "Index", &baked.order);
     list.put::<[Tensor<R>; POINTS * POINTS]>("METRIC", "A in reference coordinates at 64 points of the cells in which it varies.", "[Tensor<Scalar>; 64]", &baked.metric);
     list.put::<u32>("METRIC_PLACE", "Where each cell stands in `METRIC`; beyond its end where A is constant.", "u32", &baked.metric_place);
-    list.put::<[R; 2]>("QUAD_BENDS", "By how much each quad is no parallelogram.", "[Scalar; 2]", &baked.bends);
+    list.put::<[R; 2]>("QUAD_DISTORTIONS", "By how much each quad is no parallelogram.", "[Scalar; 2]", &baked.distortions);
     list.put::<R>("SOURCE_OF_TRIANGLES", "∫f of each triangle.", "Scalar", &data.triangles);
     list.put::<R>("SOURCE_OF_QUADS", "∫f of each quad.", "Scalar", &data.quads);
     list.put::<Neumann<R, I>>("NEUMANN", "∫g of the edges with a given flux.", "Neumann<Scalar, Index>", &data.neumann);
@@ -77,8 +77,8 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.put::<[I; 2]>("CORNERS", "Where contact meets Dirichlet: an end of either edge.", "[Index; 2]", &baked.corners);
     list.put::<R>("OSCILLATION", "What the bound's means leave out of the base, then of a unit of each input.", "Scalar", &data.oscillation);
     for (pattern, input) in data.patterns.iter().zip(baked.face.inputs()) {
-        let mut shares = |what: &str, doc: &str, shares: &[Share<R, u32>]| {
-            list.put::<Share<R, I>>(&named(input, what), &format!("{doc} that a unit of `{input}` adds."), "Share<Scalar, Index>", shares);
+        let mut shares = |what: &str, doc: &str, shares: &[Contribution<R, u32>]| {
+            list.put::<Contribution<R, I>>(&named(input, what), &format!("{doc} that a unit of `{input}` adds."), "Contribution<Scalar, Index>", shares);
         };
         match pattern {
             Pattern::Source { triangles, quads } => {
@@ -87,7 +87,7 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
             }
             Pattern::Neumann(all) => shares("PATTERN", "∫g", all),
             Pattern::ContactFlux(all) => shares("PATTERN", "∫q", all),
-            Pattern::Gap(chords) | Pattern::Value(chords) => list.put::<Chord<R, I>>(&named(input, "PATTERN"), &format!("Mean and end values that a unit of `{input}` adds."), "Chord<Scalar, Index>", chords),
+            Pattern::Gap(chords) | Pattern::Value(chords) => list.put::<EdgeTrace<R, I>>(&named(input, "PATTERN"), &format!("Mean and end values that a unit of `{input}` adds."), "EdgeTrace<Scalar, Index>", chords),
             Pattern::Ambient { integrals, points } => {
                 shares("PATTERN", "∫h u_ext", integrals);
                 list.put::<Points<R, I>>(&named(input, "AT_POINTS"), &format!("u_ext that a unit of `{input}` adds."), "Points<Scalar, Index>", points);
@@ -99,8 +99,8 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
         match output {
             Output::Flux(edges) => list.put::<I>(&array, &format!("Edges whose fluxes add up to `{name}`."), "Index", edges),
             Output::Force(edges) => list.put::<I>(&array, &format!("Contact edges whose forces add up to `{name}`."), "Index", edges),
-            Output::Length(edges) => list.put::<Share<R, I>>(&array, &format!("Contact edges whose lengths add up to `{name}`."), "Share<Scalar, Index>", edges),
-            Output::Probe(edges) => list.put::<Share<R, I>>(&array, &format!("Edges whose means make `{name}`."), "Share<Scalar, Index>", edges),
+            Output::Length(edges) => list.put::<Contribution<R, I>>(&array, &format!("Contact edges whose lengths add up to `{name}`."), "Contribution<Scalar, Index>", edges),
+            Output::Probe(edges) => list.put::<Contribution<R, I>>(&array, &format!("Edges whose means make `{name}`."), "Contribution<Scalar, Index>", edges),
             Output::Bound => {}
         }
     }

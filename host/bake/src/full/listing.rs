@@ -13,7 +13,7 @@ use signorini_solve::scalar::Scalar;
 /// What they may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("CellLoads", "assembly::CellLoads"),
-    ("Start", "condensed::tableau::Start"),
+    ("Start", "condensed::tableau::InitialTableau"),
     ("Neumann", "boundary::Neumann"),
     ("Robin", "boundary::Robin"),
     ("Cell", "cells::Cell"),
@@ -21,14 +21,14 @@ const NAMES: &[(&str, &str)] = &[
     ("Quad", "cells::Quad"),
     ("Triangle", "cells::Triangle"),
     ("Curved", "certificate::Curved"),
-    ("Ground", "certificate::Ground"),
+    ("Discretization", "certificate::Discretization"),
     ("Metric", "certificate::Metric"),
     ("Stability", "certificate::Stability"),
     ("VertexData", "conforming::VertexData"),
     ("EdgeCounts", "edges::EdgeCounts"),
     ("Edges", "edges::Edges"),
     ("Base", "full::Base"),
-    ("Chord", "full::Chord"),
+    ("EdgeTrace", "full::EdgeTrace"),
     ("CurvedPart", "full::CurvedPart"),
     ("CurvedSum", "full::CurvedSum"),
     ("Full", "full::Full"),
@@ -36,7 +36,7 @@ const NAMES: &[(&str, &str)] = &[
     ("Pattern", "full::Pattern"),
     ("Points", "full::Points"),
     ("Product", "full::Product"),
-    ("Share", "full::Share"),
+    ("Contribution", "full::Contribution"),
     ("Mesh", "Mesh"),
     ("Relaxation", "Relaxation"),
     ("Factor", "sparse::Factor"),
@@ -89,12 +89,12 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         "
     /// All of it.
     pub(super) static FULL: Full<'static, Scalar, Index> = Full {{
-        ground: Ground {{
+        ground: Discretization {{
             mesh: Mesh::baked({}, {}, {}),
             edges: Edges::baked({}, {}, {}, {counts:?}),
             stiffness: Stiffness {{ triangles: {}, quads: {} }},
             cells: Cells::baked({}, {}, {}, {}, {}),
-            metric: Metric {{ at_points: {}, place: {}, bends: {} }},
+            metric: Metric {{ at_points: {}, place: {}, distortions: {} }},
             stability: Stability {{ largest: {:?}, weighed: {:?}, oblique: {:?} }},
         }},
         base: Base {{
@@ -133,7 +133,7 @@ fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
         at("ORDER"),
         at("METRIC"),
         at("METRIC_PLACE"),
-        at("QUAD_BENDS"),
+        at("QUAD_DISTORTIONS"),
         baked.stability.largest,
         baked.stability.weighed,
         baked.stability.oblique,

@@ -18,7 +18,6 @@ mod controller;
 mod data;
 mod driver;
 mod factored;
-mod faint;
 mod imports;
 mod items;
 mod list;
@@ -29,6 +28,7 @@ mod scale;
 mod source;
 #[cfg(test)]
 mod tests;
+mod underflow;
 
 pub use arrays::Baked;
 pub use controller::Controller;

@@ -1,6 +1,6 @@
 //! Declared outputs as the arrays that the target evaluates.
 
-use signorini_kernel::full::Share;
+use signorini_kernel::full::Contribution;
 
 use signorini_solve::functional::{Functional, basis_at};
 use signorini_solve::problem::Problem;
@@ -11,8 +11,8 @@ use signorini_solve::scalar::Scalar;
 pub(super) enum Output<R> {
     Flux(Vec<u32>),
     Force(Vec<u32>),
-    Length(Vec<Share<R, u32>>),
-    Probe(Vec<Share<R, u32>>),
+    Length(Vec<Contribution<R, u32>>),
+    Probe(Vec<Contribution<R, u32>>),
     Bound,
 }
 
@@ -22,7 +22,7 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
     let all = |edges: &[usize], first| edges.iter().map(|&edge| (edge - first) as u32).collect();
     let shares = |weights: &[(usize, f64)], first| {
         let share =
-            |&(edge, weight)| Share { at: (edge - first) as u32, weight: R::narrow(weight) };
+            |&(edge, weight)| Contribution { at: (edge - first) as u32, weight: R::narrow(weight) };
         weights.iter().map(share).collect()
     };
     match functional {

@@ -55,7 +55,7 @@ const ENERGY_UNIT: Scalar = {:?};
 fn in_units_of_the_scene(report: Report<Scalar>) -> Report<Scalar> {{
     let verdict = match report.verdict {{
         Verdict::Certified(of) => Verdict::Certified(Certificate {{
-            gap: of.gap * ENERGY_UNIT,
+            duality_gap: of.duality_gap * ENERGY_UNIT,
             algebraic: of.algebraic * ENERGY_UNIT,
             oscillation: of.oscillation * ENERGY_UNIT,
             rounding: of.rounding * ENERGY_UNIT,

@@ -73,7 +73,7 @@ impl<R: Scalar> Scale<R> {
     fn report(&self, report: Report<R>) -> Report<R> {
         let verdict = match report.verdict {
             Verdict::Certified(of) => Verdict::Certified(Certificate {
-                gap: of.gap * self.energy,
+                duality_gap: of.duality_gap * self.energy,
                 algebraic: of.algebraic * self.energy,
                 oscillation: of.oscillation * self.energy,
                 rounding: of.rounding * self.energy,

@@ -7,7 +7,7 @@ use super::driver::controller;
 use super::items::{memory, sizes, statics};
 use super::listing::listing;
 use super::rescaling::rescaling;
-use crate::face::About;
+use crate::module_api::About;
 use signorini_solve::scalar::Scalar;
 
 /// The module.

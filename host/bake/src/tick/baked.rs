@@ -7,8 +7,8 @@
 #[cfg(test)]
 mod tests;
 
-use super::{Moment, Tick};
-use crate::engine::{self, Answer, Engine};
+use super::{ScheduledTick, TickRecord};
+use crate::engine::{self, Engine, TickSolution};
 use signorini_scene::error::Result;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::problem::Problem;
@@ -21,10 +21,10 @@ use signorini_solve::solve::ScalarKind;
 /// Those of `bake`; inputs for which the scene's data are not admissible, with their time.
 pub fn replay(
     problem: &Problem,
-    moments: &[Moment],
+    moments: &[ScheduledTick],
     asked: Option<ScalarKind>,
-    mut done: impl FnMut(&Tick),
-) -> Result<(String, Vec<Tick>)> {
+    mut done: impl FnMut(&TickRecord),
+) -> Result<(String, Vec<TickRecord>)> {
     engine::baked(problem, asked, |engine, name| {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
@@ -37,7 +37,7 @@ pub fn replay(
     })
 }
 
-fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<Tick> {
+fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<TickRecord> {
     let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     match engine.tick(&inputs) {
         Ok(_) => read_off(problem, engine.answer(problem)?),
@@ -46,8 +46,8 @@ fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<Tick> {
 }
 
 /// A tick whose inputs or answer the controller's scalar cannot hold.
-fn refused(problem: &Problem) -> Tick {
-    Tick {
+fn refused(problem: &Problem) -> TickRecord {
+    TickRecord {
         time: problem.time,
         status: "not-finite",
         sweeps: 0,
@@ -59,7 +59,7 @@ fn refused(problem: &Problem) -> Tick {
     }
 }
 
-fn read_off(problem: &Problem, answer: Answer) -> Result<Tick> {
+fn read_off(problem: &Problem, answer: TickSolution) -> Result<TickRecord> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let combined = match (&problem.scene.exact, bound) {
@@ -74,7 +74,7 @@ fn read_off(problem: &Problem, answer: Answer) -> Result<Tick> {
         _ => [answer.force, answer.length(problem)],
     };
     let outputs = answer.outputs.iter().take(problem.scene.outputs.len());
-    Ok(Tick {
+    Ok(TickRecord {
         time: problem.time,
         status: answer.ended,
         sweeps: answer.sweeps,

@@ -6,7 +6,7 @@ use signorini_kernel::prolongation::Origin;
 use signorini_scene::error::{InputError, Result};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::search::{Place, Search};
+use signorini_solve::search::{LocatedPoint, Search};
 use signorini_solve::solve::{Options, SolverKind, solve};
 
 /// Means of u over the edges of `coarse`.
@@ -35,7 +35,7 @@ pub fn origins<R: Scalar>(fine: &Problem, coarse: &Problem) -> Result<Vec<Origin
 
 /// The sides of the cell at a place, with the values of their basis functions there.
 fn origin<R: Scalar>(coarse: &Problem, search: &Search, point: [f64; 2]) -> Result<Origin<R, u32>> {
-    let Some(Place { cell, reference }) = search.find(point) else {
+    let Some(LocatedPoint { cell, reference }) = search.find(point) else {
         return Err(InputError::new("--coarse: the mesh has no cells").into());
     };
     let (cell, topology) = (cell as usize, &coarse.topology);

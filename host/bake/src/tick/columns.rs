@@ -1,13 +1,13 @@
 //! `ticks.csv`: one line a tick.
 
-use super::Tick;
+use super::TickRecord;
 use signorini_scene::scene::Scene;
 
 /// The text of `ticks.csv`:
 /// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
 /// declared output; the combined error only where the scene knows its exact solution. A value that
 /// does not exist is an empty field.
-pub fn ticks_csv(scene: &Scene, ticks: &[Tick]) -> csv::Result<Vec<u8>> {
+pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let fixed = ["t", "status", "sweeps", "contact_force", "contact_length", "error_bound"];
     let combined = scene.exact.iter().map(|_| "error_combined");

@@ -5,7 +5,7 @@ use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::tick::{CertifiedSweeps, Data, Deadline, Memory, Report, Tick};
 use signorini_kernel::{Error as KernelError, Libm, Relaxation, contact};
 
-use super::player::Answer;
+use super::player::PlayedTick;
 use super::{Budget, coarse};
 use signorini_scene::error::Result;
 use signorini_solve::certify::{self, Certifier, ErrorBound};
@@ -14,7 +14,7 @@ use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{ended_name, prefers_factor, unfit};
 
 /// Answers for the loads of a problem, tick after tick.
-pub type Engine<'e> = dyn FnMut(&Problem) -> Result<Answer> + 'e;
+pub type Engine<'e> = dyn FnMut(&Problem) -> Result<PlayedTick> + 'e;
 
 /// Lends an engine to `play` for as long as it takes: its memory lives here. Its first tick starts from
 /// the solution on `coarse`, the same problem on a coarser mesh, where there is one; where there is none, on a
@@ -109,13 +109,13 @@ fn answer<R: Scalar, const WIDTH: usize>(
     assembled: &Assembled<R>,
     tick: &Tick<R, u32, WIDTH>,
     report: &Report<R>,
-) -> Answer {
+) -> PlayedTick {
     let (counts, lower) = (problem.topology.counts, assembled.lower());
     let touching =
         (0..counts.contact).filter(|&at| contact::is_active(counts, lower, tick.u(), at));
     let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
     let tau = wide(tick.tau());
-    Answer {
+    PlayedTick {
         status: ended_name(report.ended),
         sweeps: report.sweeps,
         u: wide(tick.u()),
@@ -123,7 +123,7 @@ fn answer<R: Scalar, const WIDTH: usize>(
         contact_force: report.force.wide(),
         contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
         bound: report.verdict.certificate().map(ErrorBound::new),
-        certified: certify::Answer {
+        certified: certify::CertifiedFields {
             vertices: wide(tick.vertices()),
             bubbles: wide(tick.bubbles()),
             tau,

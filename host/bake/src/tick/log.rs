@@ -11,7 +11,7 @@ use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::{Moment, schedule::MOST};
+use super::{ScheduledTick, schedule::MOST};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 
@@ -22,11 +22,11 @@ const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the s
 /// # Errors
 /// A file that cannot be read or holds no tick, a column that is no input or comes twice, a value
 /// that is no finite number, a time that does not increase; each with its line.
-pub fn read(path: &Path, scene: &Scene) -> Result<Vec<Moment>> {
+pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
     let wrong = |error: csv::Error| refused(path, &error);
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_path(path).map_err(wrong)?;
     let columns = columns(&mut reader, path, scene)?;
-    let mut moments: Vec<Moment> = Vec::new();
+    let mut moments: Vec<ScheduledTick> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(wrong)?;
         let line = record.position().map_or(0, |position| position.line() as usize);
@@ -72,12 +72,12 @@ fn columns(reader: &mut Reader<std::fs::File>, path: &Path, scene: &Scene) -> Re
     Ok(columns)
 }
 
-fn moment(record: &StringRecord, columns: &[Column]) -> std::result::Result<Moment, String> {
+fn moment(record: &StringRecord, columns: &[Column]) -> std::result::Result<ScheduledTick, String> {
     let mut fields = record.iter();
     let time = number("t", fields.next().unwrap_or_default())?;
     let inputs = columns.iter().zip(fields);
     let inputs = inputs.map(|((name, input), field)| Ok((*input, number(name, field)?)));
-    Ok(Moment { time, inputs: inputs.collect::<std::result::Result<_, String>>()? })
+    Ok(ScheduledTick { time, inputs: inputs.collect::<std::result::Result<_, String>>()? })
 }
 
 fn number(column: &str, field: &str) -> std::result::Result<f64, String> {

@@ -23,7 +23,7 @@ use signorini_kernel::rows;
 use signorini_kernel::solver::Settings;
 use signorini_kernel::tick::Limits;
 
-use player::{Answer, Player};
+use player::{PlayedTick, Player};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
@@ -36,14 +36,14 @@ use signorini_solve::solve::{Options, ScalarKind, choose_units};
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moment {
+pub struct ScheduledTick {
     /// t
     pub time: f64,
     /// Positions in `scene.inputs` with their values; inputs that are not listed keep theirs.
     pub inputs: Vec<(usize, f64)>,
 }
 
-impl Moment {
+impl ScheduledTick {
     /// Brings a problem to this moment.
     fn set(&self, problem: &mut Problem) -> Result<()> {
         problem.set(&self.inputs, self.time).map_err(|error| error.at_time(self.time))
@@ -52,7 +52,7 @@ impl Moment {
 
 /// What a tick came to. Numbers that do not exist or are not finite are `None`.
 #[derive(Debug, Clone)]
-pub struct Tick {
+pub struct TickRecord {
     /// t
     pub time: f64,
     /// How its solve ended.
@@ -71,7 +71,7 @@ pub struct Tick {
     pub outputs: Vec<Option<f64>>,
 }
 
-impl Tick {
+impl TickRecord {
     /// Whether the solve broke down; one that its budget cut off did not.
     pub fn failed(&self) -> bool {
         matches!(self.status, "stalled" | "not-finite")
@@ -129,10 +129,10 @@ impl Budget {
 pub fn play(
     problem: &Problem,
     coarse: Option<&Problem>,
-    moments: &[Moment],
+    moments: &[ScheduledTick],
     budget: &Budget,
-    done: impl FnMut(&Tick),
-) -> Result<Vec<Tick>> {
+    done: impl FnMut(&TickRecord),
+) -> Result<Vec<TickRecord>> {
     match budget.scalar {
         ScalarKind::F64 => play_in::<f64>(problem, coarse, moments, budget, done),
         ScalarKind::F32 => play_in::<f32>(problem, coarse, moments, budget, done),
@@ -142,10 +142,10 @@ pub fn play(
 fn play_in<R: Scalar>(
     problem: &Problem,
     coarse: Option<&Problem>,
-    moments: &[Moment],
+    moments: &[ScheduledTick],
     budget: &Budget,
-    mut done: impl FnMut(&Tick),
-) -> Result<Vec<Tick>> {
+    mut done: impl FnMut(&TickRecord),
+) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
     if let Some(first) = moments.first() {
         first.set(&mut problem)?;
@@ -162,7 +162,7 @@ fn play_in<R: Scalar>(
     }
     let (problem, coarse) = (&problem, coarse.as_ref());
     let budget = &Budget { error: budget.error / units.energy(), ..*budget };
-    let mut done = |tick: &mut Tick| {
+    let mut done = |tick: &mut TickRecord| {
         tick.rescale(&problem.scene, &units);
         done(tick);
     };
@@ -182,11 +182,11 @@ fn play_in<R: Scalar>(
 /// Goes through the moments.
 fn through(
     problem: &Problem,
-    moments: &[Moment],
+    moments: &[ScheduledTick],
     scalar: ScalarKind,
     engine: &mut held::Engine,
-    done: &mut impl FnMut(&mut Tick),
-) -> Result<Vec<Tick>> {
+    done: &mut impl FnMut(&mut TickRecord),
+) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
     let ticks = moments.iter().map(|moment| {
         moment.set(&mut problem)?;
@@ -198,8 +198,8 @@ fn through(
     ticks.collect()
 }
 
-fn read_off(problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tick> {
-    let Answer { u, flux, .. } = &answer;
+fn read_off(problem: &Problem, scalar: ScalarKind, answer: PlayedTick) -> Result<TickRecord> {
+    let PlayedTick { u, flux, .. } = &answer;
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let units = Units::default();
     let reading = Reading { scalar, u, flux, units, bound: bound.map(|bound| bound.total) };
@@ -210,7 +210,7 @@ fn read_off(problem: &Problem, scalar: ScalarKind, answer: Answer) -> Result<Tic
         }
         _ => None,
     };
-    Ok(Tick {
+    Ok(TickRecord {
         time: problem.time,
         status: answer.status,
         sweeps: answer.sweeps,

@@ -1,12 +1,12 @@
 //! The ticks as the report draws them: one diagram a quantity, all over the same time.
 
-use super::Tick;
+use super::TickRecord;
 use signorini_draw::{Curve, History, Strip};
 use signorini_scene::scene::Scene;
 
 /// Collects the picture of `ticks`, with the budget of sweeps where there was one.
-pub fn picture(scene: &Scene, ticks: &[Tick], budget: Option<u32>) -> History {
-    let curve = |label: &str, pick: &dyn Fn(&Tick) -> Option<f64>| Curve {
+pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> History {
+    let curve = |label: &str, pick: &dyn Fn(&TickRecord) -> Option<f64>| Curve {
         label: label.to_owned(),
         values: ticks.iter().map(pick).collect(),
     };

@@ -27,7 +27,7 @@ pub struct Player<'p, R: Scalar> {
 
 /// The answer of one tick; its numbers are not finite where `status` says so.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct PlayedTick {
     /// How the solve ended.
     pub status: &'static str,
     /// Sweeps spent.
@@ -43,7 +43,7 @@ pub struct Answer {
     /// The bound on its error, where there is one.
     pub bound: Option<ErrorBound>,
     /// What it is the bound of.
-    pub certified: certify::Answer,
+    pub certified: certify::CertifiedFields,
 }
 
 impl<'p, R: Scalar> Player<'p, R> {
@@ -60,7 +60,7 @@ impl<'p, R: Scalar> Player<'p, R> {
     ///
     /// # Errors
     /// No solution, numbers that the scalar type cannot hold.
-    pub fn tick(&mut self, problem: &Problem) -> Result<Answer> {
+    pub fn tick(&mut self, problem: &Problem) -> Result<PlayedTick> {
         let parts = Parts::examine(problem)?;
         self.assembled.set_parts(&parts);
         let mut answer = self.solve(problem).map_err(unfit::<R>(&problem.scene))?;
@@ -77,7 +77,7 @@ impl<'p, R: Scalar> Player<'p, R> {
         Ok(answer)
     }
 
-    fn solve(&mut self, problem: &Problem) -> std::result::Result<Answer, KernelError> {
+    fn solve(&mut self, problem: &Problem) -> std::result::Result<PlayedTick, KernelError> {
         let counts = problem.topology.counts;
         self.assembled.set_loads(&problem.loads)?;
         let mut u = self.u.take().unwrap_or_else(|| self.assembled.start());
@@ -101,7 +101,7 @@ impl<'p, R: Scalar> Player<'p, R> {
         problem: &Problem,
         outcome: &Outcome<R>,
         u: &[R],
-    ) -> std::result::Result<Answer, KernelError> {
+    ) -> std::result::Result<PlayedTick, KernelError> {
         let (assembled, counts) = (&self.assembled, problem.topology.counts);
         let mut fluxes = vec![R::ZERO; u.len()];
         let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
@@ -110,7 +110,7 @@ impl<'p, R: Scalar> Player<'p, R> {
             (0..counts.contact).filter(|&at| contact::is_active(counts, assembled.lower(), u, at));
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
         let force = contact::force(counts, &assembled.boundary()?, assembled.lower(), u, &fluxes);
-        Ok(Answer {
+        Ok(PlayedTick {
             status: status_name(outcome.status),
             sweeps: outcome.sweeps,
             u: wide(u),
@@ -118,7 +118,7 @@ impl<'p, R: Scalar> Player<'p, R> {
             contact_force: force.wide(),
             contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
             bound: None,
-            certified: certify::Answer::default(),
+            certified: certify::CertifiedFields::default(),
         })
     }
 }

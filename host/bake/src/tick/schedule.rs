@@ -1,6 +1,6 @@
 //! Ticks at t = 0, step, 2·step, … from `[time]` of the scene.
 
-use super::Moment;
+use super::ScheduledTick;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::{Scene, Time};
 
@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// Neither `[time]` nor a count; more than [`MOST`] ticks.
-pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<Moment>> {
+pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<ScheduledTick>> {
     let step = scene.time.map_or(1.0, |time| time.step);
     let count = match (count, scene.time) {
         (Some(count), _) => count,
@@ -25,7 +25,9 @@ pub fn moments(scene: &Scene, count: Option<u32>) -> Result<Vec<Moment>> {
             return Err(error.file(&scene.path).hint(hint).into());
         }
     };
-    Ok((0..count).map(|tick| Moment { time: time_of(tick, step), inputs: Vec::new() }).collect())
+    Ok((0..count)
+        .map(|tick| ScheduledTick { time: time_of(tick, step), inputs: Vec::new() })
+        .collect())
 }
 
 fn up_to_end(scene: &Scene, Time { step, end }: Time) -> Result<u32> {

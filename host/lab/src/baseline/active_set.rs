@@ -3,9 +3,9 @@
 //! It knows no tolerance and refines to the last digits. Cold, it factors; warm, the factor stands and the
 //! contact set of the tick before is the first guess.
 
-use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::quadratic::Quadratic;
+use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 use signorini_solve::reference::Factor;
 
@@ -31,13 +31,13 @@ impl<'q> ActiveSet<'q> {
     }
 }
 
-impl Contestant for ActiveSet<'_> {
-    fn run(&mut self, tick: usize, start: Start, _: f64) -> Result<Run> {
+impl TimedSolver for ActiveSet<'_> {
+    fn run(&mut self, tick: usize, start: InitialGuess, _: f64) -> Result<Run> {
         let (quadratic, data) = (self.quadratic, &self.quadratic.ticks[tick]);
-        if start == Start::Cold && !self.keeps {
+        if start == InitialGuess::Cold && !self.keeps {
             self.factor = None;
         }
-        let guess = (start == Start::Warm).then_some(self.active.as_slice());
+        let guess = (start == InitialGuess::Warm).then_some(self.active.as_slice());
         let kept = self.factor.take();
         let (cycles, result) = counted(|| {
             let factor = match kept {

@@ -10,10 +10,10 @@ use signorini_kernel::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::signorini::System;
 use signorini_kernel::{Error as KernelError, Real, Relaxation};
 
-use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
 use super::full::Full;
-use super::psor::{Given, solve};
+use super::psor::{TickLoads, solve};
+use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_bake::tick::coarse;
 use signorini_scene::error::Result;
 use signorini_solve::problem::Problem;
@@ -21,7 +21,7 @@ use signorini_solve::problem::Problem;
 /// One grid.
 struct Level<'a> {
     system: System<'a, f64, u32>,
-    given: &'a Given<f64>,
+    given: &'a TickLoads<f64>,
     /// Where its edges lie in the grid before; none for the coarsest.
     origins: Vec<Origin<f64, u32>>,
     rows: Vec<Row<f64, u32, TRIANGLES>>,
@@ -49,9 +49,9 @@ impl<'a> Cascade<'a> {
     }
 }
 
-impl Contestant for Cascade<'_> {
+impl TimedSolver for Cascade<'_> {
     /// Always cold, and on the first tick.
-    fn run(&mut self, _: usize, _: Start, tolerance: f64) -> Result<Run> {
+    fn run(&mut self, _: usize, _: InitialGuess, tolerance: f64) -> Result<Run> {
         let (cycles, outcome) = counted(|| {
             let (mut u, mut omega, mut sweeps) = (Vec::new(), 1.0, 0);
             for level in &mut self.levels {

@@ -9,9 +9,9 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
 
-use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
-use super::quadratic::{Quadratic, Tick};
+use super::quadratic::{Quadratic, QuadraticLoads};
+use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 
 /// The solver on its problem.
@@ -35,7 +35,7 @@ impl<'q> Clarabel<'q> {
 }
 
 /// q and b.
-fn vectors(tick: &Tick) -> [Vec<f64>; 2] {
+fn vectors(tick: &QuadraticLoads) -> [Vec<f64>; 2] {
     [&tick.load, &tick.lower].map(|vector| vector.iter().map(|entry| -entry).collect())
 }
 
@@ -52,12 +52,12 @@ fn settings(tolerance: f64) -> DefaultSettings<f64> {
     }
 }
 
-impl Contestant for Clarabel<'_> {
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
+impl TimedSolver for Clarabel<'_> {
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
         let [q, b] = vectors(&self.quadratic.ticks[tick]);
         let cones = [SupportedConeT::NonnegativeConeT(self.quadratic.contact())];
         let (matrix, constraints) = (&self.matrix, &self.constraints);
-        let kept = self.solver.take().filter(|_| start == Start::Warm);
+        let kept = self.solver.take().filter(|_| start == InitialGuess::Warm);
         let (cycles, solver) = counted(|| {
             let mut solver = match kept {
                 Some(mut solver) => {

@@ -10,19 +10,19 @@
 use faer::Mat;
 
 use signorini_scene::error::Result;
-use signorini_solve::condense::{Condensate, along_boundary};
+use signorini_solve::condense::{CondensedModel, along_boundary};
 use signorini_solve::problem::Problem;
 use signorini_solve::reference::{Factor, Linear};
 
 use super::failed;
-use super::quadratic::{Matrix, Quadratic, Tick};
+use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 
 /// The condensed problems, and the model that the kernel's exact method is baked from.
 pub(super) fn condensed(
     problem: &Problem,
     full: &Quadratic,
     factor: &Factor,
-) -> Result<(Quadratic, Condensate)> {
+) -> Result<(Quadratic, CondensedModel)> {
     let (n, free, edges) = (full.contact(), full.free(), along_boundary(problem));
     let schur = Mat::from_fn(n, n, |i, j| factor.schur()[(edges[i], edges[j])]);
     let d: Vec<f64> = (0..n).map(|i| 1.0 / schur[(i, i)].sqrt()).collect();
@@ -35,7 +35,7 @@ pub(super) fn condensed(
     for (tick, condensed) in full.ticks.iter().zip(condensed_loads(full)?) {
         let product = |i: usize| (0..n).map(|j| schur[(i, j)] * tick.lower[edges[j]]).sum::<f64>();
         let load = (0..n).map(|i| d[i] * (condensed[edges[i]] - product(i))).collect();
-        ticks.push(Tick { load, lower: vec![0.0; n] });
+        ticks.push(QuadraticLoads { load, lower: vec![0.0; n] });
     }
     let openings = full.answers.iter().zip(&full.ticks).map(|(u, tick)| {
         let opening = |i: usize| u[free + edges[i]] - tick.lower[edges[i]];
@@ -44,7 +44,7 @@ pub(super) fn condensed(
     let answers = openings.collect();
     let held = edges.iter().map(|&edge| full.floating.get(edge) == Some(&true));
     let floating: Vec<bool> = held.collect();
-    let condensate = Condensate {
+    let condensate = CondensedModel {
         contact: n,
         inputs: 1,
         matrix: matrix.values.clone(),
@@ -83,7 +83,7 @@ fn condensed_loads(full: &Quadratic) -> Result<Vec<Vec<f64>>> {
         full.ticks.iter().flat_map(|tick| tick.load[..free].iter().copied()).collect();
     let Matrix { row_ptr, col_idx, values } = &inner;
     let inner = Linear { row_ptr, col_idx, values }.solve(&loads).map_err(failed)?;
-    let of_tick = |(at, tick): (usize, &Tick)| {
+    let of_tick = |(at, tick): (usize, &QuadraticLoads)| {
         let z = &inner[at * free..(at + 1) * free];
         let held = |i: usize| {
             let row = full.matrix.row(free + i).filter(|&(j, _)| j < free);

@@ -15,8 +15,8 @@
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::contestant::{Contest, Contestant, Start};
 use super::series::Series;
+use super::timed_solver::{Contest, InitialGuess, TimedSolver};
 
 /// Repeats of a solver alone, and of several in turns.
 const REPEATS: [usize; 2] = [5, 9];
@@ -24,24 +24,24 @@ const REPEATS: [usize; 2] = [5, 9];
 const CALM: f64 = 0.05;
 
 /// A solver's name, and the solver or why it cannot take part.
-pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn Contestant + 'e>>);
+pub(super) type Entrant<'e> = (&'static str, Result<Box<dyn TimedSolver + 'e>>);
 
 /// A solver on its way through the starts: `Err` once it has failed.
 struct Competitor<'e> {
     name: &'e str,
-    contestant: Result<Box<dyn Contestant + 'e>>,
+    contestant: Result<Box<dyn TimedSolver + 'e>>,
     /// Of the last start.
     series: Series,
     found: Vec<Baseline>,
 }
 
 impl<'e> Competitor<'e> {
-    fn new(name: &'e str, contestant: Result<Box<dyn Contestant + 'e>>) -> Self {
+    fn new(name: &'e str, contestant: Result<Box<dyn TimedSolver + 'e>>) -> Self {
         Self { name, contestant, series: Series::default(), found: Vec::new() }
     }
 
     /// Has it do some `work`, unless it has failed.
-    fn attempt(&mut self, work: impl FnOnce(&mut dyn Contestant, &mut Series) -> Result<()>) {
+    fn attempt(&mut self, work: impl FnOnce(&mut dyn TimedSolver, &mut Series) -> Result<()>) {
         let Ok(contestant) = &mut self.contestant else { return };
         if let Err(error) = work(&mut **contestant, &mut self.series) {
             self.contestant = Err(error);
@@ -55,16 +55,16 @@ impl<'e> Competitor<'e> {
 
 impl Contest<'_> {
     /// Cold and warm.
-    pub fn hold(&self, solver: &str, contestant: &mut dyn Contestant) -> Result<Vec<Baseline>> {
-        self.alone(solver, contestant, &[Start::Cold, Start::Warm])
+    pub fn hold(&self, solver: &str, contestant: &mut dyn TimedSolver) -> Result<Vec<Baseline>> {
+        self.alone(solver, contestant, &[InitialGuess::Cold, InitialGuess::Warm])
     }
 
     /// These starts of one solver.
     pub fn alone(
         &self,
         solver: &str,
-        contestant: &mut dyn Contestant,
-        starts: &[Start],
+        contestant: &mut dyn TimedSolver,
+        starts: &[InitialGuess],
     ) -> Result<Vec<Baseline>> {
         let mut one = [Competitor::new(solver, Ok(Box::new(contestant)))];
         for &start in starts {
@@ -84,7 +84,7 @@ impl Contest<'_> {
             .into_iter()
             .map(|(name, contestant)| (name, Competitor::new(name, contestant)))
             .unzip();
-        for start in [Start::Cold, Start::Warm] {
+        for start in [InitialGuess::Cold, InitialGuess::Warm] {
             let rows = || self.measure(&mut all, start, REPEATS[1]);
             let found = calmest(rows);
             take_over(&mut all, found);
@@ -96,10 +96,10 @@ impl Contest<'_> {
     fn measure(
         &self,
         all: &mut [Competitor],
-        start: Start,
+        start: InitialGuess,
         repeats: usize,
     ) -> Vec<Option<Baseline>> {
-        if start == Start::Warm && self.quadratic.ticks.len() < 2 {
+        if start == InitialGuess::Warm && self.quadratic.ticks.len() < 2 {
             return Vec::new();
         }
         for one in &mut *all {

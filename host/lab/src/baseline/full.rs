@@ -3,9 +3,9 @@
 use signorini_kernel::signorini::System;
 
 use super::failed;
-use super::moment::Moment;
-use super::psor::Given;
-use super::quadratic::{Matrix, Quadratic, Tick};
+use super::load_case::LoadCase;
+use super::psor::TickLoads;
+use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use signorini_scene::error::Result;
 use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::reference::Factor;
@@ -15,19 +15,19 @@ use signorini_solve::solve::Reduced;
 /// The kernel's system in the scalar `R`.
 pub(super) struct Full<'p, R: Scalar> {
     assembled: Assembled<'p, R>,
-    pub ticks: Vec<Given<R>>,
+    pub ticks: Vec<TickLoads<R>>,
 }
 
 impl<'p, R: Scalar> Full<'p, R> {
     /// Assembles the matrix once and the load of every moment.
-    pub fn new(problem: &'p Problem, parts: &Parts, moments: &[Moment]) -> Result<Self> {
+    pub fn new(problem: &'p Problem, parts: &Parts, moments: &[LoadCase]) -> Result<Self> {
         let mut assembled = Assembled::new(problem).map_err(failed)?;
         assembled.set_parts(parts);
         let mut ticks = Vec::new();
         for moment in moments {
             assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
             let system = assembled.system().map_err(failed)?;
-            ticks.push(Given {
+            ticks.push(TickLoads {
                 load: system.load().to_vec(),
                 lower: system.lower().to_vec(),
                 dirichlet: assembled.dirichlet().to_vec(),
@@ -47,7 +47,7 @@ impl<'p, R: Scalar> Full<'p, R> {
 pub(super) fn quadratic(
     problem: &Problem,
     parts: &Parts,
-    moments: &[Moment],
+    moments: &[LoadCase],
 ) -> Result<(Quadratic, Factor)> {
     let mut assembled = Assembled::<f64>::new(problem).map_err(failed)?;
     let (mut matrix, mut floating, mut ticks) = (Matrix::new(), Vec::new(), Vec::new());
@@ -55,7 +55,7 @@ pub(super) fn quadratic(
         assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
         let reduced = Reduced::new(problem, parts, &assembled, &assembled.start());
         let Reduced { row_ptr, col_idx, values, load, floating: held } = reduced.map_err(failed)?;
-        ticks.push(Tick { load, lower: assembled.lower().to_vec() });
+        ticks.push(QuadraticLoads { load, lower: assembled.lower().to_vec() });
         (matrix, floating) = (Matrix { row_ptr, col_idx, values }, held);
     }
     Quadratic::new(matrix, floating, ticks)

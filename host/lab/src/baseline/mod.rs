@@ -9,32 +9,32 @@
 //! is outside of every count; the notes say how long it takes. Two products: [`of_scene`] and [`sizes()`].
 
 mod active_set;
+mod benchmark;
 mod cascade;
 mod clarabel;
 mod condensed;
 pub mod conforming;
 mod contest;
-mod contestant;
 mod full;
-mod moment;
+mod load_case;
 mod osqp;
 mod pivots;
 mod psor;
 mod quadratic;
 pub mod record;
-mod ring;
 mod series;
 pub mod sizes;
 mod table;
 #[cfg(test)]
 mod tests;
+mod timed_solver;
 mod verdict;
 
 use std::fmt::Display;
 
 use crate::baseline::record::Baseline;
-use moment::Moment;
-use ring::Ring;
+use benchmark::Benchmark;
+use load_case::LoadCase;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_solve::norms;
 use signorini_solve::problem::Problem;
@@ -63,9 +63,9 @@ pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
     let mut notes = Vec::new();
     let program = osqp::program();
     notes.extend(program.err().map(str::to_owned));
-    let moments = Moment::drawn(problem, TICKS);
+    let moments = LoadCase::drawn(problem, TICKS);
     let error = discretisation_error(problem, &mut notes)?;
-    let ring = Ring {
+    let ring = Benchmark {
         problem,
         moments: &moments,
         target: SHARE * error,
@@ -84,7 +84,7 @@ fn discretisation_error(problem: &Problem, notes: &mut Vec<String>) -> Result<f6
         return Ok(norms::errors(exact, problem, &solution.u, &solution.flux)?.energy);
     }
     if let Some(bound) = solution.bound {
-        return Ok(bound.gap);
+        return Ok(bound.duality_gap);
     }
     notes.push("no error bound: a hundredth of the energy stands for the error".to_owned());
     Ok(0.01 * solution.energy(problem))

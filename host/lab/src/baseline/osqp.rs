@@ -19,9 +19,9 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::contestant::{Contestant, Run, Start};
 use super::failed;
 use super::quadratic::Quadratic;
+use super::timed_solver::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
 use crate::cycles::IS_WIDE;
 use signorini_scene::error::Result;
@@ -89,7 +89,7 @@ pub(super) enum Manner {
 }
 
 #[derive(Deserialize)]
-struct Answer {
+struct OsqpAnswer {
     cycles: f64,
     iterations: u32,
     /// `None` where it has none.
@@ -168,16 +168,16 @@ fn within<T>(limit: Duration, child: &Mutex<Child>, work: impl FnOnce() -> Resul
     })
 }
 
-impl Contestant for Osqp {
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
-        let (cold, manner) = (start == Start::Cold, self.manner);
+impl TimedSolver for Osqp {
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
+        let (cold, manner) = (start == InitialGuess::Cold, self.manner);
         let (questions, answers) = (&mut self.questions, &mut self.answers);
         let line = within(self.limit, &self.child, || {
             say(questions, &Question { tick, cold, tolerance, manner })?;
             let mut line = String::new();
             answers.read_line(&mut line).map(|_| line).map_err(failed)
         })?;
-        let Answer { cycles, iterations, u } =
+        let OsqpAnswer { cycles, iterations, u } =
             serde_json::from_str(&line).map_err(|error| failed(format!("OSQP: {error}")))?;
         let u = u.ok_or_else(|| failed(format!("no answer after {iterations} iterations")))?;
         Ok(Run { cycles, iterations, u })
@@ -203,7 +203,7 @@ mod tests {
     use std::os::unix::fs::PermissionsExt;
 
     use super::super::full::quadratic;
-    use super::super::moment::Moment;
+    use super::super::load_case::LoadCase;
     use super::super::tests::catalogue;
     use super::*;
     use signorini_scene::mesh::structured::{Cells, grid};
@@ -218,9 +218,9 @@ mod tests {
         let scene = catalogue("moving-tri");
         let problem = Problem::new(&scene, grid(16, Cells::Triangles)).unwrap();
         let parts = Parts::examine(&problem).unwrap();
-        let (full, _) = quadratic(&problem, &parts, &Moment::drawn(&problem, 1)).unwrap();
+        let (full, _) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 1)).unwrap();
         let run = Osqp::with_limit(&program, &full, Manner::Watched, limit)
-            .and_then(|mut osqp| osqp.run(0, Start::Cold, 1e-3));
+            .and_then(|mut osqp| osqp.run(0, InitialGuess::Cold, 1e-3));
         run.unwrap_err().to_string()
     }
 

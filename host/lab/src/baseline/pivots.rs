@@ -3,16 +3,16 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::condensed::Iterate;
 use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, Progress};
-use signorini_kernel::condensed::tableau::{Start as Begin, Tableau};
+use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, SolveSummary};
+use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
 use signorini_kernel::limits::Deadline;
 
-use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
-use super::quadratic::Tick;
+use super::quadratic::QuadraticLoads;
+use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_bake::condensed::{Baked, Work};
 use signorini_scene::error::Result;
-use signorini_solve::condense::Condensate;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 
 /// Exchanges of a solve, and sweeps where these do not suffice: no limit that is reached.
@@ -32,11 +32,11 @@ pub(super) struct Pivots<R: Scalar> {
 }
 
 impl<R: Scalar> Pivots<R> {
-    pub fn new(condensate: &Condensate, ticks: &[Tick]) -> Result<Self> {
+    pub fn new(condensate: &CondensedModel, ticks: &[QuadraticLoads]) -> Result<Self> {
         let baked = Baked::new(condensate, WORK, false).map_err(failed)?;
         let n = padded(condensate.contact);
         let zeros = || vec![R::ZERO; n];
-        let narrowed = |tick: &Tick| {
+        let narrowed = |tick: &QuadraticLoads| {
             let mut load: Vec<R> = tick.load.iter().map(|&b| R::narrow(b)).collect();
             load.resize(n, R::ZERO);
             load
@@ -58,17 +58,17 @@ impl<R: Scalar> Pivots<R> {
     fn solve(
         &mut self,
         tick: usize,
-        start: Start,
-    ) -> std::result::Result<(f64, Progress), KernelError> {
+        start: InitialGuess,
+    ) -> std::result::Result<(f64, SolveSummary), KernelError> {
         let Self { baked, loads, x, residual, scratch, open, blocks, exchanged, columns } = self;
         let (sweeps, [column, next]) = (baked.sweeps, columns);
         let nothing = vec![false; exchanged.len()];
         baked.with_model(|model| {
             let matrix = model.matrix()?;
             let (cycles, progress) = counted(|| {
-                let begin = Begin { blocks: model.matrix, exchanged: &nothing };
+                let begin = InitialTableau { blocks: model.matrix, exchanged: &nothing };
                 let mut tableau = Tableau::new(model.contact, blocks, exchanged, [column, next])?;
-                if start == Start::Cold {
+                if start == InitialGuess::Cold {
                     x.fill(R::ZERO);
                     tableau.reset(&begin)?;
                 }
@@ -82,9 +82,9 @@ impl<R: Scalar> Pivots<R> {
     }
 }
 
-impl<R: Scalar> Contestant for Pivots<R> {
+impl<R: Scalar> TimedSolver for Pivots<R> {
     /// Exact: the tolerance has no say.
-    fn run(&mut self, tick: usize, start: Start, _: f64) -> Result<Run> {
+    fn run(&mut self, tick: usize, start: InitialGuess, _: f64) -> Result<Run> {
         let (cycles, progress) = self.solve(tick, start).map_err(failed)?;
         let u = self.x[..self.baked.contact].iter().map(|x| x.wide()).collect();
         Ok(Run { cycles, iterations: progress.pivots + progress.sweeps, u })

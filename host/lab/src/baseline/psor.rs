@@ -5,8 +5,8 @@ use signorini_kernel::rows::{Row, Rows};
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings, Solver};
 
-use super::contestant::{Contestant, Run, Start, counted};
 use super::failed;
+use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 use signorini_solve::scalar::Scalar;
 
@@ -17,7 +17,7 @@ const TRIAL: f64 = 1e-6;
 
 /// The data of a tick as [`System`] takes them.
 #[derive(Debug, Clone)]
-pub(super) struct Given<R> {
+pub(super) struct TickLoads<R> {
     pub load: Vec<R>,
     pub lower: Vec<R>,
     /// Given values, behind the unknowns in u.
@@ -30,7 +30,7 @@ pub(super) struct Given<R> {
 pub(super) struct Psor<'a, R: Scalar, const WIDTH: usize> {
     /// Its load and bounds are replaced every tick.
     system: System<'a, R, u32>,
-    ticks: &'a [Given<R>],
+    ticks: &'a [TickLoads<R>],
     /// Where a cold search for ω begins, or the ω itself.
     relaxation: Relaxation<R>,
     rows: Vec<Row<R, u32, WIDTH>>,
@@ -40,21 +40,21 @@ pub(super) struct Psor<'a, R: Scalar, const WIDTH: usize> {
 
 impl<'a, R: Scalar, const WIDTH: usize> Psor<'a, R, WIDTH> {
     /// With ω found while sweeping; a warm tick goes on from the one of the tick before.
-    pub fn adaptive(system: System<'a, R, u32>, ticks: &'a [Given<R>]) -> Self {
+    pub fn adaptive(system: System<'a, R, u32>, ticks: &'a [TickLoads<R>]) -> Self {
         let rows = vec![Row::EMPTY; system.counts().unknowns()];
         let relaxation = Relaxation::Adaptive(R::ONE);
         Self { system, ticks, relaxation, rows, u: Vec::new(), omega: R::ONE }
     }
 
     /// With the best of some fixed ω, tried on the first tick beforehand.
-    pub fn tuned(system: System<'a, R, u32>, ticks: &'a [Given<R>]) -> Result<Self> {
+    pub fn tuned(system: System<'a, R, u32>, ticks: &'a [TickLoads<R>]) -> Result<Self> {
         let mut psor = Self::adaptive(system, ticks);
         let lines = (system.counts().unknowns() as f64).sqrt();
         let mut best = (u32::MAX, R::ONE);
         for distance in [2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 11.0] {
             let omega = R::narrow((2.0 - distance / lines).max(1.0));
             psor.relaxation = Relaxation::Fixed(omega);
-            let run = psor.run(0, Start::Cold, TRIAL)?;
+            let run = psor.run(0, InitialGuess::Cold, TRIAL)?;
             if run.iterations < best.0 {
                 best = (run.iterations, omega);
             }
@@ -63,28 +63,28 @@ impl<'a, R: Scalar, const WIDTH: usize> Psor<'a, R, WIDTH> {
         Ok(psor)
     }
 
-    fn relaxation(&self, start: Start) -> Relaxation<R> {
+    fn relaxation(&self, start: InitialGuess) -> Relaxation<R> {
         match (start, self.relaxation) {
-            (Start::Warm, Relaxation::Adaptive(_)) => Relaxation::Adaptive(self.omega),
+            (InitialGuess::Warm, Relaxation::Adaptive(_)) => Relaxation::Adaptive(self.omega),
             (_, relaxation) => relaxation,
         }
     }
 }
 
-impl<R: Scalar, const WIDTH: usize> Contestant for Psor<'_, R, WIDTH> {
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
+impl<R: Scalar, const WIDTH: usize> TimedSolver for Psor<'_, R, WIDTH> {
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
         let given = &self.ticks[tick];
         let system = self.system.with_data(&given.load, &given.lower).map_err(failed)?;
         let relaxation = self.relaxation(start);
         let unknowns = system.counts().unknowns();
         let (rows, u) = (&mut self.rows, &mut self.u);
         let (cycles, outcome) = match start {
-            Start::Cold => counted(|| {
+            InitialGuess::Cold => counted(|| {
                 u.clone_from(&given.start);
                 let mut rows = Rows::of_matrix(system.matrix(), system.counts(), rows)?;
                 solve(&system, &mut rows, relaxation, tolerance, u)
             }),
-            Start::Warm => {
+            InitialGuess::Warm => {
                 let mut rows =
                     Rows::of_matrix(system.matrix(), system.counts(), rows).map_err(failed)?;
                 counted(|| {

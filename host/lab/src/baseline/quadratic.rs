@@ -14,7 +14,7 @@ use super::failed;
 /// K with both triangles, and what changes from tick to tick.
 pub(super) struct Quadratic {
     pub matrix: Matrix,
-    pub ticks: Vec<Tick>,
+    pub ticks: Vec<QuadraticLoads>,
     /// u* of each tick.
     pub answers: Vec<Vec<f64>>,
     /// For each contact unknown whether contact alone holds its part.
@@ -31,7 +31,7 @@ pub(super) struct Matrix {
 
 /// The data of one tick.
 #[derive(Debug, Clone)]
-pub(super) struct Tick {
+pub(super) struct QuadraticLoads {
     pub load: Vec<f64>,
     /// ψ of the contact unknowns, which come last.
     pub lower: Vec<f64>,
@@ -84,7 +84,11 @@ impl Matrix {
 
 impl Quadratic {
     /// Factors K and solves every tick, up to the first that has no solution.
-    pub fn new(matrix: Matrix, floating: Vec<bool>, ticks: Vec<Tick>) -> Result<(Self, Factor)> {
+    pub fn new(
+        matrix: Matrix,
+        floating: Vec<bool>,
+        ticks: Vec<QuadraticLoads>,
+    ) -> Result<(Self, Factor)> {
         let mut quadratic = Self { matrix, ticks, answers: Vec::new(), floating };
         let factor = Factor::new(&quadratic.reference(0)).map_err(failed)?;
         for tick in &quadratic.ticks {

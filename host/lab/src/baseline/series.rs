@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 
-use super::contestant::{Contest, Contestant, Run, Start};
+use super::timed_solver::{Contest, InitialGuess, Run, TimedSolver};
 
 /// Seconds of a repeat, at least.
 const REPEAT: f64 = 0.1;
@@ -38,8 +38,8 @@ impl Contest<'_> {
     /// Begins a series: finds its tolerance.
     pub(super) fn trial(
         &self,
-        contestant: &mut dyn Contestant,
-        start: Start,
+        contestant: &mut dyn TimedSolver,
+        start: InitialGuess,
         series: &mut Series,
     ) -> Result<()> {
         let begin = Instant::now();
@@ -60,8 +60,8 @@ impl Contest<'_> {
     /// One more: as many passes as time allows, the fastest of them with the largest distance of any.
     pub(super) fn repeat(
         &self,
-        contestant: &mut dyn Contestant,
-        start: Start,
+        contestant: &mut dyn TimedSolver,
+        start: InitialGuess,
         series: &mut Series,
     ) -> Result<()> {
         if series.spent >= ENOUGH {
@@ -78,15 +78,20 @@ impl Contest<'_> {
         Ok(())
     }
 
-    fn pass(&self, contestant: &mut dyn Contestant, start: Start, exponent: i32) -> Result<Pass> {
+    fn pass(
+        &self,
+        contestant: &mut dyn TimedSolver,
+        start: InitialGuess,
+        exponent: i32,
+    ) -> Result<Pass> {
         let tolerance = 10f64.powi(exponent);
         match start {
-            Start::Cold => self.cold(contestant, tolerance),
-            Start::Warm => self.warm(contestant, tolerance),
+            InitialGuess::Cold => self.cold(contestant, tolerance),
+            InitialGuess::Warm => self.warm(contestant, tolerance),
         }
     }
 
-    pub(super) fn baseline(&self, solver: &str, start: Start, series: &Series) -> Baseline {
+    pub(super) fn baseline(&self, solver: &str, start: InitialGuess, series: &Series) -> Baseline {
         let Series { exponent, passes, .. } = series;
         let (cycles, cycles_spread) = median_and_spread(passes.iter().map(|pass| pass.cycles));
         Baseline {
@@ -107,19 +112,19 @@ impl Contest<'_> {
         }
     }
 
-    fn cold(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {
-        let run = contestant.run(0, Start::Cold, tolerance)?;
+    fn cold(&self, contestant: &mut dyn TimedSolver, tolerance: f64) -> Result<Pass> {
+        let run = contestant.run(0, InitialGuess::Cold, tolerance)?;
         let distance = self.quadratic.distance(0, &run.u);
         let Run { cycles, iterations, .. } = run;
         Ok(Pass { cycles, worst: cycles, iterations, distance })
     }
 
     /// The ticks after the first.
-    fn warm(&self, contestant: &mut dyn Contestant, tolerance: f64) -> Result<Pass> {
-        contestant.run(0, Start::Cold, tolerance)?;
+    fn warm(&self, contestant: &mut dyn TimedSolver, tolerance: f64) -> Result<Pass> {
+        contestant.run(0, InitialGuess::Cold, tolerance)?;
         let (mut cycles, mut iterations, mut distance) = (Vec::new(), Vec::new(), 0.0_f64);
         for tick in 1..self.quadratic.ticks.len() {
-            let run = contestant.run(tick, Start::Warm, tolerance)?;
+            let run = contestant.run(tick, InitialGuess::Warm, tolerance)?;
             distance = distance.max(self.quadratic.distance(tick, &run.u));
             cycles.push(run.cycles);
             iterations.push(run.iterations);

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::moment::Moment;
-use super::ring::Ring;
+use super::benchmark::Benchmark;
+use super::load_case::LoadCase;
 use super::{SHARE, discretisation_error, osqp};
 use crate::baseline::record::Baseline;
 use crate::checkout::root;
@@ -86,12 +86,17 @@ pub(super) fn size(
     let coarser = nested(n).into_iter().map(|n| Problem::new(scene, grid(n, Cells::Triangles)));
     let coarser: Vec<_> = coarser.collect::<Result<_>>()?;
     let moments: Vec<_> =
-        (0..=ticks).map(|tick| Moment::at(&problem.scene, STEP * tick as f64)).collect();
+        (0..=ticks).map(|tick| LoadCase::at(&problem.scene, STEP * tick as f64)).collect();
     let mut remarks = Vec::new();
     let discretisation_error = discretisation_error(&problem, &mut remarks)?;
     let target = SHARE * discretisation_error;
-    let ring =
-        Ring { problem: &problem, moments: &moments, target, osqp: program, coarser: &coarser };
+    let ring = Benchmark {
+        problem: &problem,
+        moments: &moments,
+        target,
+        osqp: program,
+        coarser: &coarser,
+    };
     let baselines = ring.hold(&mut remarks)?;
     notes.extend(remarks.into_iter().map(|remark| format!("n = {n}: {remark}")));
     let counts = problem.topology.counts;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::condensed::condensed;
 use super::full::quadratic;
-use super::moment::Moment;
+use super::load_case::LoadCase;
 use super::sizes::{Sizes, size};
 use super::table;
 use signorini_scene::mesh::gmsh;
@@ -55,10 +55,10 @@ fn contact_moves() {
         let scene = read(file);
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
         let parts = Parts::examine(&problem).unwrap();
-        let moments = Moment::drawn(&problem, 20);
+        let moments = LoadCase::drawn(&problem, 20);
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
         let free = full.free();
-        let touching = |(u, tick): (&Vec<f64>, &super::quadratic::Tick)| {
+        let touching = |(u, tick): (&Vec<f64>, &super::quadratic::QuadraticLoads)| {
             tick.lower.iter().zip(&u[free..]).map(|(psi, u)| u <= psi).collect::<Vec<_>>()
         };
         let mut sets: Vec<_> = full.answers.iter().zip(&full.ticks).map(touching).collect();
@@ -73,7 +73,7 @@ fn condensed_as_baked() {
     let scene = read("scenes/slab.toml");
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
     let parts = Parts::examine(&problem).unwrap();
-    let (full, factor) = quadratic(&problem, &parts, &Moment::drawn(&problem, 2)).unwrap();
+    let (full, factor) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 2)).unwrap();
     let (ours, model) = condensed(&problem, &full, &factor).unwrap();
     let baked = condense(&problem).unwrap();
     let largest = ours.ticks[0].load.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
@@ -91,9 +91,9 @@ fn condensed_as_baked() {
 fn a_scene_with_every_solver_but_osqp() {
     let scene = read("scenes/strip.toml");
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
-    let found = super::ring::Ring {
+    let found = super::benchmark::Benchmark {
         problem: &problem,
-        moments: &Moment::drawn(&problem, 2),
+        moments: &LoadCase::drawn(&problem, 2),
         target: 1e-2 * super::discretisation_error(&problem, &mut Vec::new()).unwrap(),
         osqp: None,
         coarser: &[],

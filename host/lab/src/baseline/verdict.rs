@@ -1,6 +1,6 @@
 //! What the figures of one size say, in plain sentences.
 
-use super::ring::PSOR;
+use super::benchmark::PSOR;
 use crate::baseline::record::Baseline;
 
 /// The part of PSOR's cycles that is less by more than noise.

@@ -4,15 +4,15 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::case::Case;
+use super::case::ExtremeCase;
 use super::grid::msh;
 use signorini_bake::engine;
-use signorini_bake::tick::{Budget, Moment, Tick, play};
+use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::{Mesh, adapted};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
-use signorini_solve::certify::{Answer, ErrorBound};
+use signorini_solve::certify::{CertifiedFields, ErrorBound};
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, solve, status_name};
 
@@ -34,9 +34,9 @@ pub struct Attempt {
     /// Its bound.
     pub bound: Option<ErrorBound>,
     /// What the bound is about.
-    pub certified: Answer,
+    pub certified: CertifiedFields,
     /// The ticks, where ticks were asked for.
-    pub ticks: Vec<Tick>,
+    pub ticks: Vec<TickRecord>,
 }
 
 impl Attempt {
@@ -50,7 +50,7 @@ impl Attempt {
 ///
 /// # Errors
 /// Input that is refused; files that cannot be written.
-pub fn attempt(case: &Case, folder: &Path) -> Result<Attempt> {
+pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     let (path, mesh) = (folder.join("scene.toml"), folder.join("mesh.msh"));
     let write = |path: &Path, text: String| std::fs::write(path, text).map_err(Error::io(path));
     write(&path, case.posed.scene() + &setting(case))?;
@@ -80,7 +80,7 @@ pub fn attempt(case: &Case, folder: &Path) -> Result<Attempt> {
 }
 
 /// A fixed ω is a setting of the scene.
-fn setting(case: &Case) -> String {
+fn setting(case: &ExtremeCase) -> String {
     let mut text = String::new();
     if let Some(omega) = case.effort.omega {
         let scalar = match case.scalar {
@@ -94,9 +94,9 @@ fn setting(case: &Case) -> String {
 }
 
 /// Ticks at t = 0, 1, 2, …; of the sweeps the most of one tick count.
-fn ticks(case: &Case, _scene: &Scene, problem: Problem) -> Result<Attempt> {
-    let moment = |tick: u32| Moment { time: f64::from(tick), inputs: Vec::new() };
-    let moments: Vec<Moment> = (0..case.effort.ticks).map(moment).collect();
+fn ticks(case: &ExtremeCase, _scene: &Scene, problem: Problem) -> Result<Attempt> {
+    let moment = |tick: u32| ScheduledTick { time: f64::from(tick), inputs: Vec::new() };
+    let moments: Vec<ScheduledTick> = (0..case.effort.ticks).map(moment).collect();
     let budget = Budget { scalar: case.scalar, sweeps: case.most_sweeps(), error: 0.0 };
     let ticks = play(&problem, None, &moments, &budget, |_| {})?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
@@ -107,7 +107,7 @@ fn ticks(case: &Case, _scene: &Scene, problem: Problem) -> Result<Attempt> {
         u: Vec::new(),
         flux: Vec::new(),
         bound: None,
-        certified: Answer::default(),
+        certified: CertifiedFields::default(),
         ticks,
         mesh: problem.mesh,
     })

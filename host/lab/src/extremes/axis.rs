@@ -1,6 +1,6 @@
 //! The axes: which number of a problem each of them pushes, and how far.
 
-use super::case::Case;
+use super::case::ExtremeCase;
 use super::grid::Shape;
 use super::posed::{Hold, Split};
 use super::solution::Solution;
@@ -179,7 +179,7 @@ impl Axis {
     }
 
     /// Moves a case to this place on the axis.
-    pub fn set(self, value: f64, case: &mut Case) {
+    pub fn set(self, value: f64, case: &mut ExtremeCase) {
         let (posed, effort) = (&mut case.posed, &mut case.effort);
         match self {
             Self::Contrast => posed.solution = Solution::Jump(value),
@@ -216,7 +216,7 @@ impl Axis {
 }
 
 /// With C none of the boundary, one edge next to the free point, the lower side, or all of it.
-fn set_contact(length: f64, case: &mut Case) {
+fn set_contact(length: f64, case: &mut ExtremeCase) {
     let posed = &mut case.posed;
     let n = posed.grid.n as usize;
     if length == 0.0 {
@@ -237,7 +237,7 @@ fn active(share: f64) -> Solution {
 }
 
 /// With D none of the boundary, the lowest edge at the right, the right side, or three sides.
-fn set_dirichlet(length: f64, case: &mut Case) {
+fn set_dirichlet(length: f64, case: &mut ExtremeCase) {
     let posed = &mut case.posed;
     let n = f64::from(posed.grid.n);
     if length > 1.0 {

@@ -5,7 +5,7 @@ use signorini_solve::solve::ScalarKind;
 
 /// What is solved, in which scalar, and with what effort.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub struct ExtremeCase {
     /// The axis.
     pub axis: String,
     /// The place on it.
@@ -25,7 +25,7 @@ pub struct Case {
 pub struct Effort {
     /// A fixed relaxation factor; `None`: the kernel finds it.
     pub omega: Option<f64>,
-    /// Most sweeps; `None`: as many as [`Case::most_sweeps`] leaves.
+    /// Most sweeps; `None`: as many as [`ExtremeCase::most_sweeps`] leaves.
     pub sweeps: Option<u32>,
     /// Subnormal numbers are flushed to zero while the scene is read and solved.
     pub flush: bool,
@@ -37,7 +37,7 @@ pub struct Effort {
 const UPDATES: [f64; 2] = [3e9, 3e8];
 const LARGE: u32 = 100_000;
 
-impl Case {
+impl ExtremeCase {
     /// 10⁶ sweeps, the default, or fewer on meshes where they would take minutes: a cut-off solve is what
     /// the bound is for.
     pub fn most_sweeps(&self) -> u32 {

@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::case::Case;
+use super::case::ExtremeCase;
 use super::record::Row;
-use crate::trade::case::{digest, program};
 use crate::trade::journal::Journal;
+use crate::trade::measured_setting::{digest, program};
 use crate::trade::shard::Shard;
 use signorini_scene::error::{Error, Result};
 
@@ -45,7 +45,11 @@ impl Kept {
     ///
     /// # Errors
     /// Those of `work`; a file that cannot be written.
-    pub(super) fn row(&self, case: &Case, work: impl FnOnce() -> Result<Row>) -> Result<Row> {
+    pub(super) fn row(
+        &self,
+        case: &ExtremeCase,
+        work: impl FnOnce() -> Result<Row>,
+    ) -> Result<Row> {
         let key = format!("{}, {:016x}", case.name(), digest(&format!("{case:?}")));
         if let Some(Line { row, elapsed }) = held(&self.journal).known(&key) {
             let mut before = held(&self.before);

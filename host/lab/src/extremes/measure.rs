@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::attempt::Attempt;
-use super::case::Case;
+use super::case::ExtremeCase;
 use super::grid::Shape;
 use super::large;
 use super::posed::Posed;
@@ -62,7 +62,7 @@ const LARGE: u32 = 128;
 ///
 /// # Errors
 /// A problem at scale 1 that cannot be posed.
-pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
+pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let posed = case.posed.at_scale_one();
     let mesh = case.posed.scales.unplaced(&attempt.mesh);
     let problem = at_scale_one(&posed, mesh)?;
@@ -122,7 +122,7 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Measured> {
 ///
 /// # Errors
 /// As for [`measure`].
-pub fn of_ticks(case: &Case, attempt: &Attempt) -> Result<Measured> {
+pub fn of_ticks(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
     let mut problem = at_scale_one(&case.posed, attempt.mesh.clone())?;
     let mut worst = Measured { finite: true, ..Measured::default() };
     for tick in &attempt.ticks {

@@ -30,7 +30,7 @@ mod watch;
 use std::time::{Duration, Instant};
 
 use attempt::{Attempt, attempt};
-use case::Case;
+use case::ExtremeCase;
 use flush::flushed;
 use judge::{Ended, judge};
 use kept::Kept;
@@ -49,7 +49,7 @@ const LIMIT: Duration = Duration::from_secs(900);
 
 /// Cases of all studies, or of those whose name contains `only`.
 #[derive(Debug)]
-pub struct Plan(Vec<Case>);
+pub struct Plan(Vec<ExtremeCase>);
 
 impl Plan {
     /// Everything, or what `only` names.
@@ -92,7 +92,7 @@ impl Plan {
 type Left = (Result<(Attempt, Measured)>, f64);
 
 /// Solves, measures and judges one case.
-fn row(case: &Case) -> Result<Row> {
+fn row(case: &ExtremeCase) -> Result<Row> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir()))?;
     let (place, own) = (folder.path().to_owned(), case.clone());
     let left = watched(LIMIT, move || -> Left {
@@ -127,7 +127,7 @@ fn row(case: &Case) -> Result<Row> {
     Ok(Row { outcome, note, seconds, ..described(case, answer) })
 }
 
-fn measured(case: &Case, attempt: Attempt) -> Result<(Attempt, Measured)> {
+fn measured(case: &ExtremeCase, attempt: Attempt) -> Result<(Attempt, Measured)> {
     let found = match case.effort.ticks {
         0 => measure(case, &attempt),
         _ => of_ticks(case, &attempt),
@@ -138,7 +138,7 @@ fn measured(case: &Case, attempt: Attempt) -> Result<(Attempt, Measured)> {
 }
 
 /// The numbers of a case; those that are not finite are left out.
-fn described(case: &Case, answer: Option<&(Attempt, Measured)>) -> Row {
+fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
     let (attempt, measured) = answer.map(|(attempt, measured)| (attempt, measured)).unzip();
     let finite = |number: f64| number.is_finite().then_some(number);
     let bound = measured.and_then(|measured| measured.bound).and_then(finite);

@@ -1,7 +1,7 @@
 //! What is run: each axis alone, then pairs, in both scalars.
 
 use super::axis::Axis;
-use super::case::{Case, Effort};
+use super::case::{Effort, ExtremeCase};
 use super::flush;
 use super::grid::{Grid, Shape};
 use super::posed::{Hold, Posed, Scales};
@@ -11,7 +11,7 @@ use signorini_solve::solve::ScalarKind;
 
 /// An axis or a pair of them, with the problem whose numbers they push.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Study {
+pub struct AxisStudy {
     /// The axis.
     pub axis: Axis,
     /// What it is crossed with.
@@ -27,16 +27,22 @@ const A: Solution = Solution::Smooth { grazing: 0.0 };
 const H: Solution = Solution::Punch;
 const J: Solution = Solution::Jump(1.0);
 
-const fn study(axis: Axis, of: &'static str, solution: Solution, n: u32, cells: Cells) -> Study {
-    Study { axis, across: None, solution, of, n, cells }
+const fn study(
+    axis: Axis,
+    of: &'static str,
+    solution: Solution,
+    n: u32,
+    cells: Cells,
+) -> AxisStudy {
+    AxisStudy { axis, across: None, solution, of, n, cells }
 }
 
-const fn pair(axis: Axis, across: Axis, solution: Solution, cells: Cells) -> Study {
-    Study { axis, across: Some(across), solution, of: "", n: 8, cells }
+const fn pair(axis: Axis, across: Axis, solution: Solution, cells: Cells) -> AxisStudy {
+    AxisStudy { axis, across: Some(across), solution, of: "", n: 8, cells }
 }
 
 /// All of them, in the order of the report.
-pub const STUDIES: [Study; 38] = [
+pub const STUDIES: [AxisStudy; 38] = [
     study(Axis::Contrast, "triangles", J, 16, Cells::Triangles),
     study(Axis::Contrast, "quads", J, 16, Cells::Quads),
     study(Axis::Anisotropy, "A, triangles", A, 16, Cells::Triangles),
@@ -77,7 +83,7 @@ pub const STUDIES: [Study; 38] = [
     pair(Axis::Shift, Axis::Aspect, A, Cells::Triangles),
 ];
 
-impl Study {
+impl AxisStudy {
     /// The name of its axis in the files.
     pub fn name(&self) -> String {
         let name = self.axis.name();
@@ -85,7 +91,7 @@ impl Study {
     }
 
     /// Its cases.
-    pub fn cases(&self) -> Vec<Case> {
+    pub fn cases(&self) -> Vec<ExtremeCase> {
         let mut cases = Vec::new();
         for scalar in [ScalarKind::F64, ScalarKind::F32] {
             match self.across {
@@ -101,8 +107,8 @@ impl Study {
         cases
     }
 
-    fn case(&self, scalar: ScalarKind, value: f64, across: Option<(Axis, f64)>) -> Case {
-        let mut case = Case {
+    fn case(&self, scalar: ScalarKind, value: f64, across: Option<(Axis, f64)>) -> ExtremeCase {
+        let mut case = ExtremeCase {
             axis: self.name(),
             value,
             across: across.map(|(axis, value)| (axis.name().to_owned(), value)),
@@ -130,7 +136,7 @@ impl Study {
 }
 
 /// Every case of every study.
-pub fn cases() -> Vec<Case> {
-    let can = |study: &&Study| study.axis != Axis::FlushedLoad || flush::SUPPORTED;
-    STUDIES.iter().filter(can).flat_map(Study::cases).collect()
+pub fn cases() -> Vec<ExtremeCase> {
+    let can = |study: &&AxisStudy| study.axis != Axis::FlushedLoad || flush::SUPPORTED;
+    STUDIES.iter().filter(can).flat_map(AxisStudy::cases).collect()
 }

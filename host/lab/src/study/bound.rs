@@ -50,8 +50,8 @@ impl Certified {
 
     /// gap over the energy error of u_h, where both are more than rounding of a solution of this energy.
     pub fn efficiency(&self, energy: f64) -> Option<f64> {
-        let bound = self.bound.filter(|bound| bound.gap >= ROUNDING * energy)?;
-        Some(bound.gap / self.errors?.energy)
+        let bound = self.bound.filter(|bound| bound.duality_gap >= ROUNDING * energy)?;
+        Some(bound.duality_gap / self.errors?.energy)
     }
 
     /// What holds of every iterate.
@@ -63,10 +63,10 @@ impl Certified {
         let safe = "the true error is at most the bound: total / error";
         let mut checks =
             vec![Check::at_least(subject, safe, bound.total / combined, 1.0 - INTEGRATED)];
-        if bound.gap >= ROUNDING * energy {
+        if bound.duality_gap >= ROUNDING * energy {
             let claim =
                 "the bound is what its terms in the exact solution add up to: gap / identity";
-            checks.push(Check::between(subject, claim, bound.gap / identity, IDENTITY));
+            checks.push(Check::between(subject, claim, bound.duality_gap / identity, IDENTITY));
         }
         checks
     }
@@ -99,7 +99,7 @@ impl Certified {
         let Some(efficiency) = self.efficiency(energy) else { return checks };
         if let (Some(bound), Some(combined)) = (self.bound, self.error()) {
             let claim = "the bound is sharp: gap / error";
-            checks.push(Check::at_most(subject, claim, bound.gap / combined, SHARP));
+            checks.push(Check::at_most(subject, claim, bound.duality_gap / combined, SHARP));
         }
         if condition(problem) <= OBLIQUE {
             let claim = "gap / energy error of u_h where cond A ≤ 10";

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::bound::Certified;
 use super::checks;
 use super::cost;
-use super::known::{Case, Run};
+use super::known::{KnownScene, Run};
 use super::panel::panel;
 use crate::cycles;
 use signorini_draw::ScenePanel;
@@ -16,7 +16,7 @@ use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 /// Solves the scene at `path` three times and compares.
-pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
+pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
     let scene = Scene::read(path)?;
     let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -31,7 +31,7 @@ pub fn study(path: &Path) -> Result<(Case, ScenePanel)> {
         checks.extend(run.certified.when_converged(&subject, &problem, solution));
     }
     let counts = problem.topology.counts;
-    let case = Case {
+    let case = KnownScene {
         name,
         title: scene.title.clone(),
         cells: [problem.mesh.triangles.len(), problem.mesh.quads.len()],

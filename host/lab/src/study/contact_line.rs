@@ -6,7 +6,7 @@ use signorini_solve::problem::Problem;
 
 /// A contact edge on the line.
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct LineEdge {
     /// Its position among the contact edges.
     pub contact: usize,
     /// Whether it is walked against its direction.
@@ -16,7 +16,7 @@ pub struct Place {
 }
 
 /// Orders the contact edges by arc length; separate pieces of the boundary follow one another.
-pub fn walk(problem: &Problem) -> Vec<Place> {
+pub fn walk(problem: &Problem) -> Vec<LineEdge> {
     let counts = problem.topology.counts;
     let ends = |contact: usize| problem.ends[counts.free + contact];
     let mut at_vertex: HashMap<u32, Vec<usize>> = HashMap::new();
@@ -36,7 +36,7 @@ pub fn walk(problem: &Problem) -> Vec<Place> {
         while let Some(contact) = next {
             used[contact] = true;
             let reversed = ends(contact)[0] != from;
-            line.push(Place { contact, reversed, start: length });
+            line.push(LineEdge { contact, reversed, start: length });
             length += problem.lengths[counts.free + contact];
             from = ends(contact)[usize::from(!reversed)];
             next = at_vertex[&from].iter().copied().find(|&other| !used[other]);

@@ -33,7 +33,7 @@ enum Grid {
 
 /// One scene on one kind of cells, refined.
 #[derive(Debug, Clone, Serialize)]
-pub struct Study {
+pub struct ConvergenceStudy {
     /// Scene and cells.
     pub name: String,
     /// Squares over the height of the domain.
@@ -52,31 +52,32 @@ pub struct Study {
 
 /// A scene still to be refined.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct ConvergencePlan {
     scene: PathBuf,
     grid: Grid,
 }
 
 /// The studies of the main job, the long ones first.
-pub fn planned(root: &Path) -> Result<Vec<Plan>> {
+pub fn planned(root: &Path) -> Result<Vec<ConvergencePlan>> {
     let folder = root.join("meshes/catalogue");
     let scene = |name: &str| folder.join(format!("{name}-tri.toml"));
     let plans = SCENES.iter().rev().flat_map(|name| {
-        let on = |cells| Plan { scene: scene(name), grid: Grid::Squares(cells) };
+        let on = |cells| ConvergencePlan { scene: scene(name), grid: Grid::Squares(cells) };
         [Cells::Triangles, Cells::Quads].map(on)
     });
     let places = [Trapezoids::InTwoRows, Trapezoids::Everywhere];
     let elements = [QuadElement::Parametric, QuadElement::Nonparametric];
     let bent = places.into_iter().flat_map(|place| {
-        let on = |of| Plan { scene: scene(ON_TRAPEZOIDS), grid: Grid::Trapezoids(place, of) };
+        let on =
+            |of| ConvergencePlan { scene: scene(ON_TRAPEZOIDS), grid: Grid::Trapezoids(place, of) };
         elements.map(on)
     });
     Ok(plans.chain(bent).collect())
 }
 
 /// Runs the studies; calls `done` after each.
-pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<Study>> {
-    let mut studies = on_two_threads(plans, Plan::run, done)?;
+pub fn run(plans: &[ConvergencePlan], done: impl Fn() + Sync) -> Result<Vec<ConvergenceStudy>> {
+    let mut studies = on_two_threads(plans, ConvergencePlan::run, done)?;
     studies.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(studies)
 }
@@ -159,8 +160,8 @@ impl Grid {
     }
 }
 
-impl Plan {
-    fn run(&self) -> Result<Study> {
+impl ConvergencePlan {
+    fn run(&self) -> Result<ConvergenceStudy> {
         let Self { scene, grid } = self;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{}, {}", stem.trim_end_matches("-tri"), grid.name());
@@ -182,7 +183,7 @@ impl Plan {
         let rates = [0, 1, 2].map(rate);
         let checks = grid.checks(&name, rates);
         let (n, grid) = (LEVELS.to_vec(), *grid);
-        Ok(Study { name, n, errors: found, force, rates, checks, grid })
+        Ok(ConvergenceStudy { name, n, errors: found, force, rates, checks, grid })
     }
 }
 
@@ -214,7 +215,7 @@ impl Quantity {
 }
 
 /// The pictures: one an error on squares, one on trapezoids, a curve a study.
-pub fn plots(studies: &[Study]) -> Vec<ConvergencePlot> {
+pub fn plots(studies: &[ConvergenceStudy]) -> Vec<ConvergencePlot> {
     let plot = |quantity: &Quantity, bent: bool| {
         let on = studies.iter().filter(|study| bent == matches!(study.grid, Grid::Trapezoids(..)));
         let series = on.map(|study| quantity.series(&study.name, study.grid, &study.errors));

@@ -34,16 +34,16 @@ pub struct CutOff {
 
 /// A scene with an exact solution, still to be stopped.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct CutOffPlan {
     name: String,
     scene: Scene,
 }
 
 /// Those of the scenes that have an exact solution.
-pub fn planned(scenes: &[PathBuf]) -> Result<Vec<Plan>> {
+pub fn planned(scenes: &[PathBuf]) -> Result<Vec<CutOffPlan>> {
     let read = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Plan { name, scene: Scene::read(path)? })
+        Ok(CutOffPlan { name, scene: Scene::read(path)? })
     };
     let mut plans = scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
     plans.retain(|plan| plan.scene.exact.is_some());
@@ -51,11 +51,11 @@ pub fn planned(scenes: &[PathBuf]) -> Result<Vec<Plan>> {
 }
 
 /// Runs the plans; calls `done` after each.
-pub fn run(plans: &[Plan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
-    on_two_threads(plans, Plan::run, done)
+pub fn run(plans: &[CutOffPlan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> {
+    on_two_threads(plans, CutOffPlan::run, done)
 }
 
-impl Plan {
+impl CutOffPlan {
     fn run(&self) -> Result<CutOff> {
         let (name, scene) = (self.name.clone(), &self.scene);
         let problem = Problem::new(scene, adapted::of_scene(scene)?)?;

@@ -8,7 +8,7 @@ use super::cost::Cost;
 
 /// What is known of a scene after the study.
 #[derive(Debug, Clone, Serialize)]
-pub struct Case {
+pub struct KnownScene {
     /// The scene file's name.
     pub name: String,
     /// Its title.

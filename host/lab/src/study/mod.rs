@@ -20,9 +20,9 @@ use crate::trade::records::{self, RECORD};
 use crate::trade::section::section;
 use crate::trade::verdict::{KnobValue, knob_values};
 use checks::Check;
-use convergence::Study;
+use convergence::ConvergenceStudy;
 use cut_off::CutOff;
-use known::Case;
+use known::KnownScene;
 use signorini_draw::{Report, html};
 use signorini_scene::error::Result;
 use signorini_solve::output::atomic::write_atomically;
@@ -39,8 +39,8 @@ const OF_FLUX: &str = "mean-square error of the flux (L²): ‖σ\u{a0}−\u{a0}
 #[derive(Debug, Serialize)]
 struct Results<'r> {
     cycles: &'static str,
-    scenes: &'r [Case],
-    convergence: &'r [Study],
+    scenes: &'r [KnownScene],
+    convergence: &'r [ConvergenceStudy],
     cut_off: &'r [CutOff],
     knobs: &'r [KnobValue],
     passed: bool,

@@ -1,7 +1,7 @@
 //! A solved scene as the report draws it.
 
-use super::contact_line::{Place, walk};
-use super::known::Case;
+use super::contact_line::{LineEdge, walk};
+use super::known::KnownScene;
 use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
 use signorini_solve::certify::ErrorBound;
@@ -15,7 +15,7 @@ const SAMPLES: usize = 9;
 const FROM_FAER: &str = "largest distance of u to faer’s, over the range of u";
 
 /// Collects the picture of one scene.
-pub fn panel(problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel {
+pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> ScenePanel {
     let cells = 0..problem.mesh.triangles.len() + problem.mesh.quads.len();
     let flux = |cell| CellField::new(problem, cell, &solution.u, &solution.flux).middle_flux();
     ScenePanel {
@@ -39,11 +39,11 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &Case) -> ScenePanel 
 }
 
 fn terms(bound: ErrorBound) -> BoundTerms {
-    let ErrorBound { total, of_u, gap, algebraic, oscillation, rounding } = bound;
+    let ErrorBound { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = bound;
     BoundTerms { total, of_u, gap, algebraic, oscillation, rounding }
 }
 
-fn contact_edge(problem: &Problem, solution: &Solution, place: &Place) -> ContactEdge {
+fn contact_edge(problem: &Problem, solution: &Solution, place: &LineEdge) -> ContactEdge {
     let edge = problem.topology.counts.free + place.contact;
     let opening = solution.u[edge] - solution.gap(problem, place.contact);
     let mut ends = problem.segment(edge);
@@ -98,7 +98,7 @@ fn boundary(problem: &Problem) -> Vec<BoundaryEdge> {
     drawn.collect()
 }
 
-fn facts(case: &Case) -> Vec<(String, String)> {
+fn facts(case: &KnownScene) -> Vec<(String, String)> {
     let [triangles, quads] = case.cells;
     let certified = &case.f64.certified;
     let mut facts = vec![

@@ -3,8 +3,8 @@
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 use super::checks::Check;
-use super::convergence::Study;
-use super::known::Case;
+use super::convergence::ConvergenceStudy;
+use super::known::KnownScene;
 use super::{OF_FLUX, OF_GRADIENT, OF_U};
 use signorini_draw as report;
 use signorini_solve::certify::ErrorBound;
@@ -51,7 +51,7 @@ const REPORT_HEADER: [&str; 17] = [
     "kilocycles / unknown, f64 / f32",
 ];
 
-fn row(case: &Case) -> Vec<String> {
+fn row(case: &KnownScene) -> Vec<String> {
     let certified = &case.f64.certified;
     let or_none =
         |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.2e}"));
@@ -81,12 +81,12 @@ fn row(case: &Case) -> Vec<String> {
     ]
 }
 
-fn passed(case: &Case) -> bool {
+fn passed(case: &KnownScene) -> bool {
     case.checks.iter().all(|check| check.passed)
 }
 
 /// One line a scene.
-pub fn scenes(cases: &[Case]) -> String {
+pub fn scenes(cases: &[KnownScene]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     table.set_header(HEADER.iter().copied().chain(["ok"]));
@@ -112,14 +112,14 @@ pub fn scenes(cases: &[Case]) -> String {
     )
 }
 
-fn median(cases: &[Case], pick: impl Fn(&Case) -> f64) -> f64 {
+fn median(cases: &[KnownScene], pick: impl Fn(&KnownScene) -> f64) -> f64 {
     let mut values: Vec<f64> = cases.iter().map(pick).filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Errors on the finest grid, and rates over all of them.
-pub fn convergence(studies: &[Study]) -> String {
+pub fn convergence(studies: &[ConvergenceStudy]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     table.set_header([
@@ -168,7 +168,7 @@ fn align(table: &mut Table) {
 }
 
 /// The same table for the report.
-pub fn for_report(cases: &[Case]) -> report::Table {
+pub fn for_report(cases: &[KnownScene]) -> report::Table {
     report::Table {
         header: REPORT_HEADER.map(str::to_owned).to_vec(),
         rows: cases

@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::files::{FRAGMENT, json};
-use super::front::Wish;
+use super::front::Goal;
 use super::mpi;
 use super::record::Trade;
 use super::records::{RECORD, SIZES};
 use super::shard::Shard;
-use super::study::{Progress, Study};
+use super::study::{Study, StudyState};
 use super::target::Target;
 use crate::baseline;
 use crate::checkout::root;
@@ -31,7 +31,7 @@ pub struct Campaign {
 
 /// A case that is done.
 #[derive(Debug, Clone, Copy)]
-pub struct Case<'a> {
+pub struct FinishedSetting<'a> {
     /// How many were before it, in all studies.
     pub number: usize,
     /// How many there are, as far as planned.
@@ -124,8 +124,8 @@ impl Campaign {
     pub fn run(
         &self,
         shard: Option<Shard>,
-        wish: &Wish,
-        done: &mut dyn FnMut(Case),
+        wish: &Goal,
+        done: &mut dyn FnMut(FinishedSetting),
     ) -> Result<Ended> {
         if let Some(shard) = shard {
             return self.share(shard, wish, done);
@@ -143,7 +143,12 @@ impl Campaign {
         Ok(ended)
     }
 
-    fn share(&self, shard: Shard, wish: &Wish, done: &mut dyn FnMut(Case)) -> Result<Ended> {
+    fn share(
+        &self,
+        shard: Shard,
+        wish: &Goal,
+        done: &mut dyn FnMut(FinishedSetting),
+    ) -> Result<Ended> {
         let by_scene = !shard.is_whole() && self.studies.len() >= shard.count();
         let mut ended = Ended::default();
         let mut before = 0;
@@ -156,18 +161,18 @@ impl Campaign {
             let mut tell = |all: usize, name: &str| {
                 (number, of) = (number + 1, all);
                 let name = &format!("{}: {name}", study.name);
-                done(Case { number: before + number, of: before + all, name });
+                done(FinishedSetting { number: before + number, of: before + all, name });
             };
             match study.run(shard, by_scene, wish, &mut tell)? {
-                Progress::Whole(trade) => ended.trades.push((study.folder.clone(), *trade)),
-                Progress::Part => ended.left += 1,
+                StudyState::Whole(trade) => ended.trades.push((study.folder.clone(), *trade)),
+                StudyState::Part => ended.left += 1,
             }
             before += of;
         }
         if let (Some(file), true) = (&self.sizes, shard.is_whole()) {
             let done = std::cell::RefCell::new(done);
             let tell = |name: &str| {
-                (done.borrow_mut())(Case { number: before, of: before + 1, name });
+                (done.borrow_mut())(FinishedSetting { number: before, of: before + 1, name });
             };
             let sizes = baseline::sizes(tell)?;
             write_atomically(file, json(&sizes).as_bytes())?;

@@ -2,11 +2,11 @@
 
 use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
-use super::truth::EXACT;
+use super::reference::EXACT;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Wish {
+pub struct Goal {
     /// Most cycles of a tick on the host, most instructions on a board.
     pub budget: Option<f64>,
     /// Largest energy error.
@@ -63,9 +63,9 @@ const AS_GOOD: f64 = 1.1;
 
 /// The point for a wish: the cheapest that is accurate enough, the most accurate that is cheap enough. Without a wish
 /// the cheapest that is as accurate as the scene's own mesh, solved in full, and says so, where any has a bound.
-pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
+pub fn choose<'p>(trade: &'p Trade, wish: &Goal) -> Option<&'p Point> {
     let certified =
-        *wish == Wish::default() && trade.points.iter().any(|point| point.bound.is_some());
+        *wish == Goal::default() && trade.points.iter().any(|point| point.bound.is_some());
     let points = || eligible(trade).filter(move |point| !certified || point.bound.is_some());
     let cheap = |point: &&Point| wish.budget.is_none_or(|budget| point.cost() <= budget);
     let most = match wish.error {
@@ -100,7 +100,7 @@ fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
 }
 
 /// The point with its sentence; without one, what comes nearest.
-pub fn recommend(trade: &Trade, wish: &Wish) -> Recommendation {
+pub fn recommend(trade: &Trade, wish: &Goal) -> Recommendation {
     match choose(trade, wish) {
         Some(point) => Recommendation { text: sentence(trade, point), point: Some(point.clone()) },
         None => Recommendation { text: nothing(trade, wish), point: None },
@@ -141,7 +141,7 @@ fn part(part: f64, whole: f64) -> String {
     if percent < 1000.0 { format!("{percent:.2} %") } else { format!("{part:.3e}") }
 }
 
-fn nothing(trade: &Trade, wish: &Wish) -> String {
+fn nothing(trade: &Trade, wish: &Goal) -> String {
     let cheapest = eligible(trade).min_by(|a, b| a.cost().total_cmp(&b.cost()));
     let best = eligible(trade).min_by(|a, b| by_error(a, b));
     let (Some(cheapest), Some(best)) = (cheapest, best) else {

@@ -1,12 +1,12 @@
 //! One setting measured: what a tick costs, and how far its answer is from the truth.
 
 use super::record::Point;
-use super::truth::{Answer as Measured, Truth};
+use super::reference::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
 use signorini_kernel::solver::Status;
 
 use crate::cycles;
-use signorini_bake::engine::{self, Answer, Engine};
+use signorini_bake::engine::{self, Engine, TickSolution};
 use signorini_bake::trial::inputs;
 use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
@@ -33,7 +33,7 @@ struct Timing {
 ///
 /// # Errors
 /// A setting that the scene does not allow for.
-pub fn measure(problem: &Problem, truth: &Truth) -> Result<Point> {
+pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
     let mut setting = engine::completed(&problem.scene);
     // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
     if problem.scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
@@ -104,11 +104,15 @@ fn spread(sorted: &[u64]) -> f64 {
     (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
 }
 
-fn errors(problem: &Problem, truth: &Truth, answer: &Answer) -> Result<PointError> {
+fn errors(
+    problem: &Problem,
+    truth: &ReferenceSolution,
+    answer: &TickSolution,
+) -> Result<PointError> {
     let certified = answer.bound.is_some().then(|| answer.certified.admissible());
     truth.errors(
         problem,
-        &Measured {
+        &Approximation {
             u: &answer.u,
             flux: &answer.flux,
             force: answer.force,
@@ -122,7 +126,7 @@ fn point(
     problem: &Problem,
     setting: &Setting,
     timing: Timing,
-    answer: &Answer,
+    answer: &TickSolution,
     error: PointError,
 ) -> Point {
     let unknowns = problem.topology.counts.unknowns();

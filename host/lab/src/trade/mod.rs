@@ -8,7 +8,6 @@
 
 pub mod board;
 pub mod campaign;
-pub(crate) mod case;
 pub mod csv;
 mod digits;
 pub mod files;
@@ -20,16 +19,17 @@ pub mod journal;
 mod listings;
 pub mod math;
 pub mod measure;
+pub(crate) mod measured_setting;
 mod meshes;
 pub mod mpi;
 pub mod picture;
 pub mod plan;
 pub mod record;
 pub mod records;
+pub mod reference;
 pub mod section;
 pub mod shard;
 pub mod study;
 pub mod table;
 pub mod target;
-pub mod truth;
 pub mod verdict;

@@ -3,21 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use super::board::{self, Measured};
-use super::case::{Case, Facts, digest, once, overflow, program};
-use super::front::{Wish, mark, recommend};
+use super::front::{Goal, mark, recommend};
 use super::journal::Journal;
+use super::measured_setting::{Facts, MeasuredSetting, digest, once, overflow, program};
 use super::meshes::{Meshes, finest};
-use super::plan::{Ground, Plan};
+use super::plan::{Plan, SceneFacts};
 use super::record::{FunctionCost, Recommendation, Skipped, Trade};
+use super::reference::ReferenceSolution;
 use super::shard::Shard;
 use super::target::Target;
-use super::truth::Truth;
 use super::{math, measure};
 use crate::baseline;
 use crate::baseline::record::Baseline;
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
-use signorini_bake::face::Face;
+use signorini_bake::module_api::ModuleApi;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adapted::adapted;
@@ -46,7 +46,7 @@ pub struct Study {
 
 /// What of a study is known.
 #[derive(Debug)]
-pub enum Progress {
+pub enum StudyState {
     /// All of it.
     Whole(Box<Trade>),
     /// This process's cases; others have the rest.
@@ -98,9 +98,9 @@ impl Study {
         &self,
         shard: Shard,
         by_scene: bool,
-        wish: &Wish,
+        wish: &Goal,
         done: &mut dyn FnMut(usize, &str),
-    ) -> Result<Progress> {
+    ) -> Result<StudyState> {
         let mut meshes = Meshes::new(&self.scene)?;
         let fingerprint = self.fingerprint(&mut meshes)?;
         let mut journal = Journal::open(&self.unfinished(), shard, &fingerprint)?;
@@ -112,7 +112,7 @@ impl Study {
         let mut cases = Vec::new();
         for (at, setting) in plan.settings.iter().enumerate() {
             let case = self.case(setting, mine(at), &mut meshes, &mut truth, &mut journal)?;
-            done(all, case.as_ref().map_or("", Case::name));
+            done(all, case.as_ref().map_or("", MeasuredSetting::name));
             cases.extend(case);
         }
         let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
@@ -131,14 +131,14 @@ impl Study {
         let facts = journal.known::<Facts>("truth");
         let whole = (cases.len() == plan.settings.len(), facts, baselines, functions);
         let (true, Some(facts), Some(baselines), Some(functions)) = whole else {
-            return Ok(Progress::Part);
+            return Ok(StudyState::Part);
         };
         if !shard.is_whole() {
-            return Ok(Progress::Part);
+            return Ok(StudyState::Part);
         }
         let trade = self.together(plan.skipped, facts, cases, baselines, functions, wish);
         super::files::write(&self.folder, &self.scene, &trade)?;
-        Ok(Progress::Whole(Box::new(trade)))
+        Ok(StudyState::Whole(Box::new(trade)))
     }
 
     /// Deletes what only an interrupted study needs.
@@ -172,7 +172,7 @@ impl Study {
     }
 
     fn fingerprint(&self, meshes: &mut Meshes) -> Result<String> {
-        let hash = Face::new(meshes.problem(None, 0)?).hash();
+        let hash = ModuleApi::new(meshes.problem(None, 0)?).hash();
         Ok(format!("{hash:016x} {} {}", self.target, program()))
     }
 
@@ -189,7 +189,7 @@ impl Study {
             false => tuned_omega(problem, Precision::F64, GOAL).map(Some),
         };
         let tuned: Option<f64> = once(journal, "tuned", true, tuned)?.flatten();
-        Ok(Plan::new(&Ground {
+        Ok(Plan::new(&SceneFacts {
             target: self.target,
             other_cells,
             finest: finest(problem),
@@ -207,9 +207,9 @@ impl Study {
         setting: &Setting,
         mine: bool,
         meshes: &mut Meshes,
-        truth: &mut Option<Truth>,
+        truth: &mut Option<ReferenceSolution>,
         journal: &mut Journal,
-    ) -> Result<Option<Case>> {
+    ) -> Result<Option<MeasuredSetting>> {
         let key = serde_json::to_string(setting).unwrap_or_default();
         if let Some(known) = journal.known(&key) {
             return Ok(Some(known));
@@ -222,13 +222,15 @@ impl Study {
         let case = match self.measured(setting, meshes, truth) {
             Ok(case) => case,
             // What one setting does not allow for is no reason to leave the others.
-            Err(Error::Input(error)) if !self.is_alone() => Case::Left(error.message().to_owned()),
+            Err(Error::Input(error)) if !self.is_alone() => {
+                MeasuredSetting::Left(error.message().to_owned())
+            }
             Err(error) => return Err(error),
         };
         if journal.add(&key, &case).is_ok() {
             return Ok(Some(case));
         }
-        let case = Case::Left("the numbers found overflow".to_owned());
+        let case = MeasuredSetting::Left("the numbers found overflow".to_owned());
         journal.add(&key, &case)?;
         Ok(Some(case))
     }
@@ -237,7 +239,7 @@ impl Study {
     fn known_truth(
         &self,
         meshes: &Meshes,
-        truth: &mut Option<Truth>,
+        truth: &mut Option<ReferenceSolution>,
         journal: &mut Journal,
     ) -> Result<()> {
         if truth.is_none() {
@@ -255,13 +257,18 @@ impl Study {
         Ok(())
     }
 
-    fn truth(&self, meshes: &Meshes) -> Result<Truth> {
+    fn truth(&self, meshes: &Meshes) -> Result<ReferenceSolution> {
         let level = finest(&Problem::new(&self.scene, meshes.own.clone())?);
         let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
-        Truth::new(&self.scene, &meshes.own, level, refined)
+        ReferenceSolution::new(&self.scene, &meshes.own, level, refined)
     }
 
-    fn measured(&self, setting: &Setting, meshes: &mut Meshes, truth: &Truth) -> Result<Case> {
+    fn measured(
+        &self,
+        setting: &Setting,
+        meshes: &mut Meshes,
+        truth: &ReferenceSolution,
+    ) -> Result<MeasuredSetting> {
         let problem = meshes.problem(setting.cells, setting.refine)?.with_setting(Some(*setting));
         let mut point = measure::measure(&problem, truth)?;
         if let Some(board) = self.target.board() {
@@ -271,30 +278,31 @@ impl Study {
                     point.ram_bytes = Some(firmware.ram_bytes);
                     point.flash_bytes = Some(firmware.flash_bytes);
                 }
-                Measured::Impossible(reason) => return Ok(Case::Left(reason)),
+                Measured::Impossible(reason) => return Ok(MeasuredSetting::Left(reason)),
             }
         }
-        Ok(Case::Point(Box::new(point)))
+        Ok(MeasuredSetting::Point(Box::new(point)))
     }
 
     fn together(
         &self,
         mut skipped: Vec<Skipped>,
         facts: Facts,
-        cases: Vec<Case>,
+        cases: Vec<MeasuredSetting>,
         (baselines, mut notes): (Vec<Baseline>, Vec<String>),
         math: Vec<FunctionCost>,
-        wish: &Wish,
+        wish: &Goal,
     ) -> Trade {
         let mut points = Vec::new();
         for case in cases {
             match case {
-                Case::Point(point) => points.push(*point),
-                Case::Left(reason) => match skipped.iter_mut().find(|known| known.reason == reason)
-                {
-                    Some(known) => known.count += 1,
-                    None => skipped.push(Skipped { reason, count: 1 }),
-                },
+                MeasuredSetting::Point(point) => points.push(*point),
+                MeasuredSetting::Left(reason) => {
+                    match skipped.iter_mut().find(|known| known.reason == reason) {
+                        Some(known) => known.count += 1,
+                        None => skipped.push(Skipped { reason, count: 1 }),
+                    }
+                }
             }
         }
         mark(&mut points);

@@ -53,7 +53,7 @@ impl Fault {
 
 /// One side of a cell; the order sorts by edge, then by cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
+struct CellSide {
     edge: [u32; 2],
     cell: u32,
     upward: bool,
@@ -68,7 +68,7 @@ pub fn edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>, Fault> {
     let cells = triangles.chain(mesh.quads.iter().map(|cell| &cell[..]));
     for (cell, corners) in (0..).zip(cells) {
         let following = corners.iter().cycle().skip(1);
-        sides.extend(corners.iter().zip(following).map(|(&from, &to)| Side {
+        sides.extend(corners.iter().zip(following).map(|(&from, &to)| CellSide {
             edge: [from.min(to), from.max(to)],
             cell,
             upward: from < to,
@@ -79,7 +79,7 @@ pub fn edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>, Fault> {
 }
 
 /// The edge that these sides have in common.
-fn edge_of(sides: &[Side]) -> Result<[u32; 2], Fault> {
+fn edge_of(sides: &[CellSide]) -> Result<[u32; 2], Fault> {
     let edge = sides[0].edge;
     match sides {
         [a, b, c, ..] => Err(Fault::Branching { edge, cells: [a.cell, b.cell, c.cell] }),

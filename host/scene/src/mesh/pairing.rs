@@ -56,7 +56,7 @@ struct Candidate {
 
 /// Side `side` of a triangle; the order sorts by edge, then by triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
+struct TriangleSide {
     edge: [u32; 2],
     triangle: u32,
     side: usize,
@@ -87,15 +87,15 @@ fn regions(mesh: &Mesh) -> Vec<Vec<usize>> {
     regions
 }
 
-fn sides((triangle, corners): (u32, &[u32; 3])) -> [Side; 3] {
+fn sides((triangle, corners): (u32, &[u32; 3])) -> [TriangleSide; 3] {
     std::array::from_fn(|side| {
         let (a, b) = (corners[side], corners[(side + 1) % 3]);
-        Side { edge: [a.min(b), a.max(b)], triangle, side }
+        TriangleSide { edge: [a.min(b), a.max(b)], triangle, side }
     })
 }
 
 /// The quad around two triangles, if it is convex and not too skew.
-fn candidate(mesh: &Mesh, [first, second]: [Side; 2]) -> Option<Candidate> {
+fn candidate(mesh: &Mesh, [first, second]: [TriangleSide; 2]) -> Option<Candidate> {
     let [a, b, c] = mesh.triangles[first.triangle as usize];
     let opposite = mesh.triangles[second.triangle as usize][(second.side + 2) % 3];
     let quad = match first.side {

@@ -4,7 +4,7 @@ use serde::Serialize;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::certificate::Certificate;
 
-use super::{Answer, Certifier, Data, NoBound};
+use super::{CertifiedFields, Certifier, Data, NoBound};
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 
@@ -16,7 +16,8 @@ pub struct ErrorBound {
     /// Never less than ‖A^½∇_h(u − u_h)‖, the energy error of the edge means.
     pub of_u: f64,
     /// The bound where f, g and q have no oscillation.
-    pub gap: f64,
+    #[serde(rename = "gap")]
+    pub duality_gap: f64,
     /// What more sweeps would remove, at most the total.
     pub algebraic: f64,
     /// What f, g and q leave out.
@@ -29,10 +30,10 @@ impl ErrorBound {
     /// The same in other units.
     #[must_use]
     pub fn times(self, unit: f64) -> Self {
-        let Self { total, of_u, gap, algebraic, oscillation, rounding } = self;
+        let Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = self;
         let [total, of_u, gap, algebraic, oscillation, rounding] =
             [total, of_u, gap, algebraic, oscillation, rounding].map(|x| x * unit);
-        Self { total, of_u, gap, algebraic, oscillation, rounding }
+        Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding }
     }
 
     /// Widens the kernel's numbers.
@@ -41,7 +42,7 @@ impl ErrorBound {
         Self {
             total: certificate.total.wide(),
             of_u: certificate.of_u.wide(),
-            gap: certificate.gap.wide(),
+            duality_gap: certificate.duality_gap.wide(),
             algebraic: certificate.algebraic.wide(),
             oscillation: certificate.oscillation.wide(),
             rounding: certificate.rounding.wide(),
@@ -58,7 +59,7 @@ pub struct Certified {
     /// Why there is none.
     pub no_bound: Option<NoBound>,
     /// s and τ; no guarantee where there is no bound.
-    pub answer: Answer,
+    pub answer: CertifiedFields,
 }
 
 impl Certified {

@@ -132,14 +132,14 @@ impl Cell {
     /// Whether the area element is the same all over it, up to rounding.
     pub fn is_affine(&self) -> bool {
         const ROUNDING: f64 = 1e-14;
-        self.bend() <= ROUNDING * self.diameter()
+        self.distortion() <= ROUNDING * self.diameter()
     }
 
     /// By how much the fourth corner of a quad is off the parallelogram of the others.
-    pub fn bend(&self) -> f64 {
+    pub fn distortion(&self) -> f64 {
         let Self::Quad([a, b, c, d]) = self else { return 0.0 };
-        let bend = [0, 1].map(|k| (a[k] - b[k]) + (c[k] - d[k]));
-        bend[0].hypot(bend[1])
+        let distortion = [0, 1].map(|k| (a[k] - b[k]) + (c[k] - d[k]));
+        distortion[0].hypot(distortion[1])
     }
 
     /// The points of a one-dimensional rule's square on it.

@@ -1,6 +1,6 @@
 //! The kernel's certificate on a scene: its memory, and what of it depends on the mesh and A alone.
 
-use signorini_kernel::certificate::{self, Buffers, Certificate, Ground, Verdict};
+use signorini_kernel::certificate::{self, Buffers, Certificate, Discretization, Verdict};
 use signorini_kernel::components::Support;
 use signorini_kernel::conforming;
 use signorini_kernel::equilibrium::Iterate;
@@ -9,9 +9,9 @@ use signorini_kernel::{Error as KernelError, averages};
 use super::admissible::Admissible;
 use super::cell::Cell;
 use super::data::Data;
+use super::forest::EquilibrationForest;
 use super::metric::Metric;
 use super::no_bound::NoBound;
-use super::ways::Ways;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 
@@ -19,7 +19,7 @@ use crate::scalar::Scalar;
 #[derive(Debug)]
 pub struct Certifier<R: Scalar> {
     metric: Metric<R>,
-    ways: Ways<R>,
+    ways: EquilibrationForest<R>,
     /// Where contact alone holds a part, its way out leads through edges that are active.
     follows_contact: bool,
     vertices: Vec<R>,
@@ -44,7 +44,7 @@ enum Refusal {
 
 /// What was certified, in f64.
 #[derive(Debug, Clone, Default)]
-pub struct Answer {
+pub struct CertifiedFields {
     /// s at the vertices.
     pub vertices: Vec<f64>,
     /// The bubbles of s, one an edge.
@@ -55,7 +55,7 @@ pub struct Answer {
     pub indicators: Vec<f64>,
 }
 
-impl Answer {
+impl CertifiedFields {
     /// S and τ as the exact norms take them.
     pub fn admissible(&self) -> Admissible<'_> {
         Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau }
@@ -82,7 +82,7 @@ impl<R: Scalar> Certifier<R> {
         let vertices = problem.mesh.vertices.len();
         let mut certifier = Self {
             metric: Metric::new(problem),
-            ways: Ways::new(problem),
+            ways: EquilibrationForest::new(problem),
             follows_contact: parts.counts.contact > 0,
             vertices: vec![R::ZERO; vertices],
             bubbles: vec![R::ZERO; edges],
@@ -143,9 +143,9 @@ impl<R: Scalar> Certifier<R> {
     }
 
     /// What the last certificate was about.
-    pub fn answer(&self) -> Answer {
+    pub fn answer(&self) -> CertifiedFields {
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
-        Answer {
+        CertifiedFields {
             vertices: wide(&self.vertices),
             bubbles: wide(&self.bubbles),
             tau: wide(&self.tau),
@@ -160,7 +160,7 @@ impl<R: Scalar> Certifier<R> {
     pub fn ground<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
-    ) -> Result<Ground<'a, R, u32>, KernelError> {
+    ) -> Result<Discretization<'a, R, u32>, KernelError> {
         self.ways.ground(assembled, &self.metric)
     }
 
@@ -205,8 +205,8 @@ impl<R: Scalar> Certifier<R> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let ground = self.ways.ground(assembled, &self.metric)?;
         let (s, lower, given) = (&mut self.vertices, assembled.lower(), data.given(assembled)?);
-        let bends = ground.metric.bends;
-        averages::fill(&ground.cells, assembled.cells(), bends, u, s, &mut self.tau)?;
+        let distortions = ground.metric.distortions;
+        averages::fill(&ground.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
         conforming::impose(&ground.mesh, &ground.edges, u, lower, given.ends, s).map(|_| ())
     }
 }

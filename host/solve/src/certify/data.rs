@@ -1,10 +1,10 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::certificate::{Curved, Given};
+use signorini_kernel::certificate::{Curved, LoadCase};
 use signorini_kernel::conforming::VertexData;
 
-use super::curved::{Curved as Bent, Rough, bends};
+use super::curved::{Curved as Bent, Rough, curved_edges};
 use super::ends::Ends;
 use super::no_bound::{NoBound, Spot, VARYING};
 use super::oscillation::oscillation;
@@ -70,10 +70,10 @@ impl Evaluated {
     pub fn new(problem: &Problem) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
-        let bends = bends(problem, time)?;
+        let curved_edges = curved_edges(problem, time)?;
         // s is off by that much, and once more where u_h is compared with it.
-        let left_out = 2.0 * (bends.left_out + ends.moved(problem));
-        let curved = bends.records;
+        let left_out = 2.0 * (curved_edges.left_out + ends.moved(problem));
+        let curved = curved_edges.records;
         let rough = curved.iter().find_map(|of| roughness(problem, of));
         let of_cells = oscillation(problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
@@ -138,8 +138,8 @@ impl<R: Scalar> Data<R> {
     pub fn given<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
-    ) -> std::result::Result<Given<'a, R, u32>, KernelError> {
-        Ok(Given {
+    ) -> std::result::Result<LoadCase<'a, R, u32>, KernelError> {
+        Ok(LoadCase {
             loads: assembled.cells(),
             boundary: assembled.boundary()?,
             ends: VertexData { gap: &self.gap, given: &self.given },

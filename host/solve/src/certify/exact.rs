@@ -62,11 +62,11 @@ pub fn distance_on(
 ) -> Result<Distance> {
     let deviations = &Deviations::at_time(problem, problem.time)?;
     let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
-    Study { exact, problem, admissible, deviations, u, lift, panels }.distance()
+    Integrands { exact, problem, admissible, deviations, u, lift, panels }.distance()
 }
 
 /// What a distance is integrated from.
-pub struct Study<'a, U, L> {
+pub struct Integrands<'a, U, L> {
     /// The exact solution.
     pub exact: &'a Exact,
     /// The problem on its mesh.
@@ -111,7 +111,7 @@ struct EdgePoint {
     tau: f64,
 }
 
-impl<U: Sampled, L: Sampled> Study<'_, U, L> {
+impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
     /// Both distances.
     pub fn distance(&self) -> Result<Distance> {
         let problem = self.problem;

@@ -23,7 +23,7 @@ pub struct Metric<R: Scalar> {
     compliance: Vec<R>,
     at_points: Vec<Points<R>>,
     place: Vec<u32>,
-    bends: Vec<[R; 2]>,
+    distortions: Vec<[R; 2]>,
     alpha: Vec<R>,
 }
 
@@ -40,7 +40,7 @@ impl<R: Scalar> Metric<R> {
             compliance: compliance.collect(),
             at_points: Vec::new(),
             place: Vec::new(),
-            bends: bends(problem),
+            distortions: distortions(problem),
             alpha: Vec::new(),
         };
         for cell in 0..problem.cells() {
@@ -57,7 +57,7 @@ impl<R: Scalar> Metric<R> {
         signorini_kernel::certificate::Metric {
             at_points: &self.at_points,
             place: &self.place,
-            bends: &self.bends,
+            distortions: &self.distortions,
         }
     }
 
@@ -108,15 +108,15 @@ impl<R: Scalar> Metric<R> {
     }
 }
 
-/// The bend of every quad, where u_h is nonparametric and there is a quad on which that matters.
-fn bends<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
+/// The distortion of every quad, where u_h is nonparametric and there is a quad on which that matters.
+fn distortions<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
     let mesh = &problem.mesh;
     let corners = |quad: &[u32; 4]| quad.map(|vertex| mesh.vertices[vertex as usize]);
     let straight = mesh.quads.iter().all(|quad| is_parallelogram(corners(quad)));
     if straight || problem.element == QuadElement::Parametric {
         return Vec::new();
     }
-    mesh.quads.iter().map(|quad| axes(corners(quad)).bend().map(R::narrow)).collect()
+    mesh.quads.iter().map(|quad| axes(corners(quad)).distortion().map(R::narrow)).collect()
 }
 
 /// The diagonals halve each other, up to 4·10⁻¹² of the height of the cell, below which B hardly varies.

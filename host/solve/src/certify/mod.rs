@@ -23,6 +23,7 @@ pub mod deviation;
 pub mod ends;
 pub mod energy;
 pub mod exact;
+pub mod forest;
 #[cfg(test)]
 mod identity;
 pub mod metric;
@@ -32,11 +33,10 @@ pub mod robin;
 #[cfg(test)]
 mod rounding;
 pub mod sampled;
-pub mod ways;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};
-pub use certifier::{Answer, Certifier};
+pub use certifier::{CertifiedFields, Certifier};
 pub use conductivity::eigenvalues;
 pub use data::{Data, Evaluated};
 pub use no_bound::{NoBound, Spot};

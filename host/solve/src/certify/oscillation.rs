@@ -75,16 +75,16 @@ fn of_source(problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
     Ok(cell.diameter() / PI * (square / alpha(problem, at)).sqrt())
 }
 
-/// osc_T √α of a constant f on a quad that only rounding bends: det DF leaves its mean |T| by at most 2 h_T times the
-/// bend, and f − f̄ is f times that over |T|.
+/// osc_T √α of a constant f on a quad that only rounding distortions: det DF leaves its mean |T| by at most 2 h_T times the
+/// distortion, and f − f̄ is f times that over |T|.
 fn of_bend(cell: &Cell, f: f64) -> f64 {
-    let bend = cell.bend();
-    if bend == 0.0 || f == 0.0 {
+    let distortion = cell.distortion();
+    if distortion == 0.0 || f == 0.0 {
         return 0.0;
     }
     let area: f64 = cell.points(&gauss(1)).iter().map(|point| point.weight).sum();
     let diameter = cell.diameter();
-    let difference = f.abs() * (2.0 * diameter / area.sqrt()) * (bend / area.sqrt());
+    let difference = f.abs() * (2.0 * diameter / area.sqrt()) * (distortion / area.sqrt());
     diameter / PI * difference * area.sqrt()
 }
 

@@ -2,7 +2,7 @@
 
 use signorini_kernel::geometry::{quad_area, triangle_area};
 
-use super::elimination::Given;
+use super::elimination::FieldLoads;
 use super::patterns::Pattern;
 use crate::problem::{Loads, Problem};
 
@@ -13,9 +13,9 @@ pub(super) fn columns(
     patterns: &[Pattern],
     edges: &[usize],
     source: Option<&[bool]>,
-) -> Vec<Given> {
+) -> Vec<FieldLoads> {
     let counts = problem.topology.counts;
-    let of_patterns = patterns.iter().map(|pattern| Given {
+    let of_patterns = patterns.iter().map(|pattern| FieldLoads {
         contact: pattern.loads().gap.clone(),
         loads: pattern.loads().clone(),
     });
@@ -31,11 +31,11 @@ pub(super) fn columns(
     for &opened in edges {
         let mut contact = vec![0.0; counts.contact];
         contact[opened] = 1.0;
-        columns.push(Given { loads: silent.clone(), contact });
+        columns.push(FieldLoads { loads: silent.clone(), contact });
     }
     if let Some(cells) = source {
         let contact = vec![0.0; counts.contact];
-        columns.push(Given { loads: uniform_source(problem, cells, silent), contact });
+        columns.push(FieldLoads { loads: uniform_source(problem, cells, silent), contact });
     }
     columns
 }

@@ -28,7 +28,7 @@ impl Field {
 }
 
 /// What a field is the field of: loads, and u on the contact edges.
-pub(super) struct Given {
+pub(super) struct FieldLoads {
     pub loads: Loads,
     pub contact: Vec<f64>,
 }
@@ -37,13 +37,13 @@ pub(super) struct Given {
 ///
 /// # Errors
 /// Numbers out of range, a matrix that is singular to working precision.
-pub(super) fn fields(problem: &Problem, given: &[Given]) -> Result<Vec<Field>> {
+pub(super) fn fields(problem: &Problem, given: &[FieldLoads]) -> Result<Vec<Field>> {
     let unfit = unfit::<f64>(&problem.scene);
     let mut assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
     let free = problem.topology.counts.free;
     let mut right = Vec::with_capacity(free * given.len());
     let mut fields = Vec::with_capacity(given.len());
-    for Given { loads, contact } in given {
+    for FieldLoads { loads, contact } in given {
         assembled.set_loads(loads).map_err(&unfit)?;
         let system = assembled.system().map_err(&unfit)?;
         let mut u = vec![0.0; free];
@@ -53,7 +53,7 @@ pub(super) fn fields(problem: &Problem, given: &[Given]) -> Result<Vec<Field>> {
         fields.push(Field { flux: vec![0.0; u.len()], u });
     }
     let solved = free_block(&assembled, free, &right).map_err(failed(&problem.scene))?;
-    for (at, (field, Given { loads, .. })) in fields.iter_mut().zip(given).enumerate() {
+    for (at, (field, FieldLoads { loads, .. })) in fields.iter_mut().zip(given).enumerate() {
         field.u[..free].copy_from_slice(&solved[at * free..][..free]);
         assembled.set_loads(loads).map_err(&unfit)?;
         let (edges, stiffness, cells) =

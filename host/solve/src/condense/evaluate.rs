@@ -2,13 +2,13 @@
 
 use faer::MatRef;
 
-use super::{Condensate, Form, Measure};
+use super::{CondensedModel, Form, Measure};
 use crate::reference::{self, ReferenceError};
 
 /// An excess this far below 0 against the size of its terms is rounding of its sum.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-impl Condensate {
+impl CondensedModel {
     /// x of the solution for the inputs `p` (m numbers, the first one 1): exactly 0 on active edges.
     ///
     /// # Errors
@@ -80,7 +80,7 @@ impl Condensate {
     pub fn bound(&self, p: &[f64], x: &[f64]) -> Option<f64> {
         let form = self.certificate.as_ref().ok()?;
         let mut residual = self.residual(p, x);
-        let slack = form.reach * form.mend(&self.opening, &mut residual, x)?;
+        let slack = form.stability * form.mend(&self.opening, &mut residual, x)?;
         let gap = form.norm(&form.factor, p, x) + slack;
         let (mut square, mut moved) = (gap.powi(2), 0.0);
         for corner in &form.corners {

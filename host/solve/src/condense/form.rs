@@ -11,15 +11,15 @@ use super::elimination::{Field, failed};
 use super::factor::{energies, triangular};
 use super::functions::Functions;
 use super::patterns::Pattern;
-use super::reach::{Source, reach};
 use super::residual::{Block, blocks, jumps};
+use super::stability::{Source, stability};
 use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};
 use crate::solve::unfit;
 use signorini_scene::error::Result;
 
 /// What the certificate is made from.
-pub(super) struct Ground<'g> {
+pub(super) struct FormData<'g> {
     pub problem: &'g Problem,
     pub parts: &'g Parts,
     /// The contact edge of each unknown.
@@ -48,7 +48,7 @@ pub(super) struct Admissibles {
 /// Either the form with the functions behind it, or a sentence why there is none.
 pub(super) type Found = std::result::Result<(Form, Admissibles), String>;
 
-impl Ground<'_> {
+impl FormData<'_> {
     /// The form with U = 1.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Ground<'_> {
         at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
         fix_unused(&blocks, &mut fixed);
         complete(&blocks, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
-        let Some(reach) = self.reach(&blocks) else {
+        let Some(stability) = self.stability(&blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
         let assembled = Assembled::<f64>::new(problem).map_err(unfit::<f64>(&problem.scene))?;
@@ -89,10 +89,10 @@ impl Ground<'_> {
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
         let form = Form {
             factor: widened(packed(&triangular(&blocks, &s, &fluxes))),
-            lost: self.lost(&blocks, &s, &fluxes, &assembled, reach)?,
+            lost: self.lost(&blocks, &s, &fluxes, &assembled, stability)?,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
-            reach,
+            stability,
             corners: chain.corners,
             oscillation,
             floating: self.floating.clone(),
@@ -130,7 +130,7 @@ impl Ground<'_> {
         s
     }
 
-    fn reach(&self, blocks: &[Block]) -> Option<f64> {
+    fn stability(&self, blocks: &[Block]) -> Option<f64> {
         let of_contact = &self.fields[self.patterns.len()..];
         let (mut columns, mut source) = (of_contact.to_vec(), None);
         if let Some((field, load)) = &self.source {
@@ -140,7 +140,7 @@ impl Ground<'_> {
             source = Some(Source { inverse, load: load.clone() });
         }
         let fluxes = table(self.problem.ends.len(), &columns, |field| &field.flux);
-        reach(self.matrix, &energies(blocks, &fluxes), source.as_ref())
+        stability(self.matrix, &energies(blocks, &fluxes), source.as_ref())
     }
 }
 

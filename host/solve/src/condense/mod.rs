@@ -13,11 +13,11 @@
 //! ```text
 //!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► Condensate
 //!   chain (s on the boundary) ─┐                                       │                       ▲
-//!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, reach ◄──┘ ─► form ──────────────┘
+//!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, stability ◄──┘ ─► form ──────────────┘
 //! ```
 //! The bound of any (p, x), x ≥ 0, is U(osc + √(gap² + osc²)), osc = Σ|p_j| osc_j and
 //! ```text
-//!   gap² = (|F(p, x, d)| + reach |δ|)² + Σ_corners excess(p) r̂
+//!   gap² = (|F(p, x, d)| + stability |δ|)² + Σ_corners excess(p) r̂
 //! ```
 //! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
 
@@ -33,10 +33,10 @@ mod measures;
 mod order;
 mod patterns;
 mod points;
-mod reach;
 mod recovery;
 mod residual;
 mod rounding;
+mod stability;
 #[cfg(test)]
 mod tests;
 mod unit;
@@ -49,7 +49,7 @@ use signorini_kernel::components::Support;
 use crate::problem::{Parts, Problem};
 use columns::columns;
 use elimination::{Field, fields};
-use form::Ground;
+use form::FormData;
 use measures::measures;
 pub use order::along_boundary;
 use patterns::patterns;
@@ -59,7 +59,7 @@ use signorini_scene::scene::Scene;
 
 /// A condensed model, in f64.
 #[derive(Debug, Clone)]
-pub struct Condensate {
+pub struct CondensedModel {
     /// n, the number of contact edges; may be 0.
     pub contact: usize,
     /// The contact edge of each unknown, counted from the first contact edge of the mesh: they follow each other
@@ -127,8 +127,8 @@ pub struct Form {
     pub jump: Option<Vec<f64>>,
     /// The contact vertices that are not on D.
     pub vertices: Vec<Vertex>,
-    /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U reach |δ|.
-    pub reach: f64,
+    /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U stability |δ|.
+    pub stability: f64,
     /// Where u_D lies above ψ beside contact.
     pub corners: Vec<Corner>,
     /// osc_j of each input alone, over U.
@@ -187,12 +187,12 @@ pub fn check_size(problem: &Problem) -> Result<()> {
 /// # Errors
 /// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,
 /// a probe outside the mesh, more contact edges than memory holds fields of.
-pub fn condense(problem: &Problem) -> Result<Condensate> {
+pub fn condense(problem: &Problem) -> Result<CondensedModel> {
     Ok(build(problem)?.0)
 }
 
 /// The condensate, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
-fn build(problem: &Problem) -> Result<(Condensate, Recovery)> {
+fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     check_size(problem)?;
     let parts = examined(problem)?;
     let patterns = patterns(problem)?;
@@ -208,7 +208,7 @@ fn build(problem: &Problem) -> Result<(Condensate, Recovery)> {
     let opening = scaled(problem, &edges, &mut fields[m..])?;
     let matrix = matrix(problem, &edges, &fields[m..], &opening);
     let load = |field: &Field, q: &[f64]| condensed_load(problem, &edges, field, q, &opening);
-    let mut condensate = Condensate {
+    let mut condensate = CondensedModel {
         contact: n,
         edges: edges.clone(),
         inputs: m,
@@ -224,7 +224,7 @@ fn build(problem: &Problem) -> Result<(Condensate, Recovery)> {
         held_by_contact,
         opening: opening.clone(),
     };
-    let ground = Ground {
+    let ground = FormData {
         problem,
         parts: &parts,
         edges: &edges,

@@ -5,8 +5,8 @@ use faer::{Mat, Side};
 
 use super::elimination::Field;
 use super::form::Admissibles;
-use super::{Condensate, Form, build};
-use crate::certify::Answer;
+use super::{CondensedModel, Form, build};
+use crate::certify::CertifiedFields;
 use crate::problem::Problem;
 use signorini_scene::error::Result;
 
@@ -21,13 +21,13 @@ pub struct Recovery {
 ///
 /// # Errors
 /// As for [`super::condense`].
-pub fn recoverable(problem: &Problem) -> Result<(Condensate, Recovery)> {
+pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     build(problem)
 }
 
 impl Recovery {
     /// Edge means of u_h and ∫_E σ_h·n along each edge, for inputs `p` (1 first) and scaled openings `x`.
-    pub fn field(&self, of: &Condensate, p: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn field(&self, of: &CondensedModel, p: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let factors = columns(of, p, x);
         let edges = self.fields.first().map_or(0, |field| field.u.len());
         let (mut u, mut flux) = (vec![0.0; edges], vec![0.0; edges]);
@@ -43,11 +43,11 @@ impl Recovery {
     /// s and the mended τ that the bound of (p, x) is about; `None` where there is no bound.
     pub fn admissible(
         &self,
-        of: &Condensate,
+        of: &CondensedModel,
         problem: &Problem,
         p: &[f64],
         x: &[f64],
-    ) -> Option<Answer> {
+    ) -> Option<CertifiedFields> {
         let (Ok(form), Some(Admissibles { s, fluxes, functions })) =
             (&of.certificate, &self.admissibles)
         else {
@@ -61,7 +61,7 @@ impl Recovery {
         let bubble =
             |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
         let edges = 0..problem.ends.len();
-        Some(Answer {
+        Some(CertifiedFields {
             vertices: (0..problem.mesh.vertices.len())
                 .map(|vertex| at(s.row(vertex), &z))
                 .collect(),
@@ -73,11 +73,11 @@ impl Recovery {
 }
 
 /// What multiplies the columns of p and x, which are those of U = 1.
-fn columns(of: &Condensate, p: &[f64], x: &[f64]) -> Vec<f64> {
+fn columns(of: &CondensedModel, p: &[f64], x: &[f64]) -> Vec<f64> {
     p.iter().copied().chain(x.iter().map(|x| of.energy_unit * x)).collect()
 }
 
-impl Condensate {
+impl CondensedModel {
     /// x with which the residual is the mended one; the part that contact alone holds stays where it is.
     pub(super) fn mended(&self, form: &Form, p: &[f64], x: &[f64]) -> Option<Vec<f64>> {
         let n = self.contact;

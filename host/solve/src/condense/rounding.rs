@@ -1,7 +1,7 @@
 //! What rounding in f64 leaves in the columns of the forms, where the host made them.
 //!
 //! ```text
-//!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  reach ‖ΔŜ_j‖
+//!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  stability ‖ΔŜ_j‖
 //! ```
 //! First comes the residual itself, a sum of terms that cancel. Then τ, which balances on the cells up to rounding: what is
 //! left is brought along the forest to the boundary (`way`, see [`signorini_kernel::certificate::stability`]), and where contact
@@ -13,10 +13,10 @@ use signorini_kernel::components::Support;
 
 use super::best::Table;
 use super::elimination::Field;
-use super::form::Ground;
+use super::form::FormData;
 use super::residual::Block;
+use crate::certify::forest::EquilibrationForest;
 use crate::certify::metric::Metric;
-use crate::certify::ways::Ways;
 use crate::problem::{Assembled, EdgeKind, Loads};
 use crate::solve::unfit;
 use signorini_scene::error::Result;
@@ -25,7 +25,7 @@ use signorini_scene::error::Result;
 /// And 16 for columns that count as dependent.
 const FEW: f64 = 24.0 * f64::EPSILON;
 
-impl Ground<'_> {
+impl FormData<'_> {
     /// lost_j of the columns of p and x, for U = 1.
     ///
     /// # Errors
@@ -36,19 +36,19 @@ impl Ground<'_> {
         s: &Table,
         fluxes: &Table,
         assembled: &Assembled<f64>,
-        reach: f64,
+        stability: f64,
     ) -> Result<Vec<f64>> {
         let inputs = self.patterns.len();
         let mut lost = terms(blocks, s, fluxes);
         lost.iter_mut().for_each(|size| *size *= FEW);
         let most = self.openings.iter().fold(0.0, |most: f64, d| most.max(*d));
-        let out = if self.floating.is_empty() { 0.0 } else { reach * most };
+        let out = if self.floating.is_empty() { 0.0 } else { stability * most };
         let way = self.way(assembled)? + out;
         for (at, (field, lost)) in self.fields.iter().zip(&mut lost).enumerate() {
             let loads = self.patterns.get(at).map(|pattern| pattern.loads());
             *lost += way * self.unbalanced(field, loads);
             if let Some(column) = at.checked_sub(inputs) {
-                *lost += reach * self.skewed(field, column);
+                *lost += stability * self.skewed(field, column);
             }
         }
         Ok(lost)
@@ -63,9 +63,9 @@ impl Ground<'_> {
             problem.kinds[edge] == EdgeKind::Contact
                 && self.parts.support(self.parts.of_edge(&edges, edge)) == Support::Contact
         };
-        let mut ways = Ways::new(problem);
+        let mut ways = EquilibrationForest::new(problem);
         ways.find(assembled, &Metric::new(problem), alone).map_err(&unfit)?;
-        Ok(ways.reach())
+        Ok(ways.stability())
     }
 
     /// Σ over the cells and Neumann edges of what `field` is out of balance, and may be by rounding.

@@ -1,12 +1,12 @@
 //! The energy unit U: a power of two, so that scaling rounds nothing. Where the defaults of the inputs make next to
 //! nothing, what one unit of each input makes tells the size: a large input would overflow f32 otherwise.
 
-use super::{Condensate, Form, Measure};
+use super::{CondensedModel, Form, Measure};
 
 /// Answers at the defaults that are smaller than this part of what one input does are cancellation or 0.
 const NEAR: f64 = 1e-6;
 
-impl Condensate {
+impl CondensedModel {
     /// Chooses U so that x and r̂ at the default inputs, or without contact the bound, are of order 1.
     pub(super) fn choose_unit(&mut self) {
         let (own, of_inputs) = (self.size(&self.defaults), self.size_of_inputs());

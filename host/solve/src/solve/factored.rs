@@ -6,7 +6,7 @@ use signorini_kernel::boundary::Boundary;
 use signorini_kernel::condensed::blocks::padded;
 use signorini_kernel::signorini::System;
 use signorini_kernel::solver::{Outcome, Settings};
-use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Progress};
+use signorini_kernel::sparse::{Direct, DirectMemory, Factor, SolveSummary};
 
 use super::ldlt::{Exchanges, Ldlt};
 use crate::progress::stage;
@@ -56,7 +56,7 @@ pub(super) fn solve<R: Scalar>(
         low.fill(R::ZERO);
         return Ok(None);
     };
-    let Progress { status, residual, pivots: exchanges, rounds } = progress;
+    let SolveSummary { status, residual, pivots: exchanges, rounds } = progress;
     let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: R::ONE };
     Ok(Some((outcome, Factored { entries, exchanges, rounds })))
 }

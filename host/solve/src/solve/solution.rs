@@ -11,7 +11,7 @@ use signorini_kernel::report::Ended;
 use signorini_kernel::solver::Status;
 
 use super::{Factored, Ran, ScalarKind};
-use crate::certify::{Answer, ErrorBound, NoBound};
+use crate::certify::{CertifiedFields, ErrorBound, NoBound};
 use crate::field::CellField;
 use crate::problem::{Parts, Problem};
 use signorini_scene::scene::units::Units;
@@ -59,7 +59,7 @@ pub struct Solution {
     /// Why there is no bound.
     pub no_bound: Option<NoBound>,
     /// The continuous function and the flux that the bound is about.
-    pub certified: Answer,
+    pub certified: CertifiedFields,
     /// Wall-clock seconds.
     pub seconds: Seconds,
 }

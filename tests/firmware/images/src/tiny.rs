@@ -13,7 +13,7 @@
 use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Triangle, pack};
-use signorini_kernel::certificate::{Given, Ground, Metric, stability};
+use signorini_kernel::certificate::{LoadCase, Discretization, Metric, stability};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::equilibrium::is_root;
 use signorini_kernel::forest::{ForestBuffers, grow};
@@ -79,11 +79,11 @@ fn run(journal: &mut Journal) -> Result<(), Error> {
     let cells = pack(&mesh, &edges, stiffness, &[], &[0.25; CELLS], &forest, buffers)?;
     let metric = Metric::default();
     let stability = stability(&edges, &cells, metric, &boundary, &forest, &mut [0.0; CELLS])?;
-    played(&Ground { mesh, edges, stiffness, cells, metric, stability }, journal)
+    played(&Discretization { mesh, edges, stiffness, cells, metric, stability }, journal)
 }
 
 #[inline(never)]
-fn played(ground: &Ground<f32, u16>, journal: &mut Journal) -> Result<(), Error> {
+fn played(ground: &Discretization<f32, u16>, journal: &mut Journal) -> Result<(), Error> {
     let counts = ground.edges.counts();
     let mut rows = [Row::EMPTY; EDGES];
     let (mut load, mut tau, mut u) = ([0.0; EDGES], [0.0; EDGES], [0.0; EDGES]);
@@ -116,7 +116,7 @@ type Ticking<'a> = Tick<'a, f32, u16, TRIANGLES>;
 #[inline(never)]
 fn answer(
     tick: &mut Ticking,
-    ground: &Ground<f32, u16>,
+    ground: &Discretization<f32, u16>,
     case: Case,
     sweeps: u32,
 ) -> Result<Report<f32>, Error> {
@@ -127,7 +127,7 @@ fn answer(
         *load = f * triangle_area(ground.mesh.triangle(cell));
     }
     let (gap, given) = ([[0.0; 2]; COLUMNS], [[above; 2]; COLUMNS]);
-    let given = Given {
+    let given = LoadCase {
         loads: CellLoads { triangles: &loads, quads: &[] },
         boundary: Boundary::new(&ground.edges, &[], &[], &[])?,
         ends: VertexData { gap: &gap, given: &given },
@@ -143,7 +143,7 @@ fn answer(
 /// What the answer is worth.
 fn judged(
     tick: &Ticking,
-    ground: &Ground<f32, u16>,
+    ground: &Discretization<f32, u16>,
     case: Case,
     report: &Report<f32>,
 ) -> &'static str {
@@ -162,7 +162,7 @@ fn judged(
 
 /// ‖∇(u − s)‖² + ‖∇u − τ‖² in f64: a square of degree 2 in each cell, so that the middles of its sides are enough.
 #[inline(never)]
-fn squared_error(tick: &Ticking, ground: &Ground<f32, u16>, case: Case) -> f64 {
+fn squared_error(tick: &Ticking, ground: &Discretization<f32, u16>, case: Case) -> f64 {
     let mut sum = 0.0;
     for (at, cell) in ground.mesh.triangles().iter().enumerate() {
         let corners = ground.mesh.triangle(cell).map(|corner| corner.map(f64::from));
@@ -178,7 +178,7 @@ fn number(numbers: &[f32], at: usize) -> f64 {
 }
 
 /// ∫τ·n over a half-edge, with the normal out of its cell.
-fn outward(tick: &Ticking, ground: &Ground<f32, u16>, half_edge: usize) -> f64 {
+fn outward(tick: &Ticking, ground: &Discretization<f32, u16>, half_edge: usize) -> f64 {
     let edge = ground.edges.edge_of(half_edge);
     let first = ground.edges.half_edges().get(edge).map(|halves| usize::from(halves[0]));
     let flux = number(tick.tau(), edge);

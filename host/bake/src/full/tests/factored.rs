@@ -96,8 +96,8 @@ fn as_directly_solved<R: Scalar>(problem: &Problem, allowed: Tolerance) -> Resul
         assert_eq!(touching, expected.contact_active, "{what}");
         // Of the total, rounding may be most in f32: it knows no better than ε of the largest fluxes.
         let certificate = report.verdict.certificate().expect("a bound");
-        let (gap, bound) = (certificate.gap.wide(), expected.bound.expect("a bound"));
-        FACTORED_GAP.check_relative(&what, gap, bound.gap);
+        let (gap, bound) = (certificate.duality_gap.wide(), expected.bound.expect("a bound"));
+        FACTORED_GAP.check_relative(&what, gap, bound.duality_gap);
         assert!(certificate.algebraic.wide() <= 0.05 * gap, "{what}");
         assert!(outputs[1] == certificate.total && outputs[1].wide() >= gap, "{what}");
     }

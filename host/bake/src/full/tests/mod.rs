@@ -129,7 +129,11 @@ fn ticks<R: Scalar, const WIDTH: usize>(
         // The gap is that of the solver; the oscillation of a sum is at most the sum of oscillations.
         let (of_tick, bound) = (report.verdict.certificate().expect("a bound"), solution.bound);
         let bound = bound.expect("a bound");
-        allowed.check_relative(format_args!("gap {values:?}"), of_tick.gap.wide(), bound.gap);
+        allowed.check_relative(
+            format_args!("gap {values:?}"),
+            of_tick.duality_gap.wide(),
+            bound.duality_gap,
+        );
         OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
     }
     Ok(())
@@ -160,8 +164,8 @@ fn nonparametric_quads() -> Result<()> {
     let steps: [&[f64]; 2] = [&[0.3, 0.7, 0.0, 0.0, 0.0, 0.0], &[-0.5, 1.3, 0.4, -1.0, 0.7, 0.5]];
     ticks::<f64, { rows::QUADS }>(&problem, &steps, TICK)?;
     let baked = Baked::<f64>::new(&problem)?;
-    assert_eq!(baked.bends.len(), problem.mesh.quads.len());
-    assert!(source(&baked).contains("bends: &QUAD_BENDS"));
+    assert_eq!(baked.distortions.len(), problem.mesh.quads.len());
+    assert!(source(&baked).contains("distortions: &QUAD_DISTORTIONS"));
     Ok(())
 }
 

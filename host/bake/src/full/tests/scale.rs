@@ -7,7 +7,7 @@ use signorini_tolerances::bake::WITHOUT_UNITS;
 use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
 use crate::compiled::printed;
 use crate::engine;
-use crate::face::Face;
+use crate::module_api::ModuleApi;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
@@ -49,7 +49,7 @@ fn baked<R: Scalar>(units: Units) -> Result<Baked<R>> {
 /// Flux, force, length, probe and bound, and what the report has of them.
 fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
     let of = report.verdict.certificate().expect("a bound");
-    let of_report = [report.residual, report.force, of.gap, of.rounding, of.total];
+    let of_report = [report.residual, report.force, of.duality_gap, of.rounding, of.total];
     outputs.iter().chain(&of_report).map(|number| number.wide()).collect()
 }
 
@@ -92,7 +92,7 @@ fn without_units_f32_is_lost() -> Result<()> {
     let near = numbers(&tick(&baked::<f32>(NEAR)?, to_the_end()));
     let bound = |k| -> Result<f64> {
         let (_, problem) = bent(powers(0, k))?;
-        let baked = Baked::<f32>::in_its_units(&problem, Face::new(&problem))?;
+        let baked = Baked::<f32>::in_its_units(&problem, ModuleApi::new(&problem))?;
         let found = numbers(&tick(&baked, to_the_end()));
         Ok(found[4] / powers(0, k).energy() / near[4])
     };

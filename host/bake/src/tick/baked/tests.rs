@@ -5,8 +5,8 @@ use std::path::Path;
 use super::replay;
 use crate::choice::{Choice, Model};
 use crate::compiled::printed;
-use crate::face::Face;
-use crate::tick::Moment;
+use crate::module_api::ModuleApi;
+use crate::tick::ScheduledTick;
 use crate::{condensed, full};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
@@ -33,9 +33,9 @@ fn main() {{
 }
 
 /// A slow drift with jumps and a tick that repeats another.
-fn log(inputs: usize) -> Vec<Moment> {
+fn log(inputs: usize) -> Vec<ScheduledTick> {
     let values = [0.0, 0.01, 0.02, -0.3, -0.3, 0.25, 0.24];
-    let moment = |(at, value): (usize, &f64)| Moment {
+    let moment = |(at, value): (usize, &f64)| ScheduledTick {
         time: at as f64,
         inputs: (0..inputs).map(|input| (input, value / (1.0 + input as f64))).collect(),
     };
@@ -61,10 +61,10 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
 
     let choice = Choice::<f32>::new(&problem, None, false)?;
     let module = match &choice.candidate().model {
-        Model::Condensed(baked) => condensed::source(&Face::new(&problem), baked),
+        Model::Condensed(baked) => condensed::source(&ModuleApi::new(&problem), baked),
         Model::Full(baked) => full::source(baked),
     };
-    let narrow = |moment: &Moment| moment.inputs.iter().map(|(_, x)| *x as f32).collect();
+    let narrow = |moment: &ScheduledTick| moment.inputs.iter().map(|(_, x)| *x as f32).collect();
     let inputs: Vec<Vec<f32>> = moments.iter().map(narrow).collect();
     let of_module = printed(&(module + &main(&inputs)));
     assert_eq!(of_module.lines().count(), ticks.len());

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use signorini_kernel::Real;
 use signorini_kernel::geometry::doubled_area;
 
-use super::super::moment::Moment;
-use super::super::psor::Given;
+use super::super::load_case::LoadCase;
+use super::super::psor::TickLoads;
 use super::vertices::Vertices;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Field};
@@ -54,7 +54,11 @@ pub(super) fn matrix(problem: &Problem, vertices: &Vertices) -> Vec<BTreeMap<usi
 }
 
 /// The data of one tick.
-pub(super) fn data(problem: &Problem, vertices: &Vertices, moment: &Moment) -> Result<Given<f64>> {
+pub(super) fn data(
+    problem: &Problem,
+    vertices: &Vertices,
+    moment: &LoadCase,
+) -> Result<TickLoads<f64>> {
     let (problem, counts) = (&moment.on(problem), vertices.counts);
     let mut load = vec![0.0; counts.edges()];
     add_source(problem, vertices, moment, &mut load)?;
@@ -89,13 +93,13 @@ pub(super) fn data(problem: &Problem, vertices: &Vertices, moment: &Moment) -> R
     let mut start = vec![mean; counts.free];
     start.extend(&lower);
     start.extend(&dirichlet);
-    Ok(Given { load, lower, dirichlet, start })
+    Ok(TickLoads { load, lower, dirichlet, start })
 }
 
 fn add_source(
     problem: &Problem,
     vertices: &Vertices,
-    moment: &Moment,
+    moment: &LoadCase,
     load: &mut [f64],
 ) -> Result<()> {
     let f = Sum::source(&problem.scene, problem.time);
@@ -119,7 +123,7 @@ fn add_source(
 fn add_flux(
     problem: &Problem,
     vertices: &Vertices,
-    moment: &Moment,
+    moment: &LoadCase,
     edge: usize,
     load: &mut [f64],
 ) -> Result<()> {

@@ -14,11 +14,11 @@ mod vertices;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::signorini::System;
 
-use super::contestant::Contest;
 use super::failed;
-use super::moment::Moment;
-use super::psor::{Given, Psor};
-use super::quadratic::{Matrix, Quadratic, Tick};
+use super::load_case::LoadCase;
+use super::psor::{Psor, TickLoads};
+use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
+use super::timed_solver::Contest;
 use crate::baseline::record::{Baseline, PointError};
 use signorini_scene::error::Result;
 use signorini_solve::problem::{EdgeKind, Parts, Problem};
@@ -37,7 +37,7 @@ pub struct Conforming {
     /// K with the columns of D behind the others, the diagonal first in every row.
     matrix: Matrix,
     vertices: Vertices,
-    ticks: Vec<Given<f64>>,
+    ticks: Vec<TickLoads<f64>>,
     quadratic: Quadratic,
 }
 
@@ -47,10 +47,10 @@ impl Conforming {
     /// # Errors
     /// Data that are not finite; a problem without a solution.
     pub fn new(problem: &Problem) -> Result<Self> {
-        Self::over(problem, &[Moment::at(&problem.scene, problem.time)])
+        Self::over(problem, &[LoadCase::at(&problem.scene, problem.time)])
     }
 
-    pub(super) fn over(problem: &Problem, moments: &[Moment]) -> Result<Self> {
+    pub(super) fn over(problem: &Problem, moments: &[LoadCase]) -> Result<Self> {
         let mut problem = Problem::new(&problem.scene, mesh::cut(&problem.mesh))?;
         problem.set_time(moments[0].time)?;
         let vertices = Vertices::of(&problem);
@@ -66,7 +66,8 @@ impl Conforming {
         let ticks = ticks?;
         let (reduced, loads) = reduce(&matrix, vertices.counts.unknowns(), &ticks);
         let data = loads.into_iter().zip(&ticks);
-        let data = data.map(|(load, given)| Tick { load, lower: given.lower.clone() }).collect();
+        let data =
+            data.map(|(load, given)| QuadraticLoads { load, lower: given.lower.clone() }).collect();
         let parts = Parts::examine(&problem)?;
         let floating = floating(&problem, &parts, &vertices)?;
         let (quadratic, _) = Quadratic::new(reduced, floating, data)?;
@@ -150,10 +151,10 @@ impl Conforming {
 }
 
 /// K without the columns of D, and the loads with them on the right-hand side.
-fn reduce(matrix: &Matrix, unknowns: usize, ticks: &[Given<f64>]) -> (Matrix, Vec<Vec<f64>>) {
+fn reduce(matrix: &Matrix, unknowns: usize, ticks: &[TickLoads<f64>]) -> (Matrix, Vec<Vec<f64>>) {
     let mut reduced = Matrix::new();
     (0..unknowns).for_each(|i| reduced.push_row(matrix.row(i).filter(|&(j, _)| j < unknowns)));
-    let load = |given: &Given<f64>| {
+    let load = |given: &TickLoads<f64>| {
         let of_row = |i: usize| {
             let given_columns = matrix.row(i).filter(|&(j, _)| j >= unknowns);
             let held = given_columns.map(|(j, value)| value * given.dirichlet[j - unknowns]);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::case::{Case, Way};
+use super::case::{RandomCase, Way};
 use signorini_bake::engine;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
@@ -15,7 +15,7 @@ use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve, s
 
 /// What a solver says, in the scene's units.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct SolverAnswer {
     /// How it ended.
     pub status: &'static str,
     /// Whether it claims success.
@@ -31,7 +31,7 @@ pub struct Answer {
     /// Its bound.
     pub bound: Option<ErrorBound>,
     /// What the bound is about.
-    pub certified: certify::Answer,
+    pub certified: certify::CertifiedFields,
 }
 
 /// A case that was answered: its problem with the inputs of the answer, and the answer.
@@ -39,7 +39,7 @@ pub struct Attempt {
     /// The scene on its mesh, its inputs at those of the answer.
     pub problem: Problem,
     /// The answer.
-    pub answer: Answer,
+    pub answer: SolverAnswer,
 }
 
 /// Updates of unknowns that a solve may take.
@@ -49,20 +49,20 @@ const UPDATES: f64 = 1e9;
 ///
 /// # Errors
 /// Input that is refused.
-pub fn attempt(case: &Case) -> Result<Attempt> {
+pub fn attempt(case: &RandomCase) -> Result<Attempt> {
     let scene = Scene::parse(&case.scene, Path::new("scene.toml"))?;
     let problem = Problem::new(&scene, case.mesh.clone())?;
     match case.effort.way {
         Way::Sweeps | Way::Direct => {
             let options = options(case, &problem);
-            let answer = Answer::from(solve(&problem, &options)?);
+            let answer = SolverAnswer::from(solve(&problem, &options)?);
             Ok(Attempt { problem, answer })
         }
         Way::Full | Way::Condensed => ticks(case, problem),
     }
 }
 
-fn options(case: &Case, problem: &Problem) -> Options {
+fn options(case: &RandomCase, problem: &Problem) -> Options {
     let updates = UPDATES / problem.topology.counts.unknowns().max(1) as f64;
     let solver = match case.effort.way {
         Way::Direct => SolverKind::Direct,
@@ -73,7 +73,7 @@ fn options(case: &Case, problem: &Problem) -> Options {
 }
 
 /// The earlier ticks, whatever they say, and then the one that is judged.
-fn ticks(case: &Case, problem: Problem) -> Result<Attempt> {
+fn ticks(case: &RandomCase, problem: Problem) -> Result<Attempt> {
     let parts = Parts::examine(&problem)?.counts;
     let condensed = problem.scene.setting.and_then(|set| set.model) == Some(ModelKind::Condensed);
     // There an engine answers for the scene's own inputs.
@@ -94,10 +94,10 @@ fn ticks(case: &Case, problem: Problem) -> Result<Attempt> {
         }
         engine.answer(&at)
     })?;
-    Ok(Attempt { problem: at, answer: Answer::from(answer) })
+    Ok(Attempt { problem: at, answer: SolverAnswer::from(answer) })
 }
 
-impl From<Solution> for Answer {
+impl From<Solution> for SolverAnswer {
     fn from(solution: Solution) -> Self {
         Self {
             status: status_name(solution.status),
@@ -112,8 +112,8 @@ impl From<Solution> for Answer {
     }
 }
 
-impl From<engine::Answer> for Answer {
-    fn from(answer: engine::Answer) -> Self {
+impl From<engine::TickSolution> for SolverAnswer {
+    fn from(answer: engine::TickSolution) -> Self {
         let status = status_name(answer.status);
         Self {
             status,
@@ -128,7 +128,7 @@ impl From<engine::Answer> for Answer {
     }
 }
 
-impl Answer {
+impl SolverAnswer {
     /// The same in other units.
     #[must_use]
     pub fn divided(mut self, units: &Units) -> Self {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::dice::Random;
-use super::mesh::{Kind, Outline, Plan, Regions};
+use super::mesh::{Kind, MeshPlan, Outline, Regions};
 use super::posed::Hold;
 use super::{catalogue, data, made};
 use signorini_scene::mesh::Mesh;
@@ -11,7 +11,7 @@ use signorini_solve::solve::ScalarKind;
 
 /// Where its truth comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Truth {
+pub enum Yardstick {
     /// A solution of the catalogue, at any scale.
     Catalogue,
     /// A function was chosen, and the data made for it.
@@ -50,11 +50,11 @@ pub struct Effort {
 
 /// One case.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct RandomCase {
     /// Its number in the run.
     pub number: u32,
     /// Where its truth comes from.
-    pub truth: Truth,
+    pub truth: Yardstick,
     /// What holds it.
     pub hold: Hold,
     /// What cells its mesh has.
@@ -67,14 +67,14 @@ pub struct Case {
     pub effort: Effort,
 }
 
-impl Case {
+impl RandomCase {
     /// Case `number` of the run with this seed.
     pub fn draw(seed: u64, number: u32) -> Self {
         let mut random = Random::of_case(seed, number);
         let truth = match random.below(10) {
-            0..2 => Truth::Catalogue,
-            2..5 => Truth::Made,
-            _ => Truth::Finer,
+            0..2 => Yardstick::Catalogue,
+            2..5 => Yardstick::Made,
+            _ => Yardstick::Finer,
         };
         let way = match random.below(20) {
             0 => Way::Direct,
@@ -85,9 +85,9 @@ impl Case {
         let kind = random.pick(&[Kind::Triangles, Kind::Quads, Kind::Both]);
         let plan = plan(&mut random, truth, way, kind);
         let posed = match truth {
-            Truth::Catalogue => catalogue::draw(&mut random, &plan),
-            Truth::Made => made::draw(&mut random, &plan),
-            Truth::Finer => data::draw(&mut random, &plan, ticks(way)),
+            Yardstick::Catalogue => catalogue::draw(&mut random, &plan),
+            Yardstick::Made => made::draw(&mut random, &plan),
+            Yardstick::Finer => data::draw(&mut random, &plan, ticks(way)),
         };
         let effort = effort(&mut random, way, &posed.inputs);
         let scene = posed.scene + &setting(&mut random, &effort, kind);
@@ -101,20 +101,20 @@ fn ticks(way: Way) -> bool {
 }
 
 /// Mostly small: the integrals of an exact solution take long, and so do references and fields of contact edges.
-fn plan(random: &mut Random, truth: Truth, way: Way, kind: Kind) -> Plan {
+fn plan(random: &mut Random, truth: Yardstick, way: Way, kind: Kind) -> MeshPlan {
     let most = match (truth, random.below(40)) {
-        (Truth::Finer, 0) if !ticks(way) => 5000.0,
+        (Yardstick::Finer, 0) if !ticks(way) => 5000.0,
         (_, 0..4) => 500.0,
         _ => 100.0,
     };
     let cells = random.log(2.0, most) as u32;
     let outline = match (truth, random.below(12)) {
-        (Truth::Catalogue, _) => Outline::Whole,
+        (Yardstick::Catalogue, _) => Outline::Whole,
         (_, 0..2) => Outline::Corner,
         (_, 2) => Outline::Apart,
         _ => Outline::Whole,
     };
-    Plan {
+    MeshPlan {
         cells,
         kind,
         outline,

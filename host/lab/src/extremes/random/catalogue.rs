@@ -1,7 +1,7 @@
 //! Scenes with a solution of the catalogue: jumps, anisotropy, obliqueness and scales of any size.
 
 use super::dice::Random;
-use super::mesh::{self, Plan, Regions};
+use super::mesh::{self, MeshPlan, Regions};
 use super::posed::{Hold, Posed};
 use crate::extremes::grid::{Grid, Shape};
 use crate::extremes::posed::{Hold as Side, Posed as Known, Scales};
@@ -9,7 +9,7 @@ use crate::extremes::solution::{Shear, Solution};
 use signorini_scene::mesh::structured::Cells;
 
 /// Draws one.
-pub(super) fn draw(random: &mut Random, plan: &Plan) -> Posed {
+pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     let solution = match random.below(8) {
         0..3 => Solution::Jump(random.log(1e-10, 1e10)),
         3 => Solution::Pressed,
@@ -27,7 +27,7 @@ pub(super) fn draw(random: &mut Random, plan: &Plan) -> Posed {
         sides,
         split: None,
     };
-    let plan = Plan { regions: Regions::Halves, split: false, ..*plan };
+    let plan = MeshPlan { regions: Regions::Halves, split: false, ..*plan };
     let mesh = known.scales.placed(mesh::draw(random, &plan).mesh);
     let of = |wanted: fn(&Side) -> bool| sides.iter().any(wanted);
     let hold = match () {

@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 use super::dice::Random;
 use super::function::{Frame, Function, Rough};
-use super::mesh::{self, Plan};
+use super::mesh::{self, MeshPlan};
 use super::posed::{Hold, Posed};
 
 /// Draws one; `moving`: with inputs.
-pub(super) fn draw(random: &mut Random, plan: &Plan, moving: bool) -> Posed {
+pub(super) fn draw(random: &mut Random, plan: &MeshPlan, moving: bool) -> Posed {
     let (sin, cos) = random.between(0.0, 2.0 * PI).sin_cos();
     let length = if random.chance(0.2) { random.log(1e-4, 1e4) } else { 1.0 };
     let lean = random.pick(&[0.0, 0.0, 0.5]);
@@ -20,7 +20,7 @@ pub(super) fn draw(random: &mut Random, plan: &Plan, moving: bool) -> Posed {
             [length * sin, length * (lean * sin + cos)],
         ],
     };
-    let drawn = mesh::draw(random, &Plan { map, ..*plan });
+    let drawn = mesh::draw(random, &MeshPlan { map, ..*plan });
     let frame = Frame { centre: [0.0; 2], length };
     let size = if random.chance(0.2) { random.log(1e-8, 1e8) } else { 1.0 };
     let names: Vec<&str> = drawn.mesh.curves.iter().map(|curve| curve.name.as_str()).collect();

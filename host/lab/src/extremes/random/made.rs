@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use super::dice::Random;
 use super::function::{Frame, Function, Rough};
-use super::mesh::{self, Drawn, Outline, Plan, Regions};
+use super::mesh::{self, Drawn, MeshPlan, Outline, Regions};
 use super::posed::{Hold, Posed};
 
 /// u with ∇u, σ = A∇u and f as texts, and the materials.
@@ -22,12 +22,12 @@ struct Chosen {
 }
 
 /// Draws one.
-pub(super) fn draw(random: &mut Random, plan: &Plan) -> Posed {
+pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     let contrast = random.chance(0.4);
     let plan = match contrast {
         // On a side along x = 0 the expressions below would be those of neither half.
-        true => Plan { regions: Regions::Halves, outline: Outline::Whole, ..*plan },
-        false => Plan { map: turned(random), ..*plan },
+        true => MeshPlan { regions: Regions::Halves, outline: Outline::Whole, ..*plan },
+        false => MeshPlan { map: turned(random), ..*plan },
     };
     let drawn = mesh::draw(random, &plan);
     let steepest = random.pick(&[1.5, 1.5, 3.0, 8.0]);

@@ -6,9 +6,9 @@
 //! ```
 //! whatever the exact solution is: an answer that breaks it, or a finer one, has a bound that is wrong.
 
-use super::attempt::{Answer, Attempt};
-use super::case::{Case, Truth};
-use super::nested::{Apart, Side, apart};
+use super::attempt::{Attempt, SolverAnswer};
+use super::case::{RandomCase, Yardstick};
+use super::nested::{Apart, MeshSolution, apart};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
@@ -72,7 +72,7 @@ const RESOLVED: f64 = 1e-4;
 ///
 /// # Errors
 /// A scene that cannot be stated in its own units.
-pub fn measure(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
+pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
     let units = choose_units(&attempt.problem)?;
     let answer = attempt.answer.clone().divided(&units);
     let problem = match units == Units::default() {
@@ -83,8 +83,8 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
     // An answer without s and τ has nothing to be measured.
     let held = Held { problem: &problem, answer: &answer, bound };
     let mut found = match case.truth {
-        Truth::Finer => held.by_finer(case)?,
-        Truth::Catalogue | Truth::Made => Some(held.by_exact()?),
+        Yardstick::Finer => held.by_finer(case)?,
+        Yardstick::Catalogue | Yardstick::Made => Some(held.by_exact()?),
     };
     if let Some(found) = &mut found {
         found.best = directly(&problem).ok().and_then(|of| of.bound).map(|of| of.total);
@@ -95,14 +95,14 @@ pub fn measure(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
 /// An answer in its units.
 struct Held<'a> {
     problem: &'a Problem,
-    answer: &'a Answer,
+    answer: &'a SolverAnswer,
     bound: ErrorBound,
 }
 
 impl Held<'_> {
-    fn side(&self) -> Side<'_> {
-        let Answer { u, certified, .. } = self.answer;
-        Side { problem: self.problem, admissible: certified.admissible(), u }
+    fn side(&self) -> MeshSolution<'_> {
+        let SolverAnswer { u, certified, .. } = self.answer;
+        MeshSolution { problem: self.problem, admissible: certified.admissible(), u }
     }
 
     fn by_exact(&self) -> Result<Measured> {
@@ -128,7 +128,7 @@ impl Held<'_> {
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
-            let known = self.missed()? <= RESOLVED * self.bound.gap;
+            let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
         }
         Ok(found)
@@ -136,7 +136,7 @@ impl Held<'_> {
 
     /// Whether the integrals seem to contradict the bound.
     fn is_off(&self, found: &Distance) -> bool {
-        let of_gap = (self.bound.gap / found.identity - 1.0).abs();
+        let of_gap = (self.bound.duality_gap / found.identity - 1.0).abs();
         found.combined > self.bound.total || of_gap > 0.1 * IDENTITY
     }
 
@@ -149,7 +149,7 @@ impl Held<'_> {
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
-    fn by_finer(&self, case: &Case) -> Result<Option<Measured>> {
+    fn by_finer(&self, case: &RandomCase) -> Result<Option<Measured>> {
         let (problem, own) = (self.problem, self.side());
         // One in so many cases gets the finest that is allowed for.
         let most = UNKNOWNS[usize::from(case.number.is_multiple_of(97))];
@@ -162,7 +162,7 @@ impl Held<'_> {
         let Ok(solution) = directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
-        let fine = Side { problem: &finer, admissible: certified.admissible(), u };
+        let fine = MeshSolution { problem: &finer, admissible: certified.admissible(), u };
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
         let (mut found, mut uncertain) = (Apart::default(), [0.0; 2]);

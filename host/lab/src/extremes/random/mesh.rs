@@ -45,7 +45,7 @@ pub enum Regions {
 
 /// What is drawn.
 #[derive(Debug, Clone, Copy)]
-pub struct Plan {
+pub struct MeshPlan {
     /// About how many cells.
     pub cells: u32,
     /// What cells.
@@ -80,7 +80,7 @@ struct Lines {
 }
 
 impl Lines {
-    fn draw(random: &mut Random, plan: &Plan) -> Self {
+    fn draw(random: &mut Random, plan: &MeshPlan) -> Self {
         let squares = match plan.kind {
             Kind::Triangles => plan.cells / 2,
             _ => plan.cells,
@@ -118,7 +118,7 @@ impl Lines {
     }
 
     /// Where vertex i of line j lies.
-    fn place(&self, random: &mut Random, plan: &Plan, i: usize, j: usize) -> [f64; 2] {
+    fn place(&self, random: &mut Random, plan: &MeshPlan, i: usize, j: usize) -> [f64; 2] {
         let mut step = |lines: &[f64], at: usize| {
             let shift = plan.moved * random.between(-1.0, 1.0);
             match (at.checked_sub(1).and_then(|before| lines.get(before)), lines.get(at + 1)) {
@@ -159,7 +159,7 @@ fn partition(steps: u32, growth: f64) -> Vec<f64> {
 }
 
 /// Draws a mesh.
-pub fn draw(random: &mut Random, plan: &Plan) -> Drawn {
+pub fn draw(random: &mut Random, plan: &MeshPlan) -> Drawn {
     let lines = Lines::draw(random, plan);
     let (columns, rows) = (lines.columns(), lines.rows());
     let places: Vec<[f64; 2]> = (0..=rows)
@@ -212,7 +212,7 @@ impl Numbering {
     fn mesh(
         mut self,
         lines: &Lines,
-        plan: &Plan,
+        plan: &MeshPlan,
         places: &[[f64; 2]],
         triangles: &[([u32; 3], bool)],
         quads: &[([u32; 4], bool)],
@@ -242,7 +242,7 @@ impl Numbering {
     }
 
     /// The sides with their edges, directed as their cells run, in the order of their places.
-    fn curves(&self, lines: &Lines, plan: &Plan, mesh: &Mesh) -> Vec<(String, Vec<[u32; 2]>)> {
+    fn curves(&self, lines: &Lines, plan: &MeshPlan, mesh: &Mesh) -> Vec<(String, Vec<[u32; 2]>)> {
         let width = lines.columns() as u32 + 1;
         let at = |vertex: u32| {
             let old = self.old[vertex as usize];

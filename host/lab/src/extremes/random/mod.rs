@@ -28,7 +28,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use attempt::{Attempt, attempt};
-use case::Case;
+use case::RandomCase;
 use measure::{Measured, measure};
 use record::Record;
 use row::Row;
@@ -46,7 +46,7 @@ const LIMIT: Duration = Duration::from_secs(1800);
 
 /// Which scenes are drawn.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct RandomPlan {
     seed: u64,
     cases: Vec<u32>,
 }
@@ -57,7 +57,7 @@ pub type Keep<'k> = dyn Fn(&[Row]) -> Result<()> + Sync + 'k;
 /// Cases between two records of a run that is not over.
 const OFTEN: usize = 250;
 
-impl Plan {
+impl RandomPlan {
     /// The first `count` cases of a seed.
     pub fn new(seed: u64, count: u32) -> Self {
         Self { seed, cases: (0..count).collect() }
@@ -109,7 +109,7 @@ impl Plan {
 /// # Errors
 /// Files that cannot be written.
 pub fn write(seed: u64, number: u32, folder: &Path) -> Result<()> {
-    let case = Case::draw(seed, number);
+    let case = RandomCase::draw(seed, number);
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let effort = case.effort;
     let how = format!(
@@ -126,8 +126,8 @@ type Left = (Result<(Attempt, Result<Option<Measured>>)>, f64);
 /// Draws, solves, measures and judges one case.
 fn row(seed: u64, number: u32) -> Row {
     let start = Instant::now();
-    let left = watched(LIMIT, move || -> (Case, Left) {
-        let case = Case::draw(seed, number);
+    let left = watched(LIMIT, move || -> (RandomCase, Left) {
+        let case = RandomCase::draw(seed, number);
         let start = Instant::now();
         let found = attempt(&case);
         let seconds = start.elapsed().as_secs_f64();
@@ -145,21 +145,21 @@ fn row(seed: u64, number: u32) -> Row {
                 Lost::Panicked => Ended::Panicked,
             };
             let (outcome, note) = judge(&ended, signorini_solve::solve::ScalarKind::F64);
-            Row { outcome, note, ..Row::of(&Case::draw(seed, number)) }
+            Row { outcome, note, ..Row::of(&RandomCase::draw(seed, number)) }
         }
     };
     Row { seconds_in_all: start.elapsed().as_secs_f64(), ..row }
 }
 
 /// Nothing is measured where a number is not finite.
-fn measured(case: &Case, attempt: &Attempt) -> Result<Option<Measured>> {
+fn measured(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
     if !attempt.answer.is_finite() {
         return Ok(None);
     }
     measure(case, attempt)
 }
 
-fn judged(case: &Case, found: Result<(Attempt, Result<Option<Measured>>)>) -> Row {
+fn judged(case: &RandomCase, found: Result<(Attempt, Result<Option<Measured>>)>) -> Row {
     let row = Row::of(case);
     let (attempt, measured) = match found {
         Ok((attempt, Ok(measured))) => (attempt, measured),
@@ -185,7 +185,7 @@ fn judged(case: &Case, found: Result<(Attempt, Result<Option<Measured>>)>) -> Ro
     Row { broken, outcome, ..row }
 }
 
-fn concluded(row: Row, case: &Case, ended: &Ended) -> Row {
+fn concluded(row: Row, case: &RandomCase, ended: &Ended) -> Row {
     let (outcome, note) = judge(ended, case.effort.scalar);
     Row { outcome, note, ..row }
 }

@@ -15,7 +15,7 @@ use signorini_solve::problem::{EdgeKind, Problem, Sum};
 use signorini_solve::quadrature::{Point, gauss};
 
 /// One of the two: its problem, s and τ, and u_h where that is asked for.
-pub struct Side<'a> {
+pub struct MeshSolution<'a> {
     /// Its mesh and data.
     pub problem: &'a Problem,
     /// s and τ.
@@ -36,14 +36,14 @@ pub struct Apart {
 }
 
 /// Both with what their boundary data add to s.
-struct Study<'a> {
+struct NestedPair<'a> {
     coarse: Part<'a>,
     fine: Part<'a>,
     levels: u32,
 }
 
 struct Part<'a> {
-    side: &'a Side<'a>,
+    side: &'a MeshSolution<'a>,
     deviations: Deviations<'a>,
 }
 
@@ -61,9 +61,14 @@ struct OnCell<'a> {
 ///
 /// # Errors
 /// Data that are not finite at a point.
-pub fn apart(coarse: &Side, fine: &Side, levels: u32, rule: &[[f64; 2]]) -> Result<Apart> {
+pub fn apart(
+    coarse: &MeshSolution,
+    fine: &MeshSolution,
+    levels: u32,
+    rule: &[[f64; 2]],
+) -> Result<Apart> {
     let (coarse, fine) = (Part::new(coarse)?, Part::new(fine)?);
-    let study = Study { coarse, fine, levels };
+    let study = NestedPair { coarse, fine, levels };
     let fine = study.fine.side;
     let mut squares = Apart::default();
     let mut last = None;
@@ -88,13 +93,13 @@ pub fn apart(coarse: &Side, fine: &Side, levels: u32, rule: &[[f64; 2]]) -> Resu
 }
 
 impl<'a> Part<'a> {
-    fn new(side: &'a Side<'a>) -> Result<Self> {
+    fn new(side: &'a MeshSolution<'a>) -> Result<Self> {
         let deviations = Deviations::at_time(side.problem, side.problem.time)?;
         Ok(Self { side, deviations })
     }
 
     fn on_cell(&'a self, at: usize) -> OnCell<'a> {
-        let Side { problem, admissible, u } = self.side;
+        let MeshSolution { problem, admissible, u } = self.side;
         OnCell {
             cell: Cell::of(problem, at),
             chordal: admissible.chordal(problem, at),
@@ -116,7 +121,7 @@ impl OnCell<'_> {
     }
 }
 
-impl Study<'_> {
+impl NestedPair<'_> {
     /// The cell of the coarser mesh in which cell `at` of the finer one lies.
     fn parent(&self, at: usize) -> usize {
         let shift = 2 * self.levels;
@@ -182,8 +187,9 @@ impl Study<'_> {
         let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));
         let middle = self.in_parent(at, own.cell.side_point(side, 0.5, 0.0));
         let whole = edge_at(coarse.problem, parent, &of_parent.cell, middle);
-        let density =
-            |side: &Side, edge: usize| side.admissible.tau[edge] / side.problem.lengths[edge];
+        let density = |side: &MeshSolution, edge: usize| {
+            side.admissible.tau[edge] / side.problem.lengths[edge]
+        };
         let flux = density(fine, edge) - density(coarse, whole);
         let [a, b] = fine.problem.segment(edge);
         let mut sum = 0.0;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::attempt::Attempt;
-use super::case::{Case, Truth, Way};
+use super::case::{RandomCase, Way, Yardstick};
 use super::measure::Measured;
 use super::mesh::Kind;
 use super::posed::Hold;
@@ -58,13 +58,13 @@ pub struct Row {
 
 impl Row {
     /// What was drawn.
-    pub fn of(case: &Case) -> Self {
+    pub fn of(case: &RandomCase) -> Self {
         Self {
             case: case.number,
             truth: match case.truth {
-                Truth::Catalogue => "catalogue",
-                Truth::Made => "made",
-                Truth::Finer => "finer",
+                Yardstick::Catalogue => "catalogue",
+                Yardstick::Made => "made",
+                Yardstick::Finer => "finer",
             },
             hold: match case.hold {
                 Hold::Dirichlet => "dirichlet",
@@ -104,7 +104,7 @@ impl Row {
 
     /// With the numbers of its answer.
     #[must_use]
-    pub fn with(self, case: &Case, attempt: &Attempt, measured: Option<&Measured>) -> Self {
+    pub fn with(self, case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Self {
         let over = |part: f64, whole: f64| match part == 0.0 {
             true => Some(0.0),
             false => Some(part / whole).filter(|ratio| ratio.is_finite()),
@@ -114,9 +114,11 @@ impl Row {
         let identity = |of: &Measured| {
             let (bound, identity) = (of.bound?, of.identity?);
             let [identity, rounding] = identity;
-            let off = (bound.gap - identity).abs() - rounding / (bound.gap + identity);
+            let off =
+                (bound.duality_gap - identity).abs() - rounding / (bound.duality_gap + identity);
             let found = off.max(0.0) / identity;
-            (counts && bound.gap > 100.0 * bound.rounding && found.is_finite()).then_some(found)
+            (counts && bound.duality_gap > 100.0 * bound.rounding && found.is_finite())
+                .then_some(found)
         };
         Self {
             unknowns: Some(attempt.problem.topology.counts.unknowns()),

@@ -3,7 +3,7 @@
 use signorini_tolerances::lab::{MADE, RESIDUAL};
 use std::path::Path;
 
-use super::nested::{Side, apart};
+use super::nested::{MeshSolution, apart};
 use super::residual::residual;
 use super::*;
 use signorini_scene::mesh::Mesh;
@@ -18,7 +18,7 @@ use signorini_solve::solve::{Options, Solution, SolverKind, solve};
 /// A fixed seed: whatever is mended stays mended.
 #[test]
 fn two_hundred_random_scenes_keep_their_promises() {
-    let plan = Plan::new(21, 200);
+    let plan = RandomPlan::new(21, 200);
     let (record, rows) = plan.run(|| {}, &|_| Ok(())).unwrap();
     assert_eq!(rows.len(), 200);
     assert!(record.violations.is_empty(), "{}", record.text());
@@ -26,7 +26,7 @@ fn two_hundred_random_scenes_keep_their_promises() {
 
 #[test]
 fn a_case_is_the_same_alone() {
-    let (all, alone) = (Case::draw(3, 17), Case::draw(3, 17));
+    let (all, alone) = (RandomCase::draw(3, 17), RandomCase::draw(3, 17));
     assert_eq!((all.scene, all.mesh, all.effort), (alone.scene, alone.mesh, alone.effort));
 }
 
@@ -53,8 +53,9 @@ fn distance_to_finer(scene: &Scene, cells: Cells, levels: u32) -> (f64, [f64; 2]
     let fine = Problem::new(scene, mesh).unwrap();
     let (one, other) = (solved(&coarse), solved(&fine));
     let bounds = [&one, &other].map(|of| of.bound.unwrap().total);
-    let of = Side { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
-    let its = Side { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
+    let of = MeshSolution { problem: &coarse, admissible: one.certified.admissible(), u: &one.u };
+    let its =
+        MeshSolution { problem: &fine, admissible: other.certified.admissible(), u: &other.u };
     (apart(&of, &its, levels, &gauss(4)).unwrap().combined, bounds)
 }
 
@@ -83,7 +84,8 @@ fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
     let scene = scene("x");
     let problem = Problem::new(&scene, grid(3, Cells::Mixed)).unwrap();
     let own = solved(&problem);
-    let side = || Side { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
+    let side =
+        || MeshSolution { problem: &problem, admissible: own.certified.admissible(), u: &own.u };
     RESIDUAL.check("itself", apart(&side(), &side(), 0, &gauss(4)).unwrap().combined);
     let found = residual(&problem, &own.u).unwrap();
     RESIDUAL.check("scaled", found.scaled);
@@ -96,8 +98,8 @@ fn an_answer_is_no_distance_from_itself_and_a_wrong_one_leaves_a_residual() {
 /// Solutions that are made solve their problem: bound = identity.
 #[test]
 fn made_scenes_are_solved_by_what_they_were_made_for() {
-    let cases = (0..400).map(|number| Case::draw(5, number));
-    let made = cases.filter(|case| case.truth == case::Truth::Made && case.mesh.cells() < 60);
+    let cases = (0..400).map(|number| RandomCase::draw(5, number));
+    let made = cases.filter(|case| case.truth == case::Yardstick::Made && case.mesh.cells() < 60);
     for case in made.take(12) {
         let scene = Scene::parse(&case.scene, Path::new("made.toml")).unwrap();
         let Ok(problem) = Problem::new(&scene, case.mesh.clone()) else { continue };
@@ -105,9 +107,9 @@ fn made_scenes_are_solved_by_what_they_were_made_for() {
         let Ok(own) = solve(&problem, &options) else { continue };
         let (Some(bound), Some(exact)) = (own.bound, &scene.exact) else { continue };
         let found = distance(exact, &problem, &own.certified.admissible()).unwrap();
-        if bound.gap >= 100.0 * bound.rounding {
+        if bound.duality_gap >= 100.0 * bound.rounding {
             let what = format!("case {}", case.number);
-            MADE.check_relative(what, bound.gap, found.identity);
+            MADE.check_relative(what, bound.duality_gap, found.identity);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What an answer breaks of what it promises.
 
 use super::attempt::{Attempt, rounding};
-use super::case::{Case, Way};
+use super::case::{RandomCase, Way};
 use super::measure::{IDENTITY, Measured};
 use super::residual::residual;
 use crate::extremes::judge::{Ended, INTEGRATED};
@@ -35,7 +35,7 @@ fn broken(what: &'static str, words: String) -> Option<Broken> {
 }
 
 /// All that `attempt` breaks.
-pub fn broken_by(case: &Case, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
+pub fn broken_by(case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
     let by_measure = measured.map(|found| {
         [bound(found), of_u(found), identity(case, found)].into_iter().flatten().collect::<Vec<_>>()
     });
@@ -63,20 +63,21 @@ fn of_u(found: &Measured) -> Option<Broken> {
     broken("of_u", format!("of u_h {of_u:.6e}, bounds {of_u_bound:.6e} + {total:.6e}"))
 }
 
-fn identity(case: &Case, found: &Measured) -> Option<Broken> {
+fn identity(case: &RandomCase, found: &Measured) -> Option<Broken> {
     let (bound, identity) = (found.bound?, found.identity?);
-    let counts = case.effort.scalar == ScalarKind::F64 && bound.gap > ROUNDINGS * bound.rounding;
+    let counts =
+        case.effort.scalar == ScalarKind::F64 && bound.duality_gap > ROUNDINGS * bound.rounding;
     let [identity, rounding] = identity;
     // |gap² − identity²| = |gap − identity| (gap + identity)
-    let off = (bound.gap - identity).abs() - rounding / (bound.gap + identity);
+    let off = (bound.duality_gap - identity).abs() - rounding / (bound.duality_gap + identity);
     if !counts || off <= IDENTITY * identity {
         return None;
     }
-    broken("identity", format!("gap {:.6e}, identity {identity:.6e}", bound.gap))
+    broken("identity", format!("gap {:.6e}, identity {identity:.6e}", bound.duality_gap))
 }
 
 /// Converged means converged.
-fn status(case: &Case, attempt: &Attempt) -> Option<Broken> {
+fn status(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let asked = matches!(case.effort.way, Way::Sweeps | Way::Direct);
     if !asked || !attempt.answer.success || case.effort.scalar != ScalarKind::F64 {
         return None;
@@ -92,7 +93,7 @@ fn status(case: &Case, attempt: &Attempt) -> Option<Broken> {
 }
 
 /// τ·n ≥ q on C, and so is what is told of it.
-fn forces(case: &Case, attempt: &Attempt) -> Option<Broken> {
+fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let (problem, answer) = (&attempt.problem, &attempt.answer);
     answer.bound?;
     let tau = |edge: usize| answer.certified.tau[edge];

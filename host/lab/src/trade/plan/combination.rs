@@ -1,12 +1,12 @@
 //! What of the full product of knobs makes sense, is in reach, and is measured.
 
-use super::{Combination, Factor, Ground, Stop};
+use super::{Combination, Factor, SceneFacts, Stop};
 use crate::trade::target::Target;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
 impl Combination {
     /// Why it is left out; `None`: it is measured.
-    pub fn reason(&self, ground: &Ground) -> Option<&'static str> {
+    pub fn reason(&self, ground: &SceneFacts) -> Option<&'static str> {
         self.senseless(ground).or_else(|| self.out_of_reach(ground)).or_else(|| {
             let measured = match self.model {
                 ModelKind::Condensed => self.is_condensed_point(),
@@ -18,7 +18,7 @@ impl Combination {
     }
 
     /// What means nothing.
-    fn senseless(&self, ground: &Ground) -> Option<&'static str> {
+    fn senseless(&self, ground: &SceneFacts) -> Option<&'static str> {
         let condensed = self.model == ModelKind::Condensed;
         if condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)) {
             return Some("shares and other sweeps than 12 are for full models");
@@ -49,7 +49,7 @@ impl Combination {
     }
 
     /// What there is no code for, or no room.
-    fn out_of_reach(&self, ground: &Ground) -> Option<&'static str> {
+    fn out_of_reach(&self, ground: &SceneFacts) -> Option<&'static str> {
         /// Unknowns of the largest mesh that is put on a microcontroller for a study.
         const LARGEST: usize = 4500;
         let condensed = self.model == ModelKind::Condensed;
@@ -103,7 +103,7 @@ impl Combination {
     }
 
     /// Sweeps and shares on every mesh.
-    fn is_crossed(&self, ground: &Ground) -> bool {
+    fn is_crossed(&self, ground: &SceneFacts) -> bool {
         let stop = match self.stop {
             Stop::Share(share) => {
                 self.scalar == Precision::F32 && (share != 0.3 || ground.target == Target::Host)
@@ -122,7 +122,7 @@ impl Combination {
     }
 
     /// One knob away from the base.
-    fn is_single(&self, ground: &Ground) -> bool {
+    fn is_single(&self, ground: &SceneFacts) -> bool {
         if self.cells.is_some() || self.level > 0 {
             return false;
         }
@@ -160,14 +160,14 @@ impl Combination {
 
     /// The factor of the full model: on the scene's cells, of whatever size, and on the others once; on the scene's
     /// own mesh also without its bound.
-    fn is_factored_point(&self, ground: &Ground) -> bool {
+    fn is_factored_point(&self, ground: &SceneFacts) -> bool {
         let usual = self.scalar == Precision::F32 && self.start == main_start(ground);
         let own = self.cells.is_none() && self.level == 0;
         let everywhere = self.cells.is_none() || self.level == 0;
         usual && if self.certificate { everywhere } else { own }
     }
 
-    pub fn setting(&self, ground: &Ground) -> Setting {
+    pub fn setting(&self, ground: &SceneFacts) -> Setting {
         let omega = match self.omega {
             Factor::Auto => Omega::Auto,
             Factor::Tuned => ground.tuned.map_or(Omega::Auto, Omega::Fixed),
@@ -197,6 +197,6 @@ impl Combination {
 }
 
 /// What most points start from.
-fn main_start(ground: &Ground) -> Start {
+fn main_start(ground: &SceneFacts) -> Start {
     if ground.has_inputs && !ground.is_loose { Start::Warm } else { Start::Cold }
 }

@@ -53,7 +53,7 @@ const STOPS: [Stop; 10] = [
 
 /// What a scene allows for.
 #[derive(Debug, Clone, Copy)]
-pub struct Ground {
+pub struct SceneFacts {
     /// Whose cost decides.
     pub target: Target,
     /// The cells that the scene's mesh can be brought to beside its own.
@@ -97,7 +97,7 @@ struct Combination {
 
 impl Plan {
     /// The plan for a scene.
-    pub fn new(ground: &Ground) -> Self {
+    pub fn new(ground: &SceneFacts) -> Self {
         let mut settings = Vec::new();
         let mut skipped = BTreeMap::<&str, usize>::new();
         for combination in combinations(ground) {
@@ -114,7 +114,7 @@ impl Plan {
 }
 
 /// The full product.
-fn combinations(ground: &Ground) -> impl Iterator<Item = Combination> {
+fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Combination> {
     let cells = [None, ground.other_cells];
     let cells = cells.into_iter().take(if ground.other_cells.is_some() { 2 } else { 1 });
     let finest = ground.finest;
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
     use signorini_scene::setting::{Method, Omega};
 
-    const GROUND: Ground = Ground {
+    const GROUND: SceneFacts = SceneFacts {
         target: Target::Host,
         other_cells: Some(CellKind::Quads),
         finest: 2,
@@ -168,7 +168,7 @@ mod tests {
         for target in [Target::Host, Target::M4f, Target::M7] {
             for has_inputs in [true, false] {
                 for is_loose in [true, false] {
-                    let plan = Plan::new(&Ground { target, has_inputs, is_loose, ..GROUND });
+                    let plan = Plan::new(&SceneFacts { target, has_inputs, is_loose, ..GROUND });
                     let settings = &plan.settings;
                     let twice =
                         (1..settings.len()).find(|&at| settings[..at].contains(&settings[at]));
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn nothing_moves_without_inputs() {
-        let plan = Plan::new(&Ground { has_inputs: false, ..GROUND });
+        let plan = Plan::new(&SceneFacts { has_inputs: false, ..GROUND });
         assert!(plan.settings.iter().all(|setting| setting.start == Start::Cold));
         assert!(plan.settings.iter().all(|setting| setting.model == Some(ModelKind::Full)));
     }

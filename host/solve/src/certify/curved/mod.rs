@@ -60,12 +60,12 @@ pub struct Curved {
 /// # Errors
 /// Data that are not finite or not differentiable at a quadrature point.
 pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
-    Ok(bends(problem, time)?.records)
+    Ok(curved_edges(problem, time)?.records)
 }
 
 /// The records, and what they leave out.
 #[derive(Debug, Clone)]
-pub struct Bends {
+pub struct CurvedEdges {
     /// See [`curved`].
     pub records: Vec<Curved>,
     /// ‖A^½∇·‖ of what edges without a record and points of the others leave out of Σv: to be added to the bound.
@@ -76,7 +76,7 @@ pub struct Bends {
 ///
 /// # Errors
 /// As for [`curved`].
-pub fn bends(problem: &Problem, time: f64) -> Result<Bends> {
+pub fn curved_edges(problem: &Problem, time: f64) -> Result<CurvedEdges> {
     let deviations = Deviations::at_time(problem, time)?;
     let (records, dropped) = (records(problem, &deviations.found)?, deviations.dropped);
     let mut of_cells = BTreeMap::new();
@@ -85,7 +85,7 @@ pub fn bends(problem: &Problem, time: f64) -> Result<Bends> {
         *of_cells.entry(at).or_insert(0.0) += record.missed;
     }
     let missed = of_cells.values().fold(0.0_f64, |sum, missed| sum.hypot(*missed));
-    Ok(Bends { records, left_out: dropped + missed })
+    Ok(CurvedEdges { records, left_out: dropped + missed })
 }
 
 fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {

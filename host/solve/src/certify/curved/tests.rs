@@ -338,7 +338,7 @@ fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
             let exact = scene.exact.as_ref().expect("an exact solution");
             let admissible = solution.certified.admissible();
             let found = distance(exact, &problem, &admissible)?;
-            let ratio = solution.bound.expect("a bound").gap / found.identity;
+            let ratio = solution.bound.expect("a bound").duality_gap / found.identity;
             CURVED_ENERGY.check(format_args!("{gap}, {cells:?}"), ratio - 1.0);
         }
     }

@@ -18,7 +18,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::assembly::{self, CellLoads};
 use signorini_kernel::boundary::Boundary;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{self, Buffers, Given, Ground, Metric, certify};
+use signorini_kernel::certificate::{self, Buffers, LoadCase, Discretization, Metric, certify};
 use signorini_kernel::conforming::VertexData;
 use signorini_kernel::csr::Csr;
 use signorini_kernel::equilibrium::{Iterate, is_root};
@@ -220,10 +220,10 @@ impl Stages for Meter<'_, '_> {
         let packed = Cells::new(&triangles, &quads, &of_vertices, of_edges, &forest)?;
         let metric = Metric::default();
         let stability = certificate::stability(&edges, &packed, metric, &boundary, &forest, way)?;
-        let ground = Ground { mesh, edges, stiffness, cells: packed, metric, stability };
+        let ground = Discretization { mesh, edges, stiffness, cells: packed, metric, stability };
         let gap = -R::QUARTER * R::QUARTER;
         let (at_gap, given, lower) = ([[gap; 2]; 16], [[R::ZERO; 2]; 16], [gap; 16]);
-        let given = Given {
+        let given = LoadCase {
             loads,
             boundary,
             ends: VertexData { gap: black_box(&at_gap), given: black_box(&given) },

@@ -11,7 +11,7 @@ use signorini_solve::scalar::Scalar;
 
 /// The names and meanings of a scene's inputs and outputs.
 #[derive(Debug, Clone)]
-pub struct Face {
+pub struct ModuleApi {
     title: String,
     file: String,
     hash: u64,
@@ -47,7 +47,7 @@ pub struct About<'a> {
     pub features: &'a [&'a str],
 }
 
-impl Face {
+impl ModuleApi {
     /// That of `problem`.
     pub fn new(problem: &Problem) -> Self {
         let names = problem.scene.inputs.iter().map(|input| input.name.value.as_str());

@@ -12,13 +12,13 @@ use super::clarabel::Clarabel;
 use super::condensed::condensed;
 use super::conforming::Conforming;
 use super::contest::Entrant;
-use super::contestant::{Contest, Contestant, Start};
 use super::full::{Full, quadratic};
-use super::moment::Moment;
+use super::load_case::LoadCase;
 use super::osqp::{Manner, Osqp};
 use super::pivots::Pivots;
 use super::psor::Psor;
 use super::quadratic::Quadratic;
+use super::timed_solver::{Contest, InitialGuess, TimedSolver};
 use crate::baseline::record::Baseline;
 use signorini_scene::error::Result;
 use signorini_solve::problem::{Parts, Problem};
@@ -30,9 +30,9 @@ pub(super) const PIVOTS: &str = "kernel pivoting f64";
 pub(super) const FACTOR_KEPT: &str = "faer active set, factor kept";
 
 /// A scene, its ticks, and who takes part.
-pub(super) struct Ring<'a> {
+pub(super) struct Benchmark<'a> {
     pub problem: &'a Problem,
-    pub moments: &'a [Moment],
+    pub moments: &'a [LoadCase],
     /// The energy distance to the discrete solution that is small enough.
     pub target: f64,
     /// OSQP's program.
@@ -41,7 +41,7 @@ pub(super) struct Ring<'a> {
     pub coarser: &'a [Problem],
 }
 
-impl Ring<'_> {
+impl Benchmark<'_> {
     /// Everybody, one after the other. Who fails is named in `notes`.
     pub fn hold(&self, notes: &mut Vec<String>) -> Result<Vec<Baseline>> {
         let parts = Parts::examine(self.problem)?;
@@ -108,7 +108,7 @@ impl Ring<'_> {
         &self,
         contest: &Contest,
         parts: &Parts,
-        moments: &[Moment],
+        moments: &[LoadCase],
     ) -> Result<Vec<Baseline>> {
         let full = Full::<R>::new(self.problem, parts, moments)?;
         match self.problem.mesh.quads.is_empty() {
@@ -117,7 +117,7 @@ impl Ring<'_> {
         }
     }
 
-    fn cascade(&self, contest: &Contest, moments: &[Moment]) -> Result<Vec<Baseline>> {
+    fn cascade(&self, contest: &Contest, moments: &[LoadCase]) -> Result<Vec<Baseline>> {
         if self.coarser.is_empty() {
             return Ok(Vec::new());
         }
@@ -125,12 +125,12 @@ impl Ring<'_> {
         let full = |problem| Full::new(problem, &Parts::examine(problem)?, &moments[..1]);
         let grids: Vec<Full<f64>> = problems.clone().map(full).collect::<Result<_>>()?;
         let grids: Vec<_> = problems.zip(&grids).collect();
-        contest.alone(CASCADE, &mut Cascade::new(&grids)?, &[Start::Cold])
+        contest.alone(CASCADE, &mut Cascade::new(&grids)?, &[InitialGuess::Cold])
     }
 }
 
-fn boxed<'c, C: Contestant + 'c>(contestant: Result<C>) -> Result<Box<dyn Contestant + 'c>> {
-    contestant.map(|contestant| -> Box<dyn Contestant> { Box::new(contestant) })
+fn boxed<'c, C: TimedSolver + 'c>(contestant: Result<C>) -> Result<Box<dyn TimedSolver + 'c>> {
+    contestant.map(|contestant| -> Box<dyn TimedSolver> { Box::new(contestant) })
 }
 
 fn sweep<R: Scalar, const WIDTH: usize>(

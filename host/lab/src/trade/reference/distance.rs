@@ -3,7 +3,7 @@
 //! The answer is evaluated in the cell of its own mesh that holds the point, so that the two meshes need
 //! not be nested: quads may be measured against triangles.
 
-use super::Answer;
+use super::Approximation;
 use super::places::Places;
 use super::reference::Reference;
 use crate::baseline::record::PointError;
@@ -16,7 +16,7 @@ use signorini_solve::certify::weighed::{in_cell, minus, on_robin};
 use signorini_solve::field::CellField;
 use signorini_solve::problem::Problem;
 use signorini_solve::quadrature::Point;
-use signorini_solve::search::Place;
+use signorini_solve::search::LocatedPoint;
 
 /// S and τ of an answer on one of its cells.
 struct Certified<'d, 's> {
@@ -27,7 +27,7 @@ struct Certified<'d, 's> {
 
 impl Reference {
     /// The norms over the domain; force and length are left 0.
-    pub(super) fn errors(&self, problem: &Problem, answer: &Answer) -> Result<PointError> {
+    pub(super) fn errors(&self, problem: &Problem, answer: &Approximation) -> Result<PointError> {
         let inside = self.points.iter().map(|point| point.x);
         let places = self.places.of(problem, inside, self.robin.iter().map(|point| point.x))?;
         let combined = |of| self.combined(problem, &places, of);
@@ -36,7 +36,7 @@ impl Reference {
     }
 
     /// Energy, L2 and flux, of u_h and σ_h.
-    fn broken(&self, problem: &Problem, places: &Places, answer: &Answer) -> PointError {
+    fn broken(&self, problem: &Problem, places: &Places, answer: &Approximation) -> PointError {
         let on_cell = |cell| CellField::new(problem, cell, answer.u, answer.flux);
         let fields: Vec<_> = (0..problem.cells()).map(on_cell).collect();
         let (mut energy, mut l2, mut flux) = (0.0, 0.0, 0.0);
@@ -80,6 +80,6 @@ impl Reference {
 }
 
 /// A point of the reference as a cell of the answer sees it.
-fn here(x: [f64; 2], place: &Place) -> Point {
+fn here(x: [f64; 2], place: &LocatedPoint) -> Point {
     Point { x, reference: place.reference, weight: 0.0 }
 }

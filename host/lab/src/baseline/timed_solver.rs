@@ -7,13 +7,13 @@ use super::quadratic::Quadratic;
 
 /// What a solve begins with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Start {
+pub(super) enum InitialGuess {
     Cold,
     /// From what the last run left.
     Warm,
 }
 
-impl Start {
+impl InitialGuess {
     pub fn name(self) -> &'static str {
         match self {
             Self::Cold => "cold",
@@ -31,9 +31,9 @@ pub(super) struct Run {
 }
 
 /// A solver with its problem.
-pub(super) trait Contestant {
+pub(super) trait TimedSolver {
     /// Solves a tick and counts its own cycles: copies of data and of the answer are not part of it.
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run>;
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run>;
 
     /// The exponent of the finest tolerance that makes sense.
     fn finest(&self) -> i32 {
@@ -41,8 +41,8 @@ pub(super) trait Contestant {
     }
 }
 
-impl<C: Contestant + ?Sized> Contestant for &mut C {
-    fn run(&mut self, tick: usize, start: Start, tolerance: f64) -> Result<Run> {
+impl<C: TimedSolver + ?Sized> TimedSolver for &mut C {
+    fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
         (**self).run(tick, start, tolerance)
     }
 

@@ -10,7 +10,7 @@ use signorini_scene::scene::Scene;
 
 /// A setting measured, or why it could not be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum Case {
+pub(super) enum MeasuredSetting {
     Point(Box<Point>),
     Left(String),
 }
@@ -24,7 +24,7 @@ pub(super) struct Facts {
     pub length: f64,
 }
 
-impl Case {
+impl MeasuredSetting {
     pub fn name(&self) -> &str {
         match self {
             Self::Point(point) => &point.name,

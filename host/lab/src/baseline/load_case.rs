@@ -19,7 +19,7 @@ const TILT: f64 = 4.0;
 
 /// The data of one tick: those of a scene at a time, scaled.
 #[derive(Debug, Clone)]
-pub(super) struct Moment {
+pub(super) struct LoadCase {
     pub scene: Arc<Scene>,
     pub time: f64,
     /// Of f, u_D, g and the ambient.
@@ -58,7 +58,7 @@ impl Factor {
     }
 }
 
-impl Moment {
+impl LoadCase {
     /// The scene as it stands.
     pub fn at(scene: &Arc<Scene>, time: f64) -> Self {
         Self { scene: scene.clone(), time, loads: Factor::ONE, contact: 1.0 }

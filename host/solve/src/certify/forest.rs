@@ -2,7 +2,7 @@
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{Ground, Stability, stability};
+use signorini_kernel::certificate::{Discretization, Stability, stability};
 use signorini_kernel::equilibrium::is_root;
 use signorini_kernel::forest::{Forest, ForestBuffers, grow};
 
@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 
 /// Forest, packed cells, weights of means.
 #[derive(Debug)]
-pub struct Ways<R> {
+pub struct EquilibrationForest<R> {
     order: Vec<u32>,
     parent: Vec<u32>,
     place: Vec<u32>,
@@ -23,7 +23,7 @@ pub struct Ways<R> {
     stability: Stability<R>,
 }
 
-impl<R: Scalar> Ways<R> {
+impl<R: Scalar> EquilibrationForest<R> {
     /// Memory for `problem`.
     pub fn new(problem: &Problem) -> Self {
         let (mesh, cells) = (&problem.mesh, problem.cells());
@@ -79,23 +79,23 @@ impl<R: Scalar> Ways<R> {
     }
 
     /// What it takes to bring 1 from the farthest cell to its root.
-    pub fn reach(&self) -> R {
+    pub fn stability(&self) -> R {
         self.stability.largest
     }
 
     /// The kernel's view of it.
     ///
     /// # Errors
-    /// Before [`Ways::find`].
+    /// Before [`EquilibrationForest::find`].
     pub fn ground<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
         metric: &'a Metric<R>,
-    ) -> Result<Ground<'a, R, u32>, KernelError> {
+    ) -> Result<Discretization<'a, R, u32>, KernelError> {
         let edges = *assembled.edges();
         let forest = Forest::new(&edges, &self.order, &self.parent, &self.place)?;
         let (triangles, quads) = (&self.triangles, &self.quads);
-        Ok(Ground {
+        Ok(Discretization {
             mesh: assembled.mesh()?,
             edges,
             stiffness: assembled.stiffness(),

@@ -26,7 +26,7 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Exact, Scene};
 use signorini_solve::certify::admissible::Admissible;
 use signorini_solve::certify::deviation::Deviations;
-use signorini_solve::certify::exact::Study;
+use signorini_solve::certify::exact::Integrands;
 use signorini_solve::norms;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::Solution;
@@ -38,7 +38,7 @@ pub const EXACT: &str = "the exact solution";
 
 /// The solution of a scene as well as it is known.
 #[derive(Debug)]
-pub struct Truth {
+pub struct ReferenceSolution {
     source: Source,
     energy: f64,
     contact: Contact,
@@ -52,7 +52,7 @@ enum Source {
 
 /// What somebody found for a scene, on a mesh of its own.
 #[derive(Debug, Clone, Copy)]
-pub struct Answer<'a> {
+pub struct Approximation<'a> {
     /// Mean of u_h over each edge.
     pub u: &'a [f64],
     /// ∫_E σ·n of each edge, along its direction's normal.
@@ -65,7 +65,7 @@ pub struct Answer<'a> {
     pub certified: Option<Admissible<'a>>,
 }
 
-impl<'a> From<&'a Solution> for Answer<'a> {
+impl<'a> From<&'a Solution> for Approximation<'a> {
     fn from(solution: &'a Solution) -> Self {
         Self {
             u: &solution.u,
@@ -77,7 +77,7 @@ impl<'a> From<&'a Solution> for Answer<'a> {
     }
 }
 
-impl Truth {
+impl ReferenceSolution {
     /// Takes the exact solution of `scene`, or solves it on `refined(mesh, times)`, [`FINER`] times
     /// finer than `finest`, the number of refinements of the finest mesh that is measured.
     ///
@@ -141,7 +141,7 @@ impl Truth {
     ///
     /// # Errors
     /// Data that are not finite at a quadrature point.
-    pub fn errors(&self, problem: &Problem, answer: &Answer) -> Result<PointError> {
+    pub fn errors(&self, problem: &Problem, answer: &Approximation) -> Result<PointError> {
         let inside = match &self.source {
             Source::Exact(exact, recent) => exactly(exact, recent, problem, answer)?,
             Source::Reference(reference) => reference.errors(problem, answer)?,
@@ -159,14 +159,14 @@ fn exactly(
     exact: &Exact,
     recent: &Recent,
     problem: &Problem,
-    answer: &Answer,
+    answer: &Approximation,
 ) -> Result<PointError> {
     let deviations = &Deviations::at_time(problem, problem.time)?;
     let tables = recent.of(exact, problem, deviations)?;
     let (u, lift) = (&tables.u, &tables.lift);
     let errors = norms::of_fields(problem, u, answer.u, answer.flux)?;
     let combined = |admissible| {
-        Study { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
+        Integrands { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
     };
     Ok(PointError {
         energy: errors.energy,

@@ -7,13 +7,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::search::{Place, Search};
+use signorini_solve::search::{LocatedPoint, Search};
 
 /// The places of all points of a reference in one mesh.
 #[derive(Debug, Default)]
 pub(super) struct Places {
     /// Of the points inside.
-    pub(super) cells: Vec<Place>,
+    pub(super) cells: Vec<LocatedPoint>,
     /// Of those on the Robin boundary.
     pub(super) edges: Vec<OnEdge>,
 }

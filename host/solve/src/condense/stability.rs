@@ -1,7 +1,7 @@
 //! How far it is from a residual of 1 on a contact edge to a flux that mends it.
 //!
 //! w_i is a flux that brings 1 in through contact edge i and out where the part is held: τ of the column
-//! Ŝ⁻¹e_i. Then |A^{−½} Σδ_i w_i| ≤ reach |δ| with reach² = λ_max(Ŵ), Ŵ_ij = ∫A⁻¹w_i·w_j + ∫_R …/h.
+//! Ŝ⁻¹e_i. Then |A^{−½} Σδ_i w_i| ≤ stability |δ| with reach² = λ_max(Ŵ), Ŵ_ij = ∫A⁻¹w_i·w_j + ∫_R …/h.
 //! Where contact alone holds one of the parts, Ŝ is singular on its constants; there w_i lets its 1 go
 //! through a source all over the part, and whoever mends sends the sum of all through one more edge.
 
@@ -16,9 +16,9 @@ pub(super) struct Source {
     pub load: Vec<f64>,
 }
 
-/// reach for Ŝ = `matrix`; `energies` of the columns of x, and of the source's where there is one.
+/// stability for Ŝ = `matrix`; `energies` of the columns of x, and of the source's where there is one.
 /// `None` where Ŝ is singular to rounding.
-pub(super) fn reach(
+pub(super) fn stability(
     matrix: &Mat<f64>,
     energies: &Mat<f64>,
     source: Option<&Source>,

@@ -9,7 +9,7 @@ use signorini_scene::scene::Scene;
 
 /// The scene with what the command line changes in it, and the folder of the files.
 #[derive(Debug, Args)]
-pub(super) struct Place {
+pub(super) struct SceneArguments {
     /// The scene file (TOML)
     scene: PathBuf,
     /// Another mesh than the scene names (Gmsh MSH 2.2 or 4.1)
@@ -23,7 +23,7 @@ pub(super) struct Place {
     out: Option<PathBuf>,
 }
 
-impl Place {
+impl SceneArguments {
     /// Reads the scene and sets mesh and inputs.
     pub fn scene(&self) -> Result<Scene> {
         let mut scene = Scene::read(&self.scene)?;

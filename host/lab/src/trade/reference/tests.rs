@@ -10,7 +10,7 @@ use std::path::Path;
 
 use super::points::Inside;
 use super::reference::Reference;
-use super::{Answer, Truth};
+use super::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Mesh, gmsh};
@@ -36,14 +36,14 @@ fn solved(scene: &Scene, mesh: Mesh) -> (Problem, Solution) {
 }
 
 /// By the scene's exact solution, known on `mesh`.
-fn exact(scene: &Scene, mesh: &Mesh) -> Truth {
-    Truth::new(scene, mesh, 0, |_, _| panic!("nothing to refine")).unwrap()
+fn exact(scene: &Scene, mesh: &Mesh) -> ReferenceSolution {
+    ReferenceSolution::new(scene, mesh, 0, |_, _| panic!("nothing to refine")).unwrap()
 }
 
 /// By a solution on `mesh`, as if the scene had no exact one.
-fn reference(scene: &Scene, mesh: &Mesh) -> Truth {
+fn reference(scene: &Scene, mesh: &Mesh) -> ReferenceSolution {
     let scene = Scene { exact: None, ..scene.clone() };
-    Truth::new(&scene, mesh, 0, |mesh, times| {
+    ReferenceSolution::new(&scene, mesh, 0, |mesh, times| {
         assert_eq!(times, 2);
         Ok(mesh.clone())
     })
@@ -77,7 +77,7 @@ fn the_exact_solution_gives_the_norms_of_the_catalogue() {
     let mesh = grid(16, Cells::Triangles);
     let truth = exact(&scene, &mesh);
     let (problem, solution) = solved(&scene, mesh);
-    let found = truth.errors(&problem, &Answer::from(&solution)).unwrap();
+    let found = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
     CATALOGUE.check_relative("energy", found.energy, 9.74473e-2);
     CATALOGUE.check_relative("flux", found.flux, 9.74473e-2);
     CATALOGUE.check_relative("L2", found.l2, 1.97915e-3);
@@ -98,7 +98,7 @@ fn answers_on_other_meshes_in_between_change_nothing() {
     let solved = meshes.map(|mesh| solved(&scene, mesh));
     for at in [0, 1, 2, 2, 0, 1] {
         let (problem, solution) = &solved[at];
-        let found = truth.errors(problem, &Answer::from(solution)).unwrap();
+        let found = truth.errors(problem, &Approximation::from(solution)).unwrap();
         let expected = of_solution(problem, solution).unwrap().unwrap();
         SAME_NORMS.check_relative("energy", found.energy, expected.energy);
         SAME_NORMS.check_relative("L2", found.l2, expected.l2);
@@ -113,7 +113,7 @@ fn compare(scene: &Scene, coarse: Mesh, fine: &Mesh, in_l2: Tolerance) {
     let (exact, reference) = (exact(scene, &coarse), reference(scene, fine));
     REFERENCE.check_relative("energy of the solution", reference.energy(), exact.energy());
     let (problem, solution) = solved(scene, coarse);
-    let answer = Answer::from(&solution);
+    let answer = Approximation::from(&solution);
     let expected = exact.errors(&problem, &answer).unwrap();
     let found = reference.errors(&problem, &answer).unwrap();
     println!("{}\n  exact     {expected:?}\n  reference {found:?}", scene.title);
@@ -189,7 +189,7 @@ fn a_worse_answer_is_farther_away() {
     let scene = read("catalogue/h-tri.toml");
     let truth = reference(&scene, &grid(16, Cells::Triangles));
     let (problem, mut solution) = solved(&scene, grid(4, Cells::Quads));
-    let before = truth.errors(&problem, &Answer::from(&solution)).unwrap();
+    let before = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
     for (at, u) in solution.u.iter_mut().enumerate() {
         *u += 0.02 * (at as f64).sin();
     }
@@ -197,13 +197,13 @@ fn a_worse_answer_is_farther_away() {
     solution.certified.vertices.iter_mut().for_each(|s| *s *= 1.05);
     solution.contact_force += 0.1;
     solution.contact_length += 0.5;
-    let after = truth.errors(&problem, &Answer::from(&solution)).unwrap();
+    let after = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
     let numbers = |error: PointError| {
         [error.energy, error.l2, error.flux, error.combined.unwrap(), error.force, error.length]
     };
     let pairs = numbers(before).into_iter().zip(numbers(after));
     assert!(pairs.clone().all(|(before, after)| after > before), "{:?}", pairs.collect::<Vec<_>>());
-    let bare = Answer { certified: None, ..Answer::from(&solution) };
+    let bare = Approximation { certified: None, ..Approximation::from(&solution) };
     assert_eq!(truth.errors(&problem, &bare).unwrap().combined, None);
 }
 
@@ -214,7 +214,7 @@ fn every_scene_can_be_its_own_reference() {
         let mesh = gmsh::read(&scene.mesh.value).unwrap();
         let truth = reference(&scene, &mesh);
         let (problem, solution) = solved(&scene, mesh);
-        let found = truth.errors(&problem, &Answer::from(&solution)).unwrap();
+        let found = truth.errors(&problem, &Approximation::from(&solution)).unwrap();
         println!("{name}: {}\n  {found:?}", truth.words());
         let largest = solution.u.iter().fold(0.0f64, |most, u| most.max(u.abs()));
         assert!(found.l2 <= 1e-2 * largest, "{name}: {found:?}");
