@@ -45,15 +45,15 @@
 //!
 //! ## The layers, in the order of use
 //!
-//! [`mesh`] → [`numbering`] and [`edges`] → [`stiffness`] of each [`element`] → [`assembly`] into [`csr`] →
-//! [`signorini`] (the contact problem) → packed [`rows`] → [`psor`], one sweep, in the loop of [`solver`],
-//! corrected by [`refinement`] → [`flux`] → [`contact`]. How wrong an iterate can be: [`forest`] → packed
-//! [`cells`] → [`averages`] → [`conforming`] and [`equilibrium`] → [`certificate`]; [`tick`] puts sweeps and certificates
-//! into a control loop, and [`full`] drives one by the inputs of a baked scene. Each works on slices and can be used alone; [`mod@workspace`] owns the memory and goes
-//! from mesh to flux. [`components`] tells beforehand whether a solution exists.
+//! | | |
+//! |---|---|
+//! | [`mesh`] | coordinates and cells, validated; edges and their numbering; what holds on the boundary |
+//! | [`discrete`] | element matrices, CSR or packed rows, the contact problem, its flux |
+//! | [`solve`] | projected SOR and its help, a sparse factor, a dense problem of contact edges |
+//! | [`bound`] | an admissible function and an admissible flux beside an iterate: the guaranteed error bound |
+//! | [`device`] | ticks with a deadline, a workspace of fixed capacity, what `signorini bake` writes stands on |
 //!
-//! What `signorini bake` writes stands on [`condensed`], a problem of contact edges alone with everything else
-//! eliminated on the host, or on [`full`], the mesh itself with loads that follow inputs.
+//! Each works on slices and can be used alone; a layer knows those above it in this table only.
 //!
 //! ## What is absent
 //!
@@ -61,85 +61,26 @@
 //! subtracts, multiplies, divides, compares and takes correctly rounded square roots, in one fixed
 //! order: the same bits on every machine.
 
+pub mod bound;
+pub mod device;
 #[cfg(feature = "mesh")]
-pub mod assembly;
-#[cfg(feature = "mesh")]
-pub mod averages;
-#[cfg(feature = "mesh")]
-pub mod boundary;
-#[cfg(feature = "mesh")]
-pub mod cells;
-#[cfg(feature = "mesh")]
-pub mod certificate;
-#[cfg(feature = "mesh")]
-pub mod components;
-pub mod condensed;
-#[cfg(feature = "workspace")]
-pub mod condition;
-#[cfg(feature = "mesh")]
-pub mod conforming;
-#[cfg(feature = "mesh")]
-pub mod conjugate;
-#[cfg(feature = "mesh")]
-pub mod contact;
-#[cfg(feature = "mesh")]
-pub mod csr;
-#[cfg(feature = "mesh")]
-pub mod edges;
-#[cfg(feature = "mesh")]
-pub mod element;
-#[cfg(feature = "mesh")]
-pub mod equilibrium;
+pub mod discrete;
 pub mod error;
 pub mod features;
-#[cfg(feature = "mesh")]
-pub mod flux;
-#[cfg(feature = "mesh")]
-pub mod forest;
-#[cfg(feature = "mesh")]
-pub mod full;
-#[cfg(feature = "mesh")]
-pub mod geometry;
 mod index;
-pub mod limits;
 mod math;
 #[cfg(feature = "mesh")]
 pub mod mesh;
-#[cfg(feature = "mesh")]
-pub mod model;
-#[cfg(feature = "mesh")]
-pub mod numbering;
-#[cfg(feature = "mesh")]
-pub mod prolongation;
-#[cfg(feature = "mesh")]
-pub mod psor;
 pub mod quadrature;
 mod real;
-#[cfg(feature = "mesh")]
-pub mod refinement;
-#[cfg(feature = "mesh")]
-mod relaxation;
-pub mod report;
-#[cfg(feature = "mesh")]
-pub mod rows;
-#[cfg(feature = "mesh")]
-pub mod shift;
-#[cfg(feature = "mesh")]
-pub mod signorini;
-#[cfg(feature = "mesh")]
-pub mod solver;
-#[cfg(feature = "mesh")]
-pub mod sparse;
-#[cfg(feature = "mesh")]
-pub mod stiffness;
-#[cfg(feature = "mesh")]
-mod tensor;
-#[cfg(feature = "mesh")]
-pub mod tick;
-pub mod verdict;
-#[cfg(feature = "workspace")]
-pub mod workspace;
+pub mod solve;
 
+pub use bound::verdict::{Certificate, Verdict};
+pub use device::report::Report;
+#[cfg(feature = "workspace")]
+pub use device::workspace::Workspace;
+#[cfg(feature = "mesh")]
+pub use discrete::tensor::Tensor;
 pub use error::Error;
 pub use index::Index;
 #[cfg(feature = "micromath")]
@@ -147,17 +88,7 @@ pub use math::Micromath;
 pub use math::{Libm, Math};
 #[cfg(feature = "mesh")]
 pub use mesh::Mesh;
-#[cfg(feature = "mesh")]
-pub use model::Model;
 pub use real::Real;
-#[cfg(feature = "mesh")]
-pub use relaxation::Relaxation;
-pub use report::Report;
-#[cfg(feature = "mesh")]
-pub use tensor::Tensor;
-pub use verdict::{Certificate, Verdict};
-#[cfg(feature = "workspace")]
-pub use workspace::Workspace;
 
 /// The version of this crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

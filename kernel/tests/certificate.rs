@@ -5,10 +5,12 @@ mod plate;
 
 use plate::Side;
 use plate::foundation::{A, Foundation, GAP, LAW};
-use signorini_kernel::certificate::{Buffers, Curved, Discretization, LoadCase, Verdict, certify};
-use signorini_kernel::edges::Edges;
-use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
-use signorini_kernel::equilibrium::Iterate;
+use signorini_kernel::bound::certificate::{
+    Buffers, Curved, Discretization, LoadCase, Verdict, certify,
+};
+use signorini_kernel::bound::equilibrium::Iterate;
+use signorini_kernel::discrete::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::kernel::BOUND;
 
@@ -80,7 +82,7 @@ fn from_coordinates(ground: &Discretization<f64, u16>, s: &[f64], d: &[f64], tau
         let values = vertices.map(|vertex| s[usize::from(vertex)]);
         let means = [0, 1, 2].map(|k| 0.5 * (values[k] + values[(k + 1) % 3]));
         let gradient = crouzeix_raviart::gradient(corners, means);
-        let area = signorini_kernel::geometry::triangle_area(corners);
+        let area = signorini_kernel::mesh::geometry::triangle_area(corners);
         for &[y, wy] in rule {
             for &[x, wx] in rule {
                 let l = [(1.0 - x) * (1.0 - y), x * (1.0 - y), y];

@@ -3,14 +3,15 @@
 #[path = "condensed/strip.rs"]
 mod strip;
 
-use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE, padded};
-use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
-use signorini_kernel::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
-use signorini_kernel::condensed::{Condensed, Iterate, sor};
+use signorini_kernel::device::condensed::Condensed;
+use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
+use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::Ended;
 use signorini_kernel::error::Array;
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::Ended;
+use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE, padded};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
+use signorini_kernel::solve::dense::{Iterate, sor};
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::kernel::{CONDENSED, CONDENSED_NARROW, CONDENSED_SWEPT, TABLEAU};

@@ -5,13 +5,14 @@
 #[allow(dead_code)]
 mod strip;
 
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
-use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
-use signorini_kernel::condensed::{Condensed, Iterate, Memory};
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::{Condensed, Memory};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::kernel::{CONDENSED_NARROW, EXTREME_DEFECT};
 use strip::{Random, Strip};

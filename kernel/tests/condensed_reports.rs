@@ -5,13 +5,14 @@
 mod strip;
 
 use signorini_kernel::Error;
-use signorini_kernel::certificate::Verdict;
-use signorini_kernel::condensed::blocks::{count, padded};
-use signorini_kernel::condensed::method::Sweeps;
-use signorini_kernel::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::condensed::{Condensed, tableau::InitialTableau};
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::bound::certificate::Verdict;
+use signorini_kernel::device::condensed::Condensed;
+use signorini_kernel::device::condensed::method::Sweeps;
+use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::solve::dense::blocks::{count, padded};
+use signorini_kernel::solve::dense::tableau::InitialTableau;
 use signorini_tolerances::kernel::CONDENSED;
 use strip::{Random, Strip};
 

@@ -1,15 +1,15 @@
 //! Conditions on edges that are not of length 1, and what is said of too many or none.
 #![allow(clippy::expect_used)]
 
-use signorini_kernel::boundary::{Boundary, Robin};
-use signorini_kernel::components::{Part, PartCounts, examine};
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::{Array, CellId};
-use signorini_kernel::solver::{Settings, Solver, Status};
-use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::mesh::boundary::{Boundary, Robin};
+use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
-    Error, Libm, Math, Mesh, Micromath, Real, Relaxation, Tensor, Workspace, workspace,
+    Error, Libm, Math, Mesh, Micromath, Real, Tensor, Workspace, solve::Relaxation, workspace,
 };
 use signorini_tolerances::kernel::{FAST_ROOT, SOLVED};
 
@@ -182,9 +182,9 @@ fn errors_are_sentences() {
 /// ω next to 2 keeps u going to and fro: no fall for 8 of the longest blocks is a stall.
 #[test]
 fn a_solve_that_gets_nowhere_stalls() -> Result<(), Error> {
-    use signorini_kernel::csr::Csr;
-    use signorini_kernel::rows::{Row, Rows};
-    use signorini_kernel::signorini::System;
+    use signorini_kernel::discrete::csr::Csr;
+    use signorini_kernel::discrete::rows::{Row, Rows};
+    use signorini_kernel::discrete::signorini::System;
     let relaxation = Relaxation::Fixed(2.0 - 1e-9);
     let matrix = Csr::new(&[0, 1], &[0_u16], &[1.0], 1)?;
     let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };

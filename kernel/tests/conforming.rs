@@ -5,12 +5,12 @@ mod plate;
 
 use plate::{Plate, Side};
 use signorini_kernel::Error;
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::averages;
-use signorini_kernel::cells::{CellBuffers, Quad, Triangle, pack};
-use signorini_kernel::conforming::{VertexData, impose};
-use signorini_kernel::forest::{ForestBuffers, grow};
-use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::bound::averages;
+use signorini_kernel::bound::cells::{CellBuffers, Quad, Triangle, pack};
+use signorini_kernel::bound::conforming::{VertexData, impose};
+use signorini_kernel::bound::forest::{ForestBuffers, grow};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_tolerances::kernel::{LINEAR, WEIGHTED};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Contact, Side::Insulated, Side::Given];

@@ -1,16 +1,18 @@
 //! The smallest and strangest problems first: what they answer, and how they are refused.
 
-use signorini_kernel::boundary::{Boundary, Robin};
-use signorini_kernel::components::{Part, PartCounts, examine};
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::rows::{Row, Rows};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
 use signorini_kernel::error::{Array, CellId};
-use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::signorini::System;
-use signorini_kernel::solver::{Settings, Solver, Status};
-use signorini_kernel::stiffness::{Coefficient, Stiffness};
-use signorini_kernel::{Error, Libm, Mesh, Micromath, Relaxation, Tensor, psor, workspace};
+use signorini_kernel::mesh::boundary::{Boundary, Robin};
+use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::solve::solver::{Settings, Solver, Status};
+use signorini_kernel::{
+    Error, Libm, Mesh, Micromath, Tensor, solve::Relaxation, solve::psor, workspace,
+};
 use signorini_tolerances::kernel::{BASIS, FAST_ROOT, SOLVED};
 
 type Small = workspace!(f64, u16: vertices 16, triangles 16, quads 16, boundary 16);

@@ -4,17 +4,17 @@
 mod plate;
 
 use plate::{NONE, Plate, Side};
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::averages;
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::cells::{CellBuffers, Either, Quad, Triangle, pack};
-use signorini_kernel::edges::{Block, Edges};
-use signorini_kernel::equilibrium::{Iterate, impose, pulled, walk};
+use signorini_kernel::bound::averages;
+use signorini_kernel::bound::cells::{CellBuffers, Either, Quad, Triangle, pack};
+use signorini_kernel::bound::equilibrium::{Iterate, impose, pulled, walk};
+use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::error::Array;
-use signorini_kernel::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::{Error, Tensor, assembly, psor};
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::{Error, Tensor, discrete::assembly, solve::psor};
 use signorini_tolerances::kernel::BALANCE;
 
 /// What a run leaves behind.
@@ -150,7 +150,7 @@ fn a_part_without_a_way_out_is_named() {
 #[test]
 fn forests_that_are_none_are_refused() {
     // Two triangles of a square; side 0 of the first is a root, side 2 of it leads to the second.
-    let counts = signorini_kernel::edges::EdgeCounts { free: 1, contact: 0, dirichlet: 4 };
+    let counts = signorini_kernel::mesh::edges::EdgeCounts { free: 1, contact: 0, dirichlet: 4 };
     let halves = [[2, 3], [0, NONE], [1, NONE], [4, NONE], [5, NONE]];
     let edges = Edges::<u16>::new(&[[1, 2, 0], [0, 3, 4]], &[], &halves, counts).expect("a square");
     let refused = |order: [u16; 2], parent: [u16; 2], place: [u16; 2]| {

@@ -1,17 +1,17 @@
 //! Small facts worked out by hand: limits that are just met, and figures that larger problems hide.
 #![allow(clippy::indexing_slicing)]
 
-use signorini_kernel::conjugate::{self, ConjugateBuffers};
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::rows::{Row, Rows};
+use signorini_kernel::discrete::signorini::Shifts;
+use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::error::Array;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
-use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::signorini::Shifts;
-use signorini_kernel::signorini::{Residual, System};
-use signorini_kernel::solver::{Settings, Solver, Status};
-use signorini_kernel::{Error, Index, Relaxation, psor};
+use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::solve::solver::{Settings, Solver, Status};
+use signorini_kernel::{Error, Index, solve::Relaxation, solve::psor};
 
 const NONE: u16 = u16::MAX;
 

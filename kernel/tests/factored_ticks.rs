@@ -6,17 +6,17 @@ mod plate;
 use plate::Side;
 use plate::factor::{Baked, Store};
 use plate::foundation::{Foundation, GAP};
-use signorini_kernel::boundary::{Boundary, Robin};
-use signorini_kernel::certificate::LoadCase;
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::full::{self, Base, DataMemory, Full, Functional};
-use signorini_kernel::rows::QUADS;
-use signorini_kernel::sparse::Exact;
-use signorini_kernel::tick::{
+use signorini_kernel::bound::certificate::LoadCase;
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::device::full::{self, Base, DataMemory, Full, Functional};
+use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
     UncertifiedSweeps,
 };
-use signorini_kernel::{Error, Libm, Relaxation};
+use signorini_kernel::discrete::rows::QUADS;
+use signorini_kernel::mesh::boundary::{Boundary, Robin};
+use signorini_kernel::solve::sparse::Exact;
+use signorini_kernel::{Error, Libm, solve::Relaxation};
 use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];

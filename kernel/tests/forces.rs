@@ -5,18 +5,19 @@
 #[allow(dead_code)]
 mod strip;
 
-use signorini_kernel::condensed::blocks::padded;
-use signorini_kernel::condensed::method::Sweeps;
-use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::InitialTableau;
-use signorini_kernel::condensed::{Condensed, Iterate, Memory};
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::contact::within_law;
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::Ended;
-use signorini_kernel::solver::Settings;
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::{Error, Mesh, Real, Relaxation, Tensor, workspace};
+use signorini_kernel::device::condensed::method::Sweeps;
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::{Condensed, Memory};
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::Ended;
+use signorini_kernel::discrete::contact::within_law;
+use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::padded;
+use signorini_kernel::solve::dense::tableau::InitialTableau;
+use signorini_kernel::solve::solver::Settings;
+use signorini_kernel::{Error, Mesh, Real, Tensor, solve::Relaxation, workspace};
 use signorini_tolerances::kernel::{FORCE_AT_THE_END, FORCE_BY_LAW};
 use strip::{Random, Strip};
 

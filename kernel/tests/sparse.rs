@@ -1,12 +1,12 @@
 //! Elimination on chains of springs, whose Schur complements are known: springs in a row add their compliances.
 
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count};
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::EdgeCounts;
-use signorini_kernel::sparse::elimination::PatternBuffers;
-use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Factor, Pattern};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count};
+use signorini_kernel::solve::sparse::elimination::PatternBuffers;
+use signorini_kernel::solve::sparse::factor::FactorBuffers;
+use signorini_kernel::solve::sparse::{Factor, Pattern};
 use signorini_tolerances::kernel::{CANCELLED, SCHUR};
 
 /// Rows of the matrix of springs (a, b, stiffness) between n knots, the diagonal first.

@@ -1,12 +1,12 @@
 //! What surplus costs, by element matrices of which the scalar has lost something: a loss is never told as a small number.
 
-use signorini_kernel::boundary::{Boundary, Robin};
-use signorini_kernel::cells::{CellBuffers, Quad, Triangle, pack};
-use signorini_kernel::certificate::{Metric, Stability, stability};
-use signorini_kernel::condition::Condition;
-use signorini_kernel::equilibrium::is_root;
-use signorini_kernel::forest::{ForestBuffers, grow};
-use signorini_kernel::stiffness::{Coefficient, Stiffness};
+use signorini_kernel::bound::cells::{CellBuffers, Quad, Triangle, pack};
+use signorini_kernel::bound::certificate::{Metric, Stability, stability};
+use signorini_kernel::bound::equilibrium::is_root;
+use signorini_kernel::bound::forest::{ForestBuffers, grow};
+use signorini_kernel::device::condition::Condition;
+use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
+use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::{Error, Mesh, Tensor, workspace};
 
 type Small = workspace!(f64, u16: vertices 3, triangles 1, quads 0, boundary 3);

@@ -7,17 +7,17 @@ use std::cell::Cell;
 
 use plate::Side;
 use plate::foundation::{Foundation, GAP};
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::certificate::{Certificate, Discretization, LoadCase, Verdict};
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::error::Array;
-use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
-use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::tick::{
+use signorini_kernel::bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick,
     UncertifiedSweeps,
 };
-use signorini_kernel::{Error, Libm, Relaxation, flux};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::rows::{OwnedRows, QUADS, Row, Rows};
+use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_kernel::error::Array;
+use signorini_kernel::{Error, Libm, discrete::flux, solve::Relaxation};
 use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];

@@ -1,14 +1,14 @@
 //! The short way through the layers: answers with a bound at a deadline, and what has none.
 #![allow(clippy::expect_used)]
 
-use signorini_kernel::certificate::Verdict;
-use signorini_kernel::condition::{BoundaryEdge, Condition};
+use signorini_kernel::bound::certificate::Verdict;
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::device::report::Ended;
+use signorini_kernel::device::tick::{Deadline, Limits, Report};
+use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::Array;
-use signorini_kernel::report::Ended;
-use signorini_kernel::solver::Settings;
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::tick::{Deadline, Limits, Report};
-use signorini_kernel::{Error, Mesh, Relaxation, Tensor, workspace};
+use signorini_kernel::solve::solver::Settings;
+use signorini_kernel::{Error, Mesh, Tensor, solve::Relaxation, workspace};
 
 /// Squares in each direction of the unit square.
 const N: usize = 8;

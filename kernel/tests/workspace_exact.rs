@@ -1,13 +1,13 @@
 //! Workspaces by numbers that are exact: thresholds from both sides, means, ways out, and the errors of long edges.
 #![allow(clippy::expect_used, clippy::indexing_slicing)]
 
-use signorini_kernel::certificate::{Certificate, Verdict};
-use signorini_kernel::condition::{BoundaryEdge, Condition};
+use signorini_kernel::bound::certificate::{Certificate, Verdict};
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::device::tick::{Deadline, Limits};
+use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::{Array, CellId};
-use signorini_kernel::solver::Settings;
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::tick::{Deadline, Limits};
-use signorini_kernel::{Error, Mesh, Relaxation, Tensor, workspace};
+use signorini_kernel::solve::solver::Settings;
+use signorini_kernel::{Error, Mesh, Tensor, solve::Relaxation, workspace};
 
 type Plate = workspace!(f64, u16: vertices 16, triangles 16, quads 4, boundary 16);
 type Edge = BoundaryEdge<f64, u16>;

@@ -1,11 +1,11 @@
 //! Workspaces where the scalar or the caller fails them: no bound that is none, no answer to another question.
 #![allow(clippy::expect_used, clippy::indexing_slicing)]
 
-use signorini_kernel::certificate::Verdict;
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::solver::Settings;
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::tick::{Deadline, Limits};
+use signorini_kernel::bound::certificate::Verdict;
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::device::tick::{Deadline, Limits};
+use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_kernel::solve::solver::Settings;
 use signorini_kernel::{Error, Mesh, Real, Tensor, workspace};
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

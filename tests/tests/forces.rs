@@ -10,8 +10,8 @@
 use std::path::Path;
 
 use signorini_bake::{condensed, full};
-use signorini_kernel::rows::{QUADS, TRIANGLES};
-use signorini_kernel::tick::Limits;
+use signorini_kernel::device::tick::Limits;
+use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Quantity, Scene};
 use signorini_scene::setting::Setting;

@@ -19,26 +19,20 @@ const FULL: Absence = Absence {
     is: |name| {
         let modules = [
             "4mesh",
-            "5edges",
-            "5cells",
-            "4rows",
-            "4psor",
-            "4flux",
-            "4tick",
-            "4full",
-            "6forest",
-            "7element",
-            "8assembly",
-            "8averages",
-            "8boundary",
-            "9stiffness",
-            "10conforming",
-            "11equilibrium",
+            "8discrete",
+            "5solve4psor",
+            "5bound5cells",
+            "5bound6forest",
+            "5bound8averages",
+            "5bound10conforming",
+            "5bound11equilibrium",
+            "6device4tick",
+            "6device4full",
         ];
         let own = |rest: &str| modules.iter().any(|module| rest.starts_with(module));
         let parts = ["4walk", "4quad", "8triangle", "8boundary", "5parts"];
         let bound = |rest: &str| {
-            let part = rest.strip_prefix("11certificate");
+            let part = rest.strip_prefix("5bound11certificate");
             part.is_some_and(|rest| parts.iter().any(|part| rest.starts_with(part)))
         };
         name.split("signorini_kernel").skip(1).any(|rest| own(rest) || bound(rest))
@@ -48,14 +42,9 @@ const FULL: Absence = Absence {
 const SOLVER: Absence = Absence {
     what: "code for contact",
     is: |name| {
-        [
-            "condensed3sor",
-            "condensed8pivoting",
-            "condensed7tableau",
-            "condensed6blocks12multiply_add",
-        ]
-        .iter()
-        .any(|part| name.contains(part))
+        ["dense3sor", "dense8pivoting", "dense7tableau", "dense6blocks12multiply_add"]
+            .iter()
+            .any(|part| name.contains(part))
     },
 };
 const TRIANGLES: Absence = Absence {
@@ -92,10 +81,10 @@ const QUADS: Absence = Absence {
 const BOUND: Absence = Absence {
     what: "code of the error bound",
     is: |name| {
-        let modules = ["8averages", "10conforming", "11equilibrium"];
-        let certificate = ["11certificate7certify", "11certificate4walk", "11certificate8boundary"];
-        let parts = ["11certificate4quad", "11certificate8triangle", "11certificate5parts"];
-        let names = || modules.iter().chain(&certificate).chain(&parts);
+        let modules = ["5bound8averages", "5bound10conforming", "5bound11equilibrium"];
+        let certificate = ["7certify", "4walk", "8boundary", "4quad", "8triangle", "5parts"]
+            .map(|part| format!("5bound11certificate{part}"));
+        let names = || modules.iter().copied().chain(certificate.iter().map(String::as_str));
         let own = |rest: &str| names().any(|part| rest.starts_with(part));
         name.split("signorini_kernel").skip(1).any(own)
     },
@@ -194,8 +183,8 @@ mod tests {
 
     #[test]
     fn what_must_not_and_what_must_be_there_are_both_asked_for() {
-        let solver = "_RNvNtNtCs1_16signorini_kernel9condensed3sor5sweepf".to_owned();
-        let mesh = "_RNvNtCs1_16signorini_kernel8assembly4loadft".to_owned();
+        let solver = "_RNvNtNtCs1_16signorini_kernel5solve5dense3sor5sweepf".to_owned();
+        let mesh = "_RNvNtCs1_16signorini_kernel8discrete8assembly4loadft".to_owned();
         let [linear, levee, ..] = &IMAGES;
         assert_eq!(judge(linear, &[]), Ok(()));
         let refused = |image, names: &[String]| judge(image, names).expect_err("refused");
@@ -211,10 +200,12 @@ mod tests {
     #[test]
     fn the_bound_of_a_condensed_model_is_its_own() {
         let of = |path: &str| (FULL.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
-        assert!(of("11certificate4walk10over_cells"));
-        assert!(!of("11certificate11Certificatef") && !of("9condensed11certificate4Form"));
+        assert!(of("5bound11certificate4walk10over_cells"));
+        assert!(
+            !of("5bound11certificate11Certificatef") && !of("6device9condensed11certificate4Form")
+        );
         let bound = |path: &str| (BOUND.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
-        assert!(bound("11certificate7certifyft") && bound("11equilibrium6impose"));
-        assert!(!bound("4psor5sweep") && !bound("9condensed11certificate7certify"));
+        assert!(bound("5bound11certificate7certifyft") && bound("5bound11equilibrium6impose"));
+        assert!(!bound("5solve4psor5sweep") && !bound("6device9condensed11certificate7certify"));
     }
 }

@@ -21,7 +21,7 @@ fn kernels(folder: &Path) -> Vec<PathBuf> {
 /// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
 pub const FIRMWARE: &str = "
 fn main() {
-    use signorini_kernel::report::{Ended, Report};
+    use signorini_kernel::device::report::{Ended, Report};
     let mut controller = Box::new(Controller::new());
     let first: Answer = controller.tick(Inputs::DEFAULT).unwrap();
     let report: Report<Scalar> = first.report;

@@ -7,7 +7,7 @@ use std::fmt::Debug;
 use std::fmt::Write as _;
 
 use signorini_kernel::error::Array;
-use signorini_kernel::{Error, Index, Model};
+use signorini_kernel::{Error, Index, device::model::Model};
 
 use crate::range::{refuse_lengths, refuse_squares};
 use signorini_scene::error::Result;
@@ -120,10 +120,7 @@ fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> Strin
 /// What the fields below may name; a scene without Robin edges, say, leaves some of it unused.
 const IMPORTS: &str = "\
 #[allow(unused_imports)]
-use signorini_kernel::{
-    Model, Tensor, assembly::CellLoads, boundary::{Neumann, Robin}, edges::EdgeCounts,
-    stiffness::Stiffness,
-};
+use signorini_kernel::{device::model::Model, Tensor, discrete::assembly::CellLoads, mesh::boundary::{Neumann, Robin}, mesh::edges::EdgeCounts, discrete::stiffness::Stiffness};
 
 ";
 

@@ -1,7 +1,7 @@
 //! What a module can have of a scene's `[setting]`, and what it cannot.
 
-use signorini_kernel::Relaxation;
-use signorini_kernel::tick::Progress;
+use signorini_kernel::device::tick::Progress;
+use signorini_kernel::solve::Relaxation;
 
 use super::range::refuse_inputs;
 use signorini_scene::error::{InputError, Result};

@@ -2,7 +2,7 @@
 
 use criterion::Bencher;
 use signorini_bake::full::{Baked, Controller};
-use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_solve::certify::{Certifier, Data};
 use signorini_solve::scalar::Scalar;
 

@@ -2,9 +2,9 @@
 
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_kernel::condensed::blocks::padded;
-use signorini_kernel::condensed::certificate::Candidate;
-use signorini_kernel::condensed::sor;
+use signorini_kernel::device::condensed::certificate::Candidate;
+use signorini_kernel::solve::dense::blocks::padded;
+use signorini_kernel::solve::dense::sor;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::scalar::Scalar;

@@ -1,9 +1,9 @@
 //! What a mesh costs before any number is computed on it.
 
 use criterion::{BatchSize, Bencher};
-use signorini_kernel::edges::Block;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::Block;
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;

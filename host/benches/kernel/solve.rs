@@ -2,10 +2,10 @@
 
 use criterion::{BatchSize, Bencher};
 use signorini_bake::tick::coarse;
-use signorini_kernel::prolongation::prolong;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{Error, Relaxation};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solve::prolongation::prolong;
+use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::{Error, solve::Relaxation};
 use signorini_solve::problem::Assembled;
 use signorini_solve::scalar::Scalar;
 

@@ -1,8 +1,8 @@
 //! One sweep, and what it costs to know how far one is.
 
 use criterion::Bencher;
-use signorini_kernel::psor;
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solve::psor;
 use signorini_solve::scalar::Scalar;
 
 use crate::strip::Strip;

@@ -20,7 +20,7 @@
 //! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].
 
 use serde::{Deserialize, Serialize};
-use signorini_kernel::element::QuadElement;
+use signorini_kernel::discrete::element::QuadElement;
 
 /// How a scene is discretised, solved and certified.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use signorini_kernel::contact::within_law;
+use signorini_kernel::discrete::contact::within_law;
 
 use crate::field::CellField;
 use crate::functional::Functional;

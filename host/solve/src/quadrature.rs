@@ -6,7 +6,7 @@
 pub mod bisected;
 
 use signorini_kernel::Real;
-use signorini_kernel::element::rannacher_turek::place;
+use signorini_kernel::discrete::element::rannacher_turek::place;
 
 /// Points a direction for data on edges and quads.
 pub const DATA_POINTS: usize = 8;
@@ -70,7 +70,7 @@ pub fn on_triangle<'r>(
     [a, b, c]: [[f64; 2]; 3],
     rule: &'r [[f64; 2]],
 ) -> impl Iterator<Item = Point> + 'r {
-    let doubled = signorini_kernel::geometry::doubled_area(a, b, c);
+    let doubled = signorini_kernel::mesh::geometry::doubled_area(a, b, c);
     rule.iter().flat_map(move |&[y, weight_y]| {
         rule.iter().map(move |&[x, weight_x]| {
             let (l1, l2) = (x * (1.0 - y), y);

@@ -1,6 +1,6 @@
 //! A strip of squares condensed to its lower edge by plain elimination: a realistic dense problem.
 
-use signorini_kernel::condensed::blocks::{Block, Blocks, SIDE, padded};
+use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, padded};
 use signorini_kernel::{Error, Real};
 
 /// Five-point Laplacian on n × n points above the contact points, zero along the top.

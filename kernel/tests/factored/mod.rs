@@ -1,13 +1,15 @@
 //! The kernel's exact solver with memory of its own, in any order of elimination.
 
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::condensed::Iterate;
-use signorini_kernel::condensed::blocks::{SIDE, count, padded};
-use signorini_kernel::signorini::System;
-use signorini_kernel::solver::Settings;
-use signorini_kernel::sparse::elimination::PatternBuffers;
-use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Direct, DirectMemory, Factor, Memory, Pattern, SolveSummary};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{SIDE, count, padded};
+use signorini_kernel::solve::solver::Settings;
+use signorini_kernel::solve::sparse::elimination::PatternBuffers;
+use signorini_kernel::solve::sparse::factor::FactorBuffers;
+use signorini_kernel::solve::sparse::{
+    Direct, DirectMemory, Factor, Memory, Pattern, SolveSummary,
+};
 use signorini_kernel::{Error, Index, Real};
 
 /// Solves with the free unknowns eliminated as `order` says, twice; `None` where the kernel finds no answer.

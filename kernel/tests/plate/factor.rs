@@ -1,17 +1,17 @@
 //! The plate's factor, and memory of ticks that it solves.
 
-use signorini_kernel::condensed::Iterate;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::tableau::InitialTableau;
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::EdgeCounts;
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::sparse::direct::normalise;
-use signorini_kernel::sparse::elimination::PatternBuffers;
-use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{self, Exact, Factor, Factored, Pattern};
-use signorini_kernel::tick::{Memory, Tick};
-use signorini_kernel::{Error, Relaxation, assembly};
+use signorini_kernel::device::tick::{Memory, Tick};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::InitialTableau;
+use signorini_kernel::solve::sparse::direct::normalise;
+use signorini_kernel::solve::sparse::elimination::PatternBuffers;
+use signorini_kernel::solve::sparse::factor::FactorBuffers;
+use signorini_kernel::solve::sparse::{self, Exact, Factor, Factored, Pattern};
+use signorini_kernel::{Error, discrete::assembly, solve::Relaxation};
 
 use super::foundation::Foundation;
 

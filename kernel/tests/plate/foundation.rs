@@ -1,14 +1,14 @@
 //! The plate with full data: what a certificate and a tick stand on.
 
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{self, Discretization, LoadCase, Metric};
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::element::rannacher_turek;
-use signorini_kernel::equilibrium::is_root;
-use signorini_kernel::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::bound::certificate::{self, Discretization, LoadCase, Metric};
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::bound::equilibrium::is_root;
+use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::element::rannacher_turek;
+use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::{Error, Real, Tensor};
 
 use super::{NONE, Plate, Side};

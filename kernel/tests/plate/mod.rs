@@ -5,9 +5,9 @@ pub mod factor;
 pub mod foundation;
 
 use signorini_kernel::Error;
-use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 
 /// No half-edge.
 pub const NONE: u16 = u16::MAX;

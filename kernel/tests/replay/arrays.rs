@@ -1,15 +1,15 @@
 //! A scene as the arrays that the kernel borrows.
 
-use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::discrete::assembly::{self, CellLoads};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::signorini::Shifts;
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
-use signorini_kernel::signorini::Shifts;
-use signorini_kernel::signorini::System;
-use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Tensor};
 
 use crate::scene::{Draw, Scalar, Scene, Side};

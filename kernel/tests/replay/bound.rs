@@ -1,17 +1,17 @@
 //! What a certificate is made of, and ticks that ask for one.
 
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{
+use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::bound::certificate::{
     Buffers, Curved, Discretization, LoadCase, Metric, Stability, certify, of_quad, of_triangle,
     stability,
 };
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::edges::Block;
-use signorini_kernel::element::rannacher_turek::place;
-use signorini_kernel::equilibrium::{Iterate, is_root};
-use signorini_kernel::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::bound::equilibrium::{Iterate, is_root};
+use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::element::rannacher_turek::place;
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::edges::Block;
 use signorini_kernel::{Error, Tensor};
 
 use crate::arrays::Arrays;

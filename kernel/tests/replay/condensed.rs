@@ -1,14 +1,15 @@
 //! Condensed models of a strip, with forms of the bound drawn at random.
 
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
-use signorini_kernel::condensed::factor::Factor;
-use signorini_kernel::condensed::method::{Method, Pivots, Sweeps};
-use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
-use signorini_kernel::condensed::{Condensed, Iterate, Memory};
-use signorini_kernel::limits::Deadline;
+use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::{Condensed, Memory};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 
 use crate::journal::Journal;
 use crate::scene::{Draw, Scalar};

@@ -1,7 +1,7 @@
 //! The exact solver, in several orders of elimination.
 
 use signorini_kernel::Error;
-use signorini_kernel::solver::Settings;
+use signorini_kernel::solve::solver::Settings;
 
 use crate::arrays::Arrays;
 use crate::factored;

@@ -1,16 +1,16 @@
 //! Full models: every kind of pattern and of output.
 
-use signorini_kernel::certificate::Curved;
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::full::{
+use signorini_kernel::bound::certificate::Curved;
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::device::full::{
     Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Memory,
     Pattern, Points, Product,
 };
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::tick::{
+use signorini_kernel::device::tick::{
     self, CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps,
 };
-use signorini_kernel::{Error, Libm, Relaxation};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 use crate::arrays::Arrays;
 use crate::bound::EquilibrationForest;

@@ -1,10 +1,12 @@
 //! From the mesh to the matrix, one sweep, the flux of an unfinished iterate.
 
-use signorini_kernel::components::{Part, examine};
-use signorini_kernel::forest::{ForestBuffers, grow};
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::stiffness::{self, Coefficient};
-use signorini_kernel::{Error, Libm, assembly, contact, flux, psor};
+use signorini_kernel::bound::forest::{ForestBuffers, grow};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::discrete::stiffness::{self, Coefficient};
+use signorini_kernel::mesh::components::{Part, examine};
+use signorini_kernel::{
+    Error, Libm, discrete::assembly, discrete::contact, discrete::flux, solve::psor,
+};
 
 use crate::arrays::Arrays;
 use crate::journal::Journal;

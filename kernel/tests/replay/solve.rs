@@ -1,10 +1,10 @@
 //! Solves: how ω moves, where they end, and the help that slow ones get.
 
-use signorini_kernel::conjugate::{self, ConjugateBuffers};
-use signorini_kernel::refinement::{self, RefinementBuffers};
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::solver::{Settings, Solver};
-use signorini_kernel::{Error, Libm, Relaxation, psor};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::solve::refinement::{self, RefinementBuffers};
+use signorini_kernel::solve::solver::{Settings, Solver};
+use signorini_kernel::{Error, Libm, solve::Relaxation, solve::psor};
 
 use crate::arrays::Arrays;
 use crate::journal::Journal;

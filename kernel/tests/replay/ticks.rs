@@ -1,13 +1,13 @@
 //! Ticks: what ends them, what they leave to the next one.
 
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::certificate::LoadCase;
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::rows::{QUADS, Row, Rows};
-use signorini_kernel::tick::{
+use signorini_kernel::bound::certificate::LoadCase;
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick, UncertifiedSweeps,
 };
-use signorini_kernel::{Error, Libm, Relaxation};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 use crate::arrays::Arrays;
 use crate::bound::EquilibrationForest;

@@ -1,18 +1,18 @@
 //! What a certificate stands on, for any sound numbering: owned arrays, filled from bytes.
 
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::certificate::{
+use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::bound::certificate::{
     self, Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Verdict, certify,
 };
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::edges::{Block, Edges};
-use signorini_kernel::equilibrium::{Iterate, is_root};
-use signorini_kernel::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::bound::equilibrium::{Iterate, is_root};
+use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
+use signorini_kernel::device::tick::Data;
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::tick::Data;
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::{Error, Tensor};
 
 use super::bytes::{Bits, Bytes};

@@ -4,15 +4,16 @@ use std::sync::OnceLock;
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{Block, Blocks, SIDE, count, padded};
-use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
-use signorini_kernel::condensed::factor::Factor;
-use signorini_kernel::condensed::method::{Linear, Pivots, Sweeps};
-use signorini_kernel::condensed::outputs::Measure;
-use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
-use signorini_kernel::condensed::{Condensed, Iterate, Memory};
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::method::{Linear, Pivots, Sweeps};
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::{Condensed, Memory};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::problem::Problem;
 

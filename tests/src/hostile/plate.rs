@@ -1,9 +1,9 @@
 //! A small mesh with numbered edges, owned: any arrays that the kernel takes, or a sound grid.
 
 use signorini_kernel::Error;
-use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 
 use super::bytes::{Bits, Bytes};
 

@@ -4,12 +4,12 @@ use std::cell::Cell;
 use std::sync::OnceLock;
 
 use signorini_bake::full::{Baked, Controller};
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::stiffness::{self, Coefficient};
-use signorini_kernel::tick::{
+use signorini_kernel::device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Memory, Report, Tick, UncertifiedSweeps,
 };
-use signorini_kernel::{Error, Libm, Relaxation, Tensor};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::discrete::stiffness::{self, Coefficient};
+use signorini_kernel::{Error, Libm, Tensor, solve::Relaxation};
 use signorini_solve::problem::Problem;
 
 use super::bytes::{Bits, Bytes};

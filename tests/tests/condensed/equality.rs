@@ -12,8 +12,8 @@
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Controller};
-use signorini_kernel::certificate::Verdict;
-use signorini_kernel::report::Ended;
+use signorini_kernel::bound::certificate::Verdict;
+use signorini_kernel::device::report::Ended;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
 use signorini_solve::condense::{CondensedModel, Measure};

@@ -1,11 +1,11 @@
 //! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
 
-use signorini_kernel::condensed::Condensed;
-use signorini_kernel::condensed::blocks::Block;
-use signorini_kernel::condensed::certificate::{Corner, Form, Vertex};
-use signorini_kernel::condensed::factor::Factor;
-use signorini_kernel::condensed::method::Sweeps;
-use signorini_kernel::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::Condensed;
+use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::method::Sweeps;
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::solve::dense::blocks::Block;
 use signorini_kernel::{Error, error::Array};
 
 use super::padding::{filled_up, matrix, narrow};

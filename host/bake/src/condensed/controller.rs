@@ -1,12 +1,13 @@
 //! What the baked module does, on this machine and on the same numbers.
 
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::method::{Linear, Pivots};
-use signorini_kernel::condensed::tableau::Tableau;
-use signorini_kernel::condensed::{Iterate, Memory};
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::Report;
+use signorini_kernel::device::condensed::Memory;
+use signorini_kernel::device::condensed::method::{Linear, Pivots};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::Report;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::Tableau;
 
 use super::arrays::{Baked, Solver};
 use super::visited::Visited;

@@ -1,6 +1,6 @@
 //! Arrays and the matrix in the target's scalar, filled up with 0 to whole blocks.
 
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 
 use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;

@@ -1,6 +1,6 @@
 //! What a condensed model takes of a device, from its sizes alone.
 
-use signorini_kernel::condensed::blocks::{count, padded};
+use signorini_kernel::solve::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Columns, Output, Solver};
 use crate::full::Sizes;

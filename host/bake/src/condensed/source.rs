@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::condensed::blocks::{count, padded};
+use signorini_kernel::solve::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
@@ -42,9 +42,9 @@ fn imports<R: Scalar>(baked: &Baked<R>) -> String {
     };
     format!(
         "
-use signorini_kernel::condensed::method::{method};
-use signorini_kernel::condensed::{storage};
-use signorini_kernel::limits::{{Deadline, Limits}};
+use signorini_kernel::device::condensed::method::{method};
+use signorini_kernel::device::condensed::{storage};
+use signorini_kernel::device::limits::{{Deadline, Limits}};
 use signorini_kernel::{{Error, Report}};
 "
     )

@@ -2,7 +2,7 @@
 
 use std::fmt::{Debug, Write as _};
 
-use signorini_kernel::condensed::blocks::Block;
+use signorini_kernel::solve::dense::blocks::Block;
 
 use super::arrays::{Baked, Bound, Output, Solver};
 use crate::module_api::ModuleApi;
@@ -58,7 +58,8 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::condensed::{{{uses}outputs::Measure, tableau::InitialTableau, Condensed}};
+    use signorini_kernel::device::condensed::{{{uses}outputs::Measure, Condensed}};
+    use signorini_kernel::solve::dense::tableau::InitialTableau;
 
     use super::Scalar;
 {text}

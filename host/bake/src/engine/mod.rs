@@ -16,8 +16,8 @@ mod solution;
 pub use baked::baked;
 pub use solution::solve;
 
-use signorini_kernel::report::Ended;
-use signorini_kernel::solver::Status;
+use signorini_kernel::device::report::Ended;
+use signorini_kernel::solve::solver::Status;
 
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;

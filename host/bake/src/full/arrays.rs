@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use signorini_kernel::cells::{Cells, Quad, Triangle};
-use signorini_kernel::certificate::{Discretization, Metric, POINTS, Stability};
-use signorini_kernel::edges::{EdgeCounts, Edges};
+use signorini_kernel::bound::cells::{Cells, Quad, Triangle};
+use signorini_kernel::bound::certificate::{Discretization, Metric, POINTS, Stability};
+use signorini_kernel::device::tick::Limits;
+use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::tick::Limits;
-use signorini_kernel::{Relaxation, Tensor};
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::{Tensor, solve::Relaxation};
 
 use super::data::Data;
 use super::factored::Factored;

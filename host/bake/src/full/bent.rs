@@ -4,8 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use signorini_kernel::certificate;
-use signorini_kernel::full::{CurvedPart, Product};
+use signorini_kernel::bound::certificate;
+use signorini_kernel::device::full::{CurvedPart, Product};
 
 use crate::superposition::{Part, curved_pair};
 use signorini_scene::error::Result;

@@ -1,17 +1,17 @@
 //! What the baked module does, on this machine and on the same numbers.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::assembly::CellLoads;
-use signorini_kernel::boundary::{Neumann, Robin};
-use signorini_kernel::certificate::Curved;
-use signorini_kernel::conforming::VertexData;
-use signorini_kernel::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
-use signorini_kernel::rows::{Row, Rows};
-use signorini_kernel::sparse::{Exact, Solved};
-use signorini_kernel::tick::{
+use signorini_kernel::bound::certificate::Curved;
+use signorini_kernel::bound::conforming::VertexData;
+use signorini_kernel::device::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
+use signorini_kernel::device::tick::{
     self, CertifiedSweeps, Deadline, Limits, Method, Progress, Report, Substitutions,
     UncertifiedSweeps,
 };
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::rows::{Row, Rows};
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::solve::sparse::{Exact, Solved};
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::Baked;

@@ -1,9 +1,9 @@
 //! Loads and boundary data as the target adds them up: base and patterns, narrowed.
 
-use signorini_kernel::boundary::{Neumann, Robin};
-use signorini_kernel::certificate::Curved;
-use signorini_kernel::full::{Contribution, EdgeTrace, Points};
-use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::bound::certificate::Curved;
+use signorini_kernel::device::full::{Contribution, EdgeTrace, Points};
+use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::{Error as KernelError, error::Array};
 
 use super::bent::{Bent, bent};
@@ -13,7 +13,7 @@ use signorini_scene::scene::Field;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
-/// The arrays of [`signorini_kernel::full::Base`], the patterns, the oscillation.
+/// The arrays of [`signorini_kernel::device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Data<R> {
     pub triangles: Vec<R>,

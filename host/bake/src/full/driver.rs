@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::limits::Limits;
+use signorini_kernel::device::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
 use super::imports::imports;
@@ -16,22 +16,22 @@ const NAMES: &[(&str, &str)] = &[
     ("Error", "Error"),
     ("Libm", "Libm"),
     ("Micromath", "Micromath"),
-    ("Robin", "boundary::Robin"),
-    ("Neumann", "boundary::Neumann"),
-    ("Iterate", "condensed::Iterate"),
-    ("Curved", "certificate::Curved"),
-    ("DataMemory", "full::DataMemory"),
-    ("Memory", "full::Memory"),
-    ("OwnedRows", "rows::OwnedRows"),
-    ("Certificate", "certificate::Certificate"),
-    ("Verdict", "certificate::Verdict"),
-    ("Exact", "sparse::Exact"),
-    ("Deadline", "limits::Deadline"),
-    ("Limits", "limits::Limits"),
-    ("CertifiedSweeps", "tick::CertifiedSweeps"),
-    ("Progress", "tick::Progress"),
-    ("Substitutions", "tick::Substitutions"),
-    ("UncertifiedSweeps", "tick::UncertifiedSweeps"),
+    ("Robin", "mesh::boundary::Robin"),
+    ("Neumann", "mesh::boundary::Neumann"),
+    ("Iterate", "solve::dense::Iterate"),
+    ("Curved", "bound::certificate::Curved"),
+    ("DataMemory", "device::full::DataMemory"),
+    ("Memory", "device::full::Memory"),
+    ("OwnedRows", "discrete::rows::OwnedRows"),
+    ("Certificate", "bound::certificate::Certificate"),
+    ("Verdict", "bound::certificate::Verdict"),
+    ("Exact", "solve::sparse::Exact"),
+    ("Deadline", "device::limits::Deadline"),
+    ("Limits", "device::limits::Limits"),
+    ("CertifiedSweeps", "device::tick::CertifiedSweeps"),
+    ("Progress", "device::tick::Progress"),
+    ("Substitutions", "device::tick::Substitutions"),
+    ("UncertifiedSweeps", "device::tick::UncertifiedSweeps"),
     ("Report", "Report"),
 ];
 
@@ -80,7 +80,7 @@ fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> 
         text += &exact(&place);
     }
     text += "        let memory = Memory {
-            tick: signorini_kernel::tick::Memory {
+            tick: signorini_kernel::device::tick::Memory {
                 rows: self.rows.of(&data::FULL.ground.edges)?,
 ";
     for field in ["load", "active", "vertices", "bubbles", "tau", "u"] {
@@ -120,7 +120,7 @@ fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> 
 /// The exact solver with its memory.
 fn exact(place: &impl Fn(&str) -> String) -> String {
     format!(
-        "        let contact = signorini_kernel::sparse::Memory {{
+        "        let contact = signorini_kernel::solve::sparse::Memory {{
             tableau: {},
             exchanged: {},
             columns: [{}, {}],

@@ -1,10 +1,10 @@
 //! The factor of a scene's matrix, worked out in f64 and rounded once: what solves a tick without sweeps.
 
 use signorini_kernel::Index;
-use signorini_kernel::condensed::blocks::{Block, padded};
-use signorini_kernel::condensed::tableau::InitialTableau;
-use signorini_kernel::sparse::direct::normalise;
-use signorini_kernel::sparse::{self, Factor};
+use signorini_kernel::solve::dense::blocks::{Block, padded};
+use signorini_kernel::solve::dense::tableau::InitialTableau;
+use signorini_kernel::solve::sparse::direct::normalise;
+use signorini_kernel::solve::sparse::{self, Factor};
 
 use super::list::List;
 use signorini_scene::error::Result;

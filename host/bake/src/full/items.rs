@@ -1,11 +1,11 @@
 //! The statics and the memory of a baked module, each with its name, its meaning and its size.
 
-use signorini_kernel::boundary::{Neumann, Robin};
-use signorini_kernel::cells::{Quad, Triangle};
-use signorini_kernel::certificate::{Curved, POINTS};
-use signorini_kernel::full::{Contribution, CurvedPart, EdgeTrace, Points, Product};
-use signorini_kernel::rows::{QUADS, Row, TRIANGLES};
-use signorini_kernel::tick::Progress;
+use signorini_kernel::bound::cells::{Quad, Triangle};
+use signorini_kernel::bound::certificate::{Curved, POINTS};
+use signorini_kernel::device::full::{Contribution, CurvedPart, EdgeTrace, Points, Product};
+use signorini_kernel::device::tick::Progress;
+use signorini_kernel::discrete::rows::{QUADS, Row, TRIANGLES};
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;

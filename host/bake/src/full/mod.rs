@@ -6,7 +6,7 @@
 //!                                             └─► controller: the same on this machine
 //! ```
 
-use signorini_kernel::tick::Limits;
+use signorini_kernel::device::tick::Limits;
 
 use signorini_scene::setting::Setting;
 use signorini_solve::scalar::Scalar;

@@ -1,6 +1,6 @@
 //! Declared outputs as the arrays that the target evaluates.
 
-use signorini_kernel::full::Contribution;
+use signorini_kernel::device::full::Contribution;
 
 use signorini_solve::functional::{Functional, basis_at};
 use signorini_solve::problem::Problem;

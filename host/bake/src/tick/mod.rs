@@ -19,9 +19,9 @@ pub mod schedule;
 
 pub use picture::picture;
 
-use signorini_kernel::rows;
-use signorini_kernel::solver::Settings;
-use signorini_kernel::tick::Limits;
+use signorini_kernel::device::tick::Limits;
+use signorini_kernel::discrete::rows;
+use signorini_kernel::solve::solver::Settings;
 
 use player::{PlayedTick, Player};
 use signorini_scene::error::Result;

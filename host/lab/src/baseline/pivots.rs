@@ -1,11 +1,11 @@
 //! The kernel's exact method on the condensed problem.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::condensed::Iterate;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::condensed::method::{Method, Pivots as Exchanges, SolveSummary};
-use signorini_kernel::condensed::tableau::{InitialTableau, Tableau};
-use signorini_kernel::limits::Deadline;
+use signorini_kernel::device::condensed::method::{Method, Pivots as Exchanges, SolveSummary};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 
 use super::failed;
 use super::quadratic::QuadraticLoads;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::certificate::Certificate;
+use signorini_kernel::bound::certificate::Certificate;
 
 use super::{CertifiedFields, Certifier, Data, NoBound};
 use crate::problem::{Assembled, Parts, Problem};

@@ -1,10 +1,10 @@
 //! The kernel's certificate on a scene: its memory, and what of it depends on the mesh and A alone.
 
-use signorini_kernel::certificate::{self, Buffers, Certificate, Discretization, Verdict};
-use signorini_kernel::components::Support;
-use signorini_kernel::conforming;
-use signorini_kernel::equilibrium::Iterate;
-use signorini_kernel::{Error as KernelError, averages};
+use signorini_kernel::bound::certificate::{self, Buffers, Certificate, Discretization, Verdict};
+use signorini_kernel::bound::conforming;
+use signorini_kernel::bound::equilibrium::Iterate;
+use signorini_kernel::mesh::components::Support;
+use signorini_kernel::{Error as KernelError, bound::averages};
 
 use super::admissible::Admissible;
 use super::cell::Cell;

@@ -11,7 +11,7 @@
 
 use std::iter::repeat;
 
-use signorini_kernel::geometry::scaled_normal;
+use signorini_kernel::mesh::geometry::scaled_normal;
 
 use super::admissible::Admissible;
 use super::cell::{Cell, Jet};

@@ -3,7 +3,7 @@
 //! S is the exact u at the vertices and τ the exact fluxes, both then moved at random as far as the
 //! identity allows: S off D, quads' bubbles, τ by a field without divergence that leaves N alone.
 
-use signorini_kernel::geometry::scaled_normal;
+use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_tolerances::solve::{IDENTITY, IDENTITY_SINGULAR};
 
 use super::admissible::Admissible;

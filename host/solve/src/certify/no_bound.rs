@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use signorini_kernel::certificate::Verdict;
+use signorini_kernel::bound::certificate::Verdict;
 
 use crate::problem::Problem;
 use crate::scalar::Scalar;

@@ -13,7 +13,7 @@
 
 use std::f64::consts::PI;
 
-use signorini_kernel::geometry::triangle_area;
+use signorini_kernel::mesh::geometry::triangle_area;
 
 use super::cell::Cell;
 use super::conductivity::{Conductivity, smallest_eigenvalue};

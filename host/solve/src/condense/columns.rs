@@ -1,6 +1,6 @@
 //! The columns of the condensed model: whose full fields everything is read off.
 
-use signorini_kernel::geometry::{quad_area, triangle_area};
+use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
 use super::elimination::FieldLoads;
 use super::patterns::Pattern;

@@ -6,7 +6,7 @@
 //! One factorisation serves all patterns of loads and all unit openings. The fluxes of a field are the
 //! conservative ones (15); on a contact edge they are the residual of the condensed problem.
 
-use signorini_kernel::flux;
+use signorini_kernel::discrete::flux;
 
 use crate::problem::{Assembled, Loads, Problem};
 use crate::reference::{self, ReferenceError};

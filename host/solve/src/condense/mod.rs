@@ -44,7 +44,7 @@ mod unit;
 use std::collections::BTreeMap;
 
 use faer::Mat;
-use signorini_kernel::components::Support;
+use signorini_kernel::mesh::components::Support;
 
 use crate::problem::{Parts, Problem};
 use columns::columns;

@@ -2,15 +2,15 @@
 
 use std::collections::HashMap;
 
-use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::boundary::{Boundary, Neumann, Robin};
-use signorini_kernel::csr::Csr;
-use signorini_kernel::edges::Edges;
+use signorini_kernel::discrete::assembly::{self, CellLoads};
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::signorini::Shifts;
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::signorini::Shifts;
-use signorini_kernel::signorini::System;
-use signorini_kernel::stiffness::Stiffness;
-use signorini_kernel::{Error, Model, Tensor};
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::{Error, Tensor, device::model::Model};
 
 use super::element_matrices::ElementMatrices;
 use super::unit_box::UnitBox;
@@ -201,7 +201,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     }
 
     /// The share of a bound that rounded element matrices can hide, 64 ε κ with κ the [`Assembled::obliqueness`]: see
-    /// [`signorini_kernel::certificate::Stability::oblique`].
+    /// [`signorini_kernel::bound::certificate::Stability::oblique`].
     pub fn hidden(&self) -> f64 {
         64.0 * R::EPSILON.wide() * self.obliqueness
     }

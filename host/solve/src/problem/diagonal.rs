@@ -1,10 +1,10 @@
 //! The diagonal of K and the load b alone: what tells the size of a problem's numbers before it is assembled.
 
 use signorini_kernel::Error;
-use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::edges::Side;
+use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::error::Array;
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::edges::Side;
 
 use super::Problem;
 use super::element_matrices::ElementMatrices;

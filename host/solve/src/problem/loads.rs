@@ -1,7 +1,7 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
 use signorini_kernel::Real;
-use signorini_kernel::boundary::{Neumann, Robin};
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
 
 use super::{EdgeKind, Problem, Sum};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};

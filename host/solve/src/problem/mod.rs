@@ -32,7 +32,7 @@ pub use topology::{EdgeKind, Topology};
 
 use std::sync::{Arc, OnceLock};
 
-use signorini_kernel::element::QuadElement;
+use signorini_kernel::discrete::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
 use signorini_kernel::{Error as KernelError, Tensor};
 

@@ -1,9 +1,9 @@
 //! Whether a problem has a solution, part by part, before any sweep is spent on it.
 
-use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::components::{Part, PartCounts, Support, examine};
-use signorini_kernel::edges::{Edges, Side};
+use signorini_kernel::discrete::assembly::{self, CellLoads};
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
+use signorini_kernel::mesh::edges::{Edges, Side};
 
 use super::Problem;
 use signorini_scene::error::{InputError, Result};

@@ -1,8 +1,8 @@
 //! What joins cells: edges by number, and what lies on each.
 
-use signorini_kernel::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::Mesh as KernelMesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error as KernelError, error::CellId};
 
 use super::Binding;
@@ -55,7 +55,7 @@ impl EdgeKind {
     }
 }
 
-/// Edge numbering of a mesh, owned; see [`signorini_kernel::edges`] for the order.
+/// Edge numbering of a mesh, owned; see [`signorini_kernel::mesh::edges`] for the order.
 #[derive(Debug, Clone, Default)]
 pub struct Topology {
     /// The edge of each side of each triangle.

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::components::Support;
-use signorini_kernel::solver::{Outcome, Status};
+use signorini_kernel::mesh::components::Support;
+use signorini_kernel::solve::solver::{Outcome, Status};
 
 use super::{Clock, Factored, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use crate::problem::{Assembled, Parts, Problem};

@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::boundary::Boundary;
-use signorini_kernel::condensed::blocks::padded;
-use signorini_kernel::signorini::System;
-use signorini_kernel::solver::{Outcome, Settings};
-use signorini_kernel::sparse::{Direct, DirectMemory, Factor, SolveSummary};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::solve::dense::blocks::padded;
+use signorini_kernel::solve::solver::{Outcome, Settings};
+use signorini_kernel::solve::sparse::{Direct, DirectMemory, Factor, SolveSummary};
 
 use super::ldlt::{Exchanges, Ldlt};
 use crate::progress::stage;

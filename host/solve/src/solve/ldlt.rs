@@ -1,13 +1,13 @@
 //! The kernel's factor, owned: order, pattern and numbers worked out in memory of the right size.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::condensed::Iterate;
-use signorini_kernel::condensed::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::edges::EdgeCounts;
-use signorini_kernel::signorini::System;
-use signorini_kernel::sparse::elimination::PatternBuffers;
-use signorini_kernel::sparse::factor::FactorBuffers;
-use signorini_kernel::sparse::{Factor, Memory, Pattern};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::solve::dense::Iterate;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::sparse::elimination::PatternBuffers;
+use signorini_kernel::solve::sparse::factor::FactorBuffers;
+use signorini_kernel::solve::sparse::{Factor, Memory, Pattern};
 
 use crate::reference::minimum_degree;
 use crate::scalar::Scalar;

@@ -11,9 +11,9 @@
 
 use std::f64::consts::LN_2;
 
-use signorini_kernel::rows::{self, Row, Rows};
-use signorini_kernel::solver::{Settings, Solver};
-use signorini_kernel::{Error as KernelError, Relaxation};
+use signorini_kernel::discrete::rows::{self, Row, Rows};
+use signorini_kernel::solve::solver::{Settings, Solver};
+use signorini_kernel::{Error as KernelError, solve::Relaxation};
 
 use super::{Options, SolverKind, solve, unfit};
 use crate::problem::{Assembled, Parts, Problem};

@@ -1,9 +1,9 @@
 //! The mesh on which costs are counted: 16 × 8 squares of (−1, 1) × (0, 1), their inner corners moved,
 //! contact below, u given above, no flux at the sides. Cut into triangles it has 392 unknowns.
 
-use signorini_kernel::edges::{Block, Edges};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::numbering::{NumberingBuffers, number};
+use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Real};
 
 /// Squares in a row, and edges of contact and of u given.

@@ -3,9 +3,9 @@
 mod matrix;
 mod solve;
 
-use signorini_kernel::numbering::{NumberingBuffers, number};
-use signorini_kernel::stiffness::{self, Coefficient};
-use signorini_kernel::{Error, Libm, Micromath, Model};
+use signorini_kernel::discrete::stiffness::{self, Coefficient};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::{Error, Libm, Micromath, device::model::Model};
 
 use crate::journal::{Bits, Journal};
 use crate::scenes;

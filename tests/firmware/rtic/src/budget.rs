@@ -2,7 +2,7 @@
 
 use cortex_m::peripheral::SYST;
 use signorini_kernel::Error;
-use signorini_kernel::tick::{Deadline, Limits};
+use signorini_kernel::device::tick::{Deadline, Limits};
 
 use crate::clock::count;
 use crate::mesh::COLUMNS;

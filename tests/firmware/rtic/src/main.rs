@@ -21,7 +21,7 @@ mod plant;
 mod sensor;
 
 use signorini_kernel::Error;
-use signorini_kernel::tick::Deadline;
+use signorini_kernel::device::tick::Deadline;
 
 use budget::{BUDGET, CERTIFICATE, SWEEP};
 use clock::elapsed;

@@ -11,12 +11,12 @@
 //! A is the same everywhere, and loss and gap are constant along each segment: the bound of the error
 //! leaves nothing out.
 
-use signorini_kernel::certificate::Verdict;
-use signorini_kernel::condition::{BoundaryEdge, Condition};
-use signorini_kernel::edges::{Block, EdgeCounts};
-use signorini_kernel::stiffness::Coefficient;
-use signorini_kernel::tick::{Deadline, Ended, Limits};
-use signorini_kernel::{Error, Mesh, Relaxation, Tensor, workspace};
+use signorini_kernel::bound::certificate::Verdict;
+use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::device::tick::{Deadline, Ended, Limits};
+use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_kernel::mesh::edges::{Block, EdgeCounts};
+use signorini_kernel::{Error, Mesh, Tensor, solve::Relaxation, workspace};
 
 use crate::mesh::{CELLS, COLUMNS, HEIGHT, NODES, SIDE, TRIANGLES, VERTICES, WIDTH};
 

@@ -1,6 +1,6 @@
 //! The text as the compiler sees it: no warnings, and the bits of the same arrays on the host.
 
-use signorini_kernel::rows;
+use signorini_kernel::discrete::rows;
 
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};

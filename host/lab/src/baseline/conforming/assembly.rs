@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use signorini_kernel::Real;
-use signorini_kernel::geometry::doubled_area;
+use signorini_kernel::mesh::geometry::doubled_area;
 
 use super::super::load_case::LoadCase;
 use super::super::psor::TickLoads;

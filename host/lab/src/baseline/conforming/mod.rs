@@ -11,8 +11,8 @@ mod mesh;
 mod tests;
 mod vertices;
 
-use signorini_kernel::csr::Csr;
-use signorini_kernel::signorini::System;
+use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::signorini::System;
 
 use super::failed;
 use super::load_case::LoadCase;
@@ -167,7 +167,7 @@ fn reduce(matrix: &Matrix, unknowns: usize, ticks: &[TickLoads<f64>]) -> (Matrix
 
 /// For each vertex of C whether contact alone holds its part.
 fn floating(problem: &Problem, parts: &Parts, vertices: &Vertices) -> Result<Vec<bool>> {
-    use signorini_kernel::components::Support;
+    use signorini_kernel::mesh::components::Support;
     let edges = problem.topology.edges().map_err(failed)?;
     let counts = vertices.counts;
     let mut floating = vec![false; counts.contact];

@@ -4,7 +4,7 @@
 //!   free vertices | vertices on C | vertices on D, which wins where it meets C
 //! ```
 
-use signorini_kernel::edges::EdgeCounts;
+use signorini_kernel::mesh::edges::EdgeCounts;
 
 use signorini_solve::problem::{EdgeKind, Problem};
 

@@ -1,6 +1,6 @@
 //! Energy, contact force and contact length of an exact solution, by quadrature on a mesh of its domain.
 
-use signorini_kernel::geometry::scaled_normal;
+use signorini_kernel::mesh::geometry::scaled_normal;
 
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Exact, Field};

@@ -1,7 +1,7 @@
 //! What is left of u, as a contact problem in f32.
 
-use signorini_kernel::edges::EdgeCounts;
-use signorini_kernel::signorini::System;
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::edges::EdgeCounts;
 
 /// A contact problem for the rest of u, in f32 and in the unit s.
 #[derive(Debug)]

@@ -14,10 +14,10 @@ use signorini_firmware::journal::Bits;
 use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{self, Block, Blocks, SIDE};
-use signorini_kernel::condensed::factor::Factor;
-use signorini_kernel::condensed::tableau::{Start, Tableau};
-use signorini_kernel::condensed::{Iterate, pivoting, sor};
+use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE};
+use signorini_kernel::solve::dense::tableau::{Start, Tableau};
+use signorini_kernel::solve::dense::{Iterate, pivoting, sor};
 
 const MOST: usize = 64;
 const BLOCKS: usize = blocks::count(MOST);

@@ -1,11 +1,11 @@
 //! A whole solve, step by step what `signorini solve` does.
 
-use signorini_kernel::conjugate::ConjugateBuffers;
-use signorini_kernel::refinement::{self, RefinementBuffers};
-use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::signorini::System;
-use signorini_kernel::solver::{Outcome, Settings, Status};
-use signorini_kernel::{Error, Math, Model, contact, flux};
+use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::solve::conjugate::ConjugateBuffers;
+use signorini_kernel::solve::refinement::{self, RefinementBuffers};
+use signorini_kernel::solve::solver::{Outcome, Settings, Status};
+use signorini_kernel::{Error, Math, device::model::Model, discrete::contact, discrete::flux};
 
 use super::matrix::{Memory, residual};
 use super::{CONTACT, EDGES, cut};

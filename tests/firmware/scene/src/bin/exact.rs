@@ -12,10 +12,10 @@ use signorini_board::clock::Clock;
 use signorini_board::draw::Draw;
 use signorini_board::{end, run};
 use signorini_kernel::Error;
-use signorini_kernel::condensed::blocks::{count, padded};
-use signorini_kernel::condensed::method::Method as _;
-use signorini_kernel::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::limits::Deadline;
+use signorini_kernel::device::condensed::method::Method as _;
+use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::solve::dense::blocks::{count, padded};
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SWEEPS, SYSTEM};
 
 const PADDED: usize = padded(CONTACT);

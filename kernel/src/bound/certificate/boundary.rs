@@ -1,0 +1,165 @@
+//! What the boundary adds to the bound: contact, transfer laws, curved data.
+
+use super::extension::{extension, jump, of_means, of_s};
+use super::parts::Parts;
+use super::{Continuous, Discretization, LoadCase};
+use crate::features;
+use crate::index::{Index, read};
+use crate::mesh::edges::Side;
+use crate::real::Real;
+
+/// Adds it all to the sums and to the indicators of the cells.
+pub(super) fn add<R: Real, I: Index>(
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    u: &[R],
+    s: Continuous<R>,
+    tau: &[R],
+    indicators: &mut [R],
+    parts: &mut Parts<R>,
+) {
+    let edges = &ground.edges;
+    let counts = edges.counts();
+    let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
+        parts.gap.add(term);
+        parts.direct += R::from_count(8) * R::EPSILON * terms;
+        let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
+        if let Some(indicator) = cell.and_then(|cell| indicators.get_mut(cell)) {
+            *indicator += term;
+        }
+    };
+    let gap = if features::CONTACT { given.ends.gap } else { &[] };
+    for (at, gap) in gap.iter().enumerate() {
+        let edge = counts.free + at;
+        let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
+        let excess = R::TWO * excess(ground, s, edge, gap);
+        take(parts, edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
+    }
+    let mut moved = R::ZERO;
+    let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
+    for (at, law) in laws.iter().enumerate() {
+        let edge = law.edge.at();
+        let transfer = Transfer {
+            flux: read(tau, edge),
+            s: ends(ground, s, edge),
+            bubble: read(s.bubbles, edge),
+        };
+        let term = match given.transfer.get(at) {
+            Some(points) => transfer.at_points(points),
+            None => transfer.constant(law.coefficient, law.ambient),
+        };
+        take(parts, edge, term, R::ZERO);
+        moved += transfer.moved(law.coefficient, law.ambient);
+        if law.coefficient > R::ZERO {
+            let of_u = law.ambient - law.coefficient * read(u, edge);
+            let off = read(tau, edge) - of_u;
+            parts.algebraic += off * off / law.coefficient;
+        }
+    }
+    parts.perturbation += moved + perturbation(ground, given, s);
+    let curved = if features::CURVED { given.curved } else { &[] };
+    for curved in curved {
+        let edge = curved.edge.at();
+        let in_cell = of_s(ground, given, s, edge);
+        let (term, terms) = extension(&in_cell, tau, curved);
+        take(parts, edge, term, terms);
+        jump(&in_cell, of_means(ground, u, edge).as_ref(), curved, parts);
+    }
+}
+
+fn ends<R: Real, I: Index>(ground: &Discretization<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
+    s.at(&ground.edges.endpoints(&ground.mesh, edge))
+}
+
+/// Mean of s − ψ over a contact edge: (e_a + e_b)/2 + 2d/3.
+fn excess<R: Real, I: Index>(
+    ground: &Discretization<R, I>,
+    s: Continuous<R>,
+    edge: usize,
+    gap: &[R; 2],
+) -> R {
+    let [a, b] = ends(ground, s, edge);
+    let (a, b) = ((a - gap[0]).or_larger(R::ZERO), (b - gap[1]).or_larger(R::ZERO));
+    let mean = R::HALF * (a + b) + R::TWO * R::THIRD * read(s.bubbles, edge);
+    mean.or_larger(R::ZERO)
+}
+
+/// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
+struct Transfer<R> {
+    flux: R,
+    s: [R; 2],
+    bubble: R,
+}
+
+impl<R: Real> Transfer<R> {
+    /// ∫ r²/H with H and u_ext constant, `ambient` = ∫h u_ext: Simpson's rule for the linear part of r,
+    /// and what the bubble H·4t(1 − t)d adds.
+    fn constant(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            // Nothing passes: a flux there has no finite bound.
+            return if self.flux == R::ZERO { R::ZERO } else { R::ONE / R::ZERO };
+        }
+        let [a, b] = self.s.map(|s| self.flux + (h * s - ambient));
+        let bubble = h * self.bubble;
+        let linear = (a * a + a * b + b * b) * R::THIRD;
+        let cross = R::TWO * R::THIRD * bubble * (a + b);
+        let square = R::from_count(8) / R::from_count(15) * bubble * bubble;
+        (linear + cross + square) / h
+    }
+
+    /// ∫ e²/H, e what rounding of the data and of r can do: r is a small difference of large terms where
+    /// u is large against its changes.
+    fn moved(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            return R::ZERO;
+        }
+        let [a, b] = self.s.map(R::magnitude);
+        let s = a.or_larger(b) + self.bubble.magnitude();
+        let terms = self.flux.magnitude() + h * s + ambient.magnitude();
+        let e = R::TWO * R::EPSILON * terms;
+        e * e / h
+    }
+
+    /// The same from H and u_ext at the 8 Gauss points.
+    fn at_points(&self, points: &[[R; 2]; 8]) -> R {
+        let [a, b] = self.s;
+        let rule = R::GAUSS[7].iter().zip(points);
+        rule.fold(R::ZERO, |sum, (&[t, weight], &[h, ambient])| {
+            let arch = (R::TWO + R::TWO) * t * (R::ONE - t);
+            let s = a * (R::ONE - t) + b * t + arch * self.bubble;
+            let r = self.flux + h * (s - ambient);
+            // Where nothing passes the law asks for τ·n = 0; a flux there has no finite bound.
+            let term = if r == R::ZERO { R::ZERO } else { r * r / h };
+            sum + weight * term
+        })
+    }
+}
+
+/// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
+/// perturbation's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
+/// rounding may do, s does as well, and ψ moves by what is missing.
+fn perturbation<R: Real, I: Index>(
+    ground: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    s: Continuous<R>,
+) -> R {
+    let (edges, k) = (&ground.edges, ground.stiffness);
+    let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
+    let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
+    // More is no rounding, and there is no bound: it must not end a tick as if all but rounding were done.
+    let slack = given.ends.slack();
+    pairs.fold(R::ZERO, |sum, (at, pair)| {
+        let value = pair[0].magnitude().or_larger(pair[1].magnitude());
+        let (edge, mut moved) = (edges.counts().free + at, R::TWO * R::EPSILON * value);
+        if features::CONTACT && at < given.ends.gap.len() {
+            let [a, b] = ends(ground, s, edge);
+            let missing = (pair[0] - a).or_larger(pair[1] - b).or_larger(R::ZERO);
+            moved += if missing <= slack { missing } else { R::ZERO };
+        }
+        let of_cell = match edges.first_side(edge) {
+            Side::Triangle(cell, _) => size(&read(k.triangles, cell)),
+            Side::Quad(cell, _) => size(&read(k.quads, cell)),
+        };
+        sum + R::from_count(4) * of_cell * moved * moved
+    })
+}

@@ -1,0 +1,177 @@
+//! The ways to solve the condensed problem, behind one face.
+//!
+//! [`Sweeps`] need no memory of their own and cost the same every time; [`Pivots`] hold a tableau of
+//! n (n + 1) / 2 numbers and end with the exact solution, after as many exchanges as edges change
+//! sides. Where these are too many for one tick, sweeps make the best of what there is, and the next
+//! tick goes on exchanging: the answer is feasible and has its bound in any case. Without contact there is
+//! nothing to solve, and [`Linear`] brings no code for it.
+
+use crate::device::limits::Deadline;
+use crate::device::report::Ended;
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::real::Real;
+use crate::solve::dense::Iterate;
+use crate::solve::dense::blocks::Blocks;
+use crate::solve::dense::pivoting::{self, Found, settle};
+use crate::solve::dense::sizes;
+use crate::solve::dense::sor;
+use crate::solve::dense::tableau::{InitialTableau, Tableau};
+
+/// What a solve did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SolveSummary {
+    /// What ended it.
+    pub ended: Ended,
+    /// Exchanges.
+    pub pivots: u32,
+    /// Sweeps.
+    pub sweeps: u32,
+}
+
+/// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0.
+pub trait Method<R: Real> {
+    /// From `iterate.x`, as far as the method is allowed to go and until the deadline: x is feasible whenever that is.
+    ///
+    /// # Errors
+    /// Loads whose answer may overflow, arrays of the wrong length: x and the method are what they were then.
+    fn solve<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error>;
+}
+
+/// No edge is in contact: all outputs are linear in the inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Linear;
+
+impl<R: Real> Method<R> for Linear {
+    fn solve<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        _: &[R],
+        _: Iterate<R>,
+        _: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error> {
+        same_length(Array::Contact, matrix.order(), 0)?;
+        Ok(SolveSummary { ended: Ended::Exact, pivots: 0, sweeps: 0 })
+    }
+}
+
+/// Projected SOR.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweeps<R> {
+    /// ω, inside (0, 2).
+    pub omega: R,
+    /// The Σ|min(x_i, ω r_i)| that is small enough, relative to ‖x‖ or ‖b‖, the larger. Where it is less, it is
+    /// at most 2⁻¹⁰ ‖b‖ besides: next to a huge x nothing else would tell that x is none.
+    pub tolerance: R,
+    /// Most sweeps of a solve.
+    pub most: u32,
+}
+
+impl<R: Real> Method<R> for Sweeps<R> {
+    fn solve<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error> {
+        if !(self.omega > R::ZERO && self.omega < R::TWO) {
+            return Err(Error::Relaxation);
+        }
+        let own = sizes::of_load(load)?;
+        same_length(Array::Scratch, iterate.scratch.len(), iterate.x.len())?;
+        copy(iterate.x, iterate.scratch);
+        if sizes::is_absurd(sizes::norm(iterate.x), own) {
+            // What a load of another size, or one without a solution, has left: sweeps would never come back.
+            iterate.x.fill(R::ZERO);
+        }
+        let progress = self.sweep_on(matrix, load, own, iterate.x, deadline)?;
+        settle(matrix, load, iterate.x, iterate.residual, iterate.open)?;
+        if let Err(error) = all_finite(Array::Unknowns, iterate.x) {
+            copy(iterate.scratch, iterate.x);
+            return Err(error);
+        }
+        Ok(progress)
+    }
+}
+
+impl<R: Real> Sweeps<R> {
+    /// Sweeps until x is good enough, or their number or the time is used up; `own` is ‖b‖.
+    fn sweep_on<F: FnMut() -> u32>(
+        &self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        own: R,
+        x: &mut [R],
+        deadline: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error> {
+        let sane = self.tolerance.or_larger(R::ONE / R::from_count(1024)) * own;
+        let mut progress = SolveSummary { ended: Ended::OutOfSweeps, pivots: 0, sweeps: 0 };
+        while progress.sweeps < self.most {
+            if !deadline.allows_a_sweep() {
+                progress.ended = Ended::OutOfTime;
+                break;
+            }
+            let defect = sor::sweep(matrix, load, self.omega, x)?;
+            progress.sweeps += 1;
+            let size = sizes::norm(x);
+            let small = self.tolerance * size.or_larger(own);
+            if defect <= small && defect <= sane && !sizes::is_absurd(size, own) {
+                progress.ended = Ended::Settled;
+                break;
+            }
+        }
+        Ok(progress)
+    }
+}
+
+fn copy<R: Real>(from: &[R], to: &mut [R]) {
+    to.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
+}
+
+/// Principal pivoting, and sweeps where it does not get to the end.
+#[derive(Debug)]
+pub struct Pivots<'a, R> {
+    /// The tableau, kept from tick to tick.
+    pub tableau: Tableau<'a, R>,
+    /// Where it began.
+    pub start: InitialTableau<'a, R>,
+    /// Most exchanges of a solve.
+    pub most: u32,
+    /// What follows where they do not suffice.
+    pub sweeps: Sweeps<R>,
+}
+
+impl<R: Real> Method<R> for Pivots<'_, R> {
+    fn solve<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error> {
+        let mut iterate = iterate;
+        let lent = iterate.reborrow();
+        let most = self.most;
+        let may_exchange = |pivots| pivots < most && deadline.allows_a_sweep();
+        let (found, pivots) =
+            pivoting::find(matrix, load, &mut self.tableau, &self.start, may_exchange, lent)?;
+        if found == Found::Exact {
+            return Ok(SolveSummary { ended: Ended::Exact, pivots, sweeps: 0 });
+        }
+        match self.sweeps.solve(matrix, load, iterate.reborrow(), deadline) {
+            Ok(rest) => Ok(SolveSummary { pivots, ..rest }),
+            Err(error) => {
+                // No matrix that is positive definite comes here; any other begins anew.
+                self.tableau.reset(&self.start)?;
+                iterate.x.fill(R::ZERO);
+                Err(error)
+            }
+        }
+    }
+}

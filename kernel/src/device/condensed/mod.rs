@@ -1,0 +1,175 @@
+//! A contact problem condensed to its contact edges: small, dense, and exact.
+//!
+//! Where mesh and A are fixed and all loads are combinations of patterns with weights p, the host
+//! eliminates every unknown but the means on the n contact edges, once and in f64. With the openings
+//! v = u_C − ψ ≥ 0, scaled so that the diagonal is 1 and the unit of energy is U,
+//! ```text
+//!   x_i = v_i / d_i,  d_i = U / √K_ii        x ≥ 0,  r = S x − B p ≥ 0,  xᵀr = 0
+//!   outputs  y = Y_p p + Y_x x + Y_r r⁺      bound   U ‖F (p, x, d)‖ + …
+//! ```
+//! K the Schur complement on the contact edges and S = K_ij / √(K_ii K_jj). p_0 = 1 stands for what does not
+//! change. The mesh may be as fine as accuracy wants: the target never sees it.
+//!
+//! ```text
+//!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
+//! ```
+//! [`crate::solve::dense`] holds S and solves; [`factor`] and [`certificate`] bound the error; [`outputs`] are read off;
+//! [`storage`] owns the memory. `signorini bake` writes all of it.
+
+pub mod certificate;
+pub mod factor;
+pub mod method;
+pub mod outputs;
+pub mod storage;
+
+use crate::bound::verdict::Verdict;
+use crate::device::limits::Deadline;
+use crate::device::report::Report;
+use crate::error::{Array, Error, all_finite, same_length};
+use crate::real::Real;
+use crate::solve::dense::blocks::{self, Block, Blocks};
+use crate::solve::dense::tableau::InitialTableau;
+use crate::solve::dense::{Iterate, sizes};
+use certificate::{Candidate, Form};
+use method::{Method, SolveSummary};
+use outputs::Measure;
+
+/// A baked model (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Condensed<'a, R> {
+    /// n
+    pub contact: usize,
+    /// S, as [`Blocks::new`] takes it.
+    pub matrix: &'a [Block<R>],
+    /// x of the answer in which the first tick begins; zeros are assumed where it ends.
+    pub x: &'a [R],
+    /// Where the exact method begins; empty for sweeps alone.
+    pub start: InitialTableau<'a, R>,
+    /// B by columns: [`blocks::padded`] entries for each input, the constant first.
+    pub load: &'a [R],
+    /// The outputs.
+    pub outputs: &'a [Measure<'a, R>],
+    /// What bounds the error; absent where there is no bound, or nobody asks for it.
+    pub certificate: Option<Form<'a, R>>,
+    /// Whether the data allow for a bound: where they do and it is absent, nobody asks for it.
+    pub has_bound: bool,
+}
+
+/// Memory of a condensed model (borrowed).
+#[derive(Debug)]
+pub struct Memory<'a, R> {
+    /// x stays from tick to tick, zeros to begin with; the rest is scratch.
+    pub iterate: Iterate<'a, R>,
+    /// B p, with [`blocks::padded`] entries.
+    pub load: &'a mut [R],
+    /// One entry a column of F; empty without a certificate.
+    pub combination: &'a mut [R],
+    /// One entry a column of F; empty without a certificate.
+    pub sum: &'a mut [R],
+}
+
+impl<R: Real> Condensed<'_, R> {
+    /// S
+    ///
+    /// # Errors
+    /// Another number of blocks than [`Condensed::contact`] asks for.
+    pub fn matrix(&self) -> Result<Blocks<'_, R>, Error> {
+        Blocks::new(self.matrix, self.contact)
+    }
+
+    /// Solves for the inputs p, p_0 = 1 among them, from the last x and until the deadline, and bounds the error.
+    ///
+    /// # Errors
+    /// Inputs that are not finite, or so large that the answer or an output may overflow; arrays of the wrong
+    /// length. In any case the last answer stays: x and the method are what they were, bit for bit.
+    pub fn tick<M: Method<R>, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        method: &mut M,
+        deadline: &mut Deadline<F>,
+        memory: &mut Memory<R>,
+    ) -> Result<Report<R>, Error> {
+        all_finite(Array::Load, inputs)?;
+        let matrix = self.matrix()?;
+        self.combine(inputs, memory.load)?;
+        self.hold(inputs, memory.load)?;
+        let progress = method.solve(&matrix, memory.load, memory.iterate.reborrow(), deadline)?;
+        let Iterate { x, residual, .. } = &memory.iterate;
+        let (x, residual) = (self.unpadded(x), self.unpadded(residual));
+        let answer = Candidate { inputs, x, residual };
+        let verdict = match &self.certificate {
+            Some(form) => form.certify(&answer, memory.combination, memory.sum)?,
+            None if self.has_bound => Verdict::NotAsked,
+            None => Verdict::Unavailable,
+        };
+        let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
+        let SolveSummary { ended, pivots, sweeps } = progress;
+        Ok(Report { ended, exchanges: pivots, sweeps, active, verdict })
+    }
+
+    /// Output `number` of the last tick, `iterate` being that of its memory.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length; no such output; a value that overflows.
+    pub fn output(
+        &self,
+        number: usize,
+        inputs: &[R],
+        iterate: &Iterate<R>,
+        report: &Report<R>,
+    ) -> Result<R, Error> {
+        let stray = Error::OutOfRange { of: Array::Scratch, at: number };
+        let measure = self.outputs.get(number).ok_or(stray)?;
+        let (x, residual) = (self.unpadded(iterate.x), self.unpadded(iterate.residual));
+        let value = measure.value(inputs, x, residual, report.certificate())?;
+        match measure {
+            Measure::Linear { .. } | Measure::Flux { .. } if !value.finite() => {
+                Err(Error::NotFinite { of: Array::Fluxes, at: number })
+            }
+            _ => Ok(value),
+        }
+    }
+
+    fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {
+        vector.get(..self.contact).unwrap_or(vector)
+    }
+
+    /// `Ok` where neither the answer to this load nor an output can overflow: what openings add is at most Σ|Y_x| times
+    /// the largest x, and r is at most n times that. Without contact an output refuses by itself, and leaves nothing
+    /// behind.
+    fn hold(&self, inputs: &[R], load: &[R]) -> Result<(), Error> {
+        if self.contact == 0 {
+            return Ok(());
+        }
+        let room = sizes::room(sizes::of_load(load)?);
+        let count = R::from_count(load.len() as u32 + 1);
+        let size = |y: &[R]| y.iter().fold(R::ZERO, |sum, y| sum + y.magnitude());
+        for (at, measure) in self.outputs.iter().enumerate() {
+            let (of_inputs, of_contact, of_reaction): (_, _, &[R]) = match *measure {
+                Measure::Linear { of_inputs, of_contact } => (of_inputs, of_contact, &[]),
+                Measure::Flux { of_inputs, of_contact, of_reaction } => {
+                    (of_inputs, of_contact, of_reaction)
+                }
+                Measure::Length { .. } | Measure::Bound => continue,
+            };
+            let given = of_inputs.iter().zip(inputs);
+            let given = given.fold(R::ZERO, |sum, (&y, &p)| sum + (y * p).magnitude());
+            let most = (size(of_contact) + size(of_reaction) * count) * room;
+            if !(given + most).finite() {
+                return Err(Error::NotFinite { of: Array::Fluxes, at });
+            }
+        }
+        Ok(())
+    }
+
+    /// `load` = B p
+    fn combine(&self, inputs: &[R], load: &mut [R]) -> Result<(), Error> {
+        same_length(Array::Load, load.len(), blocks::padded(self.contact))?;
+        same_length(Array::Load, self.load.len(), load.len() * inputs.len())?;
+        load.fill(R::ZERO);
+        for (column, &p) in self.load.chunks_exact(load.len().max(1)).zip(inputs) {
+            load.iter_mut().zip(column).for_each(|(load, &entry)| *load += entry * p);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,90 @@
+//! What a controller reads off a condensed model.
+//!
+//! On a contact edge τ·n − q is its r where it touches and r > 0, and 0 elsewhere, wherever the solver was
+//! stopped: forces are never negative.
+
+use crate::bound::verdict::Certificate;
+use crate::error::{Array, Error, same_length, same_length_or_empty};
+use crate::real::Real;
+
+/// One output as a function of the inputs p, whose first is the constant 1, of the openings x, and of r = Sx − b.
+#[derive(Debug, Clone, Copy)]
+pub enum Measure<'a, R> {
+    /// Σ Y_p p + Σ Y_x x: a value at a point, a flux where there is no contact.
+    Linear {
+        /// Y_p, one entry an input.
+        of_inputs: &'a [R],
+        /// Y_x, one entry a contact edge.
+        of_contact: &'a [R],
+    },
+    /// Σ Y_p p + Σ Y_x x + Σ Y_r r, the last over the edges with x = 0 and r > 0: a force, and a flux through
+    /// contact edges.
+    Flux {
+        /// Y_p, what q and other boundaries bring; empty for none.
+        of_inputs: &'a [R],
+        /// Y_x, what other boundaries bring; empty for none.
+        of_contact: &'a [R],
+        /// Y_r ≥ 0, the flux of a unit of r through an edge that counts, or 0.
+        of_reaction: &'a [R],
+    },
+    /// The length of the edges that touch, x = 0.
+    Length {
+        /// |E|, or 0 of an edge that does not count.
+        of_contact: &'a [R],
+    },
+    /// How wrong the answer can be: the certificate's total, ∞ where there is none.
+    Bound,
+}
+
+impl<R: Real> Measure<'_, R> {
+    /// Its value.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length.
+    pub fn value(
+        &self,
+        inputs: &[R],
+        x: &[R],
+        residual: &[R],
+        certificate: Option<&Certificate<R>>,
+    ) -> Result<R, Error> {
+        match *self {
+            Self::Linear { of_inputs, of_contact } => {
+                same_length(Array::Load, of_inputs.len(), inputs.len())?;
+                same_length(Array::Contact, of_contact.len(), x.len())?;
+                Ok(dot(of_inputs, inputs) + dot(of_contact, x))
+            }
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                same_length_or_empty(Array::Load, of_inputs.len(), inputs.len())?;
+                same_length_or_empty(Array::Contact, of_contact.len(), x.len())?;
+                same_length(Array::Contact, of_reaction.len(), x.len())?;
+                same_length(Array::Contact, residual.len(), x.len())?;
+                let elsewhere = dot(of_inputs, inputs) + dot(of_contact, x);
+                Ok(elsewhere + pressed(of_reaction, x, residual))
+            }
+            Self::Length { of_contact } => {
+                same_length(Array::Contact, of_contact.len(), x.len())?;
+                let touching = of_contact.iter().zip(x).filter(|(_, x)| **x == R::ZERO);
+                Ok(touching.fold(R::ZERO, |sum, (&length, _)| sum + length))
+            }
+            Self::Bound => {
+                Ok(certificate.map_or(R::ONE / R::ZERO, |certificate| certificate.total))
+            }
+        }
+    }
+}
+
+/// Σ weights · r over the edges with x = 0 and r > 0. A number that is none stays one.
+fn pressed<R: Real>(weights: &[R], x: &[R], residual: &[R]) -> R {
+    let edges = weights.iter().zip(x).zip(residual);
+    edges.fold(
+        R::ZERO,
+        |sum, ((&weight, &x), &r)| {
+            if x > R::ZERO || r <= R::ZERO { sum } else { sum + weight * r }
+        },
+    )
+}
+
+pub(super) fn dot<R: Real>(a: &[R], b: &[R]) -> R {
+    a.iter().zip(b).fold(R::ZERO, |sum, (&a, &b)| sum + a * b)
+}

@@ -1,0 +1,70 @@
+//! Outputs: numbers read off an answer.
+
+use super::pattern::Contribution;
+use crate::device::tick::{Data, Report, Tick};
+use crate::discrete::contact;
+use crate::features;
+use crate::index::{Index, read};
+use crate::mesh::edges::EdgeCounts;
+use crate::real::Real;
+
+/// What an output measures (borrowed).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Functional<'a, R, I> {
+    /// ∫τ·n over these edges, within the law of contact on those that are in contact.
+    Flux(&'a [I]),
+    /// ∫(τ·n − q) ≥ 0 over these contact edges, counted from the first one; τ within the law of contact.
+    Force(&'a [I]),
+    /// The length of those of these contact edges that are active, with the length of each.
+    Length(&'a [Contribution<R, I>]),
+    /// u at a point: a sum over edges, with the weight of each.
+    Probe(&'a [Contribution<R, I>]),
+    /// The error bound; infinite where there is none.
+    Bound,
+}
+
+/// What outputs are read off.
+pub(super) struct TickState<'t, 'a, R: Real, I, const WIDTH: usize> {
+    pub tick: &'t Tick<'a, R, I, WIDTH>,
+    pub data: &'t Data<'a, R, I>,
+    pub report: &'t Report<R>,
+}
+
+impl<R: Real, I: Index> Functional<'_, R, I> {
+    pub(super) fn of<const WIDTH: usize>(&self, answer: &TickState<R, I, WIDTH>) -> R {
+        let TickState { tick, data, report } = answer;
+        let (u, tau, lower) = (tick.u(), tick.tau(), data.lower);
+        let EdgeCounts { free, contact, .. } = tick.counts();
+        let given = |at: usize| data.given.boundary.contact_flux(at);
+        // Without a certificate τ is the flux (15) still.
+        let pressed = |at: usize| {
+            let (u, tau) = (read(u, free + at), read(tau, free + at));
+            contact::within_law(u, read(lower, at), tau, given(at))
+        };
+        match *self {
+            Self::Flux(edges) => edges.iter().fold(R::ZERO, |sum, edge| {
+                sum + match edge.at().checked_sub(free) {
+                    Some(at) if features::CONTACT && at < contact => pressed(at),
+                    _ => read(tau, edge.at()),
+                }
+            }),
+            Self::Force(edges) if features::CONTACT => {
+                edges.iter().fold(R::ZERO, |sum, at| sum + (pressed(at.at()) - given(at.at())))
+            }
+            Self::Length(shares) if features::CONTACT => sum(shares, |at, length| {
+                let touches = read(u, free + at) == read(lower, at);
+                if touches { length } else { R::ZERO }
+            }),
+            Self::Force(_) | Self::Length(_) => R::ZERO,
+            Self::Probe(shares) => sum(shares, |at, weight| weight * read(u, at)),
+            Self::Bound => match report.verdict.certificate() {
+                Some(certificate) => certificate.total,
+                None => R::ONE / R::ZERO,
+            },
+        }
+    }
+}
+
+fn sum<R: Real, I: Index>(shares: &[Contribution<R, I>], take: impl Fn(usize, R) -> R) -> R {
+    shares.iter().fold(R::ZERO, |sum, share| sum + take(share.at.at(), share.weight))
+}

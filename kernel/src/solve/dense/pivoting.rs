@@ -1,0 +1,251 @@
+//! The exact solution by principal pivoting: finitely many exchanges lead to it, and next to the last
+//! answer a few do.
+//!
+//! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
+//! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
+//! wrong side. The one that is wrong by most is exchanged, until none is: that takes as many exchanges
+//! as edges change sides, or hardly more, where a pass over all that are wrong takes a sixth more. It
+//! need not end for every positive definite S, and after n exchanges the first wrong one is taken instead,
+//! which does (Murty).
+//!
+//! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
+//! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
+//! tableau that no longer corrects goes back to where it began, and exchanges from there.
+
+use super::Iterate;
+use super::blocks::{Blocks, SIDE, groups, multiply_add};
+use super::sizes;
+use super::tableau::{InitialTableau, Tableau};
+use crate::error::Error;
+use crate::real::Real;
+
+/// How many times the limit may be left after a correction.
+const WORN: u32 = 32;
+
+/// Thresholds are drawn anew where the answer has shrunk by more than this since they were.
+const SHRUNK: u32 = 64;
+
+/// What is unbalanced in a solution is less than the load by this factor at least, whatever rounding allows.
+const SANE: u32 = 16;
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// Nothing is on the wrong side: x is the solution, but for rounding.
+    Exact,
+    /// The exchanges allowed are used up; those made count for the next search.
+    OutOfPivots,
+    /// Rounding has eaten the tableau, or there is no solution: more exchanges than unknowns have not led to
+    /// one. x is zeros then, and the next search begins with the first tableau.
+    Worn,
+}
+
+/// Finds x ≥ 0 with w = Sx − b ≥ 0 and xᵀw = 0 as long as `may_exchange` after so
+/// many exchanges; returns how many it took.
+///
+/// # Errors
+/// Arrays of the wrong length, loads whose answer may overflow: nothing is changed then.
+pub fn find<R: Real>(
+    matrix: &Blocks<R>,
+    load: &[R],
+    tableau: &mut Tableau<R>,
+    start: &InitialTableau<R>,
+    may_exchange: impl FnMut(u32) -> bool,
+    iterate: Iterate<R>,
+) -> Result<(Found, u32), Error> {
+    let Iterate { x, residual, scratch: answer, open } = iterate;
+    let own = sizes::of_load(load)?;
+    tableau.answer(load, answer)?;
+    let mut size = sizes::norm_of_both(load, answer);
+    if sizes::is_absurd(size, own) {
+        // No matrix that this scalar holds has such an answer: loads without a solution have led here.
+        tableau.reset(start)?;
+        tableau.answer(load, answer)?;
+        size = sizes::norm_of_both(load, answer);
+    }
+    let (mut found, pivots, now) = exchange_all(load, tableau, may_exchange, &mut size, answer)?;
+    tableau.finish();
+    take_over(answer, tableau.exchanged(), x);
+    settle(matrix, load, x, residual, open)?;
+    if found == Found::Exact {
+        let limit = R::from_count(32) * R::EPSILON * size;
+        let sane = own / R::from_count(SANE);
+        let before = sizes::unbalanced(residual, x);
+        if !(before <= limit && before <= sane) {
+            correct(tableau, residual, answer, x)?;
+            settle(matrix, load, x, residual, open)?;
+            // What is left now may be the floor of this matrix; much more is a tableau gone wrong.
+            let after = sizes::unbalanced(residual, x);
+            let is_floor = after <= R::from_count(WORN) * limit || after <= R::QUARTER * before;
+            if !(is_floor && after <= sane) {
+                found = Found::Worn;
+            }
+        }
+        if sizes::is_absurd(now, own) {
+            found = Found::Worn;
+        }
+    }
+    if found == Found::OutOfPivots && pivots as usize >= x.len() {
+        found = Found::Worn;
+    }
+    if found == Found::Worn {
+        tableau.reset(start)?;
+        x.fill(R::ZERO);
+    }
+    Ok((found, pivots))
+}
+
+/// Exchanges with thresholds for answers of this `size`; returns the size of the last one too.
+fn exchange_all<R: Real>(
+    load: &[R],
+    tableau: &mut Tableau<R>,
+    mut may_exchange: impl FnMut(u32) -> bool,
+    size: &mut R,
+    answer: &mut [R],
+) -> Result<(Found, u32, R), Error> {
+    let mut pivots = 0;
+    loop {
+        let noise = R::TWO * R::EPSILON * *size;
+        let (found, more) = search(tableau, |more| may_exchange(pivots + more), noise, answer)?;
+        pivots += more;
+        let now = sizes::norm_of_both(load, answer);
+        // A first answer that was far too large hides what is wrong with the last one.
+        if found != Found::Exact || !(R::from_count(SHRUNK) * now < *size) {
+            return Ok((found, pivots, now));
+        }
+        *size = now;
+    }
+}
+
+/// Exchanges until nothing is wrong by more than `noise`, which rounding may be.
+fn search<R: Real>(
+    tableau: &mut Tableau<R>,
+    mut may_exchange: impl FnMut(u32) -> bool,
+    noise: R,
+    z: &mut [R],
+) -> Result<(Found, u32), Error> {
+    let patience = z.len() as u32;
+    let mut pivots = 0;
+    loop {
+        let is_patient = pivots < patience;
+        let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
+            return Ok((Found::Exact, pivots));
+        };
+        if !may_exchange(pivots) {
+            return Ok((Found::OutOfPivots, pivots));
+        }
+        if !tableau.exchange(at, z)? {
+            return Ok((Found::Worn, pivots));
+        }
+        pivots += 1;
+    }
+}
+
+/// The unknown that is on the wrong side by most, or the first that is.
+fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    if by_most && cfg!(not(target_arch = "arm")) {
+        return in_lanes(z, exchanged, noise);
+    }
+    in_turn(z, exchanged, noise, by_most)
+}
+
+/// One after the other: z = −x within, w elsewhere, and both are wrong where their signs say otherwise.
+fn in_turn<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    let (mut found, mut most) = (None, noise);
+    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
+        if (z > R::ZERO) == within && z.magnitude() > most {
+            (found, most) = (Some(at), z.magnitude());
+            if !by_most {
+                break;
+            }
+        }
+    }
+    found
+}
+
+/// The same by most, where a register holds several numbers: by how much first, and then who.
+fn in_lanes<R: Real>(z: &[R], exchanged: &[bool], noise: R) -> Option<usize> {
+    let most = largest(z, exchanged);
+    let is_it = |(&z, &within)| excess(z, within) >= most;
+    if most > noise { z.iter().zip(exchanged).position(is_it) } else { None }
+}
+
+/// What the one that is wrong by most is wrong by; 0 where none is.
+fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
+    let mut most = [R::ZERO; SIDE];
+    for (z, exchanged) in groups(z).iter().zip(groups(exchanged)) {
+        for ((most, &z), &within) in most.iter_mut().zip(z).zip(exchanged) {
+            *most = most.or_larger(excess(z, within));
+        }
+    }
+    most.into_iter().fold(R::ZERO, R::or_larger)
+}
+
+/// By how much an unknown is on the wrong side, below 0 where it is on the right one.
+fn excess<R: Real>(z: R, within: bool) -> R {
+    if within { z } else { -z }
+}
+
+/// x of the answer (−x_I, w_A), not below 0.
+fn take_over<R: Real>(answer: &[R], exchanged: &[bool], x: &mut [R]) {
+    for ((x, &z), &within) in x.iter_mut().zip(answer).zip(exchanged) {
+        *x = if within && z < R::ZERO { -z } else { R::ZERO };
+    }
+}
+
+/// `residual` = Sx − b, and `open` where x > 0.
+#[inline(never)]
+pub(crate) fn settle<R: Real>(
+    matrix: &Blocks<R>,
+    load: &[R],
+    x: &[R],
+    residual: &mut [R],
+    open: &mut [bool],
+) -> Result<(), Error> {
+    for (((residual, open), &load), &x) in residual.iter_mut().zip(&mut *open).zip(load).zip(x) {
+        (*residual, *open) = (-load, x > R::ZERO);
+    }
+    multiply_add(matrix, x, open, residual)
+}
+
+/// x_I −= S_II⁻¹ r_I, not below 0.
+#[inline(never)]
+fn correct<R: Real>(
+    tableau: &mut Tableau<R>,
+    residual: &[R],
+    change: &mut [R],
+    x: &mut [R],
+) -> Result<(), Error> {
+    tableau.respond(residual, change)?;
+    for ((x, &change), &within) in x.iter_mut().zip(change.iter()).zip(tableau.exchanged()) {
+        let corrected = *x + change;
+        *x = if within && corrected > R::ZERO { corrected } else { R::ZERO };
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_find_the_same_unknown() {
+        let exchanged: [bool; 24] = core::array::from_fn(|at| at % 3 == 0);
+        let (mut some, mut none) = (0, 0);
+        for shift in 0..200 {
+            // Every value twice, some of both signs.
+            let number = |at: usize| ((at % 12 * 37 + shift * 53) % 101) as f64 - 70.0;
+            let z: [f64; 24] =
+                core::array::from_fn(|at| if at % 5 == 4 { 0.0 } else { number(at) });
+            for noise in [0.0, 28.0, 69.0] {
+                let one = in_turn(&z, &exchanged, noise, true);
+                assert_eq!(in_lanes(&z, &exchanged, noise), one, "{shift}, {noise}");
+                *(if one.is_some() { &mut some } else { &mut none }) += 1;
+            }
+            let first = in_turn(&z, &exchanged, 1.0, false);
+            let by = z.iter().zip(&exchanged).map(|(z, within)| if *within { *z } else { -z });
+            assert_eq!(first, by.into_iter().position(|by| by > 1.0));
+        }
+        assert!(none > 0 && some > 100, "{none} {some}");
+    }
+}

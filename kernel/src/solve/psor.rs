@@ -1,0 +1,217 @@
+//! Projected successive over-relaxation, one sweep at a time.
+//!
+//! ```text
+//!   u_i ← u_i + ω (b_i − Σ_j K_ij u_j) / K_ii = (1 − ω) u_i + ω b_i / K_ii − Σ_{j≠i} (ω K_ij / K_ii) u_j
+//!                                                                  on free edges,
+//!   u_i ← max(ψ_i, the same)                                       on contact edges.
+//! ```
+//! It converges for any ω in (0, 2) and any start, since K is symmetric positive definite. It knows
+//! rows and bounds, and nothing of elements. A NaN becomes the gap on a contact edge, and spreads
+//! elsewhere: the residual tells.
+//!
+//! This is the inner loop of the product, and the one place of the kernel with `unsafe` code: reading
+//! u without a test of the position saves half of the instructions of plain safe code, and a fifth of those
+//! of the best that was found (`tests/firmware/cost.txt`, `docs/decisions/packed-rows.md`).
+
+use crate::discrete::rows::{Row, Rows};
+use crate::error::{Array, Error, same_length};
+use crate::features;
+use crate::index::{Index, read};
+use crate::real::Real;
+
+/// One sweep over all unknowns in order; `u` has one entry an edge, Dirichlet values included,
+/// `lower` the means of ψ, one entry a contact edge.
+///
+/// # Errors
+/// Arrays of the wrong length.
+// Neither is inlined, so that symbols tell whether an image holds code for contact.
+#[inline(never)]
+#[allow(unsafe_code)]
+pub fn sweep<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &mut [R],
+) -> Result<(), Error> {
+    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    // SAFETY: u has an entry for each edge of the rows' mesh.
+    unsafe {
+        relax_free(rows, u);
+        if features::CONTACT {
+            relax_contact(rows, lower, u);
+        }
+    }
+    Ok(())
+}
+
+/// One sweep over the free edges alone: all of it where nothing is in contact.
+///
+/// # Errors
+/// Arrays of the wrong length.
+#[inline(never)]
+#[allow(unsafe_code)]
+pub fn sweep_free<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    u: &mut [R],
+) -> Result<(), Error> {
+    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    // SAFETY: u has an entry for each edge of the rows' mesh.
+    unsafe { relax_free(rows, u) };
+    Ok(())
+}
+
+/// How far an iterate is from complementarity, measured with the rows of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Defect<R> {
+    /// max |r_i|/K_ii, on contact edges |min(u_i − ψ_i, −r_i/K_ii)|; NaN where anything is.
+    pub largest: R,
+    /// The sum of the same over all unknowns.
+    pub sum: R,
+}
+
+/// Measures `u` at the cost of a sweep; the solver's residual without CSR ([`crate::discrete::signorini`]).
+///
+/// # Errors
+/// Arrays of the wrong length.
+#[inline(never)]
+#[allow(unsafe_code)]
+pub fn defect<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &[R],
+) -> Result<Defect<R>, Error> {
+    same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
+    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    let (keep, per_omega) = (R::ONE - rows.omega(), R::ONE / rows.omega());
+    let step = |row: &Row<R, I, WIDTH>, neighbours: usize, own: R| {
+        // SAFETY: u has an entry for each edge of the rows' mesh.
+        (unsafe { relaxed(row, neighbours, keep, own, u.as_ptr()) } - own) * per_omega
+    };
+    let mut defect = Defect::default();
+    let mut include = |size: R| {
+        // Written so that a NaN is taken over and then stays.
+        let is_nan = !(defect.largest >= R::ZERO);
+        if !(size <= defect.largest || is_nan) {
+            defect.largest = size;
+        }
+        defect.sum += size;
+    };
+    for (row, &own) in rows.free().iter().zip(u) {
+        include(step(row, WIDTH, own).magnitude());
+    }
+    if !features::CONTACT {
+        return Ok(defect);
+    }
+    let on_contact = u.iter().skip(rows.free().len());
+    for ((row, &own), &lower) in rows.contact().iter().zip(on_contact).zip(lower) {
+        let step = step(row, WIDTH / 2, own);
+        include(if own - lower < -step { own - lower } else { step }.magnitude());
+    }
+    Ok(defect)
+}
+
+/// Whether u solves each row but for what rounding makes of its terms: `slack` ε of their sum
+/// |b_i|/K_ii + Σ|K_ij u_j|/K_ii, on contact edges of |u_i| + |ψ_i| where the opening decides. Whoever
+/// changes one entry of K by that much makes u the solution. Costs more than [`defect`], and is asked more seldom.
+#[inline(never)]
+pub(crate) fn is_rounding<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &[R],
+    slack: u32,
+) -> bool {
+    let slack = R::from_count(slack) * R::EPSILON;
+    let omega = rows.omega();
+    let all = rows.free().iter().chain(rows.contact()).zip(u).enumerate();
+    all.into_iter().all(|(i, (row, &own))| {
+        let neighbours = if i < rows.counts().free { WIDTH } else { WIDTH / 2 };
+        let start = (row.load() - omega * own, row.load().magnitude() + omega * own.magnitude());
+        let entries = row.entries().iter().zip(row.offsets()).take(neighbours);
+        let (step, size) = entries.fold(start, |(step, size), (&entry, offset)| {
+            let product = entry * read(u, offset.at() / size_of::<R>());
+            (step - product, size + product.magnitude())
+        });
+        let opening = i.checked_sub(rows.counts().free).and_then(|at| lower.get(at));
+        match opening {
+            Some(&lower) if omega * (own - lower) < -step => {
+                own - lower <= slack * (own.magnitude() + lower.magnitude())
+            }
+            _ => step.magnitude() <= slack * size,
+        }
+    })
+}
+
+/// # Safety
+/// `u` must have an entry for each edge of the rows' mesh.
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn relax_free<R: Real, I: Index, const WIDTH: usize>(rows: &Rows<R, I, WIDTH>, u: &mut [R]) {
+    let keep = R::ONE - rows.omega();
+    let u = u.as_mut_ptr();
+    let mut own = u;
+    for row in rows.free() {
+        // SAFETY: as the caller has promised, and the free edges come first in u.
+        unsafe {
+            own.write(relaxed(row, WIDTH, keep, *own, u));
+            own = own.add(1);
+        }
+    }
+}
+
+/// Contact edges have one cell, and half a row of neighbours.
+///
+/// # Safety
+/// `u` must have an entry for each edge of the rows' mesh.
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn relax_contact<R: Real, I: Index, const WIDTH: usize>(
+    rows: &Rows<R, I, WIDTH>,
+    lower: &[R],
+    u: &mut [R],
+) {
+    let keep = R::ONE - rows.omega();
+    let u = u.as_mut_ptr();
+    // SAFETY: as the caller has promised, and the contact edges follow the free ones in u.
+    let mut own = unsafe { u.add(rows.free().len()) };
+    for (row, &lower) in rows.contact().iter().zip(lower) {
+        // SAFETY: as above, and there is a row for each contact edge.
+        unsafe {
+            let relaxed = relaxed(row, WIDTH / 2, keep, *own, u);
+            own.write(if relaxed > lower { relaxed } else { lower });
+            own = own.add(1);
+        }
+    }
+}
+
+/// The new value of an unknown before projection, from the first `neighbours` of its row.
+///
+/// # Safety
+/// `u` must point to one number an edge of the mesh that `row` was made for.
+#[inline(always)]
+#[allow(unsafe_code)]
+unsafe fn relaxed<R: Real, I: Index, const WIDTH: usize>(
+    row: &Row<R, I, WIDTH>,
+    neighbours: usize,
+    keep: R,
+    own: R,
+    u: *const R,
+) -> R {
+    let entries = row.entries().iter().take(neighbours).enumerate();
+    entries.fold(row.load() + keep * own, |sum, (k, &entry)| {
+        // SAFETY: every offset of a row is a multiple of the size of R inside of u.
+        sum - entry * unsafe { *u.byte_add(offset(row.offsets(), k)) }
+    })
+}
+
+/// Offset k of a row. Two short ones are read as one word: that saves a load.
+#[inline(always)]
+#[allow(unsafe_code)]
+fn offset<I: Index, const WIDTH: usize>(offsets: &[I; WIDTH], k: usize) -> usize {
+    if size_of::<I>() > 2 {
+        return read(offsets, k).at();
+    }
+    // SAFETY: WIDTH is even, and offsets stand behind scalars in a `repr(C)` row: words are aligned.
+    let word = unsafe { *offsets.as_ptr().cast::<u32>().add(k / 2) };
+    let high = (k % 2 == 1) == cfg!(target_endian = "little");
+    (if high { word >> 16 } else { word & 0xffff }) as usize
+}

@@ -1,0 +1,89 @@
+//! Parts of the domain that are weakly held: the one slow direction that is known beforehand.
+//!
+//! Where a connected part is held by a weak transfer coefficient only, or by a few contact edges,
+//! adding a constant to u costs next to no energy, and sweeps need millions of rounds to find it. Let
+//! d be 1 on the unknowns P of the part that are not in contact. The energy along u + c d is least at
+//! ```text
+//!   c = dᵀr / dᵀKd,    dᵀKd = −Σ K_ij + Σ ∫h,    dᵀr = Σ b_i − Σ K_ij (u_j − u_i) − Σ u_i ∫h,
+//! ```
+//! with i in P, j outside of it, and the Robin edges in P: what flows inside of P cancels, and left
+//! out it leaves no rounding errors behind. c < 0 ends where the first edge touches. Each shift lowers
+//! the energy, as every sweep does.
+
+use crate::discrete::signorini::{Shifts, System};
+use crate::index::{Index, read};
+use crate::real::Real;
+
+/// Parts beyond these are left to the sweeps: a shift reads the whole matrix for every part.
+const MOST_PARTS: usize = 16;
+
+/// Shifts every part to where its energy is least.
+pub(crate) fn all<R: Real, I: Index>(system: &System<R, I>, u: &mut [R]) {
+    let Some(shifts) = system.shifts() else { return };
+    for part in 0..shifts.parts.min(MOST_PARTS) {
+        let shift = best(system, &shifts, part, u);
+        if shift != R::ZERO && shift.finite() {
+            for i in 0..system.counts().unknowns() {
+                if moves(system, &shifts, part, u, i)
+                    && let Some(entry) = u.get_mut(i)
+                {
+                    *entry += shift;
+                }
+            }
+        }
+    }
+    // A shift that ends at a touch may round to the wrong side of it.
+    system.make_feasible(u);
+}
+
+fn moves<R: Real, I: Index>(
+    system: &System<R, I>,
+    shifts: &Shifts<R, I>,
+    part: usize,
+    u: &[R],
+    i: usize,
+) -> bool {
+    let counts = system.counts();
+    let active = i >= counts.free && read(u, i) == read(system.lower(), i - counts.free);
+    i < counts.unknowns() && !active && read(shifts.part, i).at() == part
+}
+
+fn best<R: Real, I: Index>(
+    system: &System<R, I>,
+    shifts: &Shifts<R, I>,
+    part: usize,
+    u: &[R],
+) -> R {
+    let (mut force, mut stiffness) = (R::ZERO, R::ZERO);
+    let mut room = R::ONE / R::ZERO;
+    for (i, (row, &load)) in system.matrix().iter().zip(system.load()).enumerate() {
+        if !moves(system, shifts, part, u, i) {
+            continue;
+        }
+        let own = read(u, i);
+        force += load;
+        for (j, value) in row.entries().skip(1) {
+            if !moves(system, shifts, part, u, j) {
+                force -= value * (read(u, j) - own);
+                stiffness -= value;
+            }
+        }
+        if let Some(contact) = i.checked_sub(system.counts().free) {
+            room = room.or_smaller(own - read(system.lower(), contact));
+        }
+    }
+    for record in shifts.robin {
+        if moves(system, shifts, part, u, record.edge.at()) {
+            force -= record.coefficient * read(u, record.edge.at());
+            stiffness += record.coefficient;
+        }
+    }
+    let shift = if stiffness > R::ZERO {
+        force / stiffness
+    } else if force < R::ZERO {
+        -room
+    } else {
+        R::ZERO
+    };
+    shift.or_larger(-room)
+}
