@@ -43,7 +43,7 @@ impl<R: Bits> Figures for Verdict<R> {
 
 impl<R: Bits> Figures for Certificate<R> {
     fn tell(&self, journal: &mut Journal) {
-        journal.scalar("gap", self.gap);
+        journal.scalar("gap", self.duality_gap);
         journal.scalar("algebraic", self.algebraic);
         journal.scalar("oscillation", self.oscillation);
         journal.scalar("rounding", self.rounding);
