@@ -108,12 +108,32 @@ impl CellField {
         }
     }
 
+    /// Means of u_h and outward fluxes, side by side.
+    fn sides(&self) -> [&[f64]; 2] {
+        match self {
+            Self::Triangle(_, means, fluxes) => [means, fluxes],
+            Self::Quad(_, means, fluxes, _) => [means, fluxes],
+        }
+    }
+
     /// The mean of the edge means.
     pub fn mean(&self) -> f64 {
-        match self {
-            Self::Triangle(_, means, _) => means.iter().sum::<f64>() / 3.0,
-            Self::Quad(_, means, ..) => means.iter().sum::<f64>() / 4.0,
-        }
+        let [means, _] = self.sides();
+        means.iter().sum::<f64>() / means.len() as f64
+    }
+
+    /// Σ_E ∫σ·n + ∫f, with ∫f = `load`: 0 for a cell in balance.
+    pub fn surplus(&self, load: f64) -> f64 {
+        let [_, fluxes] = self.sides();
+        fluxes.iter().sum::<f64>() + load
+    }
+
+    /// ∫A∇u_h·∇u_h of a cell in balance: Σ_E u_E (∫_E σ·n + ∫f/m), because ∫A∇u_h·∇φ_E stands in brackets.
+    pub fn energy(&self, load: f64) -> f64 {
+        let ([means, fluxes], mean) = (self.sides(), self.mean());
+        let share = load / means.len() as f64;
+        // The brackets add up to the surplus, so that the mean may be left out: less cancels.
+        means.iter().zip(fluxes).map(|(u, out)| (u - mean) * (out + share)).sum()
     }
 }
 

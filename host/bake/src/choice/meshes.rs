@@ -8,6 +8,7 @@ use crate::full;
 use crate::trial::{self, Trial};
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
+use signorini_solve::certify::NoBound;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::Scaled;
@@ -55,16 +56,14 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
         name: format!("full{solver}{bound}"),
         lacks_bound: false,
         // Where the bound is left out, nobody asks for it.
-        unbounded: (baked.is_certified() && !baked.has_bound()).then(|| NO_BOUND.to_owned()),
+        unbounded: (baked.is_certified() && !baked.has_bound())
+            .then(|| NoBound::OF_DATA.to_owned()),
         model: Model::Full(Box::new(baked)),
         shortfalls: budget.shortfalls(&needs),
         needs,
         trial,
     }
 }
-
-/// Why a full model can have no bound.
-const NO_BOUND: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
 
 /// Ticks of a trial: the median one has number 0, the longest 1.
 struct TickCost<'a, R: Scalar> {

@@ -1,6 +1,10 @@
-//! Boundary conditions: which keys each kind has, and which of them an input may change.
+//! Boundary conditions: which keys each kind has, what these data are, and which of them an input may change.
+//!
+//! A new key is a field of [`Condition`], read here and listed in `data_of`: whoever asks for loads, units or fields
+//! asks that list.
 
 use super::table::Table;
+use super::units::Unit;
 use super::{Boundary, Condition, Field, Located};
 use crate::error::Result;
 use crate::expression::{Expression, Variables};
@@ -48,7 +52,53 @@ fn read_contact(table: &Table) -> Result<Condition> {
     })
 }
 
+/// What a datum of a condition is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// A load: an input may add to it.
+    Load(Field),
+    /// A coefficient, the same from tick to tick, in this unit.
+    Coefficient(Unit),
+}
+
+impl Role {
+    /// What it is measured in.
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::Load(field) => field.unit(),
+            Self::Coefficient(unit) => unit,
+        }
+    }
+}
+
+/// The data of a condition with their roles, in the order in which they are visited: one list for `&` and for `&mut`.
+macro_rules! data_of {
+    ($condition:expr) => {
+        match $condition {
+            Condition::Dirichlet { value } => vec![(Role::Load(Field::Value), value)],
+            Condition::Neumann { flux } => vec![(Role::Load(Field::Flux), flux)],
+            Condition::Robin { coefficient, ambient } => vec![
+                (Role::Coefficient(Unit::Conductivity), coefficient),
+                (Role::Load(Field::Ambient), ambient),
+            ],
+            Condition::Contact { gap, flux } => {
+                vec![(Role::Load(Field::Gap), gap), (Role::Load(Field::Flux), flux)]
+            }
+        }
+    };
+}
+
 impl Condition {
+    /// Its data, each with what it is.
+    pub fn data(&self) -> Vec<(Role, &Located<Expression>)> {
+        data_of!(self)
+    }
+
+    /// The same, to be changed.
+    pub fn data_mut(&mut self) -> Vec<(Role, &mut Located<Expression>)> {
+        data_of!(self)
+    }
+
     /// The kind as the scene file calls it.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -61,12 +111,6 @@ impl Condition {
 
     /// The load `field` of this boundary, if its kind has it.
     pub fn load(&self, field: Field) -> Option<&Located<Expression>> {
-        match (self, field) {
-            (Self::Dirichlet { value }, Field::Value) => Some(value),
-            (Self::Neumann { flux } | Self::Contact { flux, .. }, Field::Flux) => Some(flux),
-            (Self::Robin { ambient, .. }, Field::Ambient) => Some(ambient),
-            (Self::Contact { gap, .. }, Field::Gap) => Some(gap),
-            _ => None,
-        }
+        self.data().into_iter().find_map(|(role, data)| (role == Role::Load(field)).then_some(data))
     }
 }

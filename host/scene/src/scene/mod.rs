@@ -9,7 +9,7 @@
 //! | robin | σ·n = coefficient (ambient − u) |
 //! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0 |
 //!
-//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `control`, `setting` (sections
+//! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
 //! into the model below); a `fragment` gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
 //! later, on the mesh or at a quadrature point, can still point at the line ([`Scene::error`]).
 //! The names are not compared with the mesh here.
@@ -20,6 +20,7 @@ mod document;
 mod entry;
 mod file;
 mod fragment;
+mod material;
 mod read;
 mod setting;
 mod table;
@@ -32,6 +33,9 @@ use std::fmt::Display;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+pub use boundary::Role;
+pub use material::Material;
 
 use crate::error::InputError;
 use crate::expression::Expression;
@@ -79,17 +83,6 @@ pub struct Scene {
     pub setting: Option<Setting>,
     /// The file that extends the scene, if one does: title and setting stand there.
     pub fragment: Option<PathBuf>,
-}
-
-/// The coefficient tensor on one physical surface.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Material {
-    /// The surface; `default` covers the cells that no other material names.
-    pub name: Located<String>,
-    /// a_xx, a_xy, a_yy in x, y; a scalar a stands as a, 0, a.
-    pub conductivity: [Located<Expression>; 3],
-    /// Whether the file gave a scalar.
-    pub is_scalar: bool,
 }
 
 /// The condition on one physical curve.

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use super::boundary::read_boundary;
 use super::control::{read_input, read_output};
 use super::entry::Entry;
+use super::material::read_material;
 use super::setting::read_setting;
 use super::table::Table;
-use super::{Exact, Located, Material, Scene, Target, Time};
+use super::{Exact, Located, Scene, Target, Time};
 use crate::error::Result;
 use crate::expression::{Expression, Variables};
 
@@ -79,26 +80,6 @@ fn read_mesh(root: &Table) -> Result<Located<PathBuf>> {
     }
     let folder = root.document.path.parent().unwrap_or(Path::new(""));
     Ok(entry.at.with(folder.join(name)))
-}
-
-fn read_material(table: &Table) -> Result<Material> {
-    table.only("a material", &["conductivity"])?;
-    let entry = table.require("conductivity")?;
-    let read = |entry: &Entry| entry.expression(Variables::Space);
-    let entries = entry.array().unwrap_or_default();
-    let scalar = |a: Located<Expression>| {
-        let zero = a.with(Expression::constant(0.0));
-        [a.clone(), zero, a]
-    };
-    let (conductivity, is_scalar) = match &entries[..] {
-        [axx, axy, ayy] => ([read(axx)?, read(axy)?, read(ayy)?], false),
-        [a] => (scalar(read(a)?), true),
-        _ if entry.array().is_some() => {
-            return Err(entry.expected("a scalar or an array of three: a_xx, a_xy, a_yy").into());
-        }
-        _ => (scalar(read(&entry)?), true),
-    };
-    Ok(Material { name: table.name.clone(), conductivity, is_scalar })
 }
 
 fn read_source(root: &Table) -> Result<Located<Expression>> {

@@ -1,6 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Condition, Located, Scene};
+use super::{Located, Role, Scene};
 use crate::error::Result;
 use crate::expression::Expression;
 
@@ -37,13 +37,9 @@ impl Scene {
 pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression>)) {
     each(&mut scene.source);
     for boundary in &mut scene.boundaries {
-        match &mut boundary.condition {
-            Condition::Dirichlet { value } => each(value),
-            Condition::Neumann { flux } => each(flux),
-            Condition::Robin { ambient, .. } => each(ambient),
-            Condition::Contact { gap, flux } => {
-                each(gap);
-                each(flux);
+        for (role, data) in boundary.condition.data_mut() {
+            if matches!(role, Role::Load(_)) {
+                each(data);
             }
         }
     }

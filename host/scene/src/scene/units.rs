@@ -7,8 +7,29 @@
 //! and every number of its solution is that of the first one to the last bit, as long as none was
 //! too large or too small for the scalar: then only the second one can be computed.
 
-use super::{Boundary, Condition, Field, Located, Quantity, Scene};
+use super::{Field, Located, Material, Quantity, Scene};
 use crate::expression::Expression;
+
+/// What a datum of the scene is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// That of u.
+    U,
+    /// That of A.
+    Conductivity,
+    /// That of A∇u, and of f.
+    Flux,
+}
+
+impl Field {
+    /// What the field is measured in.
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::Value | Self::Gap | Self::Ambient => Unit::U,
+            Self::Flux | Self::Source => Unit::Flux,
+        }
+    }
+}
 
 /// What 1 stands for, each a power of two.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -44,33 +65,24 @@ impl Units {
     /// `scene` with its data, and its exact solution if it has one, in these units.
     pub fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        let times = |data: &mut Located<Expression>, unit: f64| {
-            data.value = data.value.times(1.0 / unit);
+        let times = |data: &mut Located<Expression>, unit: Unit| {
+            data.value = data.value.times(1.0 / self.of(unit));
         };
-        for material in &mut scene.materials {
-            material.conductivity.iter_mut().for_each(|entry| times(entry, self.conductivity));
+        for (unit, data) in scene.materials.iter_mut().flat_map(Material::data_mut) {
+            times(data, unit);
         }
-        times(&mut scene.source, self.flux());
-        for Boundary { condition, .. } in &mut scene.boundaries {
-            match condition {
-                Condition::Dirichlet { value } => times(value, self.u),
-                Condition::Neumann { flux } => times(flux, self.flux()),
-                Condition::Robin { coefficient, ambient } => {
-                    times(coefficient, self.conductivity);
-                    times(ambient, self.u);
-                }
-                Condition::Contact { gap, flux } => {
-                    times(gap, self.u);
-                    times(flux, self.flux());
-                }
+        times(&mut scene.source, Unit::Flux);
+        for boundary in &mut scene.boundaries {
+            for (role, data) in boundary.condition.data_mut() {
+                times(data, role.unit());
             }
         }
         if let Some(exact) = &mut scene.exact {
-            times(&mut exact.u, self.u);
-            exact.gradient.iter_mut().for_each(|entry| times(entry, self.u));
+            times(&mut exact.u, Unit::U);
+            exact.gradient.iter_mut().for_each(|entry| times(entry, Unit::U));
         }
         for input in &mut scene.inputs {
-            times(&mut input.pattern, self.of(input.field.value));
+            times(&mut input.pattern, input.field.value.unit());
         }
         scene
     }
@@ -85,10 +97,11 @@ impl Units {
         }
     }
 
-    fn of(&self, field: Field) -> f64 {
-        match field {
-            Field::Value | Field::Gap | Field::Ambient => self.u,
-            Field::Flux | Field::Source => self.flux(),
+    fn of(&self, unit: Unit) -> f64 {
+        match unit {
+            Unit::U => self.u,
+            Unit::Conductivity => self.conductivity,
+            Unit::Flux => self.flux(),
         }
     }
 }

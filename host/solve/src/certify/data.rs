@@ -4,9 +4,9 @@ use signorini_kernel::Error as KernelError;
 use signorini_kernel::bound::certificate::{Curved, LoadCase};
 use signorini_kernel::bound::conforming::VertexData;
 
-use super::curved::{Curved as Bent, Rough, curved_edges};
+use super::curved::{Curved as Bent, curved_edges};
 use super::ends::Ends;
-use super::no_bound::{NoBound, Spot, VARYING};
+use super::no_bound::NoBound;
 use super::oscillation::oscillation;
 use super::robin::{RobinPoints, robin};
 use crate::problem::{Assembled, Problem};
@@ -39,29 +39,6 @@ pub struct Evaluated {
     pub no_bound: Option<NoBound>,
 }
 
-/// Whether a coefficient at the points of an edge allows for a bound.
-fn is_moderate(edge: &RobinPoints) -> bool {
-    let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
-    let high = edge.iter().fold(0.0, |high: f64, point| high.max(point[0]));
-    high <= VARYING * low
-}
-
-/// Why data on an edge allow for no bound.
-fn roughness(problem: &Problem, curved: &Bent) -> Option<NoBound> {
-    let spot = |t| Spot::on_edge(problem, curved.edge as usize, t);
-    Some(match curved.rough? {
-        Rough::Jump(t) => NoBound::Jump { of: spot(t) },
-        Rough::Steep(t) => NoBound::Steep { of: spot(t) },
-    })
-}
-
-/// Where a transfer coefficient nearly vanishes.
-fn vanishing(problem: &Problem, transfer: &[RobinPoints]) -> Option<NoBound> {
-    let at = transfer.iter().position(|edge| !is_moderate(edge))?;
-    let edge = problem.loads.robin.get(at)?.edge as usize;
-    Some(NoBound::transfer_vanishes(problem, edge))
-}
-
 impl Evaluated {
     /// Evaluates the data of `problem` at its time.
     ///
@@ -74,12 +51,10 @@ impl Evaluated {
         // s is off by that much, and once more where u_h is compared with it.
         let left_out = 2.0 * (curved_edges.left_out + ends.moved(problem));
         let curved = curved_edges.records;
-        let rough = curved.iter().find_map(|of| roughness(problem, of));
         let of_cells = oscillation(problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
         let transfer = robin(problem, time)?;
-        let no_bound =
-            rough.or_else(|| ends.jump(problem)).or_else(|| vanishing(problem, &transfer));
+        let no_bound = NoBound::of_data(problem, &ends, &curved, &transfer);
         Ok(Self { ends, curved, transfer, oscillation: squares.sqrt() + left_out, no_bound })
     }
 }

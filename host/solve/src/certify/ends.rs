@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::energy::CellEnergy;
-use super::no_bound::NoBound;
 use crate::problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
@@ -37,8 +36,8 @@ impl Ends {
         })
     }
 
-    /// Where u_D differs between two edges by more than rounding: no function of finite energy has these values.
-    pub fn jump(&self, problem: &Problem) -> Option<NoBound> {
+    /// The first vertex where u_D differs between two edges by more than rounding, with both values.
+    pub fn jump(&self, problem: &Problem) -> Option<([f64; 2], [f64; 2])> {
         let slack = CONTINUOUS * self.scale();
         let mut at_vertex = HashMap::new();
         let edges = problem.topology.counts.unknowns()..problem.topology.counts.edges();
@@ -49,7 +48,7 @@ impl Ends {
             let first = *at_vertex.entry(vertex).or_insert(value);
             let at = problem.mesh.vertices[vertex as usize];
             let differ = (value - first).abs() > slack;
-            differ.then_some(NoBound::ValuesDiffer { at, values: [first, value] })
+            differ.then_some((at, [first, value]))
         })
     }
 

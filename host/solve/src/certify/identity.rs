@@ -127,11 +127,11 @@ fn edge_term(
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let s = numbers.borrowed().on_edge(problem, edge, deviations.on(edge), t)?;
         let value = match &problem.scene.boundaries[at].condition {
-            Condition::Contact { gap, flux } => {
+            Condition::Contact { gap, flux, .. } => {
                 let mean = Sum::alone(&problem.scene, flux, 0.0).mean(segment)?;
                 2.0 * (tau - mean) * (s - gap.value.eval(x, y, 0.0))
             }
-            Condition::Robin { coefficient, ambient } => {
+            Condition::Robin { coefficient, ambient, .. } => {
                 let h = coefficient.value.eval(x, y, 0.0);
                 (tau + h * (s - ambient.value.eval(x, y, 0.0))).powi(2) / h
             }

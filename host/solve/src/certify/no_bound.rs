@@ -4,13 +4,16 @@ use std::fmt;
 
 use signorini_kernel::bound::certificate::Verdict;
 
+use super::curved::{Curved, Rough};
+use super::ends::Ends;
+use super::robin::RobinPoints;
 use crate::problem::Problem;
 use crate::scalar::Scalar;
 use signorini_scene::scene::Field;
 
 /// By how much a transfer coefficient may vary along an edge: where it nearly vanishes, ∫(τ·n)²/h is
 /// beyond 8 points, and infinite where it does.
-pub(super) const VARYING: f64 = 10.0;
+const VARYING: f64 = 10.0;
 
 /// Why there is no bound; its text is one sentence that names boundary and place.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,10 +100,35 @@ impl Spot {
 }
 
 impl NoBound {
-    /// A transfer coefficient that varies too much along an edge.
-    pub fn transfer_vanishes(problem: &Problem, edge: usize) -> Self {
-        let at = middle(problem, edge);
-        Self::TransferVanishes { boundary: boundary(problem, edge), at }
+    /// What [`NoBound::of_data`] may find, for whoever has not kept it.
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
+
+    /// Why these data allow for no bound, whatever the iterate.
+    pub fn of_data(
+        problem: &Problem,
+        ends: &Ends,
+        curved: &[Curved],
+        transfer: &[RobinPoints],
+    ) -> Option<Self> {
+        let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
+        let jump = || ends.jump(problem).map(|(at, values)| Self::ValuesDiffer { at, values });
+        rough().or_else(jump).or_else(|| Self::transfer_vanishes(problem, transfer))
+    }
+
+    fn rough(problem: &Problem, curved: &Curved) -> Option<Self> {
+        let spot = |t| Spot::on_edge(problem, curved.edge as usize, t);
+        Some(match curved.rough? {
+            Rough::Jump(t) => Self::Jump { of: spot(t) },
+            Rough::Steep(t) => Self::Steep { of: spot(t) },
+        })
+    }
+
+    /// The first transfer edge along which the coefficient varies too much.
+    fn transfer_vanishes(problem: &Problem, transfer: &[RobinPoints]) -> Option<Self> {
+        let at = transfer.iter().position(|edge| !is_moderate(edge))?;
+        let edge = problem.loads.robin.get(at)?.edge as usize;
+        let boundary = boundary(problem, edge);
+        Some(Self::TransferVanishes { boundary, at: middle(problem, edge) })
     }
 
     /// The kernel's reason; `data` gives that of data which never allow for a bound.
@@ -130,6 +158,13 @@ impl NoBound {
     pub fn pulled(problem: &Problem, edge: usize) -> Self {
         Self::Pulled { boundary: boundary(problem, edge), at: middle(problem, edge) }
     }
+}
+
+/// Whether a coefficient at the points of an edge allows for a bound.
+fn is_moderate(edge: &RobinPoints) -> bool {
+    let low = edge.iter().fold(f64::INFINITY, |low, point| low.min(point[0]));
+    let high = edge.iter().fold(0.0, |high: f64, point| high.max(point[0]));
+    high <= VARYING * low
 }
 
 fn middle(problem: &Problem, edge: usize) -> [f64; 2] {

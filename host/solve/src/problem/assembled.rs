@@ -8,7 +8,7 @@ use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error, Tensor, device::model::Model};
 
@@ -27,51 +27,14 @@ pub struct Assembled<'p, R: Scalar> {
     vertices: Vec<[R; 2]>,
     tensors: Vec<Tensor<R>>,
     edges: Edges<'p, u32>,
-    triangles: Vec<[R; 3]>,
-    quads: Vec<[R; 6]>,
-    obliqueness: f64,
+    matrices: ElementMatrices<R>,
     row_ptr: Vec<u32>,
     col_idx: Vec<u32>,
     values: Vec<R>,
-    loads: Narrowed<R>,
+    loads: Loads<R>,
     load: Vec<R>,
     part: Vec<u32>,
     parts: usize,
-}
-
-/// [`Loads`] in the scalar `R`.
-#[derive(Debug, Clone)]
-struct Narrowed<R> {
-    triangles: Vec<R>,
-    quads: Vec<R>,
-    neumann: Vec<Neumann<R, u32>>,
-    robin: Vec<Robin<R, u32>>,
-    contact_flux: Vec<R>,
-    gap: Vec<R>,
-    dirichlet: Vec<R>,
-}
-
-impl<R: Scalar> Narrowed<R> {
-    fn new(loads: &Loads) -> Self {
-        let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
-        let neumann = loads.neumann.iter();
-        let robin = loads.robin.iter();
-        Self {
-            triangles: all(&loads.triangles),
-            quads: all(&loads.quads),
-            neumann: neumann.map(|n| Neumann { edge: n.edge, flux: R::narrow(n.flux) }).collect(),
-            robin: robin
-                .map(|r| Robin {
-                    edge: r.edge,
-                    coefficient: R::narrow(r.coefficient),
-                    ambient: R::narrow(r.ambient),
-                })
-                .collect(),
-            contact_flux: all(&loads.contact_flux),
-            gap: all(&loads.gap),
-            dirichlet: all(&loads.dirichlet),
-        }
-    }
 }
 
 impl<'p, R: Scalar> Assembled<'p, R> {
@@ -82,17 +45,15 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn new(problem: &'p Problem) -> Result<Self, Error> {
         let edges = problem.topology.edges()?;
         let vertices = UnitBox::of(&problem.mesh.vertices).narrowed(&problem.mesh.vertices);
-        let ElementMatrices { triangles, quads, obliqueness } = ElementMatrices::of(problem)?;
-        let loads = Narrowed::new(&problem.loads);
+        let matrices = ElementMatrices::of(problem)?;
+        let loads = problem.loads.narrowed();
         let unknowns = edges.counts().unknowns();
         let mut assembled = Self {
             problem,
             vertices,
             tensors: tensors(problem).unwrap_or_default(),
             edges,
-            triangles,
-            quads,
-            obliqueness,
+            matrices,
             row_ptr: vec![0; unknowns + 1],
             col_idx: vec![0; edges.nonzeros()],
             values: vec![R::ZERO; edges.nonzeros()],
@@ -126,7 +87,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// Loads that the scalar type cannot hold.
     pub fn set_loads(&mut self, loads: &Loads) -> Result<(), Error> {
-        self.loads = Narrowed::new(loads);
+        self.loads = loads.narrowed();
         self.fill_load()
     }
 
@@ -197,23 +158,23 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// How much of a cell's energy rounding of its element matrix may be, in ε: the terms of the determinant
     /// over what they cancel to, the most of any cell.
     pub fn obliqueness(&self) -> f64 {
-        self.obliqueness
+        self.matrices.obliqueness
     }
 
     /// The share of a bound that rounded element matrices can hide, 64 ε κ with κ the [`Assembled::obliqueness`]: see
     /// [`signorini_kernel::bound::certificate::Stability::oblique`].
     pub fn hidden(&self) -> f64 {
-        64.0 * R::EPSILON.wide() * self.obliqueness
+        64.0 * R::EPSILON.wide() * self.obliqueness()
     }
 
     /// Element matrices.
     pub fn stiffness(&self) -> Stiffness<'_, R> {
-        Stiffness { triangles: &self.triangles, quads: &self.quads }
+        self.matrices.stiffness()
     }
 
     /// ∫f over the cells.
     pub fn cells(&self) -> CellLoads<'_, R> {
-        CellLoads { triangles: &self.loads.triangles, quads: &self.loads.quads }
+        self.loads.cells()
     }
 
     /// Boundary records.
@@ -221,8 +182,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// Records that are not admissible in this scalar.
     pub fn boundary(&self) -> Result<Boundary<'_, R, u32>, Error> {
-        let loads = &self.loads;
-        Boundary::new(&self.edges, &loads.neumann, &loads.robin, &loads.contact_flux)
+        self.loads.boundary(&self.edges)
     }
 
     /// ψ on the contact edges.

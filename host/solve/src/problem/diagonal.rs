@@ -1,9 +1,8 @@
 //! The diagonal of K and the load b alone: what tells the size of a problem's numbers before it is assembled.
 
 use signorini_kernel::Error;
-use signorini_kernel::discrete::assembly::{self, CellLoads};
+use signorini_kernel::discrete::assembly;
 use signorini_kernel::error::Array;
-use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Side;
 
 use super::Problem;
@@ -16,7 +15,7 @@ impl Problem {
     /// As for [`super::Assembled::system`].
     pub fn diagonal_and_load(&self) -> Result<[Vec<f64>; 2], Error> {
         let (edges, loads) = (self.topology.edges()?, &self.loads);
-        let boundary = Boundary::new(&edges, &loads.neumann, &loads.robin, &loads.contact_flux)?;
+        let boundary = loads.boundary(&edges)?;
         let matrices = ElementMatrices::of(self)?;
         let unknowns = edges.counts().unknowns();
         let own = |half: &u32| match edges.side(*half as usize) {
@@ -31,10 +30,8 @@ impl Problem {
         let mut diagonal: Vec<f64> = pairs.map(sum).collect();
         boundary.add_to_diagonal(|edge, addend| diagonal[edge] += addend);
         let mut load = vec![0.0; unknowns];
-        let integrals = CellLoads { triangles: &loads.triangles, quads: &loads.quads };
-        assembly::load(&edges, integrals, &boundary, &mut load)?;
-        let entries = matrices.triangles.as_flattened().iter();
-        finite(Array::MatrixValues, entries.chain(matrices.quads.as_flattened()))?;
+        assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
+        finite(Array::MatrixValues, matrices.entries())?;
         finite(Array::MatrixValues, diagonal.iter())?;
         finite(Array::Load, load.iter())?;
         finite(Array::LowerBounds, loads.gap.iter())?;

@@ -1,30 +1,24 @@
 //! Element matrices in f64, integrated once, narrowed once, and whether the scalar can hold them.
 
 use signorini_kernel::discrete::element::crouzeix_raviart;
+use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::{Error, Real, Tensor};
 
+use super::Problem;
+use super::integrals::{Integrated, QuadCoefficient};
 use super::unit_box::UnitBox;
-use super::{Problem, QuadCoefficient};
 use crate::quadrature::DATA_POINTS;
 use crate::scalar::Scalar;
 
 /// K_T of every cell, as the kernel keeps them.
+#[derive(Debug, Clone)]
 pub(super) struct ElementMatrices<R> {
     pub triangles: Vec<[R; 3]>,
     pub quads: Vec<[R; 6]>,
     /// The most of any cell.
     pub obliqueness: f64,
-}
-
-/// The same in f64 and in the unit box, before a scalar is chosen: mesh and A alone decide them.
-#[derive(Debug, Clone)]
-pub(super) struct Integrated {
-    triangles: Vec<[f64; 3]>,
-    quads: Vec<[f64; 6]>,
-    /// Of every cell, triangles first.
-    obliqueness: Vec<f64>,
 }
 
 /// Of a determinant that cancels down to this many ε of its terms nothing is left.
@@ -50,6 +44,16 @@ impl<R: Scalar> ElementMatrices<R> {
             quads: quads.iter().map(|matrix| matrix.map(R::narrow)).collect(),
             obliqueness: obliqueness.iter().fold(1.0, |most: f64, &of| most.max(of)),
         })
+    }
+
+    /// As the kernel takes them.
+    pub fn stiffness(&self) -> Stiffness<'_, R> {
+        Stiffness { triangles: &self.triangles, quads: &self.quads }
+    }
+
+    /// All entries, triangles first.
+    pub fn entries(&self) -> impl Iterator<Item = &R> {
+        self.triangles.as_flattened().iter().chain(self.quads.as_flattened())
     }
 }
 

@@ -1,14 +1,53 @@
-//! The coefficient A over the cells: means on triangles, Gauss-point values on quads.
+//! The coefficient A over the cells: means on triangles, Gauss-point values on quads, and what they make of the cells.
 
 use std::sync::OnceLock;
 
-use signorini_kernel::{Real, Tensor};
+use signorini_kernel::{Error as KernelError, Real, Tensor};
 
-use super::{Binding, Coefficients, Problem, QuadCoefficient};
+use super::{Binding, Problem};
 use crate::quadrature::{DATA_POINTS, Point, TRIANGLE_POINTS, on_quad, on_triangle};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Material, Scene};
+
+/// A as the element matrices need it.
+#[derive(Debug, Clone)]
+pub struct Coefficients {
+    /// The mean over each triangle.
+    pub triangles: Vec<Tensor<f64>>,
+    /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
+    pub quads: Vec<QuadCoefficient>,
+    /// What they make of the cells, once somebody asks.
+    pub(super) matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
+}
+
+/// A on one quad.
+#[derive(Debug, Clone)]
+pub enum QuadCoefficient {
+    /// The same everywhere.
+    Constant(Tensor<f64>),
+    /// At the 8×8 Gauss points, x̂ running fastest.
+    AtPoints(Vec<Tensor<f64>>),
+}
+
+impl QuadCoefficient {
+    /// A at the Gauss point of this number.
+    pub fn at(&self, point: usize) -> Tensor<f64> {
+        match self {
+            Self::Constant(tensor) => *tensor,
+            Self::AtPoints(tensors) => tensors[point],
+        }
+    }
+}
+
+/// Element matrices in f64 and in the unit box, before a scalar is chosen: mesh and A alone decide them.
+#[derive(Debug, Clone)]
+pub(super) struct Integrated {
+    pub triangles: Vec<[f64; 3]>,
+    pub quads: Vec<[f64; 6]>,
+    /// Of every cell, triangles first.
+    pub obliqueness: Vec<f64>,
+}
 
 /// Evaluates and checks A on every cell.
 pub(super) fn coefficients(scene: &Scene, mesh: &Mesh, binding: &Binding) -> Result<Coefficients> {

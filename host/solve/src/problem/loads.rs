@@ -1,31 +1,52 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
-use signorini_kernel::Real;
-use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::{Error as KernelError, Real};
 
 use super::{EdgeKind, Problem, Sum};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};
+use crate::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
 
-/// Everything on the right-hand side.
+/// Everything on the right-hand side, integrated in f64; the kernel's records of it in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Loads {
+pub struct Loads<R = f64> {
     /// ∫_T f of each triangle.
-    pub triangles: Vec<f64>,
+    pub triangles: Vec<R>,
     /// ∫_T f of each quad.
-    pub quads: Vec<f64>,
+    pub quads: Vec<R>,
     /// Edges with a flux other than 0.
-    pub neumann: Vec<Neumann<f64, u32>>,
+    pub neumann: Vec<Neumann<R, u32>>,
     /// Edges with a transfer law.
-    pub robin: Vec<Robin<f64, u32>>,
+    pub robin: Vec<Robin<R, u32>>,
     /// ∫_E q of each contact edge.
-    pub contact_flux: Vec<f64>,
+    pub contact_flux: Vec<R>,
     /// Mean of ψ on each contact edge.
-    pub gap: Vec<f64>,
+    pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
-    pub dirichlet: Vec<f64>,
+    pub dirichlet: Vec<R>,
+}
+
+impl<R: Scalar> Loads<R> {
+    /// ∫f over the cells.
+    pub fn cells(&self) -> CellLoads<'_, R> {
+        CellLoads { triangles: &self.triangles, quads: &self.quads }
+    }
+
+    /// Boundary records.
+    ///
+    /// # Errors
+    /// Records that are not admissible in this scalar.
+    pub fn boundary<'a>(
+        &'a self,
+        edges: &Edges<u32>,
+    ) -> std::result::Result<Boundary<'a, R, u32>, KernelError> {
+        Boundary::new(edges, &self.neumann, &self.robin, &self.contact_flux)
+    }
 }
 
 impl Loads {
@@ -45,6 +66,26 @@ impl Loads {
             }
         }
         Ok(loads)
+    }
+
+    /// The same in another scalar.
+    pub fn narrowed<R: Scalar>(&self) -> Loads<R> {
+        let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
+        let neumann = self.neumann.iter();
+        let robin = self.robin.iter().map(|r| Robin {
+            edge: r.edge,
+            coefficient: R::narrow(r.coefficient),
+            ambient: R::narrow(r.ambient),
+        });
+        Loads {
+            triangles: all(&self.triangles),
+            quads: all(&self.quads),
+            neumann: neumann.map(|n| Neumann { edge: n.edge, flux: R::narrow(n.flux) }).collect(),
+            robin: robin.collect(),
+            contact_flux: all(&self.contact_flux),
+            gap: all(&self.gap),
+            dirichlet: all(&self.dirichlet),
+        }
     }
 
     /// ∫_T f of a cell, triangles first.

@@ -25,52 +25,22 @@ mod warnings;
 
 pub use assembled::Assembled;
 pub use binding::Binding;
+pub use integrals::{Coefficients, QuadCoefficient};
 pub use loads::Loads;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use signorini_kernel::discrete::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
-use signorini_kernel::{Error as KernelError, Tensor};
 
-use element_matrices::{ElementMatrices, Integrated};
+use element_matrices::ElementMatrices;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{Mesh, shape};
 use signorini_scene::scene::Scene;
 use topology::wrong_mesh;
-
-/// A as the element matrices need it.
-#[derive(Debug, Clone)]
-pub struct Coefficients {
-    /// The mean over each triangle.
-    pub triangles: Vec<Tensor<f64>>,
-    /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
-    pub quads: Vec<QuadCoefficient>,
-    /// What they make of the cells, once somebody asks.
-    matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
-}
-
-/// A on one quad.
-#[derive(Debug, Clone)]
-pub enum QuadCoefficient {
-    /// The same everywhere.
-    Constant(Tensor<f64>),
-    /// At the 8×8 Gauss points, x̂ running fastest.
-    AtPoints(Vec<Tensor<f64>>),
-}
-
-impl QuadCoefficient {
-    /// A at the Gauss point of this number.
-    pub fn at(&self, point: usize) -> Tensor<f64> {
-        match self {
-            Self::Constant(tensor) => *tensor,
-            Self::AtPoints(tensors) => tensors[point],
-        }
-    }
-}
 
 /// Everything that defines one discrete contact problem.
 #[derive(Debug, Clone)]
@@ -147,9 +117,7 @@ impl Problem {
     /// The largest entry of an element matrix.
     pub fn stiffest(&self) -> f64 {
         ElementMatrices::<f64>::of(self).map_or(0.0, |matrices| {
-            let entries = matrices.triangles.as_flattened().iter();
-            let entries = entries.chain(matrices.quads.as_flattened());
-            entries.fold(0.0, |most: f64, entry| most.max(entry.abs()))
+            matrices.entries().fold(0.0, |most: f64, entry| most.max(entry.abs()))
         })
     }
 

@@ -1,7 +1,6 @@
 //! Whether a problem has a solution, part by part, before any sweep is spent on it.
 
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::discrete::assembly;
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
 use signorini_kernel::mesh::edges::{Edges, Side};
 
@@ -38,10 +37,9 @@ impl Parts {
         cells: &mut [Part<f64, u32>],
     ) -> std::result::Result<PartCounts, signorini_kernel::Error> {
         let (edges, loads) = (problem.topology.edges()?, &problem.loads);
-        let boundary = Boundary::new(&edges, &loads.neumann, &loads.robin, &loads.contact_flux)?;
+        let boundary = loads.boundary(&edges)?;
         let mut load = vec![0.0; edges.counts().unknowns()];
-        let integrals = CellLoads { triangles: &loads.triangles, quads: &loads.quads };
-        assembly::load(&edges, integrals, &boundary, &mut load)?;
+        assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
         examine(&edges, &boundary, &load, BALANCE, cells)
     }
 

@@ -5,7 +5,7 @@ use super::Problem;
 use crate::quadrature::{bisected, mean_on_edge};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
-use signorini_scene::scene::{Condition, Field, Input, Located, Scene};
+use signorini_scene::scene::{Field, Input, Located, Scene};
 
 /// A field with its inputs: Σ weight · expression.
 pub struct Sum<'s> {
@@ -48,13 +48,7 @@ impl<'s> Sum<'s> {
     /// `field` of the boundary that an edge lies on, where its condition has such a field.
     pub fn on_edge(problem: &'s Problem, edge: usize, field: Field, time: f64) -> Option<Self> {
         let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
-        let base = match (&boundary.condition, field) {
-            (Condition::Dirichlet { value }, Field::Value) => value,
-            (Condition::Contact { gap, .. }, Field::Gap) => gap,
-            (Condition::Neumann { flux } | Condition::Contact { flux, .. }, Field::Flux) => flux,
-            (Condition::Robin { ambient, .. }, Field::Ambient) => ambient,
-            _ => return None,
-        };
+        let base = boundary.condition.load(field)?;
         Some(Self::new(&problem.scene, &boundary.name.value, field, base, time))
     }
 

@@ -90,18 +90,9 @@ impl Solution {
 
     /// max over the cells of |Σ_E ∫σ·n + ∫f|, relative to the largest edge flux.
     pub fn conservation_defect(&self, problem: &Problem) -> f64 {
-        let triangles = problem.mesh.triangles.len();
-        let loads = &problem.loads;
-        let defect = (0..triangles + problem.mesh.quads.len()).map(|cell| {
-            let load = match cell.checked_sub(triangles) {
-                None => loads.triangles.get(cell),
-                Some(quad) => loads.quads.get(quad),
-            };
-            let out: f64 = match CellField::new(problem, cell, &self.u, &self.flux) {
-                CellField::Triangle(_, _, flux) => flux.iter().sum(),
-                CellField::Quad(_, _, flux, _) => flux.iter().sum(),
-            };
-            (out + load.unwrap_or(&0.0)).abs()
+        let defect = (0..problem.cells()).map(|cell| {
+            let field = CellField::new(problem, cell, &self.u, &self.flux);
+            field.surplus(problem.loads.of_cell(cell)).abs()
         });
         defect.fold(0.0, f64::max) / self.largest_flux()
     }
@@ -112,21 +103,11 @@ impl Solution {
         relative.is_finite().then_some(relative)
     }
 
-    /// ‖A^½∇_h u_h‖, where the solve has converged: its square is in each cell Σ_E u_E (∫_E σ·n + ∫f/m),
-    /// because ∫A∇u_h·∇φ_E stands in brackets.
+    /// ‖A^½∇_h u_h‖, where the solve has converged: see [`CellField::energy`].
     pub fn energy(&self, problem: &Problem) -> f64 {
         let squares = (0..problem.cells()).map(|cell| {
             let field = CellField::new(problem, cell, &self.u, &self.flux);
-            let (load, mean) = (problem.loads.of_cell(cell), field.mean());
-            // The brackets add up to 0, so that the mean may be left out: less cancels.
-            let sum = |means: &[f64], fluxes: &[f64]| {
-                let share = load / means.len() as f64;
-                means.iter().zip(fluxes).map(|(u, out)| (u - mean) * (out + share)).sum::<f64>()
-            };
-            match &field {
-                CellField::Triangle(_, means, fluxes) => sum(means, fluxes),
-                CellField::Quad(_, means, fluxes, _) => sum(means, fluxes),
-            }
+            field.energy(problem.loads.of_cell(cell))
         });
         squares.sum::<f64>().max(0.0).sqrt()
     }

@@ -71,10 +71,10 @@ fn each_kind_of_boundary_holds_its_data() {
     assert_eq!(&scene.text[value.span.clone()], "\"-4.0\"");
     let Condition::Neumann { flux } = &base.condition else { panic!("neumann") };
     assert_eq!(shown(flux), pair("0", "boundary.base.flux"));
-    let Condition::Contact { gap, flux } = &face.condition else { panic!("contact") };
+    let Condition::Contact { gap, flux, .. } = &face.condition else { panic!("contact") };
     assert_eq!(shown(gap), pair("-y", "boundary.face.gap"));
     assert_eq!(shown(flux), pair("0", "boundary.face.flux"));
-    let Condition::Robin { coefficient, ambient } = &air.condition else { panic!("robin") };
+    let Condition::Robin { coefficient, ambient, .. } = &air.condition else { panic!("robin") };
     assert_eq!(shown(coefficient), pair("15", "boundary.air.coefficient"));
     assert_eq!(shown(ambient), pair("-10", "boundary.air.ambient"));
     assert_eq!(river.name.value, "river");
@@ -118,7 +118,7 @@ fn defaults_fill_what_is_left_out() {
     assert_eq!(scene.title, "levee");
     assert_eq!(scene.mesh.value, PathBuf::from("scenes/../plate.msh"));
     assert!(scene.source.value.is_zero());
-    let Condition::Contact { gap, flux } = &scene.boundaries[0].condition else { panic!() };
+    let Condition::Contact { gap, flux, .. } = &scene.boundaries[0].condition else { panic!() };
     assert!(gap.value.is_zero() && flux.value.is_zero());
     assert_eq!(
         scene.error(gap, "too wide").to_string(),
