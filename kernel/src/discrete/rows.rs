@@ -28,7 +28,7 @@ pub const QUADS: usize = 6;
 
 mod owned;
 
-pub use owned::OwnedRows;
+pub use owned::{LayOut, OwnedRows};
 
 /// One row, as memory that the caller owns; its contents are the business of [`Rows`].
 #[repr(C)]

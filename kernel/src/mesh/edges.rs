@@ -44,12 +44,12 @@ pub struct EdgeCounts {
 
 impl EdgeCounts {
     /// Edges not on the Dirichlet boundary.
-    pub fn unknowns(&self) -> usize {
+    pub const fn unknowns(&self) -> usize {
         self.free.saturating_add(self.contact)
     }
 
     /// All edges.
-    pub fn edges(&self) -> usize {
+    pub const fn edges(&self) -> usize {
         self.unknowns().saturating_add(self.dirichlet)
     }
 
@@ -160,7 +160,7 @@ impl<'a, I: Index> Edges<'a, I> {
     }
 
     /// Sizes of the blocks.
-    pub fn counts(&self) -> EdgeCounts {
+    pub const fn counts(&self) -> EdgeCounts {
         self.counts
     }
 

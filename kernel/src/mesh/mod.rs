@@ -90,7 +90,7 @@ impl<'a, R: Real, I: Index> Mesh<'a, R, I> {
     }
 
     /// Vertex coordinates.
-    pub fn vertices(&self) -> &'a [[R; 2]] {
+    pub const fn vertices(&self) -> &'a [[R; 2]] {
         self.vertices
     }
 
@@ -100,7 +100,7 @@ impl<'a, R: Real, I: Index> Mesh<'a, R, I> {
     }
 
     /// Vertices of the quads.
-    pub fn quads(&self) -> &'a [[I; 4]] {
+    pub const fn quads(&self) -> &'a [[I; 4]] {
         self.quads
     }
 

@@ -3,13 +3,14 @@
 use signorini_kernel::bound::certificate::Curved;
 use signorini_kernel::bound::conforming::VertexData;
 use signorini_kernel::device::full::{
-    Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Memory,
-    Pattern, Points, Product,
+    Base, Contribution, CurvedPart, CurvedSum, DataMemory, EdgeTrace, Full, Functional, Lengths,
+    Memory, Pattern, Points, Product, Storage,
 };
 use signorini_kernel::device::tick::{
     self, CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps,
 };
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 use crate::arrays::Arrays;
@@ -122,6 +123,28 @@ struct Own<R> {
     transfer: Vec<[[R; 2]; 8]>,
 }
 
+/// Memory of exactly the size that the scene needs.
+type Stored<R> = Storage<
+    R,
+    Vec<Row<R, u16, QUADS>>,
+    Vec<R>,
+    Vec<bool>,
+    Vec<Neumann<R, u16>>,
+    Vec<Robin<R, u16>>,
+    Vec<Curved<R, u16>>,
+>;
+
+fn stored<R: Scalar>(lengths: &Lengths) -> Stored<R> {
+    Storage::of(
+        vec![Row::EMPTY; lengths.rows],
+        vec![R::ONE; lengths.numbers.sum()],
+        vec![true; lengths.active],
+        vec![Neumann::default(); lengths.neumann],
+        vec![Robin::default(); lengths.robin],
+        vec![Curved::default(); lengths.curved],
+    )
+}
+
 fn play<R: Scalar>(
     arrays: &Arrays<R>,
     full: &Full<R, u16>,
@@ -144,6 +167,8 @@ fn play<R: Scalar>(
         [counts.unknowns(), arrays.vertices.len(), all, all, all].map(|n| vec![R::ZERO; n]);
     let mut active = vec![false; counts.contact];
     let (mut progress, mut outputs) = (Progress::NONE, [R::ZERO; 5]);
+    let lengths = Lengths::of(full);
+    let mut storage = stored(&lengths);
     let mut draw = Draw(21);
     for at in 0..ticks {
         let inputs = [(); 6].map(|()| R::of(draw.signed()));
@@ -177,6 +202,17 @@ fn play<R: Scalar>(
             }
             _ => full.tick(inputs, UncertifiedSweeps(Libm), limits, never, memory, &mut outputs)?,
         };
+        if at == 0 {
+            let memory = storage.memory(full, &lengths)?;
+            let mut stored = [R::ZERO; 5];
+            let same =
+                full.tick(inputs, CertifiedSweeps(Libm), limits, never, memory, &mut stored)?;
+            assert_eq!((same, stored), (report, outputs));
+            let kept = storage.numbers(&lengths).expect("its own lengths");
+            let [load, vertices, bubbles, tau, u] = &numbers;
+            assert_eq!([kept.load, kept.vertices, kept.tau, kept.u], [load, vertices, tau, u]);
+            assert!(kept.bubbles.is_empty() || kept.bubbles == bubbles);
+        }
         journal.line("tick", (report.ended, report.sweeps, report.active));
         journal.digest("report", report);
         journal.line("outputs", outputs);

@@ -3,13 +3,14 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::bound::certificate::Curved;
 use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::device::full::{self, Base, CurvedSum, DataMemory, Full, Functional, Memory};
+use signorini_kernel::device::full::{
+    self, Base, CurvedSum, Full, Functional, Lengths, Numbers, Storage,
+};
 use signorini_kernel::device::tick::{
-    self, CertifiedSweeps, Deadline, Limits, Method, Progress, Report, Substitutions,
-    UncertifiedSweeps,
+    CertifiedSweeps, Deadline, Limits, Method, Report, Substitutions, UncertifiedSweeps,
 };
 use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::discrete::rows::{Row, Rows};
+use signorini_kernel::discrete::rows::Row;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::solve::sparse::{Exact, Solved};
 use signorini_kernel::{Libm, Math};
@@ -18,74 +19,44 @@ use super::arrays::Baked;
 use super::data::{Data, Pattern};
 use super::output::Output;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::Exchanges;
+use signorini_solve::solve::{Exchanges, exchanges};
+
+/// The memory of a baked scene.
+type Owned<R, const WIDTH: usize> = Storage<
+    R,
+    Vec<Row<R, u32, WIDTH>>,
+    Vec<R>,
+    Vec<bool>,
+    Vec<Neumann<R, u32>>,
+    Vec<Robin<R, u32>>,
+    Vec<Curved<R, u32>>,
+>;
 
 /// The controller of a baked scene; `WIDTH` is 4 on triangles alone and else 6.
 #[derive(Debug)]
 pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
     baked: &'b Baked<R>,
-    rows: Vec<Row<R, u32, WIDTH>>,
-    load: Vec<R>,
-    u: Vec<R>,
-    active: Vec<bool>,
-    vertices: Vec<R>,
-    bubbles: Vec<R>,
-    tau: Vec<R>,
-    data: Owned<R>,
-    progress: Progress<R>,
+    lengths: Lengths,
+    storage: Owned<R, WIDTH>,
     exchanges: Option<Exchanges<R>>,
     solved: Option<Solved<R>>,
     certificates: u32,
 }
 
-/// [`DataMemory`], owned.
-#[derive(Debug)]
-struct Owned<R> {
-    triangles: Vec<R>,
-    quads: Vec<R>,
-    neumann: Vec<Neumann<R, u32>>,
-    robin: Vec<Robin<R, u32>>,
-    contact_flux: Vec<R>,
-    gap: Vec<R>,
-    gap_ends: Vec<[R; 2]>,
-    dirichlet: Vec<R>,
-    dirichlet_ends: Vec<[R; 2]>,
-    curved: Vec<Curved<R, u32>>,
-    transfer: Vec<[[R; 2]; 8]>,
-}
-
 impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     /// Before the first tick.
     pub fn new(baked: &'b Baked<R>) -> Self {
-        let (counts, data) = (baked.counts, baked.varying());
-        let zeros = |length| vec![R::ZERO; length];
-        Self {
-            baked,
-            rows: vec![Row::EMPTY; counts.unknowns()],
-            load: zeros(counts.unknowns()),
-            u: zeros(counts.edges()),
-            active: vec![false; counts.contact],
-            vertices: zeros(baked.vertices.len()),
-            bubbles: zeros(if baked.quads.is_empty() { 0 } else { counts.edges() }),
-            tau: zeros(counts.edges()),
-            data: Owned {
-                triangles: zeros(data.triangles),
-                quads: zeros(data.quads),
-                neumann: vec![Neumann::default(); data.neumann],
-                robin: vec![Robin::default(); data.robin],
-                contact_flux: zeros(data.contact_flux),
-                gap: zeros(data.gap),
-                gap_ends: vec![[R::ZERO; 2]; data.gap],
-                dirichlet: zeros(data.dirichlet),
-                dirichlet_ends: vec![[R::ZERO; 2]; data.dirichlet],
-                curved: vec![Curved::default(); data.curved],
-                transfer: vec![[[R::ZERO; 2]; 8]; data.transfer],
-            },
-            progress: Progress::NONE,
-            exchanges: baked.factored.as_ref().map(|_| Exchanges::new(counts.contact)),
-            solved: None,
-            certificates: 0,
-        }
+        let lengths = baked.lengths();
+        let storage = Storage::of(
+            vec![Row::EMPTY; lengths.rows],
+            vec![R::ZERO; lengths.numbers.sum()],
+            vec![false; lengths.active],
+            vec![Neumann::default(); lengths.neumann],
+            vec![Robin::default(); lengths.robin],
+            vec![Curved::default(); lengths.curved],
+        );
+        let exchanges = baked.factored.as_ref().map(|_| exchanges(lengths.active));
+        Self { baked, lengths, storage, exchanges, solved: None, certificates: 0 }
     }
 
     /// Outputs and report for these inputs, within the limits of the baked module.
@@ -106,45 +77,29 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         inputs: &[R],
         limits: Limits<R>,
     ) -> Result<(Vec<R>, Report<R>), KernelError> {
-        let (baked, data) = (self.baked, &mut self.data);
+        let (baked, lengths) = (self.baked, &self.lengths);
         if baked.how.cold {
-            self.progress = Progress::NONE;
+            self.storage.reset();
         }
-        let ground = baked.ground();
-        let memory = Memory {
-            tick: tick::Memory {
-                rows: Rows::new(&ground.edges, &mut self.rows)?,
-                load: &mut self.load,
-                active: &mut self.active,
-                vertices: &mut self.vertices,
-                bubbles: &mut self.bubbles,
-                tau: &mut self.tau,
-                u: &mut self.u,
-            },
-            data: DataMemory {
-                triangles: &mut data.triangles,
-                quads: &mut data.quads,
-                neumann: &mut data.neumann,
-                robin: &mut data.robin,
-                contact_flux: &mut data.contact_flux,
-                gap: &mut data.gap,
-                gap_ends: &mut data.gap_ends,
-                dirichlet: &mut data.dirichlet,
-                dirichlet_ends: &mut data.dirichlet_ends,
-                curved: &mut data.curved,
-                transfer: &mut data.transfer,
-            },
-            progress: &mut self.progress,
-        };
         let limits = baked.scale.map_or(limits, |scale| scale.limits(limits));
         let mut outputs = vec![R::ZERO; baked.outputs.len()];
         let factored = baked.factored.as_ref().zip(self.exchanges.as_mut());
         let mut exact = match factored {
-            Some((factored, own)) => Some(Exact::new(factored.view(), own.memory())?),
+            Some((factored, own)) => {
+                Some(Exact::new(factored.view(), own.memory(lengths.active)?)?)
+            }
             None => None,
         };
         let mut looks = 0;
-        let call = Call { baked, inputs, limits, memory, outputs: &mut outputs, looks: &mut looks };
+        let call = Call {
+            baked,
+            inputs,
+            limits,
+            lengths,
+            storage: &mut self.storage,
+            outputs: &mut outputs,
+            looks: &mut looks,
+        };
         let report = match baked.how.fast {
             true => call.with(R::FAST, exact.as_mut())?,
             false => call.with(Libm, exact.as_mut())?,
@@ -176,27 +131,32 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
 
     /// Means of u over the edges, in [`Baked::units`] as all arrays below.
     pub fn u(&self) -> &[R] {
-        &self.u
+        self.numbers().u
     }
 
     /// ∫τ·n of every edge along its direction: balanced, or of a tick without certificate σ_h of (15).
     pub fn tau(&self) -> &[R] {
-        &self.tau
+        self.numbers().tau
     }
 
     /// Means of ψ over the contact edges in the last tick.
     pub fn lower(&self) -> &[R] {
-        if self.data.gap.is_empty() { &self.baked.data.gap } else { &self.data.gap }
+        let own = self.numbers().gap;
+        if own.is_empty() { &self.baked.data.gap } else { own }
     }
 
     /// s at the vertices; empty without a certificate.
     pub fn vertices(&self) -> &[R] {
-        &self.vertices
+        self.numbers().vertices
     }
 
     /// The bubbles of s, one an edge; empty without quads or certificate.
     pub fn bubbles(&self) -> &[R] {
-        &self.bubbles
+        self.numbers().bubbles
+    }
+
+    fn numbers(&self) -> Numbers<&[R]> {
+        self.storage.numbers(&self.lengths).unwrap_or_default()
     }
 }
 
@@ -205,7 +165,8 @@ struct Call<'c, R: Scalar, const WIDTH: usize> {
     baked: &'c Baked<R>,
     inputs: &'c [R],
     limits: Limits<R>,
-    memory: Memory<'c, R, u32, WIDTH>,
+    lengths: &'c Lengths,
+    storage: &'c mut Owned<R, WIDTH>,
     outputs: &'c mut [R],
     /// Becomes how often the clock was asked.
     looks: &'c mut u32,
@@ -228,17 +189,25 @@ impl<R: Scalar, const WIDTH: usize> Call<'_, R, WIDTH> {
     }
 
     fn by(self, method: impl Method<R, u32>) -> Result<Report<R>, KernelError> {
-        let Self { baked, inputs, limits, memory, outputs, looks } = self;
+        let Self { baked, inputs, limits, lengths, storage, outputs, looks } = self;
         let clock = || {
             *looks += 1;
             u32::MAX
         };
         let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
-        baked.with(|full| full.tick(inputs, method, limits, never, memory, outputs))
+        baked.with(|full| {
+            let memory = storage.memory(full, lengths)?;
+            full.tick(inputs, method, limits, never, memory, outputs)
+        })
     }
 }
 
 impl<R: Scalar> Baked<R> {
+    /// How long the memory is.
+    pub(super) fn lengths(&self) -> Lengths {
+        self.with(Lengths::of)
+    }
+
     /// Lends the arrays as the kernel takes them.
     fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
         let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();

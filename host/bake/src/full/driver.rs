@@ -6,7 +6,6 @@ use signorini_kernel::device::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
 use super::imports::imports;
-use super::list::Item;
 use super::rescaling::Rescaling;
 use crate::controller::{self, Parts};
 use signorini_solve::scalar::Scalar;
@@ -16,94 +15,102 @@ const NAMES: &[(&str, &str)] = &[
     ("Error", "Error"),
     ("Libm", "Libm"),
     ("Micromath", "Micromath"),
-    ("Robin", "mesh::boundary::Robin"),
-    ("Neumann", "mesh::boundary::Neumann"),
-    ("Iterate", "solve::dense::Iterate"),
-    ("Curved", "bound::certificate::Curved"),
-    ("DataMemory", "device::full::DataMemory"),
-    ("Memory", "device::full::Memory"),
-    ("OwnedRows", "discrete::rows::OwnedRows"),
+    ("ArrayStorage", "device::full::ArrayStorage"),
+    ("Lengths", "device::full::Lengths"),
     ("Certificate", "bound::certificate::Certificate"),
     ("Verdict", "bound::certificate::Verdict"),
+    ("sparse", "solve::sparse"),
     ("Exact", "solve::sparse::Exact"),
     ("Deadline", "device::limits::Deadline"),
     ("Limits", "device::limits::Limits"),
     ("CertifiedSweeps", "device::tick::CertifiedSweeps"),
-    ("Progress", "device::tick::Progress"),
     ("Substitutions", "device::tick::Substitutions"),
     ("UncertifiedSweeps", "device::tick::UncertifiedSweeps"),
     ("Report", "Report"),
 ];
 
 /// The struct with its memory, and what it does.
-pub(super) fn controller<R: Scalar>(
-    fields: &[Item],
-    baked: &Baked<R>,
-    rescaling: &Rescaling,
-) -> String {
-    let text = body(fields, baked, rescaling);
+pub(super) fn controller<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
+    let text = body(baked, rescaling);
     imports(NAMES, &text, "") + &text
 }
 
-fn body<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> String {
+fn body<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
     let how = &baked.how;
-    let (mut members, mut values) = (String::new(), String::new());
-    for Item { name, doc, of, value, .. } in fields {
-        let _ = writeln!(members, "    /// {doc}\n    {name}: {of},");
-        let _ = writeln!(values, "            {name}: {value},");
-    }
+    let (fields, values) = memory(baked);
     let Limits { error, share, sweeps } = how.limits;
     let text = controller::controller(&Parts {
-        fields: &members,
+        fields: &fields,
         values: &values,
         first: "starts cold",
         from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
         ends: ends(baked),
         limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
         is_limited: true,
-        tick: &tick(fields, baked, rescaling),
-        reset: "        self.progress = Progress::NONE;\n",
+        tick: &tick(baked, rescaling),
+        reset: "        self.storage.reset();\n",
     });
-    text + &rescaling.items
+    lengths(baked) + &text + &rescaling.items
+}
+
+/// How long its memory is: the kernel works it out of the statics, when the module is compiled.
+fn lengths<R: Scalar>(baked: &Baked<R>) -> String {
+    let own = "
+/// How long the arrays are that change.
+const LENGTHS: Lengths = Lengths::of(&data::FULL);
+";
+    let exchanges = "
+/// Blocks, numbers and flags of the exchanges on contact edges.
+const EXCHANGES: [usize; 3] = sparse::storage::lengths(LENGTHS.active);
+";
+    own.to_owned() + if baked.factored.is_some() { exchanges } else { "" }
+}
+
+/// The fields of the struct, and what they are before the first tick.
+fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
+    let mut fields = format!(
+        "    /// Rows, iterate, and the data that inputs change.
+    storage: ArrayStorage<
+        Scalar,
+        Index,
+        {},
+        {{ LENGTHS.rows }},
+        {{ LENGTHS.numbers.sum() }},
+        {{ LENGTHS.active }},
+        {{ LENGTHS.neumann }},
+        {{ LENGTHS.robin }},
+        {{ LENGTHS.curved }},
+    >,
+",
+        baked.width()
+    );
+    let mut values = "            storage: ArrayStorage::new(),\n".to_owned();
+    if baked.factored.is_some() {
+        fields += "    /// Exchanges on the contact edges.
+    exchanges: sparse::ArrayStorage<Scalar, { EXCHANGES[0] }, { EXCHANGES[1] }, { EXCHANGES[2] }>,
+";
+        values += "            exchanges: sparse::ArrayStorage::new(),\n";
+    }
+    (fields, values)
 }
 
 /// The body of a tick.
-fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> String {
+fn tick<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
     let mut text = if baked.how.cold { "        self.reset();\n" } else { "" }.to_owned();
     text += &rescaling.before;
-    let has = |field: &str| fields.iter().any(|item| item.name == field);
-    let place = |field: &str| {
-        if has(field) { format!("&mut self.{field}") } else { "&mut []".to_owned() }
-    };
     let is_factored = baked.factored.is_some();
     if is_factored {
-        text += &exact(&place);
-    }
-    text += "        let memory = Memory {
-            tick: signorini_kernel::device::tick::Memory {
-                rows: self.rows.of(&data::FULL.ground.edges)?,
+        text += "        let exchanges = self.exchanges.memory(LENGTHS.active)?;
+        let mut exact = Exact::new(data::FACTORED, exchanges)?;
 ";
-    for field in ["load", "active", "vertices", "bubbles", "tau", "u"] {
-        let _ = writeln!(text, "                {field}: {},", place(field));
     }
-    text += "            },
-            data: DataMemory {
-";
-    for (field, of) in VARYING {
-        if has(field) {
-            let _ = writeln!(text, "                {of}: &mut self.{field},");
-        }
-    }
-    text += "                ..DataMemory::default()
-            },
-            progress: &mut self.progress,
-        };
-        let mut outputs = [0.0; OUTPUTS];
-";
-    let _ = writeln!(
+    let _ = write!(
         text,
-        "        let method = {};
-        let report = data::FULL.tick(&inputs.to_array(), method, limits, deadline, memory, &mut outputs)?;",
+        "        let memory = self.storage.memory(&data::FULL, &LENGTHS)?;
+        let mut outputs = [0.0; OUTPUTS];
+        let method = {};
+        let report = data::FULL.tick(&inputs.to_array(), method, limits, deadline, memory, &mut outputs)?;
+",
         method(baked),
     );
     text += if is_factored {
@@ -115,35 +122,6 @@ fn tick<R: Scalar>(fields: &[Item], baked: &Baked<R>, rescaling: &Rescaling) -> 
     };
     text += &rescaling.after;
     text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })\n"
-}
-
-/// The exact solver with its memory.
-fn exact(place: &impl Fn(&str) -> String) -> String {
-    format!(
-        "        let contact = signorini_kernel::solve::sparse::Memory {{
-            tableau: {},
-            exchanged: {},
-            columns: [{}, {}],
-            load: {},
-            iterate: Iterate {{
-                x: {},
-                residual: {},
-                scratch: {},
-                open: {},
-            }},
-        }};
-        let mut exact = Exact::new(data::FACTORED, contact)?;
-",
-        place("tableau"),
-        place("exchanged"),
-        place("column"),
-        place("next_column"),
-        place("reduced"),
-        place("openings"),
-        place("balance"),
-        place("change"),
-        place("open"),
-    )
 }
 
 /// What ends a tick.
@@ -171,18 +149,3 @@ fn method<R: Scalar>(baked: &Baked<R>) -> String {
         None => format!("{sweeps}({math})"),
     }
 }
-
-/// Fields of the controller, as the kernel's `DataMemory` calls them.
-const VARYING: [(&str, &str); 11] = [
-    ("source_of_triangles", "triangles"),
-    ("source_of_quads", "quads"),
-    ("neumann", "neumann"),
-    ("robin", "robin"),
-    ("contact_flux", "contact_flux"),
-    ("gap", "gap"),
-    ("gap_ends", "gap_ends"),
-    ("dirichlet", "dirichlet"),
-    ("dirichlet_ends", "dirichlet_ends"),
-    ("curved", "curved"),
-    ("transfer", "transfer"),
-];

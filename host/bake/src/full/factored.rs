@@ -12,9 +12,6 @@ use signorini_solve::problem::{Assembled, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ldlt, unfit};
 
-/// Fields of the controller that hold nothing between ticks.
-const SCRATCH: [&str; 5] = ["column", "next_column", "reduced", "balance", "change"];
-
 /// L, D and S as the target takes them.
 #[derive(Debug, Clone)]
 pub(super) struct Factored<R> {
@@ -70,18 +67,5 @@ impl<R: Scalar> Factored<R> {
         list.put::<Block<R>>("SCHUR", "S on the contact edges, the lower triangle of its blocks, scaled to a diagonal of 1.", "[[Scalar; 8]; 8]", &ldlt.schur);
         list.put::<R>("SCALE", "1/√S_ii of each contact edge.", "Scalar", &self.scale);
         list.put::<bool>("NONE", "Exchanges begin with no edge exchanged.", "bool", &self.none);
-    }
-
-    /// What the controller has for it.
-    #[rustfmt::skip] // A table.
-    pub fn memory(&self, list: &mut List) {
-        let length = self.scale.len();
-        list.reserve::<Block<R>>("tableau", "S with open edges exchanged.", "[[Scalar; 8]; 8]", "[[0.0; 8]; 8]", self.ldlt.schur.len());
-        list.reserve::<bool>("exchanged", "Which edges are exchanged.", "bool", "false", length);
-        list.reserve::<R>("openings", "Scaled openings: where the next tick starts.", "Scalar", "0.0", length);
-        for name in SCRATCH {
-            list.reserve::<R>(name, "Scratch of the exchanges.", "Scalar", "0.0", length);
-        }
-        list.reserve::<bool>("open", "Scratch of the exchanges.", "bool", "false", length);
     }
 }

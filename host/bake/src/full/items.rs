@@ -1,11 +1,11 @@
-//! The statics and the memory of a baked module, each with its name, its meaning and its size.
+//! The statics of a baked module, each with its name, its meaning and its size.
 
 use signorini_kernel::bound::cells::{Quad, Triangle};
 use signorini_kernel::bound::certificate::{Curved, POINTS};
 use signorini_kernel::device::full::{Contribution, CurvedPart, EdgeTrace, Points, Product};
-use signorini_kernel::device::tick::Progress;
-use signorini_kernel::discrete::rows::{QUADS, Row, TRIANGLES};
+use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::solve::sparse::storage;
 use signorini_kernel::{Index, Tensor};
 
 use super::arrays::Baked;
@@ -25,13 +25,11 @@ pub struct Sizes {
 
 /// The sizes, exact but for alignment.
 pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
-    let bytes = |items: Vec<Item>| items.iter().map(|item| item.bytes).sum();
-    match baked.index() {
-        "u16" => {
-            Sizes { ram: bytes(memory::<R, u16>(baked)), flash: bytes(statics::<R, u16>(baked)) }
-        }
-        _ => Sizes { ram: bytes(memory::<R, u32>(baked)), flash: bytes(statics::<R, u32>(baked)) },
-    }
+    let (ram, items) = match baked.index() {
+        "u16" => (memory::<R, u16>(baked), statics::<R, u16>(baked)),
+        _ => (memory::<R, u32>(baked), statics::<R, u32>(baked)),
+    };
+    Sizes { ram, flash: items.iter().map(|item| item.bytes).sum() }
 }
 
 /// The name of an input's or output's array.
@@ -110,85 +108,18 @@ pub(super) fn statics<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
     list.0
 }
 
-/// The fields of the controller, in the index type `I`.
-#[rustfmt::skip] // A table.
-pub(super) fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> Vec<Item> {
-    let (mut list, counts, data) = (List::default(), baked.counts, baked.varying());
-    let width = baked.width();
-    let row = if width == TRIANGLES { size_of::<Row<R, I, TRIANGLES>>() } else { size_of::<Row<R, I, QUADS>>() };
-    list.0.push(Item {
-        name: "rows".to_owned(),
-        doc: "The matrix as sweeps want it.".to_owned(),
-        of: format!("OwnedRows<Scalar, Index, {width}, {}>", counts.unknowns()),
-        value: "OwnedRows::new()".to_owned(),
-        bytes: row * counts.unknowns() + 3 * size_of::<u32>(),
-    });
-    list.reserve::<R>("load", "The load.", "Scalar", "0.0", counts.unknowns());
-    list.reserve::<R>("u", "Means of u over the edges: where the next tick starts.", "Scalar", "0.0", counts.edges());
-    list.reserve::<bool>("active", "Which contact edges were active.", "bool", "false", counts.contact);
-    list.reserve::<R>("vertices", "The continuous function of the error bound, at the vertices.", "Scalar", "0.0", baked.vertices.len());
-    list.reserve::<R>("bubbles", "The same on edges of quads.", "Scalar", "0.0", if baked.quads.is_empty() { 0 } else { counts.edges() });
-    list.reserve::<R>("tau", if baked.how.certified { "The fluxes of the error bound." } else { "The fluxes." }, "Scalar", "0.0", counts.edges());
-    let why = "with what the inputs add.";
-    list.reserve::<R>("source_of_triangles", &format!("`SOURCE_OF_TRIANGLES` {why}"), "Scalar", "0.0", data.triangles);
-    list.reserve::<R>("source_of_quads", &format!("`SOURCE_OF_QUADS` {why}"), "Scalar", "0.0", data.quads);
-    list.reserve::<Neumann<R, I>>("neumann", &format!("`NEUMANN` {why}"), "Neumann<Scalar, Index>", "Neumann { edge: 0, flux: 0.0 }", data.neumann);
-    list.reserve::<Robin<R, I>>("robin", &format!("`ROBIN` {why}"), "Robin<Scalar, Index>", "Robin { edge: 0, coefficient: 0.0, ambient: 0.0 }", data.robin);
-    list.reserve::<R>("contact_flux", &format!("`CONTACT_FLUX` {why}"), "Scalar", "0.0", data.contact_flux);
-    list.reserve::<R>("gap", &format!("`GAP` {why}"), "Scalar", "0.0", data.gap);
-    list.reserve::<[R; 2]>("gap_ends", &format!("`GAP_ENDS` {why}"), "[Scalar; 2]", "[0.0; 2]", data.gap);
-    list.reserve::<R>("dirichlet", &format!("`DIRICHLET` {why}"), "Scalar", "0.0", data.dirichlet);
-    list.reserve::<[R; 2]>("dirichlet_ends", &format!("`DIRICHLET_ENDS` {why}"), "[Scalar; 2]", "[0.0; 2]", data.dirichlet);
-    list.reserve::<Curved<R, I>>("curved", &format!("Curved edges {why}"), "Curved<Scalar, Index>", "Curved { edge: 0, mean: 0.0, energy: 0.0, coupling: [0.0; 8] }", data.curved);
-    list.reserve::<[[R; 2]; 8]>("transfer", &format!("`TRANSFER` {why}"), "[[Scalar; 2]; 8]", "[[0.0; 2]; 8]", data.transfer);
-    if let Some(factored) = &baked.factored {
-        factored.memory(&mut list);
-    }
-    list.0.push(Item {
-        name: "progress".to_owned(),
-        doc: "What else the next tick starts from.".to_owned(),
-        of: "Progress<Scalar>".to_owned(),
-        value: "Progress::NONE".to_owned(),
-        bytes: size_of::<Progress<R>>(),
-    });
-    list.0
-}
-
-/// Lengths of the data that inputs change.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Varying {
-    pub triangles: usize,
-    pub quads: usize,
-    pub neumann: usize,
-    pub robin: usize,
-    pub contact_flux: usize,
-    pub gap: usize,
-    pub dirichlet: usize,
-    pub curved: usize,
-    pub transfer: usize,
+/// Bytes of the controller, in the index type `I`.
+fn memory<R: Scalar, I: Index>(baked: &Baked<R>) -> usize {
+    let lengths = baked.lengths();
+    let own = match baked.width() {
+        TRIANGLES => lengths.bytes::<R, I, TRIANGLES>(),
+        _ => lengths.bytes::<R, I, QUADS>(),
+    };
+    let exchanges = baked.factored.as_ref().map(|_| storage::bytes::<R>(lengths.active));
+    own + exchanges.unwrap_or(0)
 }
 
 impl<R: Scalar> Baked<R> {
-    pub(super) fn varying(&self) -> Varying {
-        let data = &self.data;
-        let mut varying = Varying { curved: data.curved_sums.len(), ..Varying::default() };
-        for pattern in &data.patterns {
-            match pattern {
-                Pattern::Source { .. } => {
-                    (varying.triangles, varying.quads) = (data.triangles.len(), data.quads.len());
-                }
-                Pattern::Neumann(_) => varying.neumann = data.neumann.len(),
-                Pattern::ContactFlux(_) => varying.contact_flux = data.contact_flux.len(),
-                Pattern::Gap(_) => varying.gap = data.gap.len(),
-                Pattern::Value(_) => varying.dirichlet = data.dirichlet.len(),
-                Pattern::Ambient { .. } => {
-                    (varying.robin, varying.transfer) = (data.robin.len(), data.transfer.len());
-                }
-            }
-        }
-        varying
-    }
-
     /// What the record of `cargo xtask size` calls scenes with the code of this one.
     pub fn code(&self) -> &'static str {
         if self.factored.is_some() { ", by a factor" } else { ", on " }

@@ -1,17 +1,17 @@
-//! A list of statics or fields, as text with its size in bytes.
+//! A list of statics, as text with its size in bytes.
 
 use std::fmt::Debug;
 
 use crate::text::array;
 
-/// A static, or a field of the controller.
+/// A static.
 #[derive(Debug, Clone)]
 pub(super) struct Item {
     pub name: String,
     pub doc: String,
     /// Its type.
     pub of: String,
-    /// Its initial value.
+    /// Its value.
     pub value: String,
     pub bytes: usize,
 }
@@ -32,20 +32,6 @@ impl List {
             of: format!("[{of}; {}]", entries.len()),
             value: array(entries, 4),
             bytes: size_of::<T>() * entries.len(),
-        });
-    }
-
-    /// Memory for as many zeros.
-    pub fn reserve<T>(&mut self, name: &str, doc: &str, of: &str, zero: &str, length: usize) {
-        if length == 0 {
-            return;
-        }
-        self.0.push(Item {
-            name: name.to_owned(),
-            doc: doc.to_owned(),
-            of: format!("[{of}; {length}]"),
-            value: format!("[{zero}; {length}]"),
-            bytes: size_of::<T>() * length,
         });
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::arrays::Baked;
 use super::driver::controller;
-use super::items::{memory, sizes, statics};
+use super::items::{sizes, statics};
 use super::listing::listing;
 use super::rescaling::rescaling;
 use crate::module_api::About;
@@ -13,9 +13,9 @@ use signorini_solve::scalar::Scalar;
 /// The module.
 pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let index = baked.index();
-    let (data, fields) = match index {
-        "u16" => (statics::<R, u16>(baked), memory::<R, u16>(baked)),
-        _ => (statics::<R, u32>(baked), memory::<R, u32>(baked)),
+    let data = match index {
+        "u16" => statics::<R, u16>(baked),
+        _ => statics::<R, u32>(baked),
     };
     let (features, sizes, counts) = (baked.features(), sizes(baked), baked.counts);
     let about = format!(
@@ -39,7 +39,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let mut text = baked.face.source::<R>(&about);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);
-    text += &controller(&fields, baked, &rescaling(baked));
+    text += &controller(baked, &rescaling(baked));
     text + &listing(baked, &data)
 }
 

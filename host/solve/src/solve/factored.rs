@@ -8,7 +8,7 @@ use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::solver::{Outcome, Settings};
 use signorini_kernel::solve::sparse::{Direct, DirectMemory, Factor, SolveSummary};
 
-use super::ldlt::{Exchanges, Ldlt};
+use super::ldlt::{Ldlt, exchanges};
 use crate::progress::stage;
 use crate::scalar::Scalar;
 
@@ -39,12 +39,12 @@ pub(super) fn solve<R: Scalar>(
     let Some(mut ldlt) = Ldlt::new(system)? else { return Ok(None) };
     let (counts, entries) = (ldlt.counts, ldlt.values.len());
     let mut schur = std::mem::take(&mut ldlt.schur);
-    let mut exchanges = Exchanges::new(counts.contact);
+    let mut exchanges = exchanges(counts.contact);
     let memory = DirectMemory {
         schur: &mut schur,
         scale: &mut vec![R::ZERO; padded(counts.contact)],
         none: &mut vec![false; padded(counts.contact)],
-        contact: exchanges.memory(),
+        contact: exchanges.memory(counts.contact)?,
         places: &mut vec![R::ZERO; counts.unknowns()],
     };
     let factor: Factor<R, u32> = ldlt.factor();

@@ -3,11 +3,10 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::edges::EdgeCounts;
-use signorini_kernel::solve::dense::Iterate;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, count};
 use signorini_kernel::solve::sparse::elimination::PatternBuffers;
 use signorini_kernel::solve::sparse::factor::FactorBuffers;
-use signorini_kernel::solve::sparse::{Factor, Memory, Pattern};
+use signorini_kernel::solve::sparse::{Factor, Pattern, Storage, storage};
 
 use crate::reference::minimum_degree;
 use crate::scalar::Scalar;
@@ -98,30 +97,12 @@ fn order<R: Scalar>(system: &System<R, u32>) -> Option<Vec<u32>> {
     Some(order)
 }
 
-/// The kernel's memory for exchanges on S, owned.
-#[derive(Debug)]
-pub struct Exchanges<R> {
-    tableau: Vec<Block<R>>,
-    flags: [Vec<bool>; 2],
-    numbers: [Vec<R>; 6],
-}
+/// The kernel's memory for exchanges on S.
+pub type Exchanges<R> = Storage<Vec<Block<R>>, Vec<R>, Vec<bool>>;
 
-impl<R: Scalar> Exchanges<R> {
-    /// For so many contact edges.
-    pub fn new(contact: usize) -> Self {
-        let length = padded(contact);
-        Self {
-            tableau: vec![[[R::ZERO; SIDE]; SIDE]; count(contact)],
-            flags: [(); 2].map(|()| vec![false; length]),
-            numbers: [(); 6].map(|()| vec![R::ZERO; length]),
-        }
-    }
-
-    /// As the kernel takes it.
-    pub fn memory(&mut self) -> Memory<'_, R> {
-        let Self { tableau, flags: [exchanged, open], numbers } = self;
-        let [column, next, load, x, residual, scratch] = numbers;
-        let iterate = Iterate { x, residual, scratch, open };
-        Memory { tableau, exchanged, columns: [column, next], load, iterate }
-    }
+/// The same for so many contact edges.
+pub fn exchanges<R: Scalar>(contact: usize) -> Exchanges<R> {
+    let [blocks, numbers, flags] = storage::lengths(contact);
+    let zero = [[R::ZERO; SIDE]; SIDE];
+    Storage::of(vec![zero; blocks], vec![R::ZERO; numbers], vec![false; flags])
 }

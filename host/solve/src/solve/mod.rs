@@ -37,7 +37,7 @@ use crate::progress::stage;
 use crate::scalar::Scalar;
 use conclude::{Clock, Solved, conclude};
 pub use direct::Reduced;
-pub use ldlt::{Exchanges, Ldlt};
+pub use ldlt::{Exchanges, Ldlt, exchanges};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
 pub use solution::centre_floating;

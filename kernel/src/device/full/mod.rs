@@ -6,18 +6,22 @@
 //! Everything that the host can compute beforehand is a `static` ([`Full`]): numbering, element matrices,
 //! packed cells in the order of the walk, the patterns of the inputs, the weights of the outputs. Nothing of it
 //! is checked on the target; the host has checked it, and wrong numbers make wrong answers and nothing worse.
-//! What changes lives in memory of the caller ([`Memory`]), of exactly the size that the scene needs:
-//! data that no input changes are read from the statics, and their memory is empty.
+//! What changes lives in memory of the caller ([`Memory`], owned by a [`Storage`]), of exactly the size that the scene
+//! needs ([`Lengths`]): data that no input changes are read from the statics, and their memory is empty.
 
 mod curved;
 mod data;
 mod functional;
+mod lengths;
 mod pattern;
+mod storage;
 
 pub use curved::{CurvedPart, CurvedSum, Product};
 pub use data::Base;
 pub use functional::Functional;
+pub use lengths::{Lengths, Numbers};
 pub use pattern::{Contribution, DataMemory, EdgeTrace, Pattern, Points};
+pub use storage::{ArrayStorage, Storage};
 
 use crate::bound::certificate::{Discretization, Verdict};
 use crate::bound::conforming::VertexData;

@@ -6,6 +6,24 @@ use crate::index::Index;
 use crate::mesh::edges::{EdgeCounts, Edges};
 use crate::real::Real;
 
+/// Memory that becomes the rows of a mesh.
+pub trait LayOut<R, I, const WIDTH: usize> {
+    /// The rows of `edges`.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`].
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error>;
+}
+
+/// Whose offsets nobody vouches for is laid out every time.
+impl<R: Real, I: Index, const WIDTH: usize, T: AsMut<[Row<R, I, WIDTH>]>> LayOut<R, I, WIDTH>
+    for T
+{
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        Rows::new(edges, self.as_mut())
+    }
+}
+
 /// Memory for the rows of one mesh; can initialise a `static`.
 ///
 /// `laid_out` tells which numbering the offsets belong to by its sizes: every offset names an entry of an
@@ -62,6 +80,14 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
     #[cfg(feature = "workspace")]
     pub(crate) fn forget(&mut self) {
         self.laid_out = EdgeCounts::default();
+    }
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize> LayOut<R, I, WIDTH>
+    for OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        self.of(edges)
     }
 }
 

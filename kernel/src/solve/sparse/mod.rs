@@ -26,6 +26,7 @@ pub mod contact;
 pub mod direct;
 pub mod elimination;
 pub mod factor;
+pub mod storage;
 
 pub use cells::Balance;
 pub(crate) use contact::SLACK;
@@ -33,3 +34,4 @@ pub use contact::{Exact, Factored, Memory, Solved};
 pub use direct::{Direct, DirectMemory, SolveSummary};
 pub use elimination::Pattern;
 pub use factor::Factor;
+pub use storage::{ArrayStorage, Storage};
