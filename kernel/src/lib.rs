@@ -21,9 +21,9 @@
 //!
 //! A heated bar: 0 °C outside on the left, a heater on the right that keeps at least 2 °C.
 //! ```
-//! use signorini_kernel::condition::Condition;
-//! use signorini_kernel::solver::{Settings, Status};
-//! use signorini_kernel::stiffness::Coefficient;
+//! use signorini_kernel::device::condition::Condition;
+//! use signorini_kernel::solve::solver::{Settings, Status};
+//! use signorini_kernel::discrete::stiffness::Coefficient;
 //! use signorini_kernel::{Libm, Mesh, Tensor, workspace};
 //!
 //! let vertices = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -35,20 +35,20 @@ fn iterate(edges: usize, free: usize) -> Vec<f64> {
 
 fn run(sides: [Side; 4], at_points: bool, curved: &[Curved<f64, u16>]) -> Result<Found, Error> {
     let foundation = Foundation::new(sides, at_points)?;
-    let ground = foundation.ground()?;
+    let discretization = foundation.discretization()?;
     let given = LoadCase { curved, ..foundation.given()? };
-    let counts = ground.edges.counts();
+    let counts = discretization.edges.counts();
     let u = iterate(counts.edges(), counts.free);
     let vertices = foundation.plate.vertices.len();
     let mut s = vec![f64::NAN; vertices];
     let (mut d, mut tau) = (vec![f64::NAN; counts.edges()], vec![f64::NAN; counts.edges()]);
-    let mut indicators = vec![f64::NAN; ground.edges.cells()];
+    let mut indicators = vec![f64::NAN; discretization.edges.cells()];
     let buffers =
         Buffers { vertices: &mut s, bubbles: &mut d, tau: &mut tau, indicators: &mut indicators };
     let iterate = Iterate { u: &u, lower: &foundation.lower };
-    let verdict = certify(&ground, &given, iterate, buffers)?;
-    let expected =
-        from_coordinates(&ground, &s, &d, &tau) + on_boundary(&ground, &given, &s, &d, &tau);
+    let verdict = certify(&discretization, &given, iterate, buffers)?;
+    let expected = from_coordinates(&discretization, &s, &d, &tau)
+        + on_boundary(&discretization, &given, &s, &d, &tau);
     Ok(Found { verdict, expected, indicators: indicators.iter().sum() })
 }
 
@@ -67,8 +67,13 @@ fn outward<const N: usize>(
 }
 
 /// Σ_T ∫ |A^½∇s − A^{−½}τ|² with 6×6 points a cell, by the chain rule in the plane.
-fn from_coordinates(ground: &Discretization<f64, u16>, s: &[f64], d: &[f64], tau: &[f64]) -> f64 {
-    let (mesh, edges) = (ground.mesh, ground.edges);
+fn from_coordinates(
+    discretization: &Discretization<f64, u16>,
+    s: &[f64],
+    d: &[f64],
+    tau: &[f64],
+) -> f64 {
+    let (mesh, edges) = (discretization.mesh, discretization.edges);
     let determinant = A.xx * A.yy - A.xy * A.xy;
     let square = |[gx, gy]: [f64; 2], field: [f64; 2]| {
         let r = [A.xx * gx + A.xy * gy - field[0], A.xy * gx + A.yy * gy - field[1]];
@@ -121,15 +126,16 @@ fn from_coordinates(ground: &Discretization<f64, u16>, s: &[f64], d: &[f64], tau
 }
 
 fn on_boundary(
-    ground: &Discretization<f64, u16>,
+    discretization: &Discretization<f64, u16>,
     given: &LoadCase<f64, u16>,
     s: &[f64],
     d: &[f64],
     tau: &[f64],
 ) -> f64 {
-    let counts = ground.edges.counts();
+    let counts = discretization.edges.counts();
     let along = |edge: usize, f: &dyn Fn(f64) -> f64| {
-        let [a, b] = ground.edges.endpoints(&ground.mesh, edge).map(|v| s[usize::from(v)]);
+        let [a, b] =
+            discretization.edges.endpoints(&discretization.mesh, edge).map(|v| s[usize::from(v)]);
         let value = |t: f64| a * (1.0 - t) + b * t + 4.0 * t * (1.0 - t) * d[edge];
         f64::GAUSS[5].iter().map(|&[t, weight]| weight * f(value(t))).sum::<f64>()
     };
@@ -181,16 +187,16 @@ fn overflow_is_no_bound() {
 #[test]
 fn indicators_are_one_a_cell_or_none() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
-    let (ground, given) = (foundation.ground()?, foundation.given()?);
-    let counts = ground.edges.counts();
+    let (discretization, given) = (foundation.discretization()?, foundation.given()?);
+    let counts = discretization.edges.counts();
     let u = iterate(counts.edges(), counts.free);
-    for (indicators, fits) in [(0, true), (ground.edges.cells(), true), (1, false)] {
+    for (indicators, fits) in [(0, true), (discretization.edges.cells(), true), (1, false)] {
         let (mut s, mut tau) = (vec![0.0; foundation.plate.vertices.len()], u.clone());
         let (vertices, bubbles) = (&mut s[..], &mut vec![0.0; u.len()][..]);
         let indicators = &mut vec![0.0; indicators][..];
         let buffers = Buffers { vertices, bubbles, tau: &mut tau, indicators };
         let iterate = Iterate { u: &u, lower: &foundation.lower };
-        assert_eq!(certify(&ground, &given, iterate, buffers).is_ok(), fits);
+        assert_eq!(certify(&discretization, &given, iterate, buffers).is_ok(), fits);
     }
     Ok(())
 }

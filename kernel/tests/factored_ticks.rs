@@ -258,7 +258,7 @@ fn a_factor_that_is_another_on_a_warm_tick_is_noticed() -> Result<(), Error> {
         assert_eq!(report.sweeps, 0);
         let progress = tick.progress();
         let (memory, mut exact) = store.memory(&foundation, &other)?;
-        let mut tick = Tick::resume(foundation.ground()?, memory, progress)?;
+        let mut tick = Tick::resume(foundation.discretization()?, memory, progress)?;
         let mut running = tick.begin(second.data(&foundation)?)?;
         let report = match has_bound {
             true => running.advance(certified(&mut exact), TO_THE_END, never)?,
@@ -306,7 +306,7 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
     let VertexData { gap, given: on_dirichlet } = given.ends;
     let touching: Vec<u16> = (0..foundation.lower.len() as u16).collect();
     let full = Full {
-        ground: foundation.ground()?,
+        discretization: foundation.discretization()?,
         base: Base {
             loads: given.loads,
             neumann: boundary.neumann(),

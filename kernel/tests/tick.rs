@@ -50,29 +50,29 @@ impl Store {
         rows: &'a mut OwnedRows<f64, u16, QUADS, UNKNOWNS>,
         progress: Progress<f64>,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        let ground = foundation.ground()?;
+        let discretization = foundation.discretization()?;
         let [load, vertices, bubbles, tau, u] = &mut self.numbers;
-        let (rows, active) = (rows.of(&ground.edges)?, &mut self.active);
+        let (rows, active) = (rows.of(&discretization.edges)?, &mut self.active);
         let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        Tick::resume(ground, memory, progress)
+        Tick::resume(discretization, memory, progress)
     }
 
     fn tick<'a>(
         &'a mut self,
         foundation: &'a Foundation,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
-        self.on(foundation.ground()?)
+        self.on(foundation.discretization()?)
     }
 
     fn on<'a>(
         &'a mut self,
-        ground: Discretization<'a, f64, u16>,
+        discretization: Discretization<'a, f64, u16>,
     ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
         let [load, vertices, bubbles, tau, u] = &mut self.numbers;
-        let rows = Rows::new(&ground.edges, &mut self.rows)?;
+        let rows = Rows::new(&discretization.edges, &mut self.rows)?;
         let active = &mut self.active;
         let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        Tick::new(ground, memory, Relaxation::Adaptive(1.0))
+        Tick::new(discretization, memory, Relaxation::Adaptive(1.0))
     }
 }
 
@@ -220,7 +220,7 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
     let foundation = Foundation::new(SIDES, false)?;
     let (mut with, mut without) = (Store::new(&foundation)?, Store::new(&foundation)?);
     let (mut with, mut without) = (with.tick(&foundation)?, without.tick(&foundation)?);
-    let ground = foundation.ground()?;
+    let discretization = foundation.discretization()?;
     for sweeps in [13, 4] {
         let limits = Limits { share: 0.0, error: 0.0, sweeps };
         let never = &mut Deadline::never();
@@ -232,7 +232,14 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
         assert_eq!((found.verdict, found.residual), (Verdict::NotAsked, certified.residual));
         assert_eq!(without.u(), with.u());
         let (loads, mut flux) = (data(&foundation)?.given.loads, vec![0.0; with.u().len()]);
-        flux::recover(&ground.edges, ground.stiffness, loads, with.u(), &[], &mut flux)?;
+        flux::recover(
+            &discretization.edges,
+            discretization.stiffness,
+            loads,
+            with.u(),
+            &[],
+            &mut flux,
+        )?;
         assert_eq!(without.tau(), flux);
         assert_ne!(without.tau(), with.tau());
     }
@@ -365,7 +372,7 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let quads: Vec<_> = given.quads.iter().map(|k| k.map(|k| heavy(&k))).collect();
     let stiffness = Stiffness { triangles: &triangles, quads: &quads };
     let mut store = Store::new(&foundation)?;
-    let mut tick = store.on(Discretization { stiffness, ..foundation.ground()? })?;
+    let mut tick = store.on(Discretization { stiffness, ..foundation.discretization()? })?;
     let high = f64::MAX / 1e33;
     let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
     let good = data(&foundation)?;

@@ -117,7 +117,7 @@ impl Store {
     ) -> Result<Both<'a>, Error> {
         let (memory, mut exact) = self.memory(foundation, baked)?;
         exact.restart()?;
-        Ok((Tick::new(foundation.ground()?, memory, Relaxation::Adaptive(1.0))?, exact))
+        Ok((Tick::new(foundation.discretization()?, memory, Relaxation::Adaptive(1.0))?, exact))
     }
 
     /// That of a tick, and the solver as the last one left it.

@@ -110,7 +110,7 @@ impl Foundation {
         Metric { at_points: &self.points, place: &self.place, distortions: &[] }
     }
 
-    pub fn ground(&self) -> Result<Discretization<'_, f64, u16>, Error> {
+    pub fn discretization(&self) -> Result<Discretization<'_, f64, u16>, Error> {
         let edges = self.plate.edges()?;
         let [order, parent, place] = &self.ways;
         let forest = Forest::new(&edges, order, parent, place)?;

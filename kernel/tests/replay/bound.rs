@@ -20,7 +20,7 @@ use crate::scene::{Draw, Scalar};
 
 const NONE: u16 = u16::MAX;
 
-/// What of the ground stays in memory.
+/// What of the discretization stays in memory.
 pub struct EquilibrationForest<R> {
     order: Vec<u16>,
     parent: Vec<u16>,
@@ -87,7 +87,7 @@ impl<R: Scalar> EquilibrationForest<R> {
         Ok(ways)
     }
 
-    pub fn ground<'a>(
+    pub fn discretization<'a>(
         &'a self,
         arrays: &'a Arrays<R>,
     ) -> Result<Discretization<'a, R, u16>, Error> {
@@ -202,7 +202,7 @@ fn nothing<R: Scalar>(
     ways: &EquilibrationForest<R>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
-    let ground = ways.ground(arrays)?;
+    let discretization = ways.discretization(arrays)?;
     let zeros = |count: usize| vec![R::ZERO; count];
     let (triangles, quads) = (zeros(arrays.loads.0.len()), zeros(arrays.loads.1.len()));
     let counts = arrays.counts;
@@ -210,7 +210,7 @@ fn nothing<R: Scalar>(
     let (gap, ends) = (pairs(counts.contact), pairs(counts.dirichlet));
     let given = LoadCase {
         loads: CellLoads { triangles: &triangles, quads: &quads },
-        boundary: Boundary::new(&ground.edges, &[], &[], &[])?,
+        boundary: Boundary::new(&discretization.edges, &[], &[], &[])?,
         ends: VertexData { gap: &gap, given: &ends },
         curved: &[],
         transfer: &[],
@@ -221,7 +221,7 @@ fn nothing<R: Scalar>(
     let (vertices, bubbles, tau) = (&mut s, &mut bubbles, &mut tau);
     let buffers = Buffers { vertices, bubbles, tau, indicators: &mut [] };
     let (u, lower) = (zeros(all), zeros(counts.contact));
-    let verdict = certify(&ground, &given, Iterate { u: &u, lower: &lower }, buffers)?;
+    let verdict = certify(&discretization, &given, Iterate { u: &u, lower: &lower }, buffers)?;
     journal.line("of nothing", verdict);
     Ok(())
 }
@@ -242,7 +242,7 @@ fn certified<R: Scalar>(
         free.iter_mut().for_each(|u| *u *= R::of(factor));
         let iterate = Iterate { u: &u, lower: &arrays.lower };
         let buffers = Buffers { vertices, bubbles, tau, indicators };
-        let verdict = certify(&ways.ground(arrays)?, given, iterate, buffers)?;
+        let verdict = certify(&ways.discretization(arrays)?, given, iterate, buffers)?;
         journal.line("verdict", verdict);
         journal.digest("s and tau", &numbers[..3]);
         journal.digest("indicators", &numbers[3]);
@@ -250,7 +250,7 @@ fn certified<R: Scalar>(
         let [vertices, bubbles, tau, _] = &mut numbers;
         let bubbles = if arrays.quads.is_empty() { &mut [][..] } else { bubbles };
         let buffers = Buffers { vertices, bubbles, tau, indicators: &mut [] };
-        let lean = certify(&ways.ground(arrays)?, given, iterate, buffers)?;
+        let lean = certify(&ways.discretization(arrays)?, given, iterate, buffers)?;
         journal.digest("lean", (lean, &numbers[..3]));
     }
     Ok(())

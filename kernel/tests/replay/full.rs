@@ -81,7 +81,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
     let corner = |at: usize, place: usize| [at as u16, place as u16];
     let corners = [corner(1, 2 * counts.contact), corner(2 * counts.contact - 1, 0)];
     let full = Full {
-        ground: ways.ground(arrays)?,
+        discretization: ways.discretization(arrays)?,
         base: Base {
             loads: arrays.cell_loads(),
             neumann: &arrays.neumann,
@@ -176,7 +176,7 @@ fn play<R: Scalar>(
         let [triangles, quads, contact_flux, gap, dirichlet] = &mut own.numbers;
         let [gap_ends, dirichlet_ends] = &mut own.ends;
         let [load, vertices, bubbles, tau, u] = &mut numbers;
-        let rows = Rows::new(&full.ground.edges, &mut rows)?;
+        let rows = Rows::new(&full.discretization.edges, &mut rows)?;
         let memory = Memory {
             tick: tick::Memory { rows, load, active: &mut active, vertices, bubbles, tau, u },
             data: DataMemory {

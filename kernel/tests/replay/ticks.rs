@@ -16,16 +16,16 @@ use crate::scene::{Draw, Scalar};
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
     let ways = EquilibrationForest::new(arrays, 4)?;
-    let ground = ways.ground(arrays)?;
+    let discretization = ways.discretization(arrays)?;
     let (unknowns, all) = (arrays.counts.unknowns(), arrays.counts.edges());
     let mut memory = vec![Row::<R, u16, QUADS>::EMPTY; unknowns];
     let lengths = [unknowns, arrays.vertices.len(), all, all, all];
     let mut numbers = lengths.map(|length| vec![R::ZERO; length]);
     let [load, vertices, bubbles, tau, u] = &mut numbers;
     let active = &mut vec![true; arrays.counts.contact];
-    let rows = Rows::new(&ground.edges, &mut memory)?;
+    let rows = Rows::new(&discretization.edges, &mut memory)?;
     let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-    let mut tick = Tick::new(ground, memory, Relaxation::for_unknowns(unknowns))?;
+    let mut tick = Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?;
     let mut draw = Draw(13);
     for at in 0..14 {
         let input =

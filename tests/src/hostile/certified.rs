@@ -118,7 +118,7 @@ impl<R: Bits> Foundation<R> {
     }
 
     /// As the kernel takes it.
-    pub fn ground<'a>(
+    pub fn discretization<'a>(
         &'a self,
         mesh: Mesh<'a, R, u16>,
         edges: Edges<'a, u16>,
@@ -195,22 +195,22 @@ impl<R: Bits> Loads<R> {
 /// Certifies any iterate.
 pub fn judged<R: Bits>(
     bytes: &mut Bytes,
-    ground: &Discretization<R, u16>,
+    discretization: &Discretization<R, u16>,
     loads: &Loads<R>,
 ) -> Result<(), Error> {
-    let edges = ground.edges.counts().edges();
-    let (u, cells) = (bytes.reals(edges), ground.edges.cells());
+    let edges = discretization.edges.counts().edges();
+    let (u, cells) = (bytes.reals(edges), discretization.edges.cells());
     let buffers = Buffers {
-        vertices: &mut vec![R::ZERO; ground.mesh.vertices().len()],
+        vertices: &mut vec![R::ZERO; discretization.mesh.vertices().len()],
         bubbles: &mut vec![R::ZERO; edges],
         tau: &mut vec![R::ZERO; edges],
         indicators: &mut vec![R::ZERO; if bytes.flag() { cells } else { 0 }],
     };
     let iterate = Iterate { u: &u, lower: &loads.lower };
-    match certify(ground, &loads.given(&ground.edges)?, iterate, buffers)? {
+    match certify(discretization, &loads.given(&discretization.edges)?, iterate, buffers)? {
         Verdict::Certified(found) => is_bound(&found),
         Verdict::Pulled { edge } => {
-            assert_eq!(ground.edges.counts().block(edge), Block::Contact);
+            assert_eq!(discretization.edges.counts().block(edge), Block::Contact);
         }
         _ => {}
     }

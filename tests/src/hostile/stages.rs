@@ -37,7 +37,7 @@ pub fn all<R: Bits>(
     let _ = swept(bytes, edges, k, &conditions);
     let foundation = Foundation::new(bytes, mesh, edges, &boundary, matrices, wild)?;
     let loads = Loads::new(bytes, edges, conditions);
-    judged(bytes, &foundation.ground(*mesh, *edges)?, &loads)
+    judged(bytes, &foundation.discretization(*mesh, *edges)?, &loads)
 }
 
 /// Element matrices of `mesh` by any coefficients and any rule.

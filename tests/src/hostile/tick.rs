@@ -48,7 +48,7 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     stiffness::fill(&mesh, Coefficient::Uniform(Tensor { xx, xy, yy }), 2, &mut k.0, &mut k.1)?;
     let first = Conditions::<R>::new(bytes, &edges, false);
     let foundation = Foundation::new(bytes, &mesh, &edges, &first.boundary(&edges)?, k, false)?;
-    let ground = foundation.ground(mesh, edges)?;
+    let discretization = foundation.discretization(mesh, edges)?;
     let zeros = |length| vec![R::ZERO; length];
     let mut rows = vec![Row::<R, u16, QUADS>::EMPTY; counts.unknowns()];
     let memory = Memory {
@@ -63,7 +63,7 @@ fn held<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let omega = bytes.real();
     let relaxation =
         if bytes.flag() { Relaxation::Adaptive(R::ONE) } else { Relaxation::Fixed(omega) };
-    let mut tick = Tick::new(ground, memory, relaxation)?;
+    let mut tick = Tick::new(discretization, memory, relaxation)?;
     for _ in 0..1 + bytes.below(4) {
         let conditions = renewed(bytes, &first);
         let loads = Loads::new(bytes, &edges, conditions);

@@ -123,16 +123,16 @@ impl<R: Scalar> Baked<R> {
         let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
         assembled.system().map_err(&unfit)?;
         let certifier = Certifier::new(problem, &held, &assembled).map_err(&unfit)?;
-        let ground = certifier.ground(&assembled).map_err(&unfit)?;
+        let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let functionals = functionals(problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
-        let data = Data::new(problem, &parts(problem)?, ground.stiffness)?;
+        let data = Data::new(problem, &parts(problem)?, discretization.stiffness)?;
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);
         let how = TickOptions::new(&setting, problem.topology.counts.unknowns());
         let corners = corners(problem);
-        let baked = Self { start, outputs, corners, ..Self::of(face, data, &ground, how) };
+        let baked = Self { start, outputs, corners, ..Self::of(face, data, &discretization, how) };
         let baked = if how.certified { baked } else { baked.without_bound() };
         match setting.solver {
             Some(Method::Factor) => baked.with_factor(problem),
@@ -143,10 +143,10 @@ impl<R: Scalar> Baked<R> {
     fn of(
         face: ModuleApi,
         data: Data<R>,
-        ground: &Discretization<R, u32>,
+        discretization: &Discretization<R, u32>,
         how: TickOptions<R>,
     ) -> Self {
-        let Discretization { mesh, edges, stiffness, cells, metric, stability } = ground;
+        let Discretization { mesh, edges, stiffness, cells, metric, stability } = discretization;
         let [vertex_weights, edge_weights] = cells.weights();
         let varies = !metric.at_points.is_empty();
         // Which kind of cell comes next: all of them are triangles with constant A where nobody asks.
@@ -202,7 +202,7 @@ impl<R: Scalar> Baked<R> {
     }
 
     /// What the certificate and the rows stand on.
-    pub(super) fn ground(&self) -> Discretization<'_, R, u32> {
+    pub(super) fn discretization(&self) -> Discretization<'_, R, u32> {
         let (of_triangles, of_quads) = (&self.of_triangles, &self.of_quads);
         Discretization {
             mesh: Mesh::baked(&self.vertices, &self.triangles, &self.quads),

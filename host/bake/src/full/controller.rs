@@ -2,22 +2,16 @@
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::bound::certificate::Curved;
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::device::full::{
-    self, Base, CurvedSum, Full, Functional, Lengths, Numbers, Storage,
-};
+use signorini_kernel::device::full::{Lengths, Numbers, Storage};
 use signorini_kernel::device::tick::{
     CertifiedSweeps, Deadline, Limits, Method, Report, Substitutions, UncertifiedSweeps,
 };
-use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::discrete::rows::Row;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::solve::sparse::{Exact, Solved};
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::Baked;
-use super::data::{Data, Pattern};
-use super::output::Output;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Exchanges, exchanges};
 
@@ -199,75 +193,5 @@ impl<R: Scalar, const WIDTH: usize> Call<'_, R, WIDTH> {
             let memory = storage.memory(full, lengths)?;
             full.tick(inputs, method, limits, never, memory, outputs)
         })
-    }
-}
-
-impl<R: Scalar> Baked<R> {
-    /// How long the memory is.
-    pub(super) fn lengths(&self) -> Lengths {
-        self.with(Lengths::of)
-    }
-
-    /// Lends the arrays as the kernel takes them.
-    fn with<T>(&self, take: impl FnOnce(&Full<R, u32>) -> T) -> T {
-        let patterns: Vec<_> = self.data.patterns.iter().map(Pattern::view).collect();
-        let outputs: Vec<_> = self.outputs.iter().map(Output::view).collect();
-        let sums = self.data.curved_sums.iter();
-        let sums: Vec<_> = sums
-            .map(|of| CurvedSum { edge: of.edge, parts: &of.parts, energy: &of.energy })
-            .collect();
-        take(&Full {
-            ground: self.ground(),
-            base: self.data.base(&sums),
-            patterns: &patterns,
-            oscillation: &self.data.oscillation,
-            outputs: &outputs,
-            has_bound: self.data.has_bound,
-            corners: &self.corners,
-            start: self.start,
-            relaxation: self.how.relaxation,
-        })
-    }
-}
-
-impl<R: Scalar> Data<R> {
-    fn base<'a>(&'a self, curved_sums: &'a [CurvedSum<'a, R, u32>]) -> Base<'a, R, u32> {
-        Base {
-            loads: CellLoads { triangles: &self.triangles, quads: &self.quads },
-            neumann: &self.neumann,
-            robin: &self.robin,
-            contact_flux: &self.contact_flux,
-            gap: &self.gap,
-            dirichlet: &self.dirichlet,
-            ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
-            curved: &self.curved,
-            curved_sums,
-            transfer: &self.transfer,
-        }
-    }
-}
-
-impl<R: Scalar> Pattern<R> {
-    fn view(&self) -> full::Pattern<'_, R, u32> {
-        match self {
-            Self::Source { triangles, quads } => full::Pattern::Source { triangles, quads },
-            Self::Neumann(shares) => full::Pattern::Neumann(shares),
-            Self::ContactFlux(shares) => full::Pattern::ContactFlux(shares),
-            Self::Gap(chords) => full::Pattern::Gap(chords),
-            Self::Value(chords) => full::Pattern::Value(chords),
-            Self::Ambient { integrals, points } => full::Pattern::Ambient { integrals, points },
-        }
-    }
-}
-
-impl<R: Scalar> Output<R> {
-    fn view(&self) -> Functional<'_, R, u32> {
-        match self {
-            Self::Flux(edges) => Functional::Flux(edges),
-            Self::Force(edges) => Functional::Force(edges),
-            Self::Length(shares) => Functional::Length(shares),
-            Self::Probe(shares) => Functional::Probe(shares),
-            Self::Bound => Functional::Bound,
-        }
     }
 }

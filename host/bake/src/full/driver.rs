@@ -84,12 +84,12 @@ fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
 ",
         baked.width()
     );
-    let mut values = "            storage: ArrayStorage::new(),\n".to_owned();
+    let mut values = "            storage: ArrayStorage::zeros(),\n".to_owned();
     if baked.factored.is_some() {
         fields += "    /// Exchanges on the contact edges.
     exchanges: sparse::ArrayStorage<Scalar, { EXCHANGES[0] }, { EXCHANGES[1] }, { EXCHANGES[2] }>,
 ";
-        values += "            exchanges: sparse::ArrayStorage::new(),\n";
+        values += "            exchanges: sparse::ArrayStorage::zeros(),\n";
     }
     (fields, values)
 }

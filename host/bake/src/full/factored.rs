@@ -1,12 +1,14 @@
 //! The factor of a scene's matrix, worked out in f64 and rounded once: what solves a tick without sweeps.
 
+use std::fmt::Write as _;
+
 use signorini_kernel::Index;
 use signorini_kernel::solve::dense::blocks::{Block, padded};
 use signorini_kernel::solve::dense::tableau::InitialTableau;
 use signorini_kernel::solve::sparse::direct::normalise;
 use signorini_kernel::solve::sparse::{self, Factor};
 
-use super::list::List;
+use super::statics::Statics;
 use signorini_scene::error::Result;
 use signorini_solve::problem::{Assembled, Problem};
 use signorini_solve::scalar::Scalar;
@@ -55,17 +57,29 @@ impl<R: Scalar> Factored<R> {
         self.ldlt.values.len()
     }
 
-    /// Everything in flash, in the index type `I`.
+    /// Writes everything in flash, in the index type `I`.
     #[rustfmt::skip] // A table.
-    pub fn statics<I: Index>(&self, list: &mut List) {
-        let ldlt = &self.ldlt;
-        list.put::<I>("PLACES", "When each interior, Neumann or Robin edge is eliminated.", "Index", &ldlt.places);
-        list.put::<u32>("COLUMNS", "Where the columns of L start, and the last one ends.", "u32", &ldlt.pointers);
-        list.put::<I>("ROWS", "The row of each entry of L.", "Index", &ldlt.rows);
-        list.put::<R>("ENTRIES", "The entries of L.", "Scalar", &ldlt.values);
-        list.put::<R>("INVERSE", "1/D", "Scalar", &ldlt.inverse);
-        list.put::<Block<R>>("SCHUR", "S on the contact edges, the lower triangle of its blocks, scaled to a diagonal of 1.", "[[Scalar; 8]; 8]", &ldlt.schur);
-        list.put::<R>("SCALE", "1/√S_ii of each contact edge.", "Scalar", &self.scale);
-        list.put::<bool>("NONE", "Exchanges begin with no edge exchanged.", "bool", &self.none);
+    pub fn write<I: Index>(&self, to: &mut Statics) {
+        let Self { ldlt: Ldlt { counts, places, pointers, rows, values, inverse, schur }, scale, none } = self;
+        let places = to.array::<I>("PLACES", "When each interior, Neumann or Robin edge is eliminated.", "Index", places);
+        let pointers = to.array::<u32>("COLUMNS", "Where the columns of L start, and the last one ends.", "u32", pointers);
+        let rows = to.array::<I>("ROWS", "The row of each entry of L.", "Index", rows);
+        let values = to.array::<R>("ENTRIES", "The entries of L.", "Scalar", values);
+        let inverse = to.array::<R>("INVERSE", "1/D", "Scalar", inverse);
+        let schur = to.array::<Block<R>>("SCHUR", "S on the contact edges, the lower triangle of its blocks, scaled to a diagonal of 1.", "[[Scalar; 8]; 8]", schur);
+        let scale = to.array::<R>("SCALE", "1/√S_ii of each contact edge.", "Scalar", scale);
+        let none = to.array::<bool>("NONE", "Exchanges begin with no edge exchanged.", "bool", none);
+        let _ = write!(
+            to.text,
+            "
+    /// The matrix by its factor.
+    pub(super) static FACTORED: Factored<'static, Scalar, Index> = Factored {{
+        factor: Factor::baked({places}, {pointers}, {rows}, {values}, {inverse}, {counts:?}),
+        schur: {schur},
+        scale: {scale},
+        start: InitialTableau {{ blocks: {schur}, exchanged: {none} }},
+    }};
+"
+        );
     }
 }

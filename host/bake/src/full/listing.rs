@@ -1,13 +1,16 @@
-//! The text of the statics, in a module of their own.
+//! The module of statics: one walk over what the kernel borrows writes every array and says where it belongs.
 
 use std::fmt::Write as _;
 
+use signorini_kernel::Index;
+use signorini_kernel::device::full::Full;
+
 use super::arrays::Baked;
-use super::data::Pattern;
+use super::foundation::{base, discretization};
 use super::imports::imports;
-use super::items::named;
-use super::list::Item;
-use super::output::Output;
+use super::linear::{outputs, patterns};
+use super::statics::Statics;
+use crate::module_api::ModuleApi;
 use signorini_solve::scalar::Scalar;
 
 /// What they may name, with its place in the kernel.
@@ -46,17 +49,8 @@ const NAMES: &[(&str, &str)] = &[
 ];
 
 /// The statics, in a module of their own.
-pub(super) fn listing<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
-    let mut text = String::new();
-    for Item { name, doc, of, value, .. } in data {
-        let _ = write!(text, "\n    /// {}\n", doc.replace('[', "\\[").replace(']', "\\]"));
-        let value = match name.as_str() {
-            "HALF_EDGES" => value.replace(&u32::MAX.to_string(), "Index::MAX"),
-            _ => value.clone(),
-        };
-        let _ = writeln!(text, "    static {name}: {of} = {value};");
-    }
-    text += &full(baked, data);
+pub(super) fn listing<R: Scalar>(baked: &Baked<R>) -> String {
+    let text = listed(baked).text;
     let imports = imports(NAMES, &text, "    ");
     format!(
         "
@@ -69,151 +63,65 @@ mod data {{
     )
 }
 
-fn full<R: Scalar>(baked: &Baked<R>, data: &[Item]) -> String {
-    let at = |name: &str| {
-        let known = data.iter().any(|item| item.name == name);
-        if known { format!("&{name}") } else { "&[]".to_owned() }
-    };
-    let (counts, has_bound) = (baked.counts, baked.data.has_bound);
-    let patterns = baked.data.patterns.iter().zip(baked.face.inputs());
-    let patterns: Vec<_> = patterns.map(|(of, input)| pattern(of, input, &at)).collect();
-    let outputs = baked.outputs.iter().zip(baked.face.outputs());
-    let outputs: Vec<_> =
-        outputs.map(|(of, name)| functional(of, &at(&named(name, "EDGES")))).collect();
-    let sums = baked.data.curved_sums.iter().enumerate().map(|(number, bent)| {
-        let [parts, energy] = ["PARTS", "ENERGY"].map(|of| at(&format!("CURVED_{number}_{of}")));
-        format!("CurvedSum {{ edge: {}, parts: {parts}, energy: {energy} }}", bent.edge)
-    });
-    let sums: Vec<_> = sums.collect();
-    format!(
+/// Everything in flash.
+pub(super) fn listed<R: Scalar>(baked: &Baked<R>) -> Statics {
+    match baked.index() {
+        "u16" => written::<R, u16>(baked),
+        _ => written::<R, u32>(baked),
+    }
+}
+
+fn written<R: Scalar, I: Index>(baked: &Baked<R>) -> Statics {
+    let mut to = Statics::default();
+    baked.with(|of| full::<R, I>(of, &baked.face, &mut to));
+    if let Some(factored) = &baked.factored {
+        factored.write::<I>(&mut to);
+    }
+    to
+}
+
+fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Statics) {
+    let Full {
+        discretization: on,
+        base: first,
+        patterns: added,
+        oscillation,
+        outputs: read,
+        has_bound,
+        corners,
+        start,
+        relaxation,
+    } = of;
+    let (discretization, base) = (discretization::<R, I>(on, to), base::<R, I>(first, to));
+    let corners = to.array::<[I; 2]>(
+        "CORNERS",
+        "Where contact meets Dirichlet: an end of either edge.",
+        "[Index; 2]",
+        corners,
+    );
+    let oscillation = to.array::<R>(
+        "OSCILLATION",
+        "What the bound's means leave out of the base, then of a unit of each input.",
+        "Scalar",
+        oscillation,
+    );
+    let patterns = patterns::<R, I>(added, face, to);
+    let outputs = outputs::<R, I>(read, face, to);
+    let _ = write!(
+        to.text,
         "
     /// All of it.
     pub(super) static FULL: Full<'static, Scalar, Index> = Full {{
-        ground: Discretization {{
-            mesh: Mesh::baked({}, {}, {}),
-            edges: Edges::baked({}, {}, {}, {counts:?}),
-            stiffness: Stiffness {{ triangles: {}, quads: {} }},
-            cells: Cells::baked({}, {}, {}, {}, {}),
-            metric: Metric {{ at_points: {}, place: {}, distortions: {} }},
-            stability: Stability {{ largest: {:?}, weighed: {:?}, oblique: {:?} }},
-        }},
-        base: Base {{
-            loads: CellLoads {{ triangles: {}, quads: {} }},
-            neumann: {},
-            robin: {},
-            contact_flux: {},
-            gap: {},
-            dirichlet: {},
-            ends: VertexData {{ gap: {}, given: {} }},
-            curved: {},
-            curved_sums: &{},
-            transfer: {},
-        }},
-        patterns: &{},
-        oscillation: {},
-        outputs: &{},
+        discretization: {discretization},
+        base: {base},
+        patterns: {patterns},
+        oscillation: {oscillation},
+        outputs: {outputs},
         has_bound: {has_bound},
-        corners: {},
-        start: {:?},
-        relaxation: Relaxation::{:?},
+        corners: {corners},
+        start: {start:?},
+        relaxation: Relaxation::{relaxation:?},
     }};
-",
-        at("VERTICES"),
-        at("TRIANGLES"),
-        at("QUADS"),
-        at("EDGES_OF_TRIANGLES"),
-        at("EDGES_OF_QUADS"),
-        at("HALF_EDGES"),
-        at("STIFFNESS_OF_TRIANGLES"),
-        at("STIFFNESS_OF_QUADS"),
-        at("PACKED_TRIANGLES"),
-        at("PACKED_QUADS"),
-        at("VERTEX_WEIGHTS"),
-        at("EDGE_WEIGHTS"),
-        at("ORDER"),
-        at("METRIC"),
-        at("METRIC_PLACE"),
-        at("QUAD_DISTORTIONS"),
-        baked.stability.largest,
-        baked.stability.weighed,
-        baked.stability.oblique,
-        at("SOURCE_OF_TRIANGLES"),
-        at("SOURCE_OF_QUADS"),
-        at("NEUMANN"),
-        at("ROBIN"),
-        at("CONTACT_FLUX"),
-        at("GAP"),
-        at("DIRICHLET"),
-        at("GAP_ENDS"),
-        at("DIRICHLET_ENDS"),
-        at("CURVED"),
-        lines(&sums),
-        at("TRANSFER"),
-        lines(&patterns),
-        at("OSCILLATION"),
-        lines(&outputs),
-        at("CORNERS"),
-        baked.start,
-        baked.how.relaxation,
-    ) + &factored(baked, &at)
-}
-
-/// The factor, where there is one.
-fn factored<R: Scalar>(baked: &Baked<R>, at: &impl Fn(&str) -> String) -> String {
-    if baked.factored.is_none() {
-        return String::new();
-    }
-    format!(
-        "
-    /// The matrix by its factor.
-    pub(super) static FACTORED: Factored<'static, Scalar, Index> = Factored {{
-        factor: Factor::baked({}, {}, {}, {}, {}, {:?}),
-        schur: {schur},
-        scale: {},
-        start: InitialTableau {{ blocks: {schur}, exchanged: {} }},
-    }};
-",
-        at("PLACES"),
-        at("COLUMNS"),
-        at("ROWS"),
-        at("ENTRIES"),
-        at("INVERSE"),
-        baked.counts,
-        at("SCALE"),
-        at("NONE"),
-        schur = at("SCHUR"),
-    )
-}
-
-fn lines(entries: &[String]) -> String {
-    let lines: String = entries.iter().map(|entry| format!("\n            {entry},")).collect();
-    if entries.is_empty() { "[]".to_owned() } else { format!("[{lines}\n        ]") }
-}
-
-fn pattern<R>(pattern: &Pattern<R>, input: &str, at: &impl Fn(&str) -> String) -> String {
-    let own = |what: &str| at(&named(input, what));
-    match pattern {
-        Pattern::Source { .. } => {
-            let (triangles, quads) = (own("TO_TRIANGLES"), own("TO_QUADS"));
-            format!("Pattern::Source {{ triangles: {triangles}, quads: {quads} }}")
-        }
-        Pattern::Neumann(_) => format!("Pattern::Neumann({})", own("PATTERN")),
-        Pattern::ContactFlux(_) => format!("Pattern::ContactFlux({})", own("PATTERN")),
-        Pattern::Gap(_) => format!("Pattern::Gap({})", own("PATTERN")),
-        Pattern::Value(_) => format!("Pattern::Value({})", own("PATTERN")),
-        Pattern::Ambient { .. } => {
-            let (integrals, points) = (own("PATTERN"), own("AT_POINTS"));
-            format!("Pattern::Ambient {{ integrals: {integrals}, points: {points} }}")
-        }
-    }
-}
-
-fn functional<R>(output: &Output<R>, edges: &str) -> String {
-    match output {
-        Output::Flux(_) => format!("Functional::Flux({edges})"),
-        Output::Force(_) => format!("Functional::Force({edges})"),
-        Output::Length(_) => format!("Functional::Length({edges})"),
-        Output::Probe(_) => format!("Functional::Probe({edges})"),
-        Output::Bound => "Functional::Bound".to_owned(),
-    }
+"
+    );
 }

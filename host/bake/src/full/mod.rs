@@ -1,9 +1,9 @@
 //! The full model: the mesh goes onto the target, and the kernel's tick solves it there.
 //!
 //! ```text
-//!   Scene, Problem ─► Baked<R>: owned arrays ─┬─► source: Rust text      ─► firmware
-//!                                             ├─► sizes: RAM and flash
-//!                                             └─► controller: the same on this machine
+//!   Scene, Problem ─► Baked<R>: owned arrays ─► borrowed: as the kernel takes them ─┬─► source: Rust text  ─► firmware
+//!                                                                                   ├─► sizes: RAM and flash
+//!                                                                                   └─► controller: the same here
 //! ```
 
 use signorini_kernel::device::tick::Limits;
@@ -14,25 +14,28 @@ use signorini_solve::scalar::Scalar;
 mod arrays;
 mod baking;
 mod bent;
+mod borrowed;
 mod controller;
 mod data;
 mod driver;
 mod factored;
+mod foundation;
 mod imports;
-mod items;
-mod list;
+mod linear;
 mod listing;
 mod output;
 mod rescaling;
 mod scale;
+mod sizes;
 mod source;
+mod statics;
 #[cfg(test)]
 mod tests;
 mod underflow;
 
 pub use arrays::Baked;
 pub use controller::Controller;
-pub use items::{Sizes, sizes};
+pub use sizes::{Sizes, sizes};
 pub use source::source;
 
 /// What the algebraic part of a tick's bound may be of the whole. Outputs follow the iterate: at a tenth, which is

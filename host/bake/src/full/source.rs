@@ -4,19 +4,15 @@ use std::fmt::Write as _;
 
 use super::arrays::Baked;
 use super::driver::controller;
-use super::items::{sizes, statics};
 use super::listing::listing;
 use super::rescaling::rescaling;
+use super::sizes::sizes;
 use crate::module_api::About;
 use signorini_solve::scalar::Scalar;
 
 /// The module.
 pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let index = baked.index();
-    let data = match index {
-        "u16" => statics::<R, u16>(baked),
-        _ => statics::<R, u32>(baked),
-    };
     let (features, sizes, counts) = (baked.features(), sizes(baked), baked.counts);
     let about = format!(
         "The full model in {}: {} unknowns, {} of them contact edges, on {} triangles and {} quads{}{}. \
@@ -40,7 +36,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);
     text += &controller(baked, &rescaling(baked));
-    text + &listing(baked, &data)
+    text + &listing(baked)
 }
 
 /// The build fails, and says why, where the kernel lacks code for the scene.

@@ -84,11 +84,15 @@ impl<R: Scalar, const WIDTH: usize> Store<R, WIDTH> {
         certifier: &'a Certifier<R>,
         assembled: &'a Assembled<R>,
     ) -> std::result::Result<Tick<'a, R, u32, WIDTH>, KernelError> {
-        let ground = certifier.ground(assembled)?;
+        let discretization = certifier.discretization(assembled)?;
         let Self { rows, load, active, vertices, bubbles, tau, u } = self;
-        let rows = Rows::new(&ground.edges, rows)?;
+        let rows = Rows::new(&discretization.edges, rows)?;
         let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
-        Tick::new(ground, memory, Relaxation::for_unknowns(ground.edges.counts().unknowns()))
+        Tick::new(
+            discretization,
+            memory,
+            Relaxation::for_unknowns(discretization.edges.counts().unknowns()),
+        )
     }
 }
 

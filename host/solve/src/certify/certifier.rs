@@ -111,7 +111,7 @@ impl<R: Scalar> Certifier<R> {
             self.average(assembled, data, u)?;
             return Ok(None);
         }
-        let ground = self.ways.ground(assembled, &self.metric)?;
+        let discretization = self.ways.discretization(assembled, &self.metric)?;
         let buffers = Buffers {
             vertices: &mut self.vertices,
             bubbles: &mut self.bubbles,
@@ -119,7 +119,8 @@ impl<R: Scalar> Certifier<R> {
             indicators: &mut self.indicators,
         };
         let iterate = Iterate { u, lower: assembled.lower() };
-        let verdict = certificate::certify(&ground, &data.given(assembled)?, iterate, buffers)?;
+        let verdict =
+            certificate::certify(&discretization, &data.given(assembled)?, iterate, buffers)?;
         self.refusal = match verdict {
             Verdict::Certified(_) => None,
             Verdict::Pulled { edge } => Some(Refusal::Pulled(edge)),
@@ -157,11 +158,11 @@ impl<R: Scalar> Certifier<R> {
     ///
     /// # Errors
     /// Never for a problem that was assembled.
-    pub fn ground<'a>(
+    pub fn discretization<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
     ) -> Result<Discretization<'a, R, u32>, KernelError> {
-        self.ways.ground(assembled, &self.metric)
+        self.ways.discretization(assembled, &self.metric)
     }
 
     /// Whether surplus can leave everywhere; finds the ways where they depend on u.
@@ -203,10 +204,11 @@ impl<R: Scalar> Certifier<R> {
         u: &[R],
     ) -> Result<(), KernelError> {
         self.ways.find(assembled, &self.metric, |_| true)?;
-        let ground = self.ways.ground(assembled, &self.metric)?;
+        let discretization = self.ways.discretization(assembled, &self.metric)?;
         let (s, lower, given) = (&mut self.vertices, assembled.lower(), data.given(assembled)?);
-        let distortions = ground.metric.distortions;
-        averages::fill(&ground.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
-        conforming::impose(&ground.mesh, &ground.edges, u, lower, given.ends, s).map(|_| ())
+        let distortions = discretization.metric.distortions;
+        averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
+        conforming::impose(&discretization.mesh, &discretization.edges, u, lower, given.ends, s)
+            .map(|_| ())
     }
 }

@@ -87,7 +87,7 @@ impl<R: Scalar> EquilibrationForest<R> {
     ///
     /// # Errors
     /// Before [`EquilibrationForest::find`].
-    pub fn ground<'a>(
+    pub fn discretization<'a>(
         &'a self,
         assembled: &'a Assembled<R>,
         metric: &'a Metric<R>,

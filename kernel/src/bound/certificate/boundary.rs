@@ -10,7 +10,7 @@ use crate::real::Real;
 
 /// Adds it all to the sums and to the indicators of the cells.
 pub(super) fn add<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     u: &[R],
     s: Continuous<R>,
@@ -18,7 +18,7 @@ pub(super) fn add<R: Real, I: Index>(
     indicators: &mut [R],
     parts: &mut Parts<R>,
 ) {
-    let edges = &ground.edges;
+    let edges = &discretization.edges;
     let counts = edges.counts();
     let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
         parts.gap.add(term);
@@ -32,7 +32,7 @@ pub(super) fn add<R: Real, I: Index>(
     for (at, gap) in gap.iter().enumerate() {
         let edge = counts.free + at;
         let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
-        let excess = R::TWO * excess(ground, s, edge, gap);
+        let excess = R::TWO * excess(discretization, s, edge, gap);
         take(parts, edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
     }
     let mut moved = R::ZERO;
@@ -41,7 +41,7 @@ pub(super) fn add<R: Real, I: Index>(
         let edge = law.edge.at();
         let transfer = Transfer {
             flux: read(tau, edge),
-            s: ends(ground, s, edge),
+            s: ends(discretization, s, edge),
             bubble: read(s.bubbles, edge),
         };
         let term = match given.transfer.get(at) {
@@ -56,29 +56,33 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
-    parts.perturbation += moved + perturbation(ground, given, s);
+    parts.perturbation += moved + perturbation(discretization, given, s);
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
         let edge = curved.edge.at();
-        let in_cell = of_s(ground, given, s, edge);
+        let in_cell = of_s(discretization, given, s, edge);
         let (term, terms) = extension(&in_cell, tau, curved);
         take(parts, edge, term, terms);
-        jump(&in_cell, of_means(ground, u, edge).as_ref(), curved, parts);
+        jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
     }
 }
 
-fn ends<R: Real, I: Index>(ground: &Discretization<R, I>, s: Continuous<R>, edge: usize) -> [R; 2] {
-    s.at(&ground.edges.endpoints(&ground.mesh, edge))
+fn ends<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    s: Continuous<R>,
+    edge: usize,
+) -> [R; 2] {
+    s.at(&discretization.edges.endpoints(&discretization.mesh, edge))
 }
 
 /// Mean of s − ψ over a contact edge: (e_a + e_b)/2 + 2d/3.
 fn excess<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     s: Continuous<R>,
     edge: usize,
     gap: &[R; 2],
 ) -> R {
-    let [a, b] = ends(ground, s, edge);
+    let [a, b] = ends(discretization, s, edge);
     let (a, b) = ((a - gap[0]).or_larger(R::ZERO), (b - gap[1]).or_larger(R::ZERO));
     let mean = R::HALF * (a + b) + R::TWO * R::THIRD * read(s.bubbles, edge);
     mean.or_larger(R::ZERO)
@@ -139,11 +143,11 @@ impl<R: Real> Transfer<R> {
 /// perturbation's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
 /// rounding may do, s does as well, and ψ moves by what is missing.
 fn perturbation<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     s: Continuous<R>,
 ) -> R {
-    let (edges, k) = (&ground.edges, ground.stiffness);
+    let (edges, k) = (&discretization.edges, discretization.stiffness);
     let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
     let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
     // More is no rounding, and there is no bound: it must not end a tick as if all but rounding were done.
@@ -152,7 +156,7 @@ fn perturbation<R: Real, I: Index>(
         let value = pair[0].magnitude().or_larger(pair[1].magnitude());
         let (edge, mut moved) = (edges.counts().free + at, R::TWO * R::EPSILON * value);
         if features::CONTACT && at < given.ends.gap.len() {
-            let [a, b] = ends(ground, s, edge);
+            let [a, b] = ends(discretization, s, edge);
             let missing = (pair[0] - a).or_larger(pair[1] - b).or_larger(R::ZERO);
             moved += if missing <= slack { missing } else { R::ZERO };
         }

@@ -57,19 +57,19 @@ impl<R: Real> InCell<R> {
 
 /// s in the cell of a curved edge.
 pub(super) fn of_s<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     s: Continuous<R>,
     edge: usize,
 ) -> InCell<R> {
-    let (edges, loads) = (&ground.edges, given.loads);
+    let (edges, loads) = (&discretization.edges, given.loads);
     match edges.first_side(edge) {
         Side::Triangle(at, _) => {
-            let corners = s.at(&read(ground.mesh.triangles(), at));
+            let corners = s.at(&read(discretization.mesh.triangles(), at));
             InCell::triangle(corners, read(loads.triangles, at))
         }
         Side::Quad(at, _) => {
-            let corners = s.at(&read(ground.mesh.quads(), at));
+            let corners = s.at(&read(discretization.mesh.quads(), at));
             let bubbles = s.on(&read(edges.of_quads(), at));
             InCell::quad(corners, bubbles, read(loads.quads, at))
         }
@@ -79,11 +79,11 @@ pub(super) fn of_s<R: Real, I: Index>(
 /// u_h there; nothing on a distorted quad, where it is no sum of these functions. On other quads
 /// X² − Y² = (b₁ + b₃ − b₀ − b₂)/4 with the bubbles b of the sides.
 pub(super) fn of_means<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     u: &[R],
     edge: usize,
 ) -> Option<InCell<R>> {
-    let edges = &ground.edges;
+    let edges = &discretization.edges;
     match edges.first_side(edge) {
         Side::Triangle(at, _) => {
             let means = read(edges.of_triangles(), at).map(|edge| read(u, edge.at()));
@@ -94,7 +94,7 @@ pub(super) fn of_means<R: Real, I: Index>(
             let [u0, u1, u2, u3] = means;
             let arch = R::THREE * R::HALF * R::QUARTER * ((u1 - u0) + (u3 - u2));
             let corners = rannacher_turek::at_vertices(&means);
-            let is_distorted = ground.metric.distortion(at) != [R::ZERO; 2];
+            let is_distorted = discretization.metric.distortion(at) != [R::ZERO; 2];
             (!is_distorted).then(|| InCell::quad(corners, [-arch, arch, -arch, arch], R::ZERO))
         }
     }

@@ -138,29 +138,29 @@ pub struct Buffers<'a, R> {
 /// # Errors
 /// Arrays of the wrong length.
 pub fn certify<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     iterate: Iterate<R>,
     buffers: Buffers<R>,
 ) -> Result<Verdict<R>, Error> {
-    let Discretization { mesh, edges, cells, .. } = ground;
+    let Discretization { mesh, edges, cells, .. } = discretization;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
     let (u, lower) = (iterate.u, iterate.lower);
     same_length(Array::Triangles, cells.triangles.len(), edges.of_triangles().len())?;
     same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
-    averages::fill(cells, given.loads, ground.metric.distortions, u, vertices, tau)?;
+    averages::fill(cells, given.loads, discretization.metric.distortions, u, vertices, tau)?;
     conforming::impose(mesh, edges, u, lower, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
-    let mut parts = walk::over_cells(ground, given, u, s, tau, indicators);
+    let mut parts = walk::over_cells(discretization, given, u, s, tau, indicators);
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
-    boundary::add(ground, given, u, s, tau, indicators, &mut parts);
-    Ok(parts.conclude(cells.len(), ground.stability, given.oscillation))
+    boundary::add(discretization, given, u, s, tau, indicators, &mut parts);
+    Ok(parts.conclude(cells.len(), discretization.stability, given.oscillation))
 }
 
 /// The function s: vertex values and bubbles of edges.

@@ -10,18 +10,20 @@ use crate::real::Real;
 
 /// The walk over the cells from the leaves: balances each and takes its share.
 pub(super) fn over_cells<R: Real, I: Index>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
     u: &[R],
     s: Continuous<R>,
     tau: &mut [R],
     indicators: &mut [R],
 ) -> Parts<R> {
-    let cells = &ground.cells;
+    let cells = &discretization.cells;
     let plain = !(features::QUADS || features::VARYING || features::INDICATORS);
     if features::TRIANGLES
         && (plain
-            || cells.quads.is_empty() && ground.metric.place.is_empty() && indicators.is_empty())
+            || cells.quads.is_empty()
+                && discretization.metric.place.is_empty()
+                && indicators.is_empty())
     {
         return over_triangles(cells.triangles, given.loads.triangles, u, s.vertices, tau);
     }
@@ -30,12 +32,12 @@ pub(super) fn over_cells<R: Real, I: Index>(
         let (number, share) = match cell {
             Either::Triangle(cell) => {
                 let load = read(given.loads.triangles, cell.number.at());
-                (cell.number, of_triangle_cell(ground.metric, cell, s, u, load, tau))
+                (cell.number, of_triangle_cell(discretization.metric, cell, s, u, load, tau))
             }
             Either::Quad(cell) => {
                 let number = cell.number.at().wrapping_sub(cells.triangles.len());
                 let load = read(given.loads.quads, number);
-                (cell.number, of_quad_cell(ground.metric, (cell, number), s, u, load, tau))
+                (cell.number, of_quad_cell(discretization.metric, (cell, number), s, u, load, tau))
             }
         };
         let Some(share) = share else { break };

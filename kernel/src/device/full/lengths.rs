@@ -80,8 +80,21 @@ impl<T> Numbers<T> {
 impl Numbers<usize> {
     /// How many they are in all.
     pub const fn sum(&self) -> usize {
-        let Self { load, u, tau, vertices, bubbles, triangles, quads, .. } = *self;
-        let Self { contact_flux, gap, gap_ends, dirichlet, dirichlet_ends, transfer, .. } = *self;
+        let Self {
+            load,
+            u,
+            tau,
+            vertices,
+            bubbles,
+            triangles,
+            quads,
+            contact_flux,
+            gap,
+            gap_ends,
+            dirichlet,
+            dirichlet_ends,
+            transfer,
+        } = *self;
         let of_tick = load + u + tau + vertices + bubbles;
         let of_data = triangles + quads + contact_flux + gap + gap_ends;
         of_tick + of_data + dirichlet + dirichlet_ends + transfer
@@ -102,7 +115,7 @@ impl Lengths {
     }
 
     const fn without_inputs<R: Real, I: Index>(full: &Full<R, I>) -> Self {
-        let (counts, mesh) = (full.ground.edges.counts(), &full.ground.mesh);
+        let (counts, mesh) = (full.discretization.edges.counts(), &full.discretization.mesh);
         let numbers = Numbers {
             load: counts.unknowns(),
             u: counts.edges(),

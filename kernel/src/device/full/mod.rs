@@ -37,7 +37,7 @@ use functional::TickState;
 #[derive(Debug, Clone, Copy)]
 pub struct Full<'a, R, I> {
     /// Mesh, A and ways out.
-    pub ground: Discretization<'a, R, I>,
+    pub discretization: Discretization<'a, R, I>,
     /// Loads and boundary data where all inputs are 0.
     pub base: Base<'a, R, I>,
     /// What each input adds for each unit of its value.
@@ -73,7 +73,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// Where there is no bound an output that is the bound is infinite, and the report's verdict says why:
     /// [`Verdict::NotAsked`] for methods without one, [`Verdict::Unavailable`] for data that never allow for one,
     /// [`Verdict::BelowGap`] where u_D lies below ψ where they meet. A method without one does not use
-    /// the memory of s, and of the ground only edges and element matrices; the rest of either may be empty.
+    /// the memory of s, and of the discretization only edges and element matrices; the rest of either may be empty.
     ///
     /// # Errors
     /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]); arrays of the
@@ -96,12 +96,12 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let Memory { tick: of_tick, data: mut of_data, progress } = memory;
         of_data.evaluate(&self.base, self.patterns, inputs)?;
         let oscillation = self.oscillation(inputs);
-        let data = of_data.view(&self.base, &self.ground.edges, oscillation)?;
+        let data = of_data.view(&self.base, &self.discretization.edges, oscillation)?;
         let known = match progress.has_begun() {
             true => *progress,
             false => Progress::new(self.relaxation)?,
         };
-        let mut tick = Tick::resume(self.ground, of_tick, known)?;
+        let mut tick = Tick::resume(self.discretization, of_tick, known)?;
         let size = tick.admit(&data)?;
         if !progress.has_begun() {
             self.start(data.lower, tick.memory());
@@ -153,7 +153,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// A cold start: on the gap, elsewhere at one value.
     fn start<const WIDTH: usize>(&self, lower: &[R], memory: &mut tick::Memory<R, I, WIDTH>) {
         memory.u.fill(self.start);
-        let on_contact = memory.u.iter_mut().skip(self.ground.edges.counts().free);
+        let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
         on_contact.zip(lower).for_each(|(u, &lower)| *u = lower);
         memory.active.fill(false);
     }

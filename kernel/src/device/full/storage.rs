@@ -55,7 +55,7 @@ impl<
 > ArrayStorage<R, I, WIDTH, ROWS, NUMBERS, ACTIVE, NEUMANN, ROBIN, CURVED>
 {
     /// Zeros, which take no room in flash.
-    pub const fn new() -> Self {
+    pub const fn zeros() -> Self {
         let (edge, zero, coupling) = (I::FIRST, R::ZERO, [R::ZERO; 8]);
         Self::of(
             OwnedRows::new(),
@@ -106,7 +106,7 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
             numbers;
         Ok(Memory {
             tick: tick::Memory {
-                rows: self.rows.lay_out(&full.ground.edges)?,
+                rows: self.rows.lay_out(&full.discretization.edges)?,
                 load,
                 active: self.active.as_mut(),
                 vertices,

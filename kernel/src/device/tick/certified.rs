@@ -84,7 +84,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         if let Some(verdict) = self.verdict {
             return Ok(verdict);
         }
-        let Tick { ground, memory, .. } = &mut *self.tick;
+        let Tick { discretization, memory, .. } = &mut *self.tick;
         let buffers = Buffers {
             vertices: memory.vertices,
             bubbles: memory.bubbles,
@@ -92,7 +92,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
             indicators: &mut [],
         };
         let iterate = Iterate { u: memory.u, lower: self.data.lower };
-        let verdict = certify(ground, &self.data.given, iterate, buffers)?;
+        let verdict = certify(discretization, &self.data.given, iterate, buffers)?;
         self.verdict = Some(verdict);
         Ok(verdict)
     }

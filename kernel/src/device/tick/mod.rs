@@ -67,7 +67,7 @@ pub struct Memory<'a, R, I, const WIDTH: usize> {
 /// A contact problem whose data change from tick to tick.
 #[derive(Debug)]
 pub struct Tick<'a, R: Real, I, const WIDTH: usize> {
-    ground: Discretization<'a, R, I>,
+    discretization: Discretization<'a, R, I>,
     memory: Memory<'a, R, I, WIDTH>,
     search: Search<R>,
     report: Option<Report<R>>,
@@ -90,15 +90,15 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// # Errors
     /// Arrays of the wrong length, a start that is not finite, an ω outside (0, 2).
     pub fn new(
-        ground: Discretization<'a, R, I>,
+        discretization: Discretization<'a, R, I>,
         memory: Memory<'a, R, I, WIDTH>,
         relaxation: Relaxation<R>,
     ) -> Result<Self, Error> {
-        resume::check(&ground, &memory)?;
+        resume::check(&discretization, &memory)?;
         all_finite(Array::Unknowns, memory.u)?;
         memory.active.fill(false);
         let search = Search::checked(relaxation)?;
-        Ok(Self { ground, memory, search, report: None })
+        Ok(Self { discretization, memory, search, report: None })
     }
 
     /// Takes the data of a tick. Where an edge was in contact it starts on the new gap, and everything
@@ -118,11 +118,11 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 
     /// Lays out load and rows, which no answer is in, and returns the size of the data in the unit of u.
     pub(crate) fn admit(&mut self, data: &Data<R, I>) -> Result<R, Error> {
-        check(data, &self.ground)?;
-        let (edges, given) = (&self.ground.edges, &data.given);
+        check(data, &self.discretization)?;
+        let (edges, given) = (&self.discretization.edges, &data.given);
         let memory = &mut self.memory;
         assembly::load(edges, given.loads, &given.boundary, memory.load)?;
-        let (stiffness, omega) = (self.ground.stiffness, self.search.omega);
+        let (stiffness, omega) = (self.discretization.stiffness, self.search.omega);
         memory.rows.gather(edges, stiffness, &given.boundary, memory.load, omega)?;
         range::size(data, memory)
     }
@@ -134,7 +134,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
         size: R,
     ) -> Running<'t, 'a, R, I, WIDTH> {
         self.search.disturb();
-        self.memory.carry_over(self.ground.edges.counts(), &data, size);
+        self.memory.carry_over(self.discretization.edges.counts(), &data, size);
         Running::new(self, data, size)
     }
 
@@ -187,8 +187,11 @@ impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
 }
 
 /// Lengths and finiteness of everything that a tick may change.
-fn check<R: Real, I: Index>(data: &Data<R, I>, ground: &Discretization<R, I>) -> Result<(), Error> {
-    let counts = ground.edges.counts();
+fn check<R: Real, I: Index>(
+    data: &Data<R, I>,
+    discretization: &Discretization<R, I>,
+) -> Result<(), Error> {
+    let counts = discretization.edges.counts();
     let Data { given, lower, dirichlet } = data;
     same_length(Array::LowerBounds, lower.len(), counts.contact)?;
     same_length(Array::Dirichlet, dirichlet.len(), counts.dirichlet)?;

@@ -43,15 +43,15 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     /// # Errors
     /// Arrays of the wrong length, [`Progress::NONE`].
     pub fn resume(
-        ground: Discretization<'a, R, I>,
+        discretization: Discretization<'a, R, I>,
         memory: Memory<'a, R, I, WIDTH>,
         progress: Progress<R>,
     ) -> Result<Self, Error> {
-        check(&ground, &memory)?;
+        check(&discretization, &memory)?;
         if !progress.begun {
             return Err(Error::Relaxation);
         }
-        Ok(Self { ground, memory, search: progress.search, report: None })
+        Ok(Self { discretization, memory, search: progress.search, report: None })
     }
 
     /// What the next tick needs besides the memory.
@@ -61,17 +61,17 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
 
     /// Sizes of the blocks of edges.
     pub fn counts(&self) -> EdgeCounts {
-        self.ground.edges.counts()
+        self.discretization.edges.counts()
     }
 }
 
 /// Lengths of the memory.
 pub(super) fn check<R: Real, I: Index, const WIDTH: usize>(
-    ground: &Discretization<R, I>,
+    discretization: &Discretization<R, I>,
     memory: &Memory<R, I, WIDTH>,
 ) -> Result<(), Error> {
-    let counts = ground.edges.counts();
-    let vertices = ground.mesh.vertices().len();
+    let counts = discretization.edges.counts();
+    let vertices = discretization.mesh.vertices().len();
     same_length(Array::Rows, memory.rows.counts().edges(), counts.edges())?;
     same_length(Array::Load, memory.load.len(), counts.unknowns())?;
     same_length(Array::Contact, memory.active.len(), counts.contact)?;

@@ -85,16 +85,22 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
     pub(super) fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
         let (memory, lower) = (&self.tick.memory, self.data.lower);
         let defect = psor::defect(&memory.rows, lower, memory.u)?;
-        let counts = self.tick.ground.edges.counts();
+        let counts = self.tick.discretization.edges.counts();
         let (active, _) = contact_state(counts, lower, memory.u, memory.active);
         Ok((defect, active))
     }
 
     /// Another ω asks for other rows.
     fn relax_anew(&mut self) -> Result<(), Error> {
-        let Tick { ground, memory, search, .. } = &mut *self.tick;
+        let Tick { discretization, memory, search, .. } = &mut *self.tick;
         let boundary = &self.data.given.boundary;
-        memory.rows.gather(&ground.edges, ground.stiffness, boundary, memory.load, search.omega)
+        memory.rows.gather(
+            &discretization.edges,
+            discretization.stiffness,
+            boundary,
+            memory.load,
+            search.omega,
+        )
     }
 
     /// Whether the residual may be all rounding.
@@ -112,7 +118,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
 
     pub(super) fn report(&mut self, ended: Ended, verdict: Verdict<R>) -> Result<Report<R>, Error> {
         let residual = self.measure()?.0.largest;
-        let counts = self.tick.ground.edges.counts();
+        let counts = self.tick.discretization.edges.counts();
         let Tick { memory, search, report, .. } = &mut *self.tick;
         let lower = self.data.lower;
         let (active, changes) = contact_state(counts, lower, memory.u, memory.active);

@@ -48,11 +48,11 @@ impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_
 impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
     /// Whether u is the solution now; if not it is what sweeps may start from. τ is scratch.
     fn solve(&mut self, exact: &mut Exact<R, I>) -> Result<bool, Error> {
-        let (ground, memory) = (&self.tick.ground, &mut self.tick.memory);
-        let (counts, data) = (ground.edges.counts(), &self.data);
+        let (discretization, memory) = (&self.tick.discretization, &mut self.tick.memory);
+        let (counts, data) = (discretization.edges.counts(), &self.data);
         let balance = Balance {
-            edges: &ground.edges,
-            stiffness: ground.stiffness,
+            edges: &discretization.edges,
+            stiffness: discretization.stiffness,
             boundary: data.given.boundary,
             load: memory.load,
         };

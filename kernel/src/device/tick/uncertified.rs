@@ -62,8 +62,16 @@ impl<R: Real, I: Index, M: Math<R>> Sweeping<R, I> for UncertifiedSweeps<M> {
 impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
     /// τ of the present iterate.
     fn recover(&mut self) -> Result<(), Error> {
-        let (ground, memory) = (&self.tick.ground, &mut self.tick.memory);
+        let (discretization, memory) = (&self.tick.discretization, &mut self.tick.memory);
         let loads = self.data.given.loads;
-        flux::recover(&ground.edges, ground.stiffness, loads, memory.u, &[], memory.tau).map(|_| ())
+        flux::recover(
+            &discretization.edges,
+            discretization.stiffness,
+            loads,
+            memory.u,
+            &[],
+            memory.tau,
+        )
+        .map(|_| ())
     }
 }

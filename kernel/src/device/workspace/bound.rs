@@ -173,7 +173,7 @@ impl<
     ///
     /// # Errors
     /// [`Error::NoWayOut`] where contact alone holds a part.
-    pub(super) fn ground<'a>(
+    pub(super) fn discretization<'a>(
         &'a self,
         mesh: Mesh<'a, R, I>,
         edges: Edges<'a, I>,

@@ -67,7 +67,7 @@ impl<
         let Self { of_triangles, of_quads, half_edges, counts, rows, load, u, flux, .. } = self;
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let stiffness = stiffness_of(&self.triangles, &self.quads);
-        let ground = self.equilibration.ground(*mesh, edges, stiffness)?;
+        let discretization = self.equilibration.discretization(*mesh, edges, stiffness)?;
         let data = Data {
             given: LoadCase {
                 loads: CellLoads { triangles: &self.source_triangles, quads: &self.source_quads },
@@ -91,7 +91,7 @@ impl<
         let (vertices, bubbles) = (&mut *self.vertices, &mut *self.bubbles);
         let (rows, active) = (rows.within(&edges)?, &mut *self.active);
         let memory = Memory { rows, load, active, vertices, bubbles, tau: flux, u };
-        let mut tick = Tick::resume(ground, memory, self.progress)?;
+        let mut tick = Tick::resume(discretization, memory, self.progress)?;
         let mut running = tick.begin(data)?;
         let report = match refused {
             None => running.advance(CertifiedSweeps(Libm), limits, deadline)?,

@@ -39,7 +39,7 @@ impl<R: Real, const BLOCKS: usize, const NUMBERS: usize, const FLAGS: usize>
     ArrayStorage<R, BLOCKS, NUMBERS, FLAGS>
 {
     /// Zeros, which take no room in flash.
-    pub const fn new() -> Self {
+    pub const fn zeros() -> Self {
         Self::of([[[R::ZERO; SIDE]; SIDE]; BLOCKS], [R::ZERO; NUMBERS], [false; FLAGS])
     }
 }

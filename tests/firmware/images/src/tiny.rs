@@ -85,12 +85,15 @@ fn run(journal: &mut Journal) -> Result<(), Error> {
 }
 
 #[inline(never)]
-fn played(ground: &Discretization<f32, u16>, journal: &mut Journal) -> Result<(), Error> {
-    let counts = ground.edges.counts();
+fn played(discretization: &Discretization<f32, u16>, journal: &mut Journal) -> Result<(), Error> {
+    let counts = discretization.edges.counts();
     let mut rows = [Row::EMPTY; EDGES];
     let (mut load, mut tau, mut u) = ([0.0; EDGES], [0.0; EDGES], [0.0; EDGES]);
     let memory = Memory {
-        rows: Rows::<_, _, TRIANGLES>::new(&ground.edges, cut(&mut rows, counts.unknowns())?)?,
+        rows: Rows::<_, _, TRIANGLES>::new(
+            &discretization.edges,
+            cut(&mut rows, counts.unknowns())?,
+        )?,
         load: cut(&mut load, counts.unknowns())?,
         active: &mut [false; COLUMNS],
         vertices: &mut [0.0; VERTICES],
@@ -98,14 +101,14 @@ fn played(ground: &Discretization<f32, u16>, journal: &mut Journal) -> Result<()
         tau: cut(&mut tau, counts.edges())?,
         u: cut(&mut u, counts.edges())?,
     };
-    let mut tick = Tick::new(*ground, memory, Relaxation::Fixed(1.8))?;
+    let mut tick = Tick::new(*discretization, memory, Relaxation::Fixed(1.8))?;
     for scale in SCALES {
         journal.scalar("s", scale);
         for (load, pressed) in [("pressed, ", true), ("open, ", false)] {
             for (sweeps, words) in SWEEPS {
                 let case = Case { scale, pressed };
-                let report = answer(&mut tick, ground, case, sweeps)?;
-                let verdict = judged(&tick, ground, case, &report);
+                let report = answer(&mut tick, discretization, case, sweeps)?;
+                let verdict = judged(&tick, discretization, case, &report);
                 [load, words, ": ", verdict, "\n"].into_iter().for_each(|part| (journal.0)(part));
             }
         }
@@ -118,20 +121,20 @@ type Ticking<'a> = Tick<'a, f32, u16, TRIANGLES>;
 #[inline(never)]
 fn answer(
     tick: &mut Ticking,
-    ground: &Discretization<f32, u16>,
+    discretization: &Discretization<f32, u16>,
     case: Case,
     sweeps: u32,
 ) -> Result<Report<f32>, Error> {
     let Case { scale, pressed } = case;
     let (above, f) = if pressed { (-scale, 0.0) } else { (0.25 * scale, scale) };
     let mut loads = [0.0; CELLS];
-    for (load, cell) in loads.iter_mut().zip(ground.mesh.triangles()) {
-        *load = f * triangle_area(ground.mesh.triangle(cell));
+    for (load, cell) in loads.iter_mut().zip(discretization.mesh.triangles()) {
+        *load = f * triangle_area(discretization.mesh.triangle(cell));
     }
     let (gap, given) = ([[0.0; 2]; COLUMNS], [[above; 2]; COLUMNS]);
     let given = LoadCase {
         loads: CellLoads { triangles: &loads, quads: &[] },
-        boundary: Boundary::new(&ground.edges, &[], &[], &[])?,
+        boundary: Boundary::new(&discretization.edges, &[], &[], &[])?,
         ends: VertexData { gap: &gap, given: &given },
         curved: &[],
         transfer: &[],
@@ -145,7 +148,7 @@ fn answer(
 /// What the answer is worth.
 fn judged(
     tick: &Ticking,
-    ground: &Discretization<f32, u16>,
+    discretization: &Discretization<f32, u16>,
     case: Case,
     report: &Report<f32>,
 ) -> &'static str {
@@ -156,7 +159,7 @@ fn judged(
     }
     let Some(certificate) = report.verdict.certificate() else { return "no bound" };
     let bound = f64::from(certificate.total);
-    match squared_error(tick, ground, case) <= bound * bound {
+    match squared_error(tick, discretization, case) <= bound * bound {
         true => "certified",
         false => "above its bound",
     }
@@ -164,12 +167,12 @@ fn judged(
 
 /// ‖∇(u − s)‖² + ‖∇u − τ‖² in f64: a square of degree 2 in each cell, so that the middles of its sides are enough.
 #[inline(never)]
-fn squared_error(tick: &Ticking, ground: &Discretization<f32, u16>, case: Case) -> f64 {
+fn squared_error(tick: &Ticking, discretization: &Discretization<f32, u16>, case: Case) -> f64 {
     let mut sum = 0.0;
-    for (at, cell) in ground.mesh.triangles().iter().enumerate() {
-        let corners = ground.mesh.triangle(cell).map(|corner| corner.map(f64::from));
+    for (at, cell) in discretization.mesh.triangles().iter().enumerate() {
+        let corners = discretization.mesh.triangle(cell).map(|corner| corner.map(f64::from));
         let s = cell.map(|vertex| number(tick.vertices(), vertex.into()));
-        let out = [0, 1, 2].map(|side| outward(tick, ground, 3 * at + side));
+        let out = [0, 1, 2].map(|side| outward(tick, discretization, 3 * at + side));
         sum += in_cell(corners, s, out, case);
     }
     sum
@@ -180,9 +183,9 @@ fn number(numbers: &[f32], at: usize) -> f64 {
 }
 
 /// ∫τ·n over a half-edge, with the normal out of its cell.
-fn outward(tick: &Ticking, ground: &Discretization<f32, u16>, half_edge: usize) -> f64 {
-    let edge = ground.edges.edge_of(half_edge);
-    let first = ground.edges.half_edges().get(edge).map(|halves| usize::from(halves[0]));
+fn outward(tick: &Ticking, discretization: &Discretization<f32, u16>, half_edge: usize) -> f64 {
+    let edge = discretization.edges.edge_of(half_edge);
+    let first = discretization.edges.half_edges().get(edge).map(|halves| usize::from(halves[0]));
     let flux = number(tick.tau(), edge);
     if first == Some(half_edge) { flux } else { -flux }
 }

@@ -222,7 +222,8 @@ impl Stages for Meter<'_, '_> {
         let packed = Cells::new(&triangles, &quads, &of_vertices, of_edges, &forest)?;
         let metric = Metric::default();
         let stability = certificate::stability(&edges, &packed, metric, &boundary, &forest, way)?;
-        let ground = Discretization { mesh, edges, stiffness, cells: packed, metric, stability };
+        let discretization =
+            Discretization { mesh, edges, stiffness, cells: packed, metric, stability };
         let gap = -R::QUARTER * R::QUARTER;
         let (at_gap, given, lower) = ([[gap; 2]; 16], [[R::ZERO; 2]; 16], [gap; 16]);
         let given = LoadCase {
@@ -245,7 +246,7 @@ impl Stages for Meter<'_, '_> {
                 indicators: &mut [],
             };
             let iterate = Iterate { u, lower: black_box(&lower) };
-            black_box(certify(&ground, &given, iterate, buffers)?);
+            black_box(certify(&discretization, &given, iterate, buffers)?);
             Ok(())
         })
     }

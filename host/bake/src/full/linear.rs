@@ -1,0 +1,99 @@
+//! The statics of inputs and outputs: what each adds, and what each is read off.
+
+use signorini_kernel::Index;
+use signorini_kernel::device::full::{Contribution, EdgeTrace, Functional, Pattern, Points};
+
+use super::statics::{Statics, lines, named};
+use crate::module_api::ModuleApi;
+use signorini_solve::scalar::Scalar;
+
+/// What each input adds for each unit of its value.
+pub(super) fn patterns<R: Scalar, I: Index>(
+    all: &[Pattern<R, u32>],
+    face: &ModuleApi,
+    to: &mut Statics,
+) -> String {
+    let inputs = all.iter().zip(face.inputs());
+    let patterns = inputs.map(|(of, input)| pattern::<R, I>(of, input, to));
+    lines(&patterns.collect::<Vec<_>>())
+}
+
+fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Statics) -> String {
+    let adds = format!("that a unit of `{input}` adds.");
+    let mut shares = |what: &str, doc: &str, all: &[Contribution<R, u32>]| {
+        contributions::<R, I>(&named(input, what), &format!("{doc} {adds}"), all, to)
+    };
+    match of {
+        Pattern::Source { triangles, quads } => {
+            let triangles = shares("TO_TRIANGLES", "∫f", triangles);
+            let quads = shares("TO_QUADS", "∫f", quads);
+            format!("Pattern::Source {{ triangles: {triangles}, quads: {quads} }}")
+        }
+        Pattern::Neumann(all) => format!("Pattern::Neumann({})", shares("PATTERN", "∫g", all)),
+        Pattern::ContactFlux(all) => {
+            format!("Pattern::ContactFlux({})", shares("PATTERN", "∫q", all))
+        }
+        Pattern::Gap(all) => format!("Pattern::Gap({})", traces::<R, I>(input, all, to)),
+        Pattern::Value(all) => format!("Pattern::Value({})", traces::<R, I>(input, all, to)),
+        Pattern::Ambient { integrals, points } => {
+            let integrals = shares("PATTERN", "∫h u_ext", integrals);
+            let (name, doc) = (named(input, "AT_POINTS"), format!("u_ext {adds}"));
+            let points = to.array::<Points<R, I>>(&name, &doc, "Points<Scalar, Index>", points);
+            format!("Pattern::Ambient {{ integrals: {integrals}, points: {points} }}")
+        }
+    }
+}
+
+fn contributions<R: Scalar, I: Index>(
+    name: &str,
+    doc: &str,
+    all: &[Contribution<R, u32>],
+    to: &mut Statics,
+) -> String {
+    to.array::<Contribution<R, I>>(name, doc, "Contribution<Scalar, Index>", all)
+}
+
+fn traces<R: Scalar, I: Index>(input: &str, all: &[EdgeTrace<R, u32>], to: &mut Statics) -> String {
+    let doc = format!("Mean and end values that a unit of `{input}` adds.");
+    let name = named(input, "PATTERN");
+    to.array::<EdgeTrace<R, I>>(&name, &doc, "EdgeTrace<Scalar, Index>", all)
+}
+
+/// What each output is.
+pub(super) fn outputs<R: Scalar, I: Index>(
+    all: &[Functional<R, u32>],
+    face: &ModuleApi,
+    to: &mut Statics,
+) -> String {
+    let outputs = all.iter().zip(face.outputs());
+    let functionals = outputs.map(|(of, output)| functional::<R, I>(of, output, to));
+    lines(&functionals.collect::<Vec<_>>())
+}
+
+fn functional<R: Scalar, I: Index>(
+    of: &Functional<R, u32>,
+    output: &str,
+    to: &mut Statics,
+) -> String {
+    let name = named(output, "EDGES");
+    let (kind, edges) = match of {
+        Functional::Flux(edges) => {
+            let doc = format!("Edges whose fluxes add up to `{output}`.");
+            ("Flux", to.array::<I>(&name, &doc, "Index", edges))
+        }
+        Functional::Force(edges) => {
+            let doc = format!("Contact edges whose forces add up to `{output}`.");
+            ("Force", to.array::<I>(&name, &doc, "Index", edges))
+        }
+        Functional::Length(shares) => {
+            let doc = format!("Contact edges whose lengths add up to `{output}`.");
+            ("Length", contributions::<R, I>(&name, &doc, shares, to))
+        }
+        Functional::Probe(shares) => {
+            let doc = format!("Edges whose means make `{output}`.");
+            ("Probe", contributions::<R, I>(&name, &doc, shares, to))
+        }
+        Functional::Bound => return "Functional::Bound".to_owned(),
+    };
+    format!("Functional::{kind}({edges})")
+}
