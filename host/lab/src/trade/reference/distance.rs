@@ -4,8 +4,8 @@
 //! not be nested: quads may be measured against triangles.
 
 use super::Approximation;
+use super::finer_solve::Reference;
 use super::places::Places;
-use super::reference::Reference;
 use crate::baseline::record::PointError;
 use signorini_scene::error::Result;
 use signorini_solve::certify::admissible::{Admissible, OnCell};

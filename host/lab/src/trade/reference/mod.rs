@@ -2,23 +2,23 @@
 //!
 //! ```text
 //!   [exact] ─────────────────► exact ─► tables ────┐
-//!   scene on a finer mesh ─► reference ─► points ──┴─► ‖·‖ of the difference ─► PointError
+//!   scene on a finer mesh ─► finer_solve ─► points ──┴─► ‖·‖ of the difference ─► PointError
 //!                 cells of an answer ─► places ─┘
 //! ```
 //! Everything at t = 0 and with the inputs at their defaults.
 
 mod distance;
 mod exact;
+mod finer_solve;
 mod places;
 mod points;
 mod recovery;
-mod reference;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 use self::exact::Contact;
-use self::reference::Reference;
+use self::finer_solve::Reference;
 use self::tables::Recent;
 use crate::baseline::record::PointError;
 use signorini_scene::error::Result;

@@ -8,8 +8,8 @@ use signorini_tolerances::lab::{
 use std::f64::consts::PI;
 use std::path::Path;
 
+use super::finer_solve::Reference;
 use super::points::Inside;
-use super::reference::Reference;
 use super::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
 use signorini_scene::mesh::structured::{Cells, grid};
