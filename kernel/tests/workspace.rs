@@ -228,3 +228,23 @@ fn what_has_no_bound_says_why() -> Result<(), Error> {
     assert_eq!(of_quads.tick(&mesh, limits, &mut never)?.verdict, Verdict::Unavailable);
     Ok(())
 }
+
+/// Another mesh of the same sizes has neighbours of its own: rows that were laid out for the first are laid out anew.
+#[test]
+fn a_workspace_forgets_its_mesh() -> Result<(), Error> {
+    let (nodes, triangles) = (nodes(), triangles());
+    let turned: Vec<_> = triangles.iter().rev().copied().collect();
+    let contact = || bar(Condition::Contact { gap: 1.5, flux: 0.0 });
+    let (first, second) = (Mesh::new(&nodes, &triangles, &[])?, Mesh::new(&nodes, &turned, &[])?);
+    let tick = |of: &mut Triangles| {
+        of.build(&second, UNIT, contact())?;
+        of.set_source(&[1.0 / (N * N) as f64; 2 * N * N], &[])?;
+        of.tick(&second, until(1e-6), &mut Deadline::never())
+    };
+    let (mut used, mut fresh) = (Triangles::new(), Triangles::new());
+    used.build(&first, UNIT, contact())?;
+    used.tick(&first, until(1e-6), &mut Deadline::never())?;
+    assert_eq!(tick(&mut used)?, tick(&mut fresh)?);
+    assert_eq!(used.u(), fresh.u());
+    Ok(())
+}

@@ -25,7 +25,7 @@ use syn::{
 };
 
 use crate::edits::Edits;
-use crate::mutant::{Mutant, Place, Span};
+use crate::mutant::{Mutant, SourcePosition, Span};
 
 /// The text of a file with its mutants behind switches, those for which there is no switch, and those that
 /// the grammar forbids.
@@ -69,8 +69,8 @@ struct Switches<'a> {
 
 const ON: &str = "crate::mutants::on";
 
-fn place(LineColumn { line, column }: LineColumn) -> Place {
-    Place { line, column: column + 1 }
+fn place(LineColumn { line, column }: LineColumn) -> SourcePosition {
+    SourcePosition { line, column: column + 1 }
 }
 
 impl<'a> Switches<'a> {
@@ -142,7 +142,7 @@ impl<'a> Switches<'a> {
         let place = |at: usize| {
             let text = &self.edits.text[..at];
             let column = text.rsplit('\n').next().unwrap_or_default().chars().count();
-            Place { line: 1 + text.matches('\n').count(), column: 1 + column }
+            SourcePosition { line: 1 + text.matches('\n').count(), column: 1 + column }
         };
         let (start, end) = (place(range.start), place(range.end));
         self.at.keys().any(|span| start <= span.start && span.start < end)

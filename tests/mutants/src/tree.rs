@@ -1,12 +1,12 @@
 //! A copy of the project with switches in the kernel.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{fs, io};
 
 use crate::error::{Result, failed};
-use crate::mutant::{Mutant, Place};
+use crate::mutant::{Mutant, SourcePosition};
 use crate::switch::switch;
 use crate::viable::Viability;
 
@@ -37,8 +37,12 @@ impl Tree {
         list.args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"]);
         let list = list.current_dir(root).output()?;
         let list = String::from_utf8_lossy(&list.stdout).into_owned();
+        let paths: BTreeSet<&str> = list.split('\0').filter(|path| !path.is_empty()).collect();
+        for copy in [&built, &checked] {
+            remove_others(copy, Path::new("kernel"), &paths)?;
+        }
         let mut sources = BTreeMap::new();
-        for path in list.split('\0').filter(|path| !path.is_empty()) {
+        for path in paths {
             let Some(bytes) = present(fs::read(root.join(path)))? else { continue };
             if path.starts_with("kernel/src/") && path.ends_with(".rs") {
                 let text =
@@ -74,7 +78,7 @@ impl Tree {
     /// Writes the file of a mutant to the root for checks, with nothing but this mutant in it.
     pub fn write_alone(&self, mutant: &Mutant) -> Result<()> {
         let text = self.sources.get(&mutant.file).ok_or_else(|| failed("no such file"))?;
-        let byte = |place: Place| {
+        let byte = |place: SourcePosition| {
             let lines = text.split_inclusive('\n').take(place.line - 1);
             let column = text.lines().nth(place.line - 1).unwrap_or_default();
             let before = column.chars().take(place.column - 1).map(char::len_utf8);
@@ -86,10 +90,25 @@ impl Tree {
     }
 }
 
+/// Removes what an earlier copy had below `folder` and git knows no more: cargo would find it.
+fn remove_others(copy: &Path, folder: &Path, known: &BTreeSet<&str>) -> Result<()> {
+    let Some(entries) = present(fs::read_dir(copy.join(folder)))? else { return Ok(()) };
+    for entry in entries {
+        let entry = entry?;
+        let path = folder.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            remove_others(copy, &path, known)?;
+        } else if !known.contains(path.to_string_lossy().as_ref()) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
 /// A file that git knows may be gone.
-fn present(read: io::Result<Vec<u8>>) -> Result<Option<Vec<u8>>> {
+fn present<T>(read: io::Result<T>) -> Result<Option<T>> {
     match read {
-        Ok(bytes) => Ok(Some(bytes)),
+        Ok(found) => Ok(Some(found)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.into()),
     }
