@@ -40,7 +40,7 @@ fn bytes_are_those_of_the_type() {
         u16,
         4,
         { LENGTHS.rows },
-        { LENGTHS.numbers.sum() },
+        { (1 << 13) - 1 },
         { LENGTHS.active },
         { LENGTHS.neumann },
         { LENGTHS.robin },
@@ -53,10 +53,10 @@ fn bytes_are_those_of_the_type() {
 #[test]
 fn exchanges_have_room_for_whole_blocks() -> Result<(), Error> {
     const CONTACT: usize = 2 * SIDE + 1;
-    const FOUND: [usize; 3] = storage::lengths(CONTACT);
-    assert_eq!(FOUND, [6, 6 * 3 * SIDE, 2 * 3 * SIDE]);
+    const EXPECTED: [usize; 3] = [6, 6 * 3 * SIDE, 2 * 3 * SIDE];
+    assert_eq!(storage::lengths(CONTACT), EXPECTED);
     assert_eq!([count(CONTACT), padded(CONTACT)], [6, 3 * SIDE]);
-    type Own = sparse::ArrayStorage<f64, { FOUND[0] }, { FOUND[1] }, { FOUND[2] }>;
+    type Own = sparse::ArrayStorage<f64, { EXPECTED[0] }, { EXPECTED[1] }, { EXPECTED[2] }>;
     assert_eq!(storage::bytes::<f64>(CONTACT), size_of::<Own>());
     let mut own = Own::zeros();
     assert_eq!(own.memory::<f64>(CONTACT)?.load.len(), 3 * SIDE);
