@@ -20,8 +20,8 @@ use proc_macro2::{LineColumn, Span as Tokens};
 use syn::spanned::Spanned as _;
 use syn::visit::{self, Visit};
 use syn::{
-    Arm, BinOp, Block, Expr, ExprBinary, ExprStruct, ExprUnary, ImplItemFn, ItemFn, TraitItemFn,
-    UnOp,
+    Arm, BinOp, Block, Expr, ExprBinary, ExprStruct, ExprUnary, ImplItemFn, ItemFn, Signature,
+    TraitItemFn, UnOp,
 };
 
 use crate::edits::Edits;
@@ -190,6 +190,18 @@ impl<'a> Switches<'a> {
         }
     }
 
+    /// Whether switches fit into a function; a switch is read at run time, so what has one is no longer constant.
+    fn switchable(&mut self, sig: &Signature, block: &Block) -> bool {
+        let Some(constness) = &sig.constness else { return true };
+        if self.constant.contains(&sig.ident.to_string()) {
+            return false;
+        }
+        if self.has_mutants(block.span().byte_range()) {
+            self.edits.replace(constness.span().byte_range(), String::new());
+        }
+        true
+    }
+
     fn body(&mut self, block: &Block) {
         let inside = block.brace_token.span.join();
         let mut found = self.of(inside, "FnValue");
@@ -290,22 +302,17 @@ impl<'ast> Visit<'ast> for Switches<'_> {
     }
 
     fn visit_item_fn(&mut self, node: &'ast ItemFn) {
-        if let Some(constness) = &node.sig.constness {
-            if self.constant.contains(&node.sig.ident.to_string()) {
-                return;
-            }
-            // A switch is read at run time.
-            if self.has_mutants(node.block.span().byte_range()) {
-                self.edits.replace(constness.span().byte_range(), String::new());
-            }
+        if self.switchable(&node.sig, &node.block) {
+            self.body(&node.block);
+            visit::visit_item_fn(self, node);
         }
-        self.body(&node.block);
-        visit::visit_item_fn(self, node);
     }
 
     fn visit_impl_item_fn(&mut self, node: &'ast ImplItemFn) {
-        self.body(&node.block);
-        visit::visit_impl_item_fn(self, node);
+        if self.switchable(&node.sig, &node.block) {
+            self.body(&node.block);
+            visit::visit_impl_item_fn(self, node);
+        }
     }
 
     fn visit_trait_item_fn(&mut self, node: &'ast TraitItemFn) {

@@ -110,7 +110,8 @@ fn check(folder: &Path, target: &Path) -> Result<Vec<Diagnostic>> {
 /// Finds the mutant whose own text an error is in, or the place of mutants that it is in, or the function that
 /// a constant calls.
 fn blame(tree: &Tree, error: &Diagnostic, known: &mut Viability) -> Result<()> {
-    if let Some((_, called)) = error.message.split_once("non-const function `") {
+    let kinds = ["non-const function `", "non-const method `", "non-const associated function `"];
+    if let Some((_, called)) = kinds.iter().find_map(|kind| error.message.split_once(kind)) {
         let path = called.split(['`', '<']).next().unwrap_or_default().trim_end_matches("::");
         if let Some(name) = path.rsplit("::").next().filter(|name| *name != "on") {
             known.constant.insert(name.to_owned());
