@@ -1,47 +1,81 @@
-//! The pages name files that there are.
+//! The page on scene files: its examples are read, and no key that a scene may have is missing.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Where paths of the repository start, as pages write them.
-const FOLDERS: [&str; 6] = ["docs/", "host/", "kernel/", "meshes/", "tests/", "xtask/"];
+use miette::Diagnostic as _;
+use signorini_scene::scene::Scene;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+/// A page of the repository.
+fn page(name: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    std::fs::read_to_string(root.join(name)).expect(name)
 }
 
-fn pages(folder: &Path, all: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            pages(&path, all);
-        } else if path.extension().is_some_and(|extension| extension == "md") {
-            all.push(path);
-        }
-    }
-}
-
-/// Code spans that are paths to files; `NAME` stands for any.
-fn paths(page: &str) -> impl Iterator<Item = &str> {
-    let spans = page.split('`').skip(1).step_by(2);
-    let is_path = |span: &&str| FOLDERS.iter().any(|folder| span.starts_with(folder));
-    let is_one = |span: &&str| !span.contains(['*', '<', '{', ' ', '\n']) && !span.contains("NAME");
-    spans.filter(is_path).filter(is_one)
+/// The first block of TOML on a page.
+fn example(page: &str) -> &str {
+    let (_, rest) = page.split_once("```toml\n").expect("a block of TOML");
+    rest.split_once("```").expect("its end").0
 }
 
 #[test]
-fn files_that_pages_name_exist() {
-    let mut all: Vec<_> = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "kernel/README.md"]
-        .map(|page| root().join(page))
-        .into();
-    pages(&root().join("docs"), &mut all);
-    let mut count = 0;
-    for page in all {
-        let text = fs::read_to_string(&page).expect("a page");
-        for path in paths(&text) {
-            count += 1;
-            assert!(root().join(path).exists(), "{}: {path}", page.display());
+fn examples_are_scenes() {
+    for name in ["README.md", "docs/scene.md"] {
+        let page = page(name);
+        Scene::parse(example(&page), Path::new(name)).expect(name);
+    }
+    // A piece of a scene: the levee has it.
+    let page = page("docs/firmware.md");
+    let levee = std::fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes/levee.toml"),
+    );
+    let levee = levee.expect("the levee");
+    let (head, _) = levee.split_once("[input.").expect("inputs");
+    Scene::parse(&(head.to_owned() + example(&page)), Path::new("levee.toml")).expect("a piece");
+}
+
+/// The keys that are allowed beside a wrong one: the error lists them.
+fn allowed(text: &str) -> Vec<String> {
+    let error = Scene::parse(text, Path::new("wrong.toml")).expect_err(text);
+    let hint = error.help().expect("a hint").to_string();
+    let (_, keys) = hint.split_once("allowed here: ").unwrap_or_else(|| panic!("{hint}"));
+    keys.split(", ").map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_has_every_key() {
+    let page = page("docs/scene.md");
+    let whole = example(&page);
+    let table = |name: &str, keys: &str| format!("{whole}\n[{name}]\n{keys}\nwrong = 1\n");
+    let boundary = |kind: &str| table("boundary.more", &format!("kind = \"{kind}\""));
+    let output = |kind: &str| table("output.more", &format!("kind = \"{kind}\""));
+    let extended = |name: &str| {
+        let header = format!("[{name}]\n");
+        whole.replace(&header, &format!("{header}wrong = 1\n"))
+    };
+    let asked = [
+        ("", vec![format!("wrong = 1\n{whole}")]),
+        ("material.NAME.", vec![table("material.more", "")]),
+        ("source.", vec![extended("source")]),
+        ("boundary.NAME.", vec![boundary("dirichlet"), boundary("neumann")]),
+        ("boundary.NAME.", vec![boundary("robin"), boundary("contact")]),
+        ("input.NAME.", vec![table("input.more", "")]),
+        ("output.NAME.", vec![output("flux"), output("force"), output("length")]),
+        ("output.NAME.", vec![output("probe"), output("bound")]),
+        ("target.", vec![table("target", "")]),
+        ("time.", vec![extended("time")]),
+        ("exact.", vec![table("exact", "")]),
+        ("setting.", vec![table("setting", "")]),
+    ];
+    let tables =
+        ["material", "source", "boundary", "input", "output", "target", "time", "exact", "setting"];
+    let mut missing = Vec::new();
+    for (prefix, texts) in &asked {
+        for key in texts.iter().flat_map(|text| allowed(text)) {
+            let is_known = prefix.is_empty() && tables.contains(&key.as_str());
+            if !is_known && !page.contains(&format!("\n| `{prefix}{key}` |")) {
+                missing.push(format!("{prefix}{key}"));
+            }
         }
     }
-    assert!(count > 50, "{count} paths");
+    assert!(missing.is_empty(), "docs/scene.md lacks {missing:?}");
 }
