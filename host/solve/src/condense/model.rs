@@ -1,0 +1,103 @@
+//! A condensed model as numbers: matrix, loads, outputs, and the form of its error bound.
+
+/// A condensed model, in f64.
+#[derive(Debug, Clone)]
+pub struct CondensedModel {
+    /// n, the number of contact edges; may be 0.
+    pub contact: usize,
+    /// The contact edge of each unknown, counted from the first contact edge of the mesh: they follow each other
+    /// along the boundary.
+    pub edges: Vec<usize>,
+    /// m, the number of inputs with the constant 1, which comes first.
+    pub inputs: usize,
+    /// Ŝ, n × n, row by row: symmetric with a unit diagonal.
+    pub matrix: Vec<f64>,
+    /// d_i: the opening of edge i is d_i x_i, in the unit of u.
+    pub opening: Vec<f64>,
+    /// ∫_E (σ·n − q) of edge i is this times r̂_i.
+    pub multiplier: Vec<f64>,
+    /// The m columns of B̂, n numbers each.
+    pub load: Vec<Vec<f64>>,
+    /// The inputs' default values, the constant 1 first.
+    pub defaults: Vec<f64>,
+    /// The outputs in the order of the scene; without any declared, contact force and length.
+    pub outputs: Vec<Measure>,
+    /// The error bound, or a sentence why there is none.
+    pub certificate: Result<Form, String>,
+    /// U, in the unit of ‖A^½∇u‖.
+    pub energy_unit: f64,
+    /// The unknowns of each part that nothing else holds: Ŝ is singular there.
+    pub held_by_contact: Vec<Vec<usize>>,
+}
+
+/// How an output follows from p and x.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measure {
+    /// of_inputs·p + of_contact·x
+    Linear {
+        /// m factors.
+        of_inputs: Vec<f64>,
+        /// n factors.
+        of_contact: Vec<f64>,
+    },
+    /// of_inputs·p + of_contact·x + Σ of_reaction max(r̂, 0) over the edges with x_i = 0: a force, and a flux
+    /// through contact edges.
+    Flux {
+        /// m factors, or none.
+        of_inputs: Vec<f64>,
+        /// n factors, or none.
+        of_contact: Vec<f64>,
+        /// n factors, 0 where the edge does not count.
+        of_reaction: Vec<f64>,
+    },
+    /// The sum over the edges with x_i = 0.
+    Length {
+        /// |E|, or 0 where the edge does not count.
+        of_contact: Vec<f64>,
+    },
+    /// The error bound.
+    Bound,
+}
+
+/// The certificate: all but `vertices` and `corners` in the unit U.
+#[derive(Debug, Clone)]
+pub struct Form {
+    /// F by columns, column j with its j + 1 entries: m columns of p, n of x, one of d a vertex.
+    pub factor: Vec<f64>,
+    /// What rounding in f64 may hide of each column of F and J, those of d included.
+    pub lost: Vec<f64>,
+    /// J by columns in the same way, ‖A^½∇_h(s − u_h)‖ = U |J(p, x, d)|; nothing where F is never less.
+    pub jump: Option<Vec<f64>>,
+    /// The contact vertices that are not on D.
+    pub vertices: Vec<Vertex>,
+    /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U stability |δ|.
+    pub stability: f64,
+    /// Where u_D lies above ψ beside contact.
+    pub corners: Vec<Corner>,
+    /// osc_j of each input alone, over U.
+    pub oscillation: Vec<f64>,
+    /// The unknowns of the one part that contact alone holds: what is mended there must leave through another edge of it.
+    pub floating: Vec<usize>,
+}
+
+/// A contact vertex: where e = s − ψ comes from there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vertex {
+    /// The two unknowns that e is interpolated from.
+    pub edges: [usize; 2],
+    /// e = U Σ weights · x\[edges\]
+    pub weights: [f64; 2],
+    /// The unknowns of the contact edges that meet here; the same one twice at an end.
+    pub beside: [usize; 2],
+}
+
+/// A contact edge whose end is on D: it adds excess·r̂ to (gap/U)² where it is active.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corner {
+    /// The unknown of that edge.
+    pub edge: usize,
+    /// (u_D − ψ)/d at that end as m factors of p.
+    pub excess: Vec<f64>,
+    /// What moving u_D there by d costs at most, in the unit of ‖A^½∇u‖ where that of U is 1.
+    pub energy: f64,
+}
