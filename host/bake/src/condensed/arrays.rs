@@ -1,18 +1,18 @@
 //! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
 
 use signorini_kernel::device::condensed::Condensed;
-use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
-use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::certificate::Corner;
 use signorini_kernel::device::condensed::method::Sweeps;
-use signorini_kernel::device::condensed::outputs::Measure;
 use signorini_kernel::solve::dense::blocks::Block;
 use signorini_kernel::{Error, error::Array};
 
-use super::padding::{filled_up, matrix, narrow};
+use super::bound::Bound;
+use super::output::Output;
+use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
 use signorini_scene::setting::{Omega, Setting, Start as From};
-use signorini_solve::condense::{self, CondensedModel};
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
 
 /// How much the solver of a baked model may do in a tick.
@@ -55,37 +55,6 @@ pub struct Baked<R: Scalar> {
     pub(super) load: Vec<R>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) bound: Result<Bound<R>, String>,
-}
-
-/// An output with its arrays.
-#[derive(Debug, Clone)]
-pub(super) enum Output<R> {
-    Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
-    Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
-    Length { of_contact: Vec<R> },
-    Bound,
-}
-
-/// A quadratic form: its triangular factor by columns, and the norms of the columns.
-#[derive(Debug, Clone)]
-pub(super) struct Columns<R> {
-    pub columns: Vec<R>,
-    pub norms: Vec<R>,
-}
-
-/// The certificate's arrays.
-#[derive(Debug, Clone)]
-pub(super) struct Bound<R> {
-    pub factor: Columns<R>,
-    pub jump: Option<Columns<R>>,
-    pub vertices: Vec<Vertex<R>>,
-    pub corners: Vec<(u16, Vec<R>)>,
-    pub stability: R,
-    pub floating: Vec<R>,
-    pub oscillation: Vec<R>,
-    pub row_sum: R,
-    pub largest_load: Vec<R>,
-    pub unit: R,
 }
 
 impl<R: Scalar> Baked<R> {
@@ -207,123 +176,5 @@ impl<R: Scalar> Baked<R> {
             finite(Array::MatrixValues, &form.columns)?;
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
-    }
-}
-
-impl<R: Scalar> Output<R> {
-    fn new(measure: &condense::Measure) -> Self {
-        match measure {
-            condense::Measure::Linear { of_inputs, of_contact } => {
-                Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
-            }
-            condense::Measure::Flux { of_inputs, of_contact, of_reaction } => Self::Flux {
-                of_inputs: narrow(of_inputs),
-                of_contact: narrow(of_contact),
-                of_reaction: narrow(of_reaction),
-            },
-            condense::Measure::Length { of_contact } => {
-                Self::Length { of_contact: narrow(of_contact) }
-            }
-            condense::Measure::Bound => Self::Bound,
-        }
-    }
-
-    /// What it holds in flash.
-    pub fn arrays(&self) -> [&[R]; 3] {
-        match self {
-            Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],
-            Self::Flux { of_inputs, of_contact, of_reaction } => {
-                [of_inputs, of_contact, of_reaction]
-            }
-            Self::Length { of_contact } => [&[], of_contact, &[]],
-            Self::Bound => [&[]; 3],
-        }
-    }
-
-    fn measure(&self) -> Measure<'_, R> {
-        match self {
-            Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
-            Self::Flux { of_inputs, of_contact, of_reaction } => {
-                Measure::Flux { of_inputs, of_contact, of_reaction }
-            }
-            Self::Length { of_contact } => Measure::Length { of_contact },
-            Self::Bound => Measure::Bound,
-        }
-    }
-}
-
-impl<R: Scalar> Columns<R> {
-    /// The norms are what ε is multiplied by: what the host's own rounding may hide of a column is counted in them.
-    fn new(factor: &[f64], lost: &[f64], order: usize) -> Self {
-        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
-        let least = |j: usize| R::TINY.wide() * f64::from(j as u32 + 1).sqrt();
-        let hidden = |j: usize| lost[j] / (2.0 * R::EPSILON.wide());
-        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)) + hidden(j))).collect();
-        Self { columns: narrow(factor), norms }
-    }
-
-    fn view(&self) -> Factor<'_, R> {
-        Factor { columns: &self.columns, norms: &self.norms }
-    }
-}
-
-impl<R: Scalar> Bound<R> {
-    fn new(condensate: &CondensedModel, form: &condense::Form) -> Self {
-        let n = condensate.contact;
-        let order = condensate.inputs + n + form.vertices.len();
-        let least = R::TINY.wide();
-        let rows = condensate.matrix.chunks(n.max(1));
-        let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
-        let largest =
-            |column: &Vec<f64>| column.iter().fold(least, |most: f64, b| most.max(b.abs()));
-        // Only their ratios matter.
-        let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
-        let mut floating = vec![0.0; if form.floating.is_empty() { 0 } else { n }];
-        form.floating.iter().for_each(|&at| floating[at] = condensate.multiplier[at] / most);
-        // The kernel takes u_D that rounding of its sum has put below ψ: by how much is weighed here, input by input.
-        let slack = f64::from(condensate.inputs as u32 + 8) * R::EPSILON.wide();
-        let of_corners = |j: usize| {
-            let moved = form.corners.iter().map(|corner| corner.excess[j].abs() * corner.energy);
-            slack * moved.sum::<f64>()
-        };
-        let oscillation = form.oscillation.iter().enumerate();
-        let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
-        Self {
-            factor: Columns::new(&form.factor, &form.lost, order),
-            jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
-            vertices: form.vertices.iter().map(vertex).collect(),
-            corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
-            stability: R::narrow(form.stability),
-            floating: narrow(&floating),
-            oscillation: narrow(&oscillation),
-            row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
-            largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
-            unit: R::narrow(condensate.energy_unit),
-        }
-    }
-
-    fn form<'a>(&'a self, corners: &'a [Corner<'a, R>]) -> Form<'a, R> {
-        Form {
-            factor: self.factor.view(),
-            jump: self.jump.as_ref().map(Columns::view),
-            vertices: &self.vertices,
-            corners,
-            stability: self.stability,
-            floating: &self.floating,
-            oscillation: &self.oscillation,
-            row_sum: self.row_sum,
-            largest_load: &self.largest_load,
-            unit: self.unit,
-        }
-    }
-}
-
-fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
-    Vertex {
-        edges: vertex.edges.map(|edge| edge as u16),
-        weights: vertex.weights.map(R::narrow),
-        beside: vertex.beside.map(|edge| edge as u16),
     }
 }

@@ -7,8 +7,10 @@
 //! ```
 
 mod arrays;
+mod bound;
 mod controller;
 mod header;
+mod output;
 mod padding;
 mod relaxation;
 mod sizes;

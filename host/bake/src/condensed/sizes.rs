@@ -2,7 +2,9 @@
 
 use signorini_kernel::solve::dense::blocks::{count, padded};
 
-use super::arrays::{Baked, Columns, Output, Solver};
+use super::arrays::{Baked, Solver};
+use super::bound::Columns;
+use super::output::Output;
 use crate::full::Sizes;
 use signorini_solve::scalar::Scalar;
 

@@ -4,7 +4,9 @@ use std::fmt::{Debug, Write as _};
 
 use signorini_kernel::solve::dense::blocks::Block;
 
-use super::arrays::{Baked, Bound, Output, Solver};
+use super::arrays::{Baked, Solver};
+use super::bound::Bound;
+use super::output::Output;
 use crate::module_api::ModuleApi;
 use crate::text::array;
 use signorini_solve::scalar::Scalar;

@@ -1,0 +1,106 @@
+//! The form of a condensed scene's error bound as the target has it.
+
+use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::device::condensed::factor::Factor;
+
+use super::padding::narrow;
+use signorini_solve::condense::{self, CondensedModel};
+use signorini_solve::scalar::Scalar;
+
+/// A quadratic form: its triangular factor by columns, and the norms of the columns.
+#[derive(Debug, Clone)]
+pub(super) struct Columns<R> {
+    pub columns: Vec<R>,
+    pub norms: Vec<R>,
+}
+
+/// The certificate's arrays.
+#[derive(Debug, Clone)]
+pub(super) struct Bound<R> {
+    pub factor: Columns<R>,
+    pub jump: Option<Columns<R>>,
+    pub vertices: Vec<Vertex<R>>,
+    pub corners: Vec<(u16, Vec<R>)>,
+    pub stability: R,
+    pub floating: Vec<R>,
+    pub oscillation: Vec<R>,
+    pub row_sum: R,
+    pub largest_load: Vec<R>,
+    pub unit: R,
+}
+
+impl<R: Scalar> Columns<R> {
+    /// The norms are what ε is multiplied by: what the host's own rounding may hide of a column is counted in them.
+    pub fn new(factor: &[f64], lost: &[f64], order: usize) -> Self {
+        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+        let size = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        // What multiplies ε stands for the absolute rounding of numbers near underflow as well.
+        let least = |j: usize| R::TINY.wide() * f64::from(j as u32 + 1).sqrt();
+        let hidden = |j: usize| lost[j] / (2.0 * R::EPSILON.wide());
+        let norms = (0..order).map(|j| R::narrow(size(j).max(least(j)) + hidden(j))).collect();
+        Self { columns: narrow(factor), norms }
+    }
+
+    fn view(&self) -> Factor<'_, R> {
+        Factor { columns: &self.columns, norms: &self.norms }
+    }
+}
+
+impl<R: Scalar> Bound<R> {
+    pub fn new(condensate: &CondensedModel, form: &condense::Form) -> Self {
+        let n = condensate.contact;
+        let order = condensate.inputs + n + form.vertices.len();
+        let least = R::TINY.wide();
+        let rows = condensate.matrix.chunks(n.max(1));
+        let row_sums = rows.map(|row| row.iter().map(|entry| entry.abs()).sum());
+        let largest =
+            |column: &Vec<f64>| column.iter().fold(least, |most: f64, b| most.max(b.abs()));
+        // Only their ratios matter.
+        let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
+        let mut floating = vec![0.0; if form.floating.is_empty() { 0 } else { n }];
+        form.floating.iter().for_each(|&at| floating[at] = condensate.multiplier[at] / most);
+        // The kernel takes u_D that rounding of its sum has put below ψ: by how much is weighed here, input by input.
+        let slack = f64::from(condensate.inputs as u32 + 8) * R::EPSILON.wide();
+        let of_corners = |j: usize| {
+            let moved = form.corners.iter().map(|corner| corner.excess[j].abs() * corner.energy);
+            slack * moved.sum::<f64>()
+        };
+        let oscillation = form.oscillation.iter().enumerate();
+        let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
+        Self {
+            factor: Columns::new(&form.factor, &form.lost, order),
+            jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
+            vertices: form.vertices.iter().map(vertex).collect(),
+            corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
+            stability: R::narrow(form.stability),
+            floating: narrow(&floating),
+            oscillation: narrow(&oscillation),
+            row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
+            largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
+            unit: R::narrow(condensate.energy_unit),
+        }
+    }
+
+    pub fn form<'a>(&'a self, corners: &'a [Corner<'a, R>]) -> Form<'a, R> {
+        Form {
+            factor: self.factor.view(),
+            jump: self.jump.as_ref().map(Columns::view),
+            vertices: &self.vertices,
+            corners,
+            stability: self.stability,
+            floating: &self.floating,
+            oscillation: &self.oscillation,
+            row_sum: self.row_sum,
+            largest_load: &self.largest_load,
+            unit: self.unit,
+        }
+    }
+}
+
+fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
+    Vertex {
+        edges: vertex.edges.map(|edge| edge as u16),
+        weights: vertex.weights.map(R::narrow),
+        beside: vertex.beside.map(|edge| edge as u16),
+    }
+}

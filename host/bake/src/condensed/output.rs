@@ -1,0 +1,58 @@
+//! Outputs of a condensed scene as the target has them.
+
+use signorini_kernel::device::condensed::outputs::Measure;
+
+use super::padding::narrow;
+use signorini_solve::condense;
+use signorini_solve::scalar::Scalar;
+
+/// An output with its arrays.
+#[derive(Debug, Clone)]
+pub(super) enum Output<R> {
+    Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
+    Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
+    Length { of_contact: Vec<R> },
+    Bound,
+}
+
+impl<R: Scalar> Output<R> {
+    pub fn new(measure: &condense::Measure) -> Self {
+        match measure {
+            condense::Measure::Linear { of_inputs, of_contact } => {
+                Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Flux { of_inputs, of_contact, of_reaction } => Self::Flux {
+                of_inputs: narrow(of_inputs),
+                of_contact: narrow(of_contact),
+                of_reaction: narrow(of_reaction),
+            },
+            condense::Measure::Length { of_contact } => {
+                Self::Length { of_contact: narrow(of_contact) }
+            }
+            condense::Measure::Bound => Self::Bound,
+        }
+    }
+
+    /// What it holds in flash.
+    pub fn arrays(&self) -> [&[R]; 3] {
+        match self {
+            Self::Linear { of_inputs, of_contact } => [of_inputs, of_contact, &[]],
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                [of_inputs, of_contact, of_reaction]
+            }
+            Self::Length { of_contact } => [&[], of_contact, &[]],
+            Self::Bound => [&[]; 3],
+        }
+    }
+
+    pub fn measure(&self) -> Measure<'_, R> {
+        match self {
+            Self::Linear { of_inputs, of_contact } => Measure::Linear { of_inputs, of_contact },
+            Self::Flux { of_inputs, of_contact, of_reaction } => {
+                Measure::Flux { of_inputs, of_contact, of_reaction }
+            }
+            Self::Length { of_contact } => Measure::Length { of_contact },
+            Self::Bound => Measure::Bound,
+        }
+    }
+}
