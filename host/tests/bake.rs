@@ -139,7 +139,7 @@ fn a_device_without_room_for_the_tableau_gets_sweeps() {
     let (status, _, _, source) = bake("scenes/levee.toml", &tight, &[]);
     let source = source.expect("a module");
     assert_eq!(status, 0);
-    assert!(!source.contains("Tableau") && source.contains("pub const SWEEPS"));
+    assert!(!source.contains("TableauStorage") && source.contains("pub const SWEEPS"));
 }
 
 #[test]

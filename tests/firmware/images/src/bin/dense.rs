@@ -16,7 +16,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE};
-use signorini_kernel::solve::dense::tableau::{Start, Tableau};
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::solve::dense::{Iterate, pivoting, sor};
 
 const MOST: usize = 64;
@@ -71,7 +71,7 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
     let mut tableau = Tableau::new(n, room, exchanged, [cut(column, n)?, cut(next, n)?])?;
     let nothing = [false; MOST];
     let exchanged = nothing.get(..n).unwrap_or_default();
-    let start = Start { blocks: matrix.blocks(), exchanged };
+    let start = InitialTableau { blocks: matrix.blocks(), exchanged };
     tableau.reset(&start)?;
     let mut solve = |load: &[R]| {
         let iterate = Iterate {
