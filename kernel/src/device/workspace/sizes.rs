@@ -10,7 +10,7 @@
 /// With `ticks only` there is no room for the matrix in rows of a sparse format: it ticks, and does not
 /// [`solve`](crate::Workspace::solve).
 /// ```
-/// use signorini_kernel::device::workspace;
+/// use signorini_kernel::workspace;
 ///
 /// // Four vertices, two triangles, four boundary edges.
 /// type Plate = workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4);

@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use super::*;
-use crate::mutant::Place;
+use crate::mutant::SourcePosition;
 
 /// The mutant of what stands between columns of the first line.
 fn mutant(id: u32, genre: &str, columns: Range<usize>, replacement: &str) -> Mutant {
-    let place = |column| Place { line: 1, column };
+    let place = |column| SourcePosition { line: 1, column };
     let span = Span { start: place(columns.start), end: place(columns.end) };
     let (genre, replacement) = (genre.to_owned(), replacement.to_owned());
     Mutant { file: String::new(), span, replacement, genre, name: String::new(), id }
