@@ -10,6 +10,7 @@ use signorini_kernel::bound::certificate::{
 };
 use signorini_kernel::bound::equilibrium::Iterate;
 use signorini_kernel::discrete::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::kernel::BOUND;
@@ -45,7 +46,7 @@ fn run(sides: [Side; 4], at_points: bool, curved: &[Curved<f64, u16>]) -> Result
     let mut indicators = vec![f64::NAN; discretization.edges.cells()];
     let buffers =
         Buffers { vertices: &mut s, bubbles: &mut d, tau: &mut tau, indicators: &mut indicators };
-    let iterate = Iterate { u: &u, lower: &foundation.lower };
+    let iterate = Iterate { u: &u, law: Law::above(&foundation.lower) };
     let verdict = certify(&discretization, &given, iterate, buffers)?;
     let expected = from_coordinates(&discretization, &s, &d, &tau)
         + on_boundary(&discretization, &given, &s, &d, &tau);
@@ -141,7 +142,7 @@ fn on_boundary(
     };
     let contact = (0..counts.contact).map(|at| {
         let edge = counts.free + at;
-        2.0 * (tau[edge] - given.boundary.contact_flux(at)) * along(edge, &|s| s - GAP)
+        2.0 * (tau[edge] - given.boundary.contact_flux(at).least()) * along(edge, &|s| s - GAP)
     });
     let transfer = given.boundary.robin().iter().map(|law| {
         let edge = usize::from(law.edge);
@@ -195,7 +196,7 @@ fn indicators_are_one_a_cell_or_none() -> Result<(), Error> {
         let (vertices, bubbles) = (&mut s[..], &mut vec![0.0; u.len()][..]);
         let indicators = &mut vec![0.0; indicators][..];
         let buffers = Buffers { vertices, bubbles, tau: &mut tau, indicators };
-        let iterate = Iterate { u: &u, lower: &foundation.lower };
+        let iterate = Iterate { u: &u, law: Law::above(&foundation.lower) };
         assert_eq!(certify(&discretization, &given, iterate, buffers).is_ok(), fits);
     }
     Ok(())

@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used)]
 
 use signorini_kernel::device::condition::{BoundaryEdge, Condition};
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
@@ -190,7 +191,7 @@ fn a_solve_that_gets_nowhere_stalls() -> Result<(), Error> {
     let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
     let mut memory = [Row::<f64, u16, 2>::EMPTY; 1];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    let system = System::new(matrix, &[0.0], &[], counts)?;
+    let system = System::new(matrix, &[0.0], Law::above(&[]), counts)?;
     let settings = Settings { relaxation, max_sweeps: u32::MAX, ..Settings::default() };
     let outcome = Solver::new(settings)?.run(&system, &mut rows, &mut [1.0])?;
     assert_eq!((outcome.status, outcome.sweeps), (Status::Stalled, 9 << 18));

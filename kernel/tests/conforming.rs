@@ -10,6 +10,7 @@ use signorini_kernel::bound::cells::{CellBuffers, Quad, Triangle, pack};
 use signorini_kernel::bound::conforming::{VertexData, impose};
 use signorini_kernel::bound::forest::{ForestBuffers, grow};
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_tolerances::kernel::{LINEAR, WEIGHTED};
 
@@ -38,7 +39,7 @@ fn conforming(
     let given: Vec<_> = ends[counts.unknowns()..].iter().map(|ends| ends.map(given)).collect();
     let mut values = averages(&plate, &(0..edges.cells()).map(alpha).collect::<Vec<_>>(), &means)?;
     let data = VertexData { gap: &gap, given: &given };
-    let below = impose(&mesh, &edges, &means, &lower, data, &mut values)?;
+    let below = impose(&mesh, &edges, &means, Law::above(&lower), data, &mut values)?;
     Ok((plate, values, below))
 }
 

@@ -2,6 +2,7 @@
 
 use signorini_kernel::device::condition::{BoundaryEdge, Condition};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
@@ -214,13 +215,13 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     let wrong = [(1, 3, unknowns(3)), (1, 5, unknowns(5)), (0, 4, bounds(0)), (2, 4, bounds(2))];
     for (lower, u, refused) in wrong {
         let (lower, mut u) = (vec![0.0; lower], vec![0.0; u]);
-        assert_eq!(psor::sweep(&rows, &lower, &mut u), Err(refused));
+        assert_eq!(psor::sweep(&rows, Law::above(&lower), &mut u), Err(refused));
     }
     assert_eq!(
         psor::sweep_free(&rows, &mut [0.0; 3]).err(),
         Some(Error::Length { of: Array::Unknowns, found: 3, expected: 4 })
     );
-    assert_eq!(psor::sweep(&rows, &[0.0], &mut [0.0; 4]), Ok(()));
+    assert_eq!(psor::sweep(&rows, Law::above(&[0.0]), &mut [0.0; 4]), Ok(()));
 
     // The bill of memory in `docs/embedding.md`.
     assert_eq!((size_of::<Row<f32, u16, 4>>(), size_of::<Row<f32, u16, 6>>()), (28, 40));
@@ -275,7 +276,8 @@ fn chain<R>(work: impl FnOnce(&System<f64, u16>, &mut Rows<f64, u16, 2>) -> R) -
     let matrix = Csr::new(&row_ptr, &col_idx, &values, 3).expect("valid");
     let mut memory = [Row::EMPTY; 3];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory).expect("valid");
-    let system = System::new(matrix, &[-1.0, -1.0, -1.0], &[-0.5], counts).expect("valid");
+    let system =
+        System::new(matrix, &[-1.0, -1.0, -1.0], Law::above(&[-0.5]), counts).expect("valid");
     work(&system, &mut rows)
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::indexing_slicing)]
 
 use signorini_kernel::discrete::element::{crouzeix_raviart, rannacher_turek};
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::{Coefficient, fill};
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::edges::EdgeCounts;
@@ -181,6 +182,6 @@ fn corners_that_rounding_hides_turn_nowhere() {
 #[test]
 fn an_edge_beyond_the_contact_edges_is_not_active() {
     let counts = EdgeCounts { free: 0, contact: 1, dirichlet: 1 };
-    assert!(contact::is_active(counts, &[0.0], &[0.0, 0.0], 0));
-    assert!(!contact::is_active(counts, &[0.0], &[0.0, 0.0], 1));
+    assert!(contact::is_active(counts, Law::above(&[0.0]), &[0.0, 0.0], 0));
+    assert!(!contact::is_active(counts, Law::above(&[0.0]), &[0.0, 0.0], 1));
 }

@@ -9,6 +9,7 @@ use signorini_kernel::bound::cells::{CellBuffers, Either, Quad, Triangle, pack};
 use signorini_kernel::bound::equilibrium::{Iterate, impose, pulled, walk};
 use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::error::Array;
@@ -62,7 +63,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     rows.gather(&edges, stiffness, &boundary, &b, 1.5)?;
     let mut u = vec![0.0; counts.edges()];
     for _ in 0..sweeps {
-        psor::sweep(&rows, &gap, &mut u)?;
+        psor::sweep(&rows, Law::above(&gap), &mut u)?;
     }
 
     let roots = |edge: usize| match counts.block(edge) {
@@ -91,7 +92,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     let cells = pack(&mesh, &edges, stiffness, &alphas, &compliance, &forest, buffers)?;
     assert!(!cells.is_empty());
     averages::fill(&cells, loads, &[], &u, &mut s, &mut tau)?;
-    impose(&edges, &boundary, Iterate { u: &u, lower: &gap }, &mut tau);
+    impose(&edges, &boundary, Iterate { u: &u, law: Law::above(&gap) }, &mut tau);
     walk(&cells, loads, &mut tau);
 
     let defects = cells.from_leaves().map(|cell| match cell {

@@ -2,6 +2,7 @@
 #![allow(clippy::indexing_slicing)]
 
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::{Residual, System};
@@ -30,7 +31,7 @@ fn residual(load: &[f64], lower: f64, u: &[f64]) -> Result<Residual<f64>, Error>
     }
     let counts = EdgeCounts { free: n - 1, contact: 1, dirichlet: 0 };
     let matrix = Csr::new(&row_ptr, &col_idx, &values, n)?;
-    Ok(System::new(matrix, load, &[lower], counts)?.residual(u))
+    Ok(System::new(matrix, load, Law::above(&[lower]), counts)?.residual(u))
 }
 
 #[test]
@@ -88,7 +89,7 @@ fn spring<R>(
     let lower = &[-1.0][..contact];
     let mut memory = [Row::EMPTY; 2];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    let system = System::new(matrix, &load, lower, counts)?;
+    let system = System::new(matrix, &load, Law::above(lower), counts)?;
     let system = system.with_shifts(Shifts { part: &[], parts: 1, robin: &[] })?;
     Ok(work(&system, &mut rows))
 }
@@ -122,7 +123,7 @@ fn the_longest_block_is_a_quarter_of_a_million_sweeps() -> Result<(), Error> {
     let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
     let mut memory = [Row::<f64, u16, 2>::EMPTY; 1];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    let system = System::new(matrix, &[0.0], &[], counts)?;
+    let system = System::new(matrix, &[0.0], Law::above(&[]), counts)?;
     let outcome = Solver::new(settings)?.run(&system, &mut rows, &mut [1.0])?;
     assert_eq!((outcome.status, outcome.sweeps), (Status::Converged, 1 << 18));
     Ok(())
@@ -149,7 +150,7 @@ fn a_value_that_is_not_finite_is_told_even_where_no_row_reads_it() -> Result<(),
     let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 1 };
     let mut memory = [Row::<f64, u16, 2>::EMPTY; 1];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    let system = System::new(matrix, &[0.0], &[], counts)?;
+    let system = System::new(matrix, &[0.0], Law::above(&[]), counts)?;
     let mut solver = Solver::new(Settings::default())?;
     let outcome = solver.run(&system, &mut rows, &mut [0.5, f64::INFINITY])?;
     assert_eq!((outcome.status, outcome.residual.largest), (Status::NotFinite, 0.5));
@@ -181,9 +182,9 @@ fn swept<I: Index>() -> Result<[f64; 3], Error> {
     let matrix = Csr::new(&[0, 2, 5, 7], &columns, &values, 3)?;
     let mut memory = [Row::<f64, I, 2>::EMPTY; 3];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
-    rows.set(&System::new(matrix, &[1.0, 2.0, -9.0], &[-1.0], counts)?, 1.0)?;
+    rows.set(&System::new(matrix, &[1.0, 2.0, -9.0], Law::above(&[-1.0]), counts)?, 1.0)?;
     let mut u = [0.0, 3.0, 5.0];
-    psor::sweep(&rows, &[-1.0], &mut u)?;
+    psor::sweep(&rows, Law::above(&[-1.0]), &mut u)?;
     Ok(u)
 }
 

@@ -13,6 +13,7 @@ use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Ended, Limits, Progress, Report, Running, Substitutions, Tick,
     UncertifiedSweeps,
 };
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::QUADS;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::solve::sparse::Exact;
@@ -55,7 +56,7 @@ impl Input {
         let mut given = foundation.given()?;
         given.loads.triangles = &self.loads.0;
         given.loads.quads = &self.loads.1;
-        Ok(Data { given, lower: &self.lower, dirichlet: &foundation.dirichlet })
+        Ok(Data { given, law: Law::above(&self.lower), dirichlet: &foundation.dirichlet })
     }
 }
 
@@ -214,7 +215,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let robin: Vec<_> = given.robin().iter().map(law).collect();
             let edges = foundation.plate.edges()?;
             let flux: Vec<_> =
-                (0..edges.counts().contact).map(|at| given.contact_flux(at)).collect();
+                (0..edges.counts().contact).map(|at| given.contact_flux(at).least()).collect();
             let boundary = Boundary::new(&edges, given.neumann(), &robin, &flux)?;
             let data = second.data(&foundation)?;
             let data = Data { given: LoadCase { boundary, ..data.given }, ..data };
@@ -301,8 +302,12 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
     let (baked, given) = (Baked::new(&foundation)?, foundation.given()?);
     let boundary = &given.boundary;
-    let flux: Vec<f64> =
-        foundation.lower.iter().enumerate().map(|(at, _)| boundary.contact_flux(at)).collect();
+    let flux: Vec<f64> = foundation
+        .lower
+        .iter()
+        .enumerate()
+        .map(|(at, _)| boundary.contact_flux(at).least())
+        .collect();
     let VertexData { gap, given: on_dirichlet } = given.ends;
     let touching: Vec<u16> = (0..foundation.lower.len() as u16).collect();
     let full = Full {

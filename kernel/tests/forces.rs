@@ -11,8 +11,9 @@ use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::condition::{BoundaryEdge, Condition};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::Ended;
-use signorini_kernel::discrete::contact::within_law;
+use signorini_kernel::discrete::law::EdgeLaw;
 use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_kernel::mesh::boundary::FluxRange;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::dense::tableau::InitialTableau;
@@ -24,11 +25,12 @@ use strip::{Random, Strip};
 #[test]
 fn the_law_of_an_edge() {
     let (gap, q) = (2.0_f64, -0.5);
-    assert_eq!(within_law(2.1, gap, 3.0, q), q, "an open edge carries q");
-    assert_eq!(within_law(gap, gap, 3.0, q), 3.0, "a touching edge carries what presses it");
-    assert_eq!(within_law(gap, gap, -0.7, q), q, "and is not pulled at");
-    assert!(within_law(gap, gap, f64::NAN, q).is_nan());
-    assert!(within_law(f64::NAN, gap, f64::NAN, q).is_nan());
+    let (law, range) = (EdgeLaw::above(gap), FluxRange::from(q));
+    assert_eq!(law.flux(2.1, 3.0, range), q, "an open edge carries q");
+    assert_eq!(law.flux(gap, 3.0, range), 3.0, "a touching edge carries what presses it");
+    assert_eq!(law.flux(gap, -0.7, range), q, "and is not pulled at");
+    assert!(law.flux(gap, f64::NAN, range).is_nan());
+    assert!(law.flux(f64::NAN, f64::NAN, range).is_nan());
 }
 
 /// Cells along a side of the plate.

@@ -3,6 +3,7 @@
 
 mod plate;
 
+use signorini_kernel::discrete::law::Law;
 use std::cell::Cell;
 
 use plate::Side;
@@ -78,7 +79,7 @@ impl Store {
 
 fn data(foundation: &Foundation) -> Result<Data<'_, f64, u16>, Error> {
     let given = foundation.given()?;
-    Ok(Data { given, lower: &foundation.lower, dirichlet: &foundation.dirichlet })
+    Ok(Data { given, law: Law::above(&foundation.lower), dirichlet: &foundation.dirichlet })
 }
 
 fn certificate(report: &Report<f64>) -> Certificate<f64> {
@@ -277,7 +278,7 @@ fn multipliers(foundation: &Foundation, u: &[f64], flux: &[f64]) -> Result<Vec<f
     let law = |at: usize| {
         let edge = counts.free + at;
         let touches = u[edge] == foundation.lower[at];
-        if touches { (flux[edge] - boundary.contact_flux(at)).max(0.0) } else { 0.0 }
+        if touches { (flux[edge] - boundary.contact_flux(at).least()).max(0.0) } else { 0.0 }
     };
     Ok((0..counts.contact).map(law).collect())
 }
@@ -309,7 +310,7 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
                 .check(format_args!("{sweeps}: {by_law} {report:?}"), report.force - by_law);
         }
         let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
-        let given = foundation.boundary()?.contact_flux(0);
+        let given = foundation.boundary()?.contact_flux(0).least();
         pulled += usize::from(on_contact.map(|flux| flux - given).sum::<f64>() < 0.0);
     }
     assert!(pulled > 0, "the flux (15) never pulled: this test tests nothing");
@@ -331,7 +332,7 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
     let data = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..data.given.ends };
-    let data = Data { given: LoadCase { ends, ..data.given }, lower: &lower, ..data };
+    let data = Data { given: LoadCase { ends, ..data.given }, law: Law::above(&lower), ..data };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
@@ -354,7 +355,7 @@ fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
     let (gap, lower) = (vec![[2.0; 2]; counts.contact], vec![2.0; counts.contact]);
     let good = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..good.given.ends };
-    let raised = Data { given: LoadCase { ends, ..good.given }, lower: &lower, ..good };
+    let raised = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     tick.begin(raised)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
     assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
@@ -377,7 +378,7 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
     let good = data(&foundation)?;
     let ends = VertexData { gap: &gap, ..good.given.ends };
-    let data = Data { given: LoadCase { ends, ..good.given }, lower: &lower, ..good };
+    let data = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let report =
         tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
@@ -399,7 +400,7 @@ fn takes(
     let good = data(foundation)?;
     let loads = CellLoads { triangles: &triangles, quads: &quads };
     let given = LoadCase { loads, ..good.given };
-    match tick.begin(Data { given, lower: &lower, dirichlet: &dirichlet }) {
+    match tick.begin(Data { given, law: Law::above(&lower), dirichlet: &dirichlet }) {
         Ok(mut running) => {
             running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
             Ok(true)
@@ -485,7 +486,7 @@ fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
         let gap = VertexData { gap: &ends, ..good_data.given.ends };
         let given = good_data.given;
         let refused = [
-            Data { lower: &lower, ..good_data },
+            Data { law: Law::above(&lower), ..good_data },
             Data { dirichlet: &dirichlet, ..good_data },
             Data { given: LoadCase { loads, ..given }, ..good_data },
             Data { given: LoadCase { ends: gap, ..given }, ..good_data },

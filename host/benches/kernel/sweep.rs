@@ -1,6 +1,7 @@
 //! One sweep, and what it costs to know how far one is.
 
 use criterion::Bencher;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solve::psor;
 use signorini_solve::scalar::Scalar;
@@ -13,8 +14,8 @@ pub fn sweep<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 }
 
 fn sweep_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
-    with_rows::<R, WIDTH>(strip, |rows, lower, mut u| {
-        bencher.iter(|| psor::sweep(rows, lower, &mut u));
+    with_rows::<R, WIDTH>(strip, |rows, law, mut u| {
+        bencher.iter(|| psor::sweep(rows, law, &mut u));
     });
 }
 
@@ -24,19 +25,19 @@ pub fn defect<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 }
 
 fn defect_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
-    with_rows::<R, WIDTH>(strip, |rows, lower, u| bencher.iter(|| psor::defect(rows, lower, &u)));
+    with_rows::<R, WIDTH>(strip, |rows, law, u| bencher.iter(|| psor::defect(rows, law, &u)));
 }
 
 fn with_rows<R: Scalar, const WIDTH: usize>(
     strip: &Strip,
-    time: impl FnOnce(&Rows<R, u32, WIDTH>, &[R], Vec<R>),
+    time: impl FnOnce(&Rows<R, u32, WIDTH>, Law<R>, Vec<R>),
 ) {
     let assembled = strip.assembled::<R>();
     let system = assembled.system().expect("the numbers are finite");
     let mut memory = vec![Row::EMPTY; system.counts().unknowns()];
     let mut rows = Rows::new(assembled.edges(), &mut memory).expect("u32 holds the edges");
     rows.set(&system, R::narrow(1.9)).expect("one numbering");
-    time(&rows, system.lower(), assembled.start());
+    time(&rows, system.law(), assembled.start());
 }
 
 /// The residual of the matrix, with its scale and what rounding makes of it.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use signorini_kernel::discrete::contact::within_law;
+use signorini_kernel::discrete::law::EdgeLaw;
 
 use crate::field::CellField;
 use crate::functional::Functional;
@@ -63,13 +63,13 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
             Some(edges.iter().fold(0.0, |sum, &edge| sum + reading.flux(problem, edge)))
         }
         Functional::Force(edges) => Some(edges.iter().fold(0.0, |sum, &edge| {
-            sum + (reading.flux(problem, edge) - problem.loads.contact_flux[edge - free])
+            sum + problem.loads.flux_range(edge - free).multiplier(reading.flux(problem, edge))
         })),
         Functional::Probe(cell, point) => {
             Some(CellField::new(problem, *cell, reading.u, reading.flux).sample(point).u)
         }
         Functional::Length(lengths) => {
-            let touches = |edge: usize| reading.u[edge] == reading.gap(problem, edge - free);
+            let touches = |edge: usize| reading.law(problem, edge - free).touches(reading.u[edge]);
             let active = lengths.iter().filter(|(edge, _)| touches(*edge));
             Some(active.fold(0.0, |sum, (_, length)| sum + length))
         }
@@ -78,9 +78,10 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
 }
 
 impl Reading<'_> {
-    /// Mean of ψ over a contact edge as the scalar holds it, so that u_E = ψ_E can be asked.
-    fn gap(&self, problem: &Problem, contact: usize) -> f64 {
-        self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u
+    /// The law on a contact edge with ψ as the scalar holds it, so that u_E = ψ_E can be asked.
+    fn law(&self, problem: &Problem, contact: usize) -> EdgeLaw<f64> {
+        let gap = self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u;
+        EdgeLaw::above(gap)
     }
 
     /// ∫_E τ·n, within the law of contact on a contact edge.
@@ -89,7 +90,7 @@ impl Reading<'_> {
             return self.flux[edge];
         }
         let at = edge - problem.topology.counts.free;
-        let (lower, given) = (self.gap(problem, at), problem.loads.contact_flux[at]);
-        within_law(self.u[edge], lower, self.flux[edge], given)
+        let range = problem.loads.flux_range(at);
+        self.law(problem, at).flux(self.u[edge], self.flux[edge], range)
     }
 }

@@ -19,6 +19,7 @@
 //! ```
 
 use crate::discrete::contact::is_active;
+use crate::discrete::law::Law;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -54,20 +55,20 @@ pub fn impose<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
     u: &[R],
-    lower: &[R],
+    law: Law<R>,
     data: VertexData<R>,
     values: &mut [R],
 ) -> Result<R, Error> {
     let counts = edges.counts();
     same_length(Array::Vertices, values.len(), mesh.vertices().len())?;
     same_length(Array::Unknowns, u.len(), counts.edges())?;
-    same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+    law.check_length(counts)?;
     same_length(Array::Contact, data.gap.len(), counts.contact)?;
     same_length(Array::Dirichlet, data.given.len(), counts.dirichlet)?;
     let gap = if features::CONTACT { data.gap } else { &[] };
     let on_contact = || gap.iter().enumerate().map(|(at, gap)| (at, counts.free + at, gap));
     for (at, edge, gap) in on_contact() {
-        if is_active(counts, lower, u, at) {
+        if is_active(counts, law, u, at) {
             each_end(mesh, edges, edge, gap, |vertex, psi| write(values, vertex, psi));
         }
     }
@@ -99,7 +100,7 @@ pub fn bubbles<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
     u: &[R],
-    lower: &[R],
+    law: Law<R>,
     data: VertexData<R>,
     values: &[R],
     bubbles: &mut [R],
@@ -111,7 +112,7 @@ pub fn bubbles<R: Real, I: Index>(
     }
     same_length(Array::Scratch, bubbles.len(), counts.edges())?;
     same_length(Array::Unknowns, u.len(), counts.edges())?;
-    same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+    law.check_length(counts)?;
     same_length(Array::Contact, data.gap.len(), counts.contact)?;
     let triangles = 3 * mesh.triangles().len();
     for (at, (pair, bubble)) in edges.half_edges().iter().zip(bubbles).enumerate() {
@@ -122,7 +123,7 @@ pub fn bubbles<R: Real, I: Index>(
             Block::Contact if of_quads => {
                 let contact = at - counts.free;
                 let [gap_a, gap_b] = read(data.gap, contact);
-                let opening = read(u, at) - read(lower, contact);
+                let opening = law.on(contact).opening(read(u, at));
                 lift(opening, [ends[0] - gap_a, ends[1] - gap_b])
             }
             _ => R::ZERO,

@@ -11,7 +11,7 @@
 
 use crate::bound::cells::{Cells, Either};
 use crate::discrete::assembly::CellLoads;
-use crate::discrete::contact::within_law;
+use crate::discrete::law::Law;
 use crate::features;
 use crate::index::{Index, read, write};
 use crate::mesh::boundary::Boundary;
@@ -23,8 +23,8 @@ use crate::real::Real;
 pub struct Iterate<'a, R> {
     /// Means of u, one an edge.
     pub u: &'a [R],
-    /// Means of ψ, one a contact edge.
-    pub lower: &'a [R],
+    /// The law on the contact edges.
+    pub law: Law<'a, R>,
 }
 
 /// Sets τ on the boundary, but for D, as the conditions there ask; it is 0 on N and R so far.
@@ -49,9 +49,8 @@ pub fn impose<R: Real, I: Index>(
         return;
     }
     let on_contact = iterate.u.iter().zip(tau.iter_mut()).skip(counts.free);
-    for (at, ((&u, tau), &lower)) in on_contact.zip(iterate.lower).enumerate() {
-        let given = boundary.contact_flux(at);
-        *tau = within_law(u, lower, *tau, given);
+    for (at, ((&u, tau), law)) in on_contact.zip(iterate.law.edges()).enumerate() {
+        *tau = law.flux(u, *tau, boundary.contact_flux(at));
     }
 }
 
@@ -81,8 +80,8 @@ pub fn pulled<R: Real, I: Index>(
     }
     let counts = edges.counts();
     let mut on_contact = tau.iter().skip(counts.free).take(counts.contact).enumerate();
-    let below = |(at, tau): (usize, &R)| !(*tau >= boundary.contact_flux(at));
-    on_contact.position(below).map(|at| counts.free + at)
+    let outside = |(at, tau): (usize, &R)| !boundary.contact_flux(at).admits(*tau);
+    on_contact.position(outside).map(|at| counts.free + at)
 }
 
 /// Whether the flux through an edge may take a surplus whatever the iterate: on D, and on R with h > 0.

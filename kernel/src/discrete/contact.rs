@@ -8,6 +8,7 @@
 //! so that λ = τ − q ≥ 0 on every edge, and of their sum, to the last bit. What the law takes from a flux is
 //! missing elsewhere: the sum over all of the boundary is −∫f only for the solution.
 
+use crate::discrete::law::Law;
 use crate::index::{Index, read};
 use crate::math::Math;
 use crate::mesh::Mesh;
@@ -15,27 +16,20 @@ use crate::mesh::boundary::Boundary;
 use crate::mesh::edges::{EdgeCounts, Edges};
 use crate::real::Real;
 
-/// ∫_E τ·n within the law of contact, where E has the mean `u` and ψ the mean `lower`, `flux` is ∫_E σ·n of (15)
-/// and `given` is ∫_E q.
-#[inline(always)]
-pub fn within_law<R: Real>(u: R, lower: R, flux: R, given: R) -> R {
-    if u > lower { given } else { flux.or_larger(given) }
-}
-
-/// ∫_C (τ·n − q) ≥ 0, the sum of the multiplier λ over the contact boundary. `lower` holds the means of ψ, one a
-/// contact edge, `u` those of u and `flux` the fluxes, one an edge each: those of [`crate::discrete::flux::recover`], or τ
+/// ∫_C (τ·n − q) ≥ 0, the sum of the multiplier λ over the contact boundary. `u` holds the means of u
+/// and `flux` the fluxes, one an edge each: those of [`crate::discrete::flux::recover`], or τ
 /// itself.
 pub fn force<R: Real, I: Index>(
     counts: EdgeCounts,
     boundary: &Boundary<R, I>,
-    lower: &[R],
+    law: Law<R>,
     u: &[R],
     flux: &[R],
 ) -> R {
-    let on_contact = u.iter().zip(flux).skip(counts.free).zip(lower).enumerate();
-    on_contact.fold(R::ZERO, |sum, (at, ((&u, &flux), &lower))| {
-        let given = boundary.contact_flux(at);
-        sum + (within_law(u, lower, flux, given) - given)
+    let on_contact = u.iter().zip(flux).skip(counts.free).zip(law.edges()).enumerate();
+    on_contact.fold(R::ZERO, |sum, (at, ((&u, &flux), law))| {
+        let range = boundary.contact_flux(at);
+        sum + range.multiplier(law.flux(u, flux, range))
     })
 }
 
@@ -44,36 +38,36 @@ pub fn force<R: Real, I: Index>(
 pub fn force_of_cells<R: Real, I: Index>(
     edges: &Edges<I>,
     boundary: &Boundary<R, I>,
-    lower: &[R],
+    law: Law<R>,
     u: &[R],
     triangles: &[[R; 3]],
     quads: &[[R; 4]],
 ) -> R {
     let (triangles, quads) = (triangles.as_flattened(), quads.as_flattened());
     let sides = edges.half_edges().iter().zip(u).skip(edges.counts().free);
-    sides.zip(lower).enumerate().fold(R::ZERO, |sum, (at, ((pair, &u), &lower))| {
+    sides.zip(law.edges()).enumerate().fold(R::ZERO, |sum, (at, ((pair, &u), law))| {
         let flux = match pair[0].at().checked_sub(triangles.len()) {
             None => read(triangles, pair[0].at()),
             Some(rest) => read(quads, rest),
         };
-        let given = boundary.contact_flux(at);
-        sum + (within_law(u, lower, flux, given) - given)
+        let range = boundary.contact_flux(at);
+        sum + range.multiplier(law.flux(u, flux, range))
     })
 }
 
 /// Whether contact edge `contact` (counted from the first one) is active: u_E = ψ_E.
-pub fn is_active<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], contact: usize) -> bool {
-    contact < counts.contact && read(u, counts.free + contact) == read(lower, contact)
+pub fn is_active<R: Real>(counts: EdgeCounts, law: Law<R>, u: &[R], contact: usize) -> bool {
+    contact < counts.contact && law.on(contact).touches(read(u, counts.free + contact))
 }
 
 /// Σ|E| over the active contact edges, in the length unit of the mesh.
 pub fn length<R: Real, I: Index, M: Math<R>>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
-    lower: &[R],
+    law: Law<R>,
     u: &[R],
 ) -> R {
     let counts = edges.counts();
-    let active = (0..counts.contact).filter(|&at| is_active(counts, lower, u, at));
+    let active = (0..counts.contact).filter(|&at| is_active(counts, law, u, at));
     active.fold(R::ZERO, |sum, at| sum + edges.length::<R, M>(mesh, counts.free + at))
 }

@@ -10,6 +10,7 @@
 //! the same whatever the units of K, divided by the size of u (see [`Residual::scaled`]).
 
 use crate::discrete::csr::Csr;
+use crate::discrete::law::{EdgeLaw, Law};
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
 use crate::mesh::boundary::Robin;
@@ -32,28 +33,28 @@ pub struct Shifts<'a, R, I> {
 pub struct System<'a, R, I> {
     matrix: Csr<'a, R, I>,
     load: &'a [R],
-    lower: &'a [R],
+    law: Law<'a, R>,
     counts: EdgeCounts,
     shifts: Option<Shifts<'a, R, I>>,
 }
 
 impl<'a, R: Real, I: Index> System<'a, R, I> {
-    /// `load` holds b (one entry an unknown), `lower` the means of ψ (one entry a contact edge).
+    /// `load` holds b, one entry an unknown.
     ///
     /// # Errors
     /// Lengths that do not match the counts, numbers that are not finite.
     pub fn new(
         matrix: Csr<'a, R, I>,
         load: &'a [R],
-        lower: &'a [R],
+        law: Law<'a, R>,
         counts: EdgeCounts,
     ) -> Result<Self, Error> {
         same_length(Array::RowPointers, matrix.rows(), counts.unknowns())?;
         same_length(Array::Load, load.len(), counts.unknowns())?;
-        same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+        law.check_length(counts)?;
         all_finite(Array::Load, load)?;
-        all_finite(Array::LowerBounds, lower)?;
-        Ok(Self { matrix, load, lower, counts, shifts: None })
+        law.check_finite()?;
+        Ok(Self { matrix, load, law, counts, shifts: None })
     }
 
     /// The same problem, with the solver allowed to shift whole parts ([`crate::solve::shift`]).
@@ -67,15 +68,15 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         Ok(Self { shifts: Some(shifts), ..self })
     }
 
-    /// The same matrix and shifts with another load and other bounds.
+    /// The same matrix and shifts with another load and another gap.
     ///
     /// # Errors
     /// As for [`System::new`].
-    pub fn with_data<'b>(&self, load: &'b [R], lower: &'b [R]) -> Result<System<'b, R, I>, Error>
+    pub fn with_data<'b>(&self, load: &'b [R], law: Law<'b, R>) -> Result<System<'b, R, I>, Error>
     where
         'a: 'b,
     {
-        let system = System::new(self.matrix, load, lower, self.counts)?;
+        let system = System::new(self.matrix, load, law, self.counts)?;
         Ok(System { shifts: self.shifts, ..system })
     }
 
@@ -93,9 +94,16 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         self.load
     }
 
-    /// ψ on the contact edges.
-    pub fn lower(&self) -> &'a [R] {
-        self.lower
+    /// The law on the contact edges.
+    pub fn law(&self) -> Law<'a, R> {
+        self.law
+    }
+
+    /// The law on unknown i, where it belongs to a contact edge.
+    #[inline(always)]
+    pub(crate) fn law_on(&self, i: usize) -> Option<EdgeLaw<R>> {
+        let contact = i.checked_sub(self.counts.free)?;
+        Some(self.law.on(contact))
     }
 
     /// Sizes of the blocks of u.
@@ -105,12 +113,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
 
     /// Lifts u onto the gap wherever it is below (or not a number): any iterate becomes feasible.
     pub fn make_feasible(&self, u: &mut [R]) {
-        let contact = u.iter_mut().skip(self.counts.free);
-        for (u, &lower) in contact.zip(self.lower) {
-            if !(*u >= lower) {
-                *u = lower;
-            }
-        }
+        self.law.lift(u.iter_mut().skip(self.counts.free));
     }
 
     /// Measures the iterate `u` (one entry an edge, Dirichlet values included).
@@ -120,7 +123,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         if let Some(&first) = u.first() {
             (lowest, highest) = (first, first);
         }
-        for &value in u.iter().chain(self.lower) {
+        for &value in u.iter().chain(self.law.lower()) {
             lowest = lowest.or_smaller(value);
             highest = highest.or_larger(value);
         }
@@ -135,12 +138,12 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             let per_diagonal = R::ONE / row.diagonal();
             let mut step = r * per_diagonal;
             let mut terms = size * per_diagonal;
-            if i >= self.counts.free {
-                let (own, lower) = (read(u, i), read(self.lower, i - self.counts.free));
-                measure.active += u32::from(own == lower);
-                if own - lower < -step {
-                    step = own - lower;
-                    terms = own.magnitude() + lower.magnitude();
+            if let Some(law) = self.law_on(i) {
+                let own = read(u, i);
+                measure.active += u32::from(law.touches(own));
+                if let Some(opening) = law.blocks(own, step) {
+                    step = opening;
+                    terms = own.magnitude() + law.gap().magnitude();
                 }
             }
             measure.include(step.magnitude(), load.magnitude() * per_diagonal, terms);

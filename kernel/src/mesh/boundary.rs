@@ -37,6 +37,43 @@ pub struct Robin<R, I> {
     pub ambient: R,
 }
 
+/// What ∫_E A∇u·n may be on a contact edge: ∫_E q at least.
+#[derive(Debug, Clone, Copy)]
+pub struct FluxRange<R> {
+    least: R,
+}
+
+impl<R: Real> FluxRange<R> {
+    /// All fluxes from ∫_E q on.
+    pub const fn from(least: R) -> Self {
+        Self { least }
+    }
+
+    /// ∫_E q, the flux of an edge that does not touch.
+    #[inline(always)]
+    pub fn least(self) -> R {
+        self.least
+    }
+
+    /// Whether ∫_E τ·n may be so. NaN may not.
+    #[inline(always)]
+    pub fn admits(self, flux: R) -> bool {
+        flux >= self.least
+    }
+
+    /// The admissible flux that is nearest.
+    #[inline(always)]
+    pub fn nearest(self, flux: R) -> R {
+        flux.or_larger(self.least)
+    }
+
+    /// λ = ∫_E (τ·n − q) ≥ 0 of an admissible flux.
+    #[inline(always)]
+    pub fn multiplier(self, flux: R) -> R {
+        flux - self.least
+    }
+}
+
 /// The conditions on all boundary edges (borrowed, validated).
 #[derive(Debug, Clone, Copy)]
 pub struct Boundary<'a, R, I> {
@@ -103,9 +140,10 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
         self.robin
     }
 
-    /// ∫_E q of a contact edge, counted from the first contact edge.
-    pub fn contact_flux(&self, contact: usize) -> R {
-        crate::index::read(self.contact_flux, contact)
+    /// What ∫_E A∇u·n may be on a contact edge, counted from the first contact edge.
+    #[inline(always)]
+    pub fn contact_flux(&self, contact: usize) -> FluxRange<R> {
+        FluxRange::from(crate::index::read(self.contact_flux, contact))
     }
 
     /// Adds what the conditions contribute to the load b (one entry an unknown).

@@ -46,7 +46,7 @@ pub fn run<R: Real, I: Index, const WIDTH: usize>(
     let mut used = 0;
     rows.set(system, R::ONE)?;
     while used < iterations {
-        psor::sweep(rows, system.lower(), u)?;
+        psor::sweep(rows, system.law(), u)?;
         used += 1;
         let small = start(system, u, buffers, goal);
         if small && system.residual(u).largest <= goal {
@@ -86,10 +86,7 @@ fn start<R: Real, I: Index>(
 }
 
 fn is_held<R: Real, I: Index>(system: &System<R, I>, u: &[R], i: usize) -> bool {
-    match i.checked_sub(system.counts().free) {
-        None => false,
-        Some(contact) => read(u, i) == read(system.lower(), contact),
-    }
+    system.law_on(i).is_some_and(|law| law.touches(read(u, i)))
 }
 
 /// rᵀD⁻¹r, the numerator of the step.
@@ -110,10 +107,8 @@ fn step<R: Real, I: Index>(
     for (i, row) in system.matrix().iter().enumerate() {
         let p = read(buffers.direction, i);
         curvature += p * row.dot(buffers.direction);
-        if let Some(contact) = i.checked_sub(system.counts().free)
-            && p < R::ZERO
-        {
-            room = room.or_smaller((read(u, i) - read(system.lower(), contact)) / -p);
+        if let Some(most) = system.law_on(i).and_then(|law| law.room(read(u, i), p)) {
+            room = room.or_smaller(most);
         }
     }
     let length = product / curvature;
@@ -135,10 +130,10 @@ fn step<R: Real, I: Index>(
 /// Puts the edges that the step has brought to the gap exactly onto it.
 fn land<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], direction: &[R], room: R) {
     let entries = u.iter_mut().zip(direction).skip(system.counts().free);
-    for ((u, &p), &lower) in entries.zip(system.lower()) {
+    for ((u, &p), law) in entries.zip(system.law().edges()) {
         let rounding = R::EPSILON * (u.magnitude() + room * p.magnitude());
-        if p < R::ZERO && *u - lower <= rounding {
-            *u = lower;
+        if p < R::ZERO && law.opening(*u) <= rounding {
+            *u = law.gap();
         }
     }
     system.make_feasible(u);

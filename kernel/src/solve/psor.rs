@@ -13,14 +13,14 @@
 //! u without a test of the position saves half of the instructions of plain safe code, and a fifth of those
 //! of the best that was found (`tests/firmware/cost.txt`, `docs/decisions/packed-rows.md`).
 
+use crate::discrete::law::Law;
 use crate::discrete::rows::{Row, Rows};
 use crate::error::{Array, Error, same_length};
 use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 
-/// One sweep over all unknowns in order; `u` has one entry an edge, Dirichlet values included,
-/// `lower` the means of ψ, one entry a contact edge.
+/// One sweep over all unknowns in order; `u` has one entry an edge, Dirichlet values included.
 ///
 /// # Errors
 /// Arrays of the wrong length.
@@ -29,16 +29,16 @@ use crate::real::Real;
 #[allow(unsafe_code)]
 pub fn sweep<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
-    lower: &[R],
+    law: Law<R>,
     u: &mut [R],
 ) -> Result<(), Error> {
     same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
-    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    law.check_length(rows.counts())?;
     // SAFETY: u has an entry for each edge of the rows' mesh.
     unsafe {
         relax_free(rows, u);
         if features::CONTACT {
-            relax_contact(rows, lower, u);
+            relax_contact(rows, law, u);
         }
     }
     Ok(())
@@ -77,11 +77,11 @@ pub struct Defect<R> {
 #[allow(unsafe_code)]
 pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
-    lower: &[R],
+    law: Law<R>,
     u: &[R],
 ) -> Result<Defect<R>, Error> {
     same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
-    same_length(Array::LowerBounds, lower.len(), rows.counts().contact)?;
+    law.check_length(rows.counts())?;
     let (keep, per_omega) = (R::ONE - rows.omega(), R::ONE / rows.omega());
     let step = |row: &Row<R, I, WIDTH>, neighbours: usize, own: R| {
         // SAFETY: u has an entry for each edge of the rows' mesh.
@@ -103,9 +103,9 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
         return Ok(defect);
     }
     let on_contact = u.iter().skip(rows.free().len());
-    for ((row, &own), &lower) in rows.contact().iter().zip(on_contact).zip(lower) {
+    for ((row, &own), law) in rows.contact().iter().zip(on_contact).zip(law.edges()) {
         let step = step(row, WIDTH / 2, own);
-        include(if own - lower < -step { own - lower } else { step }.magnitude());
+        include(law.blocks(own, step).unwrap_or(step).magnitude());
     }
     Ok(defect)
 }
@@ -116,7 +116,7 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
 #[inline(never)]
 pub(crate) fn is_rounding<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
-    lower: &[R],
+    law: Law<R>,
     u: &[R],
     slack: u32,
 ) -> bool {
@@ -131,10 +131,9 @@ pub(crate) fn is_rounding<R: Real, I: Index, const WIDTH: usize>(
             let product = entry * read(u, offset.at() / size_of::<R>());
             (step - product, size + product.magnitude())
         });
-        let opening = i.checked_sub(rows.counts().free).and_then(|at| lower.get(at));
-        match opening {
-            Some(&lower) if omega * (own - lower) < -step => {
-                own - lower <= slack * (own.magnitude() + lower.magnitude())
+        match i.checked_sub(rows.counts().free).map(|at| law.on(at)) {
+            Some(law) if omega * law.opening(own) < -step => {
+                law.opening(own) <= slack * (own.magnitude() + law.gap().magnitude())
             }
             _ => step.magnitude() <= slack * size,
         }
@@ -166,18 +165,18 @@ unsafe fn relax_free<R: Real, I: Index, const WIDTH: usize>(rows: &Rows<R, I, WI
 #[allow(unsafe_code)]
 unsafe fn relax_contact<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
-    lower: &[R],
+    law: Law<R>,
     u: &mut [R],
 ) {
     let keep = R::ONE - rows.omega();
     let u = u.as_mut_ptr();
     // SAFETY: as the caller has promised, and the contact edges follow the free ones in u.
     let mut own = unsafe { u.add(rows.free().len()) };
-    for (row, &lower) in rows.contact().iter().zip(lower) {
+    for (row, law) in rows.contact().iter().zip(law.edges()) {
         // SAFETY: as above, and there is a row for each contact edge.
         unsafe {
             let relaxed = relaxed(row, WIDTH / 2, keep, *own, u);
-            own.write(if relaxed > lower { relaxed } else { lower });
+            own.write(law.project(relaxed));
             own = own.add(1);
         }
     }

@@ -94,7 +94,7 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     let RefinementBuffers { mut rows, low, defect, lower, mut conjugate } = buffers;
     same_length(Array::Scratch, low.len(), u.len())?;
     same_length(Array::Scratch, defect.len(), system.load().len())?;
-    same_length(Array::Scratch, lower.len(), system.lower().len())?;
+    same_length(Array::Scratch, lower.len(), system.counts().contact)?;
     same_length(Array::Scratch, conjugate.direction.len(), u.len())?;
     same_length(Array::Scratch, conjugate.residual.len(), system.load().len())?;
     low.fill(R::ZERO);
@@ -105,16 +105,14 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
             break;
         }
         measure_defect(system, boundary, u, defect);
-        for ((bound, &psi), at) in lower.iter_mut().zip(system.lower()).zip(system.counts().free..)
-        {
-            *bound = psi - read(u, at);
-        }
-        if defect.iter().chain(&*lower).any(|x| !x.finite()) {
+        let on_contact = u.get(system.counts().free..).unwrap_or(&[]);
+        let law = system.law().of_correction(on_contact, lower);
+        if law.check_finite().is_err() || defect.iter().any(|x| !x.finite()) {
             outcome.status = Status::NotFinite;
             low.fill(R::ZERO);
             break;
         }
-        let correction = system.with_data(defect, lower)?;
+        let correction = system.with_data(defect, law)?;
         let goal = goal(settings, &outcome, size.scale());
         let mut next = solve::<R, I, M, WIDTH>(&correction, goal, low, &mut rows, &mut conjugate)?;
         next.residual = Residual { range: size.range, load: size.load, ..next.residual };
@@ -184,9 +182,9 @@ pub(crate) fn defects<R: Real, I: Index>(
 /// u + (ψ − u) may round to less than ψ.
 fn lift<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], low: &mut [R]) {
     let on_contact = u.iter_mut().zip(low).skip(system.counts().free);
-    for ((u, low), &psi) in on_contact.zip(system.lower()) {
-        if !(*u >= psi) {
-            (*u, *low) = (psi, R::ZERO);
+    for ((u, low), law) in on_contact.zip(system.law().edges()) {
+        if !law.admits(*u) {
+            (*u, *low) = (law.gap(), R::ZERO);
         }
     }
 }

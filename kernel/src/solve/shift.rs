@@ -44,7 +44,7 @@ fn moves<R: Real, I: Index>(
     i: usize,
 ) -> bool {
     let counts = system.counts();
-    let active = i >= counts.free && read(u, i) == read(system.lower(), i - counts.free);
+    let active = system.law_on(i).is_some_and(|law| law.touches(read(u, i)));
     i < counts.unknowns() && !active && read(shifts.part, i).at() == part
 }
 
@@ -68,8 +68,8 @@ fn best<R: Real, I: Index>(
                 stiffness -= value;
             }
         }
-        if let Some(contact) = i.checked_sub(system.counts().free) {
-            room = room.or_smaller(own - read(system.lower(), contact));
+        if let Some(law) = system.law_on(i) {
+            room = room.or_smaller(law.opening(own));
         }
     }
     for record in shifts.robin {

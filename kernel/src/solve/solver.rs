@@ -173,7 +173,7 @@ impl<R: Real, M: Math<R>> Solver<R, M> {
         if self.sweeps >= self.settings.max_sweeps {
             return Ok(Some(self.outcome(Status::OutOfSweeps, system.residual(u))));
         }
-        psor::sweep(rows, system.lower(), u)?;
+        psor::sweep(rows, system.law(), u)?;
         self.sweeps += 1;
         if self.sweeps < self.next_look.min(self.settings.max_sweeps) {
             return Ok(None);

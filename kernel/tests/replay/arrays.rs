@@ -3,6 +3,7 @@
 use signorini_kernel::bound::conforming::VertexData;
 use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
@@ -194,7 +195,7 @@ impl<R: Scalar> Arrays<R> {
 
     /// The problem; with shifts, of its parts.
     pub fn system(&self, shifts: bool) -> Result<System<'_, R, u16>, Error> {
-        let system = System::new(self.matrix()?, &self.load, &self.lower, self.counts)?;
+        let system = System::new(self.matrix()?, &self.load, Law::above(&self.lower), self.counts)?;
         let parts = usize::from(self.part.iter().max().copied().unwrap_or(0)) + 1;
         let part = if parts > 1 { &self.part[..] } else { &[] };
         if shifts {

@@ -10,6 +10,7 @@ use signorini_kernel::bound::equilibrium::{Iterate, is_root};
 use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::discrete::element::rannacher_turek::place;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Block;
 use signorini_kernel::{Error, Tensor};
@@ -221,7 +222,8 @@ fn nothing<R: Scalar>(
     let (vertices, bubbles, tau) = (&mut s, &mut bubbles, &mut tau);
     let buffers = Buffers { vertices, bubbles, tau, indicators: &mut [] };
     let (u, lower) = (zeros(all), zeros(counts.contact));
-    let verdict = certify(&discretization, &given, Iterate { u: &u, lower: &lower }, buffers)?;
+    let verdict =
+        certify(&discretization, &given, Iterate { u: &u, law: Law::above(&lower) }, buffers)?;
     journal.line("of nothing", verdict);
     Ok(())
 }
@@ -240,7 +242,7 @@ fn certified<R: Scalar>(
         let mut u = arrays.start.clone();
         let free = &mut u[..arrays.counts.free];
         free.iter_mut().for_each(|u| *u *= R::of(factor));
-        let iterate = Iterate { u: &u, lower: &arrays.lower };
+        let iterate = Iterate { u: &u, law: Law::above(&arrays.lower) };
         let buffers = Buffers { vertices, bubbles, tau, indicators };
         let verdict = certify(&ways.discretization(arrays)?, given, iterate, buffers)?;
         journal.line("verdict", verdict);

@@ -1,6 +1,7 @@
 //! From the mesh to the matrix, one sweep, the flux of an unfinished iterate.
 
 use signorini_kernel::bound::forest::{ForestBuffers, grow};
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::mesh::components::{Part, examine};
@@ -84,16 +85,16 @@ fn of_width<R: Scalar, const WIDTH: usize>(
         let omega = R::of(omega);
         rows.set(&system, omega)?;
         let mut of_matrix = arrays.start.clone();
-        psor::sweep(&rows, &arrays.lower, &mut of_matrix)?;
+        psor::sweep(&rows, Law::above(&arrays.lower), &mut of_matrix)?;
         // Nothing is left of the rows from CSR.
         let mut memory = vec![Row::<R, u16, WIDTH>::EMPTY; arrays.counts.unknowns()];
         let mut rows = Rows::new(&edges, &mut memory)?;
         rows.gather(&edges, arrays.stiffness(), &boundary, &arrays.load, omega)?;
         let mut u = arrays.start.clone();
-        journal.line("defect", psor::defect(&rows, &arrays.lower, &u)?);
-        psor::sweep(&rows, &arrays.lower, &mut u)?;
+        journal.line("defect", psor::defect(&rows, Law::above(&arrays.lower), &u)?);
+        psor::sweep(&rows, Law::above(&arrays.lower), &mut u)?;
         journal.digest("swept", [&of_matrix, &u]);
-        journal.line("defect", psor::defect(&rows, &arrays.lower, &u)?);
+        journal.line("defect", psor::defect(&rows, Law::above(&arrays.lower), &u)?);
         journal.digest("residual", system.residual(&u));
         let mut free = arrays.start.clone();
         psor::sweep_free(&rows, &mut free)?;
@@ -114,12 +115,14 @@ fn fluxes<R: Scalar>(arrays: &Arrays<R>, u: &[R], journal: &mut Journal) -> Resu
     let mut of_edges = vec![R::ZERO; u.len()];
     journal.line("recovered", flux::recover(&edges, k, loads, u, &[], &mut of_edges)?);
     journal.digest("flux", &of_edges);
-    journal.line("force", contact::force(arrays.counts, &boundary, lower, u, &of_edges));
+    journal
+        .line("force", contact::force(arrays.counts, &boundary, Law::above(lower), u, &of_edges));
     let low: Vec<_> = u.iter().map(|&u| u * R::EPSILON).collect();
     journal.line("recovered", flux::recover(&edges, k, loads, u, &low, &mut of_edges)?);
     journal.digest("flux with the low part", &of_edges);
-    let of_cells = contact::force_of_cells(&edges, &boundary, lower, u, &triangles, &quads);
+    let of_cells =
+        contact::force_of_cells(&edges, &boundary, Law::above(lower), u, &triangles, &quads);
     journal.line("force of cells", of_cells);
-    journal.line("length", contact::length::<R, u16, Libm>(&mesh, &edges, lower, u));
+    journal.line("length", contact::length::<R, u16, Libm>(&mesh, &edges, Law::above(lower), u));
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Solves: how ω moves, where they end, and the help that slow ones get.
 
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
@@ -67,7 +68,7 @@ pub fn help<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), 
         rows.set(&system, R::ONE)?;
         let mut u = arrays.start.clone();
         for _ in 0..sweeps {
-            psor::sweep(&rows, &arrays.lower, &mut u)?;
+            psor::sweep(&rows, Law::above(&arrays.lower), &mut u)?;
         }
         let mut buffers = ConjugateBuffers { direction: &mut direction, residual: &mut residual };
         let goal = R::of(goal);

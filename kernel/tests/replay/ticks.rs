@@ -6,6 +6,7 @@ use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick, UncertifiedSweeps,
 };
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
@@ -119,6 +120,6 @@ impl<R: Scalar> Input<R> {
             oscillation: R::ZERO,
         };
         let dirichlet = &arrays.start[arrays.counts.unknowns()..];
-        Ok(Data { given, lower: &self.lower, dirichlet })
+        Ok(Data { given, law: Law::above(&self.lower), dirichlet })
     }
 }

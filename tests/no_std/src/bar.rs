@@ -9,6 +9,7 @@
 
 use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
@@ -81,7 +82,7 @@ fn solve<R: Real, I: Index>(
     components::examine(edges, &boundary, &load, R::EPSILON, &mut [Part::default(); 3])?;
     let matrix = Csr::new(&row_ptr, &col_idx, &values, EDGES)?;
     let gap = [-R::ONE; CONTACT];
-    let system = System::new(matrix, &load, &gap, edges.counts())?;
+    let system = System::new(matrix, &load, Law::above(&gap), edges.counts())?;
     let (mut u, mut low) = ([R::ZERO; EDGES], [R::ZERO; EDGES]);
     let mut rows = [Row::<R, I, QUADS>::EMPTY; UNKNOWNS];
     let buffers = RefinementBuffers {
@@ -117,7 +118,7 @@ fn measure<R: Real, I: Index>(
     let mut fluxes = [R::ZERO; EDGES];
     flux::recover(edges, stiffness, loads, u, low, &mut fluxes)?;
     let gap = [-R::ONE; CONTACT];
-    let length = contact::length::<R, I, Libm>(mesh, edges, &gap, u);
-    let force = contact::force(edges.counts(), &boundary, &gap, u, &fluxes);
+    let length = contact::length::<R, I, Libm>(mesh, edges, Law::above(&gap), u);
+    let force = contact::force(edges.counts(), &boundary, Law::above(&gap), u, &fluxes);
     Ok(if length == R::TWO { force } else { R::ZERO / R::ZERO })
 }

@@ -9,6 +9,7 @@ use signorini_kernel::bound::equilibrium::{Iterate, is_root};
 use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::device::tick::Data;
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
@@ -187,8 +188,8 @@ impl<R: Bits> Loads<R> {
 
     /// As a tick takes them.
     pub fn data(&self, edges: &Edges<u16>) -> Result<Data<'_, R, u16>, Error> {
-        let (lower, dirichlet) = (&self.lower, &self.dirichlet);
-        Ok(Data { given: self.given(edges)?, lower, dirichlet })
+        let (law, dirichlet) = (Law::above(&self.lower), &self.dirichlet);
+        Ok(Data { given: self.given(edges)?, law, dirichlet })
     }
 }
 
@@ -206,7 +207,7 @@ pub fn judged<R: Bits>(
         tau: &mut vec![R::ZERO; edges],
         indicators: &mut vec![R::ZERO; if bytes.flag() { cells } else { 0 }],
     };
-    let iterate = Iterate { u: &u, lower: &loads.lower };
+    let iterate = Iterate { u: &u, law: Law::above(&loads.lower) };
     match certify(discretization, &loads.given(&discretization.edges)?, iterate, buffers)? {
         Verdict::Certified(found) => is_bound(&found),
         Verdict::Pulled { edge } => {

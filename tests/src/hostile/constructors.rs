@@ -4,6 +4,7 @@ use signorini_kernel::bound::forest::Forest;
 use signorini_kernel::device::condition::Condition;
 use signorini_kernel::device::tick::Progress;
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::Coefficient;
@@ -167,7 +168,7 @@ fn of_matrix<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let counts =
         EdgeCounts { free: rows - contact, contact, dirichlet: columns.saturating_sub(rows) };
     let (load, lower) = (bytes.reals(rows), bytes.reals(contact));
-    let system = System::new(matrix, &load, &lower, counts)?;
+    let system = System::new(matrix, &load, Law::above(&lower), counts)?;
     let mut memory = vec![Row::<R, u16, 4>::EMPTY; rows];
     let packed = Rows::of_matrix(&matrix, counts, &mut memory)?;
     let apart = Edges::baked(&[], &[], &[], counts);

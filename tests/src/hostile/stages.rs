@@ -2,6 +2,7 @@
 
 use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::System;
@@ -94,7 +95,7 @@ fn solved<R: Bits>(
     let mut memory = vec![Row::EMPTY; counts.unknowns()];
     let rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;
     let lower = bytes.reals(counts.contact);
-    let system = System::new(matrix, &load, &lower, counts)?;
+    let system = System::new(matrix, &load, Law::above(&lower), counts)?;
     let u = iterated(bytes, &system, &boundary, rows)?;
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(edges, k, cells, &u, &[], &mut fluxes).map(drop)
@@ -126,7 +127,7 @@ pub fn iterated<R: Bits, const WIDTH: usize>(
     let outcome = refinement::run::<R, u16, Libm, WIDTH>(
         &system, boundary, settings, rounds, &mut u, buffers,
     )?;
-    sound(&outcome, counts, system.lower(), &u);
+    sound(&outcome, counts, system.law().lower(), &u);
     Ok(u)
 }
 
@@ -171,8 +172,8 @@ fn swept<R: Bits>(
     let mut u = bytes.reals(counts.edges());
     rows.gather(edges, k, &conditions.boundary(edges)?, &load, bytes.real())?;
     for _ in 0..bytes.below(5) {
-        psor::sweep(&rows, &lower, &mut u)?;
-        let defect = psor::defect(&rows, &lower, &u)?;
+        psor::sweep(&rows, Law::above(&lower), &mut u)?;
+        let defect = psor::defect(&rows, Law::above(&lower), &u)?;
         assert!(defect.largest.wide().is_nan() || defect.largest >= R::ZERO, "{defect:?}");
     }
     psor::sweep_free(&rows, &mut u)

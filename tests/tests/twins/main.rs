@@ -3,6 +3,7 @@
 #[path = "../../../kernel/tests/factored/mod.rs"]
 mod factored;
 
+use signorini_kernel::discrete::law::Law;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -119,7 +120,7 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     assembly::load(&edges, loads, &boundary, &mut load).expect("lengths");
     let matrix = Csr::new(&row_ptr, &col_idx, &values, counts.edges()).expect("a valid matrix");
     let shifts = Shifts { part: &[], parts: 1, robin: &data.robin };
-    let system = System::new(matrix, &load, &data.gap, counts).expect("finite");
+    let system = System::new(matrix, &load, Law::above(&data.gap), counts).expect("finite");
     let system = system.with_shifts(shifts).expect("lengths");
 
     let mut u = vec![R::ZERO; counts.unknowns()];
@@ -162,7 +163,7 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     };
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(&edges, k, loads, &u, &low, &mut fluxes).expect("lengths");
-    let force = contact::force(counts, &boundary, &data.gap, &u, &fluxes).wide();
+    let force = contact::force(counts, &boundary, Law::above(&data.gap), &u, &fluxes).wide();
     let on_boundary = (0..counts.edges()).filter(|&at| edges.half_edges()[at][1] == I::NONE);
     Answer {
         converged,
@@ -196,21 +197,21 @@ fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
     let mut rows = Rows::of_matrix(matrix, counts, &mut memory).expect("small enough");
     rows.set(system, omega).expect("one numbering");
     let mut swept = start.to_vec();
-    psor::sweep(&rows, system.lower(), &mut swept).expect("lengths");
+    psor::sweep(&rows, system.law(), &mut swept).expect("lengths");
 
     let mut memory = vec![Row::<R, I, WIDTH>::EMPTY; counts.unknowns()];
     let mut rows = Rows::new(edges, &mut memory).expect("small enough");
     rows.gather(edges, stiffness, boundary, system.load(), omega).expect("one numbering");
     let mut gathered = start.to_vec();
-    psor::sweep(&rows, system.lower(), &mut gathered).expect("lengths");
+    psor::sweep(&rows, system.law(), &mut gathered).expect("lengths");
     assert_eq!(swept, gathered, "rows of either source");
 
     let mut plain = start.to_vec();
     for (i, (row, &load)) in matrix.iter().zip(system.load()).enumerate() {
         let step = omega * (load - row.dot(&plain)) / row.diagonal();
         plain[i] += step;
-        if i >= counts.free && plain[i] < system.lower()[i - counts.free] {
-            plain[i] = system.lower()[i - counts.free];
+        if i >= counts.free && plain[i] < system.law().lower()[i - counts.free] {
+            plain[i] = system.law().lower()[i - counts.free];
         }
     }
     let most = plain.iter().fold(1e-30, |most: f64, u| most.max(u.wide().abs()));

@@ -190,8 +190,8 @@ impl<R: Scalar> Engine for Single<'_, R> {
         flux::recover(edges, assembled.stiffness(), cells, &self.u, &[], &mut fluxes)
             .map_err(&unfit)?;
         let boundary = assembled.boundary().map_err(&unfit)?;
-        let force = contact::force(counts, &boundary, assembled.lower(), &self.u, &fluxes).wide();
-        let touching = |at| contact::is_active(counts, assembled.lower(), &self.u, at);
+        let force = contact::force(counts, &boundary, assembled.law(), &self.u, &fluxes).wide();
+        let touching = |at| contact::is_active(counts, assembled.law(), &self.u, at);
         let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
         let certified = self.certifier.as_ref().filter(|_| self.certificate.is_some());
         let certified = certified.map(|(certifier, _)| certifier.answer());

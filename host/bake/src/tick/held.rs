@@ -103,8 +103,8 @@ fn advance<R: Scalar, const WIDTH: usize>(
     budget: &Budget,
 ) -> std::result::Result<Report<R>, KernelError> {
     let given = data.given(assembled)?;
-    let (lower, dirichlet) = (assembled.lower(), assembled.dirichlet());
-    let mut running = tick.begin(Data { given, lower, dirichlet })?;
+    let (law, dirichlet) = (assembled.law(), assembled.dirichlet());
+    let mut running = tick.begin(Data { given, law, dirichlet })?;
     running.advance(CertifiedSweeps(Libm), budget.limits(), &mut Deadline::never())
 }
 
@@ -114,9 +114,8 @@ fn answer<R: Scalar, const WIDTH: usize>(
     tick: &Tick<R, u32, WIDTH>,
     report: &Report<R>,
 ) -> PlayedTick {
-    let (counts, lower) = (problem.topology.counts, assembled.lower());
-    let touching =
-        (0..counts.contact).filter(|&at| contact::is_active(counts, lower, tick.u(), at));
+    let (counts, law) = (problem.topology.counts, assembled.law());
+    let touching = (0..counts.contact).filter(|&at| contact::is_active(counts, law, tick.u(), at));
     let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
     let tau = wide(tick.tau());
     PlayedTick {

@@ -109,9 +109,9 @@ impl<'p, R: Scalar> Player<'p, R> {
         let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
         flux::recover(assembled.edges(), stiffness, cells, u, &[], &mut fluxes)?;
         let touching =
-            (0..counts.contact).filter(|&at| contact::is_active(counts, assembled.lower(), u, at));
+            (0..counts.contact).filter(|&at| contact::is_active(counts, assembled.law(), u, at));
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
-        let force = contact::force(counts, &assembled.boundary()?, assembled.lower(), u, &fluxes);
+        let force = contact::force(counts, &assembled.boundary()?, assembled.law(), u, &fluxes);
         Ok(PlayedTick {
             status: status_name(outcome.status),
             sweeps: outcome.sweeps,

@@ -29,7 +29,7 @@ impl<'p, R: Scalar> Full<'p, R> {
             let system = assembled.system().map_err(failed)?;
             ticks.push(TickLoads {
                 load: system.load().to_vec(),
-                lower: system.lower().to_vec(),
+                lower: system.law().lower().to_vec(),
                 dirichlet: assembled.dirichlet().to_vec(),
                 start: assembled.start(),
             });
@@ -55,7 +55,7 @@ pub(super) fn quadratic(
         assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
         let reduced = Reduced::new(problem, parts, &assembled, &assembled.start());
         let Reduced { row_ptr, col_idx, values, load, floating: held } = reduced.map_err(failed)?;
-        ticks.push(QuadraticLoads { load, lower: assembled.lower().to_vec() });
+        ticks.push(QuadraticLoads { load, lower: assembled.law().lower().to_vec() });
         (matrix, floating) = (Matrix { row_ptr, col_idx, values }, held);
     }
     Quadratic::new(matrix, floating, ticks)

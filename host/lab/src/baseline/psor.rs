@@ -1,5 +1,6 @@
 //! The kernel's projected SOR as a contestant: on edges, and on vertices for conforming P1 alike.
 
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::solve::Relaxation;
@@ -74,7 +75,8 @@ impl<'a, R: Scalar, const WIDTH: usize> Psor<'a, R, WIDTH> {
 impl<R: Scalar, const WIDTH: usize> TimedSolver for Psor<'_, R, WIDTH> {
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
         let given = &self.ticks[tick];
-        let system = self.system.with_data(&given.load, &given.lower).map_err(failed)?;
+        let system =
+            self.system.with_data(&given.load, Law::above(&given.lower)).map_err(failed)?;
         let relaxation = self.relaxation(start);
         let unknowns = system.counts().unknowns();
         let (rows, u) = (&mut self.rows, &mut self.u);

@@ -136,7 +136,7 @@ fn contact(problem: &Problem, solution: &Solution, terms: f64) -> f64 {
     let size = solution.u.iter().fold(f64::TINY, |most, u| most.max(u.abs()));
     (0..problem.topology.counts.contact).fold(0.0_f64, |most, at| {
         let opening = (solution.u[free + at] - solution.gap(problem, at)) / size;
-        let force = (solution.flux[free + at] - problem.loads.contact_flux[at]) / terms;
+        let force = problem.loads.flux_range(at).multiplier(solution.flux[free + at]) / terms;
         most.or_larger(-opening).or_larger(-force).or_larger(opening.min(force))
     })
 }

@@ -49,7 +49,7 @@ fn with_rows<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Option<Cost> {
     let mut rows = Rows::new(assembled.edges(), &mut memory).ok()?;
     rows.set(&system, R::ONE + R::HALF).ok()?;
     let mut u = assembled.start();
-    let mut sweep = |_| psor::sweep(&rows, system.lower(), &mut u);
+    let mut sweep = |_| psor::sweep(&rows, system.law(), &mut u);
     let sweeps = smallest(|| (0..TOGETHER).try_for_each(&mut sweep).unwrap_or_default());
     let bytes = size_of::<Row<R, u32, WIDTH>>() as f64;
     let numbers = vec![R::ONE; unknowns * size_of::<Row<R, u32, WIDTH>>() / size_of::<R>()];

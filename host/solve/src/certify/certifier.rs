@@ -118,7 +118,7 @@ impl<R: Scalar> Certifier<R> {
             tau: &mut self.tau,
             indicators: &mut self.indicators,
         };
-        let iterate = Iterate { u, lower: assembled.lower() };
+        let iterate = Iterate { u, law: assembled.law() };
         let verdict =
             certificate::certify(&discretization, &data.given(assembled)?, iterate, buffers)?;
         self.refusal = match verdict {
@@ -181,11 +181,11 @@ impl<R: Scalar> Certifier<R> {
             return Ok(true);
         }
         let edges = assembled.edges();
-        let (free, lower) = (edges.counts().free, assembled.lower());
+        let (free, law) = (edges.counts().free, assembled.law());
         let active = |edge: usize| {
-            let gap = edge.checked_sub(free).and_then(|at| lower.get(at));
+            let contact = edge.checked_sub(free).filter(|&at| at < edges.counts().contact);
             let alone = || parts.support(parts.of_edge(edges, edge)) == Support::Contact;
-            gap.is_some_and(|gap| u[edge] == *gap && alone())
+            contact.is_some_and(|at| law.on(at).touches(u[edge]) && alone())
         };
         match self.ways.find(assembled, &self.metric, active) {
             Err(KernelError::NoWayOut { cell }) => {
@@ -205,10 +205,10 @@ impl<R: Scalar> Certifier<R> {
     ) -> Result<(), KernelError> {
         self.ways.find(assembled, &self.metric, |_| true)?;
         let discretization = self.ways.discretization(assembled, &self.metric)?;
-        let (s, lower, given) = (&mut self.vertices, assembled.lower(), data.given(assembled)?);
+        let (s, law, given) = (&mut self.vertices, assembled.law(), data.given(assembled)?);
         let distortions = discretization.metric.distortions;
         averages::fill(&discretization.cells, assembled.cells(), distortions, u, s, &mut self.tau)?;
-        conforming::impose(&discretization.mesh, &discretization.edges, u, lower, given.ends, s)
+        conforming::impose(&discretization.mesh, &discretization.edges, u, law, given.ends, s)
             .map(|_| ())
     }
 }

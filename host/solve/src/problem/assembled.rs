@@ -1,5 +1,6 @@
 //! A problem in the kernel's hands: narrowed to one scalar and assembled.
 
+use signorini_kernel::discrete::law::Law;
 use std::collections::HashMap;
 
 use signorini_kernel::discrete::assembly::{self, CellLoads};
@@ -185,9 +186,9 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.loads.boundary(&self.edges)
     }
 
-    /// ψ on the contact edges.
-    pub fn lower(&self) -> &[R] {
-        &self.loads.gap
+    /// The law on the contact edges.
+    pub fn law(&self) -> Law<'_, R> {
+        Law::above(&self.loads.gap)
     }
 
     /// u_D on the Dirichlet edges.
@@ -203,7 +204,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         let counts = self.edges.counts();
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &self.part, parts: self.parts, robin: &self.loads.robin };
-        System::new(matrix, &self.load, &self.loads.gap, counts)?.with_shifts(shifts)
+        System::new(matrix, &self.load, Law::above(&self.loads.gap), counts)?.with_shifts(shifts)
     }
 
     /// A cold start: unknowns at the gap on C and at the mean of all given values elsewhere, u_D in

@@ -1,7 +1,7 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
 use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::boundary::{Boundary, FluxRange, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error as KernelError, Real};
 
@@ -32,6 +32,11 @@ pub struct Loads<R = f64> {
 }
 
 impl<R: Scalar> Loads<R> {
+    /// What ∫_E A∇u·n may be on a contact edge, counted from the first one.
+    pub fn flux_range(&self, contact: usize) -> FluxRange<R> {
+        FluxRange::from(self.contact_flux[contact])
+    }
+
     /// ∫f over the cells.
     pub fn cells(&self) -> CellLoads<'_, R> {
         CellLoads { triangles: &self.triangles, quads: &self.quads }

@@ -79,8 +79,8 @@ pub(super) fn conclude<R: Scalar>(
 
 /// The contact edges on which u = ψ.
 fn active<R: Scalar>(problem: &Problem, assembled: &Assembled<R>, u: &[R]) -> Vec<usize> {
-    let (counts, lower) = (problem.topology.counts, assembled.lower());
-    (0..counts.contact).filter(|&at| contact::is_active(counts, lower, u, at)).collect()
+    let (counts, law) = (problem.topology.counts, assembled.law());
+    (0..counts.contact).filter(|&at| contact::is_active(counts, law, u, at)).collect()
 }
 
 struct Fluxes<R> {
@@ -99,8 +99,8 @@ impl<R: Scalar> Fluxes<R> {
         let mut flux = vec![R::ZERO; u.len()];
         let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
         let found = flux::recover(edges, stiffness, cells, u, low, &mut flux)?;
-        let (boundary, lower) = (assembled.boundary()?, assembled.lower());
-        let force = contact::force(edges.counts(), &boundary, lower, u, &flux).wide();
+        let (boundary, law) = (assembled.boundary()?, assembled.law());
+        let force = contact::force(edges.counts(), &boundary, law, u, &flux).wide();
         let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);
         Ok(Self { flux, mismatch, force })
     }

@@ -25,8 +25,8 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     let mut u = assembled.start();
     let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
     stage("a sparse Cholesky factor");
-    let factor = Factor::new(&reduced.problem(system.lower())).map_err(failed)?;
-    let found = factor.solve(&reduced.load, system.lower(), None).map_err(failed)?;
+    let factor = Factor::new(&reduced.problem(system.law().lower())).map_err(failed)?;
+    let found = factor.solve(&reduced.load, system.law().lower(), None).map_err(failed)?;
     u[..found.u.len()].copy_from_slice(&found.u);
     system.make_feasible(&mut u);
     let residual = system.residual(&u);

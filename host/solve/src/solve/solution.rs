@@ -121,7 +121,7 @@ impl Solution {
     /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
     pub fn multiplier(&self, problem: &Problem, at: usize) -> f64 {
         let edge = problem.topology.counts.free + at;
-        (self.flux[edge] - problem.loads.contact_flux[at]) / problem.lengths[edge]
+        problem.loads.flux_range(at).multiplier(self.flux[edge]) / problem.lengths[edge]
     }
 }
 

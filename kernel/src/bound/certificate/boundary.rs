@@ -31,9 +31,10 @@ pub(super) fn add<R: Real, I: Index>(
     let gap = if features::CONTACT { given.ends.gap } else { &[] };
     for (at, gap) in gap.iter().enumerate() {
         let edge = counts.free + at;
-        let (tau, flux) = (read(tau, edge), given.boundary.contact_flux(at));
+        let (tau, range) = (read(tau, edge), given.boundary.contact_flux(at));
         let excess = R::TWO * excess(discretization, s, edge, gap);
-        take(parts, edge, (tau - flux) * excess, (tau.magnitude() + flux.magnitude()) * excess);
+        let terms = tau.magnitude() + range.least().magnitude();
+        take(parts, edge, range.multiplier(tau) * excess, terms * excess);
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };

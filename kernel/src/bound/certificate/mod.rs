@@ -145,14 +145,14 @@ pub fn certify<R: Real, I: Index>(
 ) -> Result<Verdict<R>, Error> {
     let Discretization { mesh, edges, cells, .. } = discretization;
     let Buffers { vertices, bubbles, tau, indicators } = buffers;
-    let (u, lower) = (iterate.u, iterate.lower);
+    let (u, law) = (iterate.u, iterate.law);
     same_length(Array::Triangles, cells.triangles.len(), edges.of_triangles().len())?;
     same_length(Array::Quads, cells.quads.len(), edges.of_quads().len())?;
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
     averages::fill(cells, given.loads, discretization.metric.distortions, u, vertices, tau)?;
-    conforming::impose(mesh, edges, u, lower, given.ends, vertices)?;
-    conforming::bubbles(mesh, edges, u, lower, given.ends, vertices, bubbles)?;
+    conforming::impose(mesh, edges, u, law, given.ends, vertices)?;
+    conforming::bubbles(mesh, edges, u, law, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);
     let s = Continuous { vertices, bubbles };
     let mut parts = walk::over_cells(discretization, given, u, s, tau, indicators);

@@ -6,6 +6,7 @@ use crate::bound::certificate::{Curved, LoadCase};
 use crate::bound::conforming::VertexData;
 use crate::device::tick::Data;
 use crate::discrete::assembly::CellLoads;
+use crate::discrete::law::Law;
 use crate::error::{Array, Error, same_length_or_empty};
 use crate::features;
 use crate::index::Index;
@@ -90,8 +91,8 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             transfer: own_or(self.transfer, base.transfer),
             oscillation,
         };
-        let lower = own_or(self.gap, base.gap);
-        Ok(Data { given, lower, dirichlet: own_or(self.dirichlet, base.dirichlet) })
+        let law = Law::above(own_or(self.gap, base.gap));
+        Ok(Data { given, law, dirichlet: own_or(self.dirichlet, base.dirichlet) })
     }
 }
 

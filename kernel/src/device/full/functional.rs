@@ -2,7 +2,6 @@
 
 use super::pattern::Contribution;
 use crate::device::tick::{Data, Report, Tick};
-use crate::discrete::contact;
 use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::edges::EdgeCounts;
@@ -33,13 +32,13 @@ pub(super) struct TickState<'t, 'a, R: Real, I, const WIDTH: usize> {
 impl<R: Real, I: Index> Functional<'_, R, I> {
     pub(super) fn of<const WIDTH: usize>(&self, answer: &TickState<R, I, WIDTH>) -> R {
         let TickState { tick, data, report } = answer;
-        let (u, tau, lower) = (tick.u(), tick.tau(), data.lower);
+        let (u, tau, law) = (tick.u(), tick.tau(), data.law);
         let EdgeCounts { free, contact, .. } = tick.counts();
-        let given = |at: usize| data.given.boundary.contact_flux(at);
+        let range = |at: usize| data.given.boundary.contact_flux(at);
         // Without a certificate τ is the flux (15) still.
         let pressed = |at: usize| {
             let (u, tau) = (read(u, free + at), read(tau, free + at));
-            contact::within_law(u, read(lower, at), tau, given(at))
+            law.on(at).flux(u, tau, range(at))
         };
         match *self {
             Self::Flux(edges) => edges.iter().fold(R::ZERO, |sum, edge| {
@@ -48,11 +47,11 @@ impl<R: Real, I: Index> Functional<'_, R, I> {
                     _ => read(tau, edge.at()),
                 }
             }),
-            Self::Force(edges) if features::CONTACT => {
-                edges.iter().fold(R::ZERO, |sum, at| sum + (pressed(at.at()) - given(at.at())))
-            }
+            Self::Force(edges) if features::CONTACT => edges
+                .iter()
+                .fold(R::ZERO, |sum, at| sum + range(at.at()).multiplier(pressed(at.at()))),
             Self::Length(shares) if features::CONTACT => sum(shares, |at, length| {
-                let touches = read(u, free + at) == read(lower, at);
+                let touches = law.on(at).touches(read(u, free + at));
                 if touches { length } else { R::ZERO }
             }),
             Self::Force(_) | Self::Length(_) => R::ZERO,

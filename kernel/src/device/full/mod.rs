@@ -26,6 +26,7 @@ pub use storage::{ArrayStorage, Storage};
 use crate::bound::certificate::{Discretization, Verdict};
 use crate::bound::conforming::VertexData;
 use crate::device::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
+use crate::discrete::law::Law;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
 use crate::index::{Index, read};
@@ -104,7 +105,7 @@ impl<R: Real, I: Index> Full<'_, R, I> {
         let mut tick = Tick::resume(self.discretization, of_tick, known)?;
         let size = tick.admit(&data)?;
         if !progress.has_begun() {
-            self.start(data.lower, tick.memory());
+            self.start(data.law, tick.memory());
         }
         // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
         let report = tick.enter(data, size).advance(method, limits, deadline)?;
@@ -151,10 +152,10 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     }
 
     /// A cold start: on the gap, elsewhere at one value.
-    fn start<const WIDTH: usize>(&self, lower: &[R], memory: &mut tick::Memory<R, I, WIDTH>) {
+    fn start<const WIDTH: usize>(&self, law: Law<R>, memory: &mut tick::Memory<R, I, WIDTH>) {
         memory.u.fill(self.start);
         let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
-        on_contact.zip(lower).for_each(|(u, &lower)| *u = lower);
+        on_contact.zip(law.edges()).for_each(|(u, law)| *u = law.gap());
         memory.active.fill(false);
     }
 }

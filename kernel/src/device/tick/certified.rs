@@ -91,7 +91,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
             tau: memory.tau,
             indicators: &mut [],
         };
-        let iterate = Iterate { u: memory.u, lower: self.data.lower };
+        let iterate = Iterate { u: memory.u, law: self.data.law };
         let verdict = certify(discretization, &self.data.given, iterate, buffers)?;
         self.verdict = Some(verdict);
         Ok(verdict)

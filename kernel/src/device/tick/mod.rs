@@ -38,6 +38,7 @@ pub use uncertified::UncertifiedSweeps;
 
 use crate::bound::certificate::{Discretization, LoadCase};
 use crate::discrete::assembly;
+use crate::discrete::law::Law;
 use crate::discrete::rows::Rows;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::Index;
@@ -78,8 +79,8 @@ pub struct Tick<'a, R: Real, I, const WIDTH: usize> {
 pub struct Data<'a, R, I> {
     /// Loads and boundary data, as the certificate takes them.
     pub given: LoadCase<'a, R, I>,
-    /// Means of ψ, one a contact edge.
-    pub lower: &'a [R],
+    /// The law on the contact edges.
+    pub law: Law<'a, R>,
     /// Means of u_D, one a Dirichlet edge.
     pub dirichlet: &'a [R],
 }
@@ -178,9 +179,9 @@ impl<R: Real, I: Index, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
         let unknowns = self.u.iter_mut().take(counts.unknowns());
         unknowns.filter(|u| !u.finite()).for_each(|u| *u = R::ZERO);
         let on_contact = self.u.iter_mut().skip(counts.free);
-        for ((u, &lower), &active) in on_contact.zip(data.lower).zip(self.active.iter()) {
-            if active || !(*u >= lower) {
-                *u = lower;
+        for ((u, law), &active) in on_contact.zip(data.law.edges()).zip(self.active.iter()) {
+            if active || !law.admits(*u) {
+                *u = law.gap();
             }
         }
     }
@@ -192,12 +193,12 @@ fn check<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
 ) -> Result<(), Error> {
     let counts = discretization.edges.counts();
-    let Data { given, lower, dirichlet } = data;
-    same_length(Array::LowerBounds, lower.len(), counts.contact)?;
+    let Data { given, law, dirichlet } = data;
+    law.check_length(counts)?;
     same_length(Array::Dirichlet, dirichlet.len(), counts.dirichlet)?;
     same_length(Array::Contact, given.ends.gap.len(), counts.contact)?;
     same_length(Array::Dirichlet, given.ends.given.len(), counts.dirichlet)?;
-    all_finite(Array::LowerBounds, lower)?;
+    law.check_finite()?;
     all_finite(Array::Dirichlet, dirichlet)?;
     all_finite(Array::Contact, given.ends.gap.as_flattened())?;
     all_finite(Array::Dirichlet, given.ends.given.as_flattened())?;
@@ -216,10 +217,10 @@ fn check<R: Real, I: Index>(
 }
 
 /// Active edges, and how many of them differ from `before`.
-fn contact_state<R: Real>(counts: EdgeCounts, lower: &[R], u: &[R], before: &[bool]) -> (u32, u32) {
+fn contact_state<R: Real>(counts: EdgeCounts, law: Law<R>, u: &[R], before: &[bool]) -> (u32, u32) {
     let (mut active, mut changes) = (0, 0);
     for (at, &was) in before.iter().enumerate() {
-        let is = crate::discrete::contact::is_active(counts, lower, u, at);
+        let is = crate::discrete::contact::is_active(counts, law, u, at);
         active += u32::from(is);
         changes += u32::from(is != was);
     }

@@ -27,7 +27,7 @@ pub(super) fn size<R: Real, I: Index, const WIDTH: usize>(
 ) -> Result<R, Error> {
     all_moderate(Array::Load, memory.load.iter().copied())?;
     let load = all_moderate(Array::Load, memory.rows.loads())?;
-    let lower = all_moderate(Array::LowerBounds, data.lower.iter().copied())?;
+    let lower = all_moderate(Array::LowerBounds, data.law.lower().iter().copied())?;
     let dirichlet = all_moderate(Array::Dirichlet, data.dirichlet.iter().copied())?;
     Ok(load.or_larger(lower).or_larger(dirichlet))
 }

@@ -65,7 +65,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
     /// A sweep, and a look at ω where it is time for one.
     pub(super) fn sweep<M: Math<R>>(&mut self) -> Result<(), Error> {
         let memory = &mut self.tick.memory;
-        psor::sweep(&memory.rows, self.data.lower, memory.u)?;
+        psor::sweep(&memory.rows, self.data.law, memory.u)?;
         self.sweeps += 1;
         self.verdict = None;
         if self.tick.search.is_over() || self.sweeps - self.measured < self.tick.search.block() {
@@ -83,10 +83,10 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
     }
 
     pub(super) fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
-        let (memory, lower) = (&self.tick.memory, self.data.lower);
-        let defect = psor::defect(&memory.rows, lower, memory.u)?;
+        let (memory, law) = (&self.tick.memory, self.data.law);
+        let defect = psor::defect(&memory.rows, law, memory.u)?;
         let counts = self.tick.discretization.edges.counts();
-        let (active, _) = contact_state(counts, lower, memory.u, memory.active);
+        let (active, _) = contact_state(counts, law, memory.u, memory.active);
         Ok((defect, active))
     }
 
@@ -120,9 +120,9 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let residual = self.measure()?.0.largest;
         let counts = self.tick.discretization.edges.counts();
         let Tick { memory, search, report, .. } = &mut *self.tick;
-        let lower = self.data.lower;
-        let (active, changes) = contact_state(counts, lower, memory.u, memory.active);
-        let force = contact::force(counts, &self.data.given.boundary, lower, memory.u, memory.tau);
+        let law = self.data.law;
+        let (active, changes) = contact_state(counts, law, memory.u, memory.active);
+        let force = contact::force(counts, &self.data.given.boundary, law, memory.u, memory.tau);
         // u may be finite where its fluxes are not, and the law of contact may hide one.
         let fluxes = memory.tau.iter().skip(counts.free).take(counts.contact);
         let known = residual.finite() && force.finite() && fluxes.into_iter().all(|x| x.finite());
@@ -131,7 +131,7 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
             *search = self.search;
         } else {
             for (at, was) in memory.active.iter_mut().enumerate() {
-                *was = contact::is_active(counts, lower, memory.u, at);
+                *was = contact::is_active(counts, law, memory.u, at);
             }
         }
         let (omega, verdict) = (search.omega, verdict.as_parts());

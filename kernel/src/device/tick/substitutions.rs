@@ -58,11 +58,11 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         };
         let places = memory.tau.get_mut(..counts.unknowns()).unwrap_or(&mut []);
         exact.forget_beyond(worth(self.size));
-        let solved = exact.solve(&balance, data.lower, places, memory.u, &mut [])?;
+        let solved = exact.solve(&balance, data.law, places, memory.u, &mut [])?;
         self.verdict = None;
         // Next to the last answer corrections tell nothing: by the factor of another matrix they are small as well.
         let is_found = solved.as_ref().is_some_and(|solved| {
-            let is_rounding = || psor::is_rounding(&memory.rows, data.lower, memory.u, SLACK);
+            let is_rounding = || psor::is_rounding(&memory.rows, data.law, memory.u, SLACK);
             solved.has_digits() && (solved.contracts() || is_rounding())
         });
         if !is_found {

@@ -10,6 +10,7 @@ mod conditions;
 mod sizes;
 mod ticks;
 
+use crate::discrete::law::Law;
 use heapless::Vec;
 
 use crate::bound::conforming::VertexData;
@@ -284,7 +285,8 @@ impl<
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
-        let system = System::new(matrix, &self.load, &self.gap, *counts)?.with_shifts(shifts)?;
+        let system =
+            System::new(matrix, &self.load, Law::above(&self.gap), *counts)?.with_shifts(shifts)?;
         let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
         all_moderate(Array::Load, self.load.iter().copied())?;
         let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
@@ -303,10 +305,10 @@ impl<
         let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
         flux::recover(&edges, stiffness, cells, u, &[], flux)?;
         for (at, active) in self.active.iter_mut().enumerate() {
-            *active = contact::is_active(*counts, &self.gap, u, at);
+            *active = contact::is_active(*counts, Law::above(&self.gap), u, at);
         }
         let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
-        self.force = contact::force(*counts, &boundary, &self.gap, u, flux);
+        self.force = contact::force(*counts, &boundary, Law::above(&self.gap), u, flux);
         Ok(outcome)
     }
 

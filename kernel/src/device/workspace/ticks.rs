@@ -7,6 +7,7 @@ use crate::device::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick, UncertifiedSweeps,
 };
 use crate::discrete::assembly::CellLoads;
+use crate::discrete::law::Law;
 use crate::error::Error;
 use crate::index::Index;
 use crate::math::Libm;
@@ -77,7 +78,7 @@ impl<
                 transfer: &[],
                 oscillation: R::ZERO,
             },
-            lower: &self.gap,
+            law: Law::above(&self.gap),
             dirichlet: &self.dirichlet,
         };
         if !self.progress.has_begun() {

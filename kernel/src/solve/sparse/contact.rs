@@ -12,6 +12,7 @@
 //! from is left to who asks: a matrix in CSR ([`super::direct`]) or element matrices ([`super::cells`]).
 
 use super::factor::Factor;
+use crate::discrete::law::Law;
 use crate::error::{Array, Error, same_length};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -155,7 +156,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         self.factored.factor.counts()
     }
 
-    /// Solves from any `u`, which becomes the answer, at least `lower` on C, together with its low part `low`
+    /// Solves from any `u`, which becomes the answer, within `law` on C, together with its low part `low`
     /// (as long as u, or empty where nobody asks). `places` is scratch, one entry an unknown. `None` where there is no answer that this scalar can hold: no
     /// solution, or a matrix that is singular in it; u is of no use then.
     ///
@@ -164,7 +165,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     pub(crate) fn solve(
         &mut self,
         defect: &impl Defect<R, I>,
-        lower: &[R],
+        law: Law<R>,
         places: &mut [R],
         u: &mut [R],
         low: &mut [R],
@@ -173,9 +174,9 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         let counts = factor.counts();
         same_length(Array::Unknowns, u.len(), counts.edges())?;
         same_length(Array::Scratch, places.len(), counts.unknowns())?;
-        same_length(Array::Contact, lower.len(), counts.contact)?;
+        law.check_length(counts)?;
         self.solved = None;
-        self.open(lower, u);
+        self.open(law, u);
         low.fill(R::ZERO);
         let (mut pivots, mut rounds, mut last) = (0, 0, None);
         let mut first = R::ZERO;
@@ -186,7 +187,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
             defect.measure(&factor, u, places);
             self.reduce(places);
             if last.is_none() || !settled && self.is_wrong() {
-                let Some(exchanges) = self.exchange(lower, places, u)? else { return Ok(None) };
+                let Some(exchanges) = self.exchange(law, places, u)? else { return Ok(None) };
                 settled = exchanges == 0 && last.is_some();
                 pivots += exchanges;
                 factor.substitute(places);
@@ -216,17 +217,17 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
                 break;
             }
         }
-        lift(lower, counts.free, u, low);
+        lift(law, counts.free, u, low);
         self.solved = last.map(|change| Solved { pivots, rounds, change, first });
         Ok(self.solved)
     }
 
     /// Contact edges onto ψ + v, v as the last solve left it.
-    fn open(&mut self, lower: &[R], u: &mut [R]) {
-        let contact = u.iter_mut().skip(self.counts().free).zip(lower);
+    fn open(&mut self, law: Law<R>, u: &mut [R]) {
+        let contact = u.iter_mut().skip(self.counts().free).zip(law.edges());
         let openings = self.iterate.x.iter().zip(self.factored.scale);
-        for ((u, &lower), (x, &scale)) in contact.zip(openings) {
-            *u = lower + *x * scale;
+        for ((u, law), (x, &scale)) in contact.zip(openings) {
+            *u = law.opened(*x * scale);
         }
     }
 
@@ -251,7 +252,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     /// nothing where there is no solution.
     fn exchange(
         &mut self,
-        lower: &[R],
+        law: Law<R>,
         places: &mut [R],
         u: &mut [R],
     ) -> Result<Option<u32>, Error> {
@@ -276,10 +277,10 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
             Ok(_) | Err(Error::NotFinite { .. }) => return Ok(None),
             Err(error) => return Err(error),
         };
-        let values = self.iterate.x.iter().zip(scale).zip(lower);
+        let values = self.iterate.x.iter().zip(scale).zip(law.edges());
         let contact = u.iter_mut().skip(counts.free).zip(values);
-        for ((u, ((&x, &scale), &lower)), place) in contact.zip(counts.free..) {
-            let new = lower + x * scale;
+        for ((u, ((&x, &scale), law)), place) in contact.zip(counts.free..) {
+            let new = law.opened(x * scale);
             write(places, place, new - *u);
             *u = new;
         }
@@ -319,10 +320,10 @@ fn largest<R: Real>(x: &[R]) -> R {
 }
 
 /// A correction may round to less than ψ.
-fn lift<R: Real>(lower: &[R], free: usize, u: &mut [R], low: &mut [R]) {
-    for ((u, &lower), at) in u.iter_mut().skip(free).zip(lower).zip(free..) {
-        if !(*u >= lower) {
-            *u = lower;
+fn lift<R: Real>(law: Law<R>, free: usize, u: &mut [R], low: &mut [R]) {
+    for ((u, law), at) in u.iter_mut().skip(free).zip(law.edges()).zip(free..) {
+        if !law.admits(*u) {
+            *u = law.gap();
             write(low, at, R::ZERO);
         }
     }

@@ -85,7 +85,7 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
     ) -> Result<Option<SolveSummary<R>>, Error> {
         same_length(Array::Scratch, low.len(), u.len())?;
         let rows = Rows { system, boundary };
-        let Some(solved) = self.exact.solve(&rows, system.lower(), self.places, u, low)? else {
+        let Some(solved) = self.exact.solve(&rows, system.law(), self.places, u, low)? else {
             return Ok(None);
         };
         let residual = system.residual(u);

@@ -32,7 +32,11 @@ pub fn commit<R: Real>(model: &Model<R, u16>, force: R) {
         use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
         let (mut memory, mut u) = ([Row::EMPTY; 4], [R::ZERO; 4]);
         if let Ok(rows) = Rows::<R, u16, TRIANGLES>::new(&edges, black_box(&mut memory)) {
-            let done = signorini_kernel::solve::psor::sweep(&rows, black_box(model.gap), &mut u);
+            let done = signorini_kernel::solve::psor::sweep(
+                &rows,
+                signorini_kernel::discrete::law::Law::above(black_box(model.gap)),
+                &mut u,
+            );
             let _ = black_box((done, u));
         }
     }

@@ -6,6 +6,7 @@
 //!         row in f64: 48 bytes on triangles, 72 elsewhere
 //! ```
 
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::{
     Error, Real, device::model::Model, discrete::assembly, discrete::contact, discrete::flux,
@@ -71,7 +72,7 @@ impl<
         rows.gather(&edges, model.stiffness, &boundary, &self.load, omega)?;
         for _ in 0..sweeps {
             if CONTACT {
-                psor::sweep(&rows, model.gap, u)?;
+                psor::sweep(&rows, Law::above(model.gap), u)?;
             } else {
                 psor::sweep_free(&rows, u)?;
             }
@@ -83,7 +84,7 @@ impl<
         }
         let (triangles, quads) = (&self.of_triangles, &self.of_quads);
         Ok(if CONTACT {
-            contact::force_of_cells(&edges, &boundary, model.gap, u, triangles, quads)
+            contact::force_of_cells(&edges, &boundary, Law::above(model.gap), u, triangles, quads)
         } else {
             R::ZERO
         })

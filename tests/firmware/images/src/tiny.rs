@@ -19,6 +19,7 @@ use signorini_kernel::device::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick,
 };
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::boundary::Boundary;
@@ -140,7 +141,7 @@ fn answer(
         transfer: &[],
         oscillation: 0.0,
     };
-    let data = Data { given, lower: &[0.0; COLUMNS], dirichlet: &[above; COLUMNS] };
+    let data = Data { given, law: Law::above(&[0.0; COLUMNS]), dirichlet: &[above; COLUMNS] };
     let limits = Limits { error: 0.0, share: 0.0, sweeps };
     tick.begin(data)?.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())
 }

@@ -12,6 +12,7 @@ mod tests;
 mod vertices;
 
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::signorini::System;
 
 use super::failed;
@@ -140,7 +141,8 @@ impl Conforming {
         let counts = self.vertices.counts;
         let given = &self.ticks[0];
         let matrix = Csr::new(row_ptr, col_idx, values, counts.edges()).map_err(failed)?;
-        let system = System::new(matrix, &given.load, &given.lower, counts).map_err(failed)?;
+        let system =
+            System::new(matrix, &given.load, Law::above(&given.lower), counts).map_err(failed)?;
         let contest = Contest { problem: "conforming P1", quadratic: &self.quadratic, target };
         let mut adaptive = Psor::<f64, WIDTH>::adaptive(system, &self.ticks);
         let mut baselines = contest.hold("PSOR", &mut adaptive)?;

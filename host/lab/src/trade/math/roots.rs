@@ -98,11 +98,11 @@ fn cold<M: Math<f32>, const WIDTH: usize>(
     let mut flux = vec![0.0; u.len()];
     let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
     flux::recover(edges, stiffness, cells, &u, &[], &mut flux)?;
-    let length = contact::length::<_, _, Libm>(&assembled.mesh()?, edges, assembled.lower(), &u);
+    let length = contact::length::<_, _, Libm>(&assembled.mesh()?, edges, assembled.law(), &u);
     let boundary = assembled.boundary()?;
     let state = State {
         u: u.iter().copied().map(f64::from).collect(),
-        force: contact::force(edges.counts(), &boundary, assembled.lower(), &u, &flux).into(),
+        force: contact::force(edges.counts(), &boundary, assembled.law(), &u, &flux).into(),
         length: length.into(),
     };
     Ok(Cold { u, state, sweeps: outcome.sweeps, status: outcome.status, calls })
@@ -132,12 +132,12 @@ struct Lengths {
 
 impl Lengths {
     fn of(assembled: &Assembled<f32>, u: &[f32]) -> std::result::Result<Self, Error> {
-        let (mesh, edges, lower) = (assembled.mesh()?, assembled.edges(), assembled.lower());
+        let (mesh, edges, law) = (assembled.mesh()?, assembled.edges(), assembled.law());
         let counts = edges.counts();
-        let is_active = |&at: &usize| contact::is_active(counts, lower, u, at);
+        let is_active = |&at: &usize| contact::is_active(counts, law, u, at);
         let calls = (0..counts.contact).filter(is_active).count() as u64;
-        let exact = contact::length::<_, _, Libm>(&mesh, edges, lower, u);
-        let fast = contact::length::<_, _, Micromath>(&mesh, edges, lower, u);
+        let exact = contact::length::<_, _, Libm>(&mesh, edges, law, u);
+        let fast = contact::length::<_, _, Micromath>(&mesh, edges, law, u);
         let error = (calls > 0).then(|| f64::from((fast - exact) / exact).abs());
         Ok(Self { error, calls })
     }

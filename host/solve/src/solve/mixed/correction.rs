@@ -28,10 +28,9 @@ impl Correction {
             *load = ((b - row.dot(u)) / unit) as f32;
         }
         let on_contact = u.iter().skip(system.counts().free);
-        for (lower, (&psi, &own)) in
-            self.lower.iter_mut().zip(system.lower().iter().zip(on_contact))
+        for (lower, (law, &own)) in self.lower.iter_mut().zip(system.law().edges().zip(on_contact))
         {
-            *lower = ((psi - own) / unit) as f32;
+            *lower = ((law.gap() - own) / unit) as f32;
         }
         self.v.fill(0.0);
     }
@@ -42,10 +41,10 @@ impl Correction {
             *u += unit * f64::from(v);
         }
         let free = system.counts().free;
-        let bounds = self.v.iter().skip(free).zip(&self.lower).zip(system.lower());
-        for (u, ((v, lower), &psi)) in u.iter_mut().skip(free).zip(bounds) {
-            if v == lower || *u < psi {
-                *u = psi;
+        let bounds = self.v.iter().skip(free).zip(&self.lower).zip(system.law().edges());
+        for (u, ((v, lower), law)) in u.iter_mut().skip(free).zip(bounds) {
+            if v == lower || law.opening(*u) < 0.0 {
+                *u = law.gap();
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Rounds of sweeps in f32, each followed by a correction in f64, until the residual in f64 is small.
 
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::Rows;
 use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::solve::Relaxation;
@@ -57,7 +58,7 @@ impl Rounds<'_> {
                 return Ok(now);
             }
             correction.pose(&wide, unit, u);
-            let system = narrow.with_data(&correction.load, &correction.lower)?;
+            let system = narrow.with_data(&correction.load, Law::above(&correction.lower))?;
             if now.corrections == 0 {
                 solver.start(&system, &mut rows, &mut correction.v)?;
             } else {

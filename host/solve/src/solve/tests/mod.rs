@@ -75,7 +75,7 @@ fn a_limit_of_sweeps_is_kept_and_the_iterate_feasible() -> Result<()> {
     let found = prepared.run(settings, &mut u).unwrap();
     assert_eq!((found.outcome.status, found.outcome.sweeps), (Status::OutOfSweeps, 12));
     let free = problem.topology.counts.free;
-    let lower = prepared.assembled().lower();
+    let lower = prepared.assembled().law().lower();
     assert!(u[free..].iter().zip(lower).all(|(u, lower)| u >= lower));
     Ok(())
 }

@@ -24,6 +24,7 @@ use signorini_kernel::bound::equilibrium::{Iterate, is_root};
 use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
@@ -129,12 +130,14 @@ impl Stages for Meter<'_, '_> {
         })?;
         let matrix = Csr::new(row_ptr, col_idx, values, edges.counts().edges())?;
         let gap = [-R::QUARTER * R::QUARTER; 16];
-        let system = System::new(matrix, load, black_box(&gap), edges.counts())?;
+        let system = System::new(matrix, load, Law::above(black_box(&gap)), edges.counts())?;
         self.count("rows from CSR", "unknown", unknowns, || rows.set(&system, omega))?;
 
         let mut u = [R::ZERO; E];
         let u = cut(&mut u, edges.counts().edges())?;
-        self.count("sweep", "unknown", unknowns, || psor::sweep(&rows, black_box(&gap), u))?;
+        self.count("sweep", "unknown", unknowns, || {
+            psor::sweep(&rows, Law::above(black_box(&gap)), u)
+        })?;
         let mut records = [Record::<R, WIDTH>::EMPTY; E];
         let records = cut(&mut records, unknowns)?;
         fill(records, &system, omega);
@@ -245,7 +248,7 @@ impl Stages for Meter<'_, '_> {
                 tau: &mut *tau,
                 indicators: &mut [],
             };
-            let iterate = Iterate { u, lower: black_box(&lower) };
+            let iterate = Iterate { u, law: Law::above(black_box(&lower)) };
             black_box(certify(&discretization, &given, iterate, buffers)?);
             Ok(())
         })
@@ -315,7 +318,7 @@ fn by_csr<R: Bits>(system: &System<R, u16>, u: &mut [R], omega: R) {
     let rows = system.matrix().iter().zip(system.load()).enumerate();
     for (i, (row, &load)) in rows {
         let step = omega * (load - row.dot(u)) / row.diagonal();
-        let gap = i.checked_sub(system.counts().free).and_then(|at| system.lower().get(at));
+        let gap = i.checked_sub(system.counts().free).and_then(|at| system.law().get(at));
         if let Some(u) = u.get_mut(i) {
             *u += step;
             if let Some(&gap) = gap.filter(|&&gap| *u < gap) {

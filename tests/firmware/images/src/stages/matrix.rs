@@ -1,6 +1,7 @@
 //! Assembly, sweeps and flux on memory of fixed size.
 
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::{Residual, System};
@@ -49,7 +50,7 @@ impl<R: Real> Memory<R> {
         numeric::load(edges, model.loads, boundary, load)?;
         let matrix = Csr::new(row_ptr, col_idx, values, model.counts.edges())?;
         let shifts = Shifts { part: &[], parts: 1, robin: model.robin };
-        System::new(matrix, load, model.gap, model.counts)?.with_shifts(shifts)
+        System::new(matrix, load, Law::above(model.gap), model.counts)?.with_shifts(shifts)
     }
 }
 
@@ -101,7 +102,7 @@ fn swept<R: Bits, const WIDTH: usize>(
     let u = cut(&mut u, model.start.len())?;
     u.copy_from_slice(model.start);
     for _ in 0..times {
-        psor::sweep(rows, model.gap, u)?;
+        psor::sweep(rows, Law::above(model.gap), u)?;
     }
     work(u);
     Ok(())

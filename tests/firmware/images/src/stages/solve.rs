@@ -1,5 +1,6 @@
 //! A whole solve, step by step what `signorini solve` does.
 
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
@@ -34,7 +35,7 @@ pub(super) fn scene<R: Bits, M: Math<R>>(
     let mut fluxes = [R::ZERO; EDGES];
     let fluxes = cut(&mut fluxes, u.len())?;
     let found = flux::recover(&edges, model.stiffness, model.loads, u, low, fluxes)?;
-    let length = contact::length::<R, u16, M>(&model.mesh()?, &edges, model.gap, u);
+    let length = contact::length::<R, u16, M>(&model.mesh()?, &edges, Law::above(model.gap), u);
 
     journal.text(name(outcome.status));
     journal.count("sweeps", outcome.sweeps);
@@ -46,7 +47,7 @@ pub(super) fn scene<R: Bits, M: Math<R>>(
     journal.digest("flux", fluxes.iter().copied());
     journal.scalar("mismatch", found.mismatch);
     journal.scalar("largest flux", found.largest);
-    let force = contact::force(model.counts, &boundary, model.gap, u, fluxes);
+    let force = contact::force(model.counts, &boundary, Law::above(model.gap), u, fluxes);
     journal.scalar("contact force", force);
     journal.scalar("contact length", length * model.unit);
     Ok(())
