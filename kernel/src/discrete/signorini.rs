@@ -138,8 +138,8 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             let per_diagonal = R::ONE / row.diagonal();
             let mut step = r * per_diagonal;
             let mut terms = size * per_diagonal;
-            if let Some(law) = self.law_on(i) {
-                let own = read(u, i);
+            if i >= self.counts.free {
+                let (law, own) = (self.law.on(i - self.counts.free), read(u, i));
                 measure.active += u32::from(law.touches(own));
                 if let Some(opening) = law.blocks(own, step) {
                     step = opening;

@@ -318,7 +318,7 @@ fn by_csr<R: Bits>(system: &System<R, u16>, u: &mut [R], omega: R) {
     let rows = system.matrix().iter().zip(system.load()).enumerate();
     for (i, (row, &load)) in rows {
         let step = omega * (load - row.dot(u)) / row.diagonal();
-        let gap = i.checked_sub(system.counts().free).and_then(|at| system.law().get(at));
+        let gap = i.checked_sub(system.counts().free).and_then(|at| system.law().lower().get(at));
         if let Some(u) = u.get_mut(i) {
             *u += step;
             if let Some(&gap) = gap.filter(|&&gap| *u < gap) {
