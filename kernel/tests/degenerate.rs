@@ -8,6 +8,7 @@ use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
@@ -90,7 +91,7 @@ fn parts_are_told_apart() {
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
         let unknowns = edges.counts().unknowns();
         let loads = vec![load; unknowns];
-        examine(&edges, &boundary, &loads, 1e-9, &mut [Part::default(); 2])
+        examine(&edges, DiagonalTerms::new(&boundary), &loads, 1e-9, &mut [Part::default(); 2])
     };
     let contact = Condition::Contact { gap: 0.0, flux: 0.0 };
     let counts = |held, contact, floating| Ok(PartCounts { held, contact, floating });
@@ -241,7 +242,7 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     assert_eq!(refused(&[law(2), law(2)]), second, "two on one edge");
     let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
     assert_eq!(
-        rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).err(),
+        rows.gather(&square, k, DiagonalTerms::new(&nothing), &[0.0; 4], 1.0).err(),
         Some(Error::Capacity { of: Array::Quads, needed: 1, limit: 0 })
     );
 
