@@ -7,6 +7,7 @@ use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
@@ -144,7 +145,7 @@ fn a_part_floats_where_nothing_passes_its_boundary() -> Result<(), Error> {
     let found = |coefficient: f64, load: [f64; 3], slack: f64| {
         let laws = [Robin { edge: 0, coefficient, ambient: 0.0 }];
         let boundary = Boundary::new(&edges, &[], &laws, &[])?;
-        examine(&edges, &boundary, &load, slack, &mut [Part::default()])
+        examine(&edges, DiagonalTerms::new(&boundary), &load, slack, &mut [Part::default()])
     };
     let counts = |held, floating| Ok(PartCounts { held, contact: 0, floating });
     assert_eq!(found(1.0, [1.0; 3], 1e-9), counts(1, 0));

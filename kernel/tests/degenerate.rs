@@ -9,6 +9,7 @@ use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
 use signorini_kernel::error::{Array, CellId};
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
@@ -91,7 +92,7 @@ fn parts_are_told_apart() {
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
         let unknowns = edges.counts().unknowns();
         let loads = vec![load; unknowns];
-        examine(&edges, &boundary, &loads, 1e-9, &mut [Part::default(); 2])
+        examine(&edges, DiagonalTerms::new(&boundary), &loads, 1e-9, &mut [Part::default(); 2])
     };
     let contact = Condition::Contact { gap: 0.0, flux: 0.0 };
     let counts = |held, contact, floating| Ok(PartCounts { held, contact, floating });
@@ -193,6 +194,18 @@ fn arrays_that_do_not_fit_are_refused() {
 }
 
 #[test]
+fn a_system_refuses_loads_and_gaps_that_are_no_numbers() {
+    let counts = EdgeCounts { free: 0, contact: 1, dirichlet: 0 };
+    let matrix = Csr::<f64, u16>::new(&[0, 1], &[0], &[1.0], 1).expect("one row");
+    for wrong in [f64::NAN, f64::INFINITY] {
+        for (load, gap, of) in [(wrong, 0.0, Array::Load), (0.0, wrong, Array::LowerBounds)] {
+            let refused = System::new(matrix, &[load], Law::above(&[gap]), counts).err();
+            assert_eq!(refused, Some(Error::NotFinite { of, at: 0 }));
+        }
+    }
+}
+
+#[test]
 fn rows_and_sweeps_refuse_what_does_not_fit() {
     let sides = EdgeCounts { free: 2, contact: 1, dirichlet: 1 };
     let edges = Edges::<u16>::new(
@@ -242,7 +255,7 @@ fn rows_and_sweeps_refuse_what_does_not_fit() {
     assert_eq!(refused(&[law(2), law(2)]), second, "two on one edge");
     let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
     assert_eq!(
-        rows.gather(&square, k, &nothing, &[0.0; 4], 1.0).err(),
+        rows.gather(&square, k, DiagonalTerms::new(&nothing), &[0.0; 4], 1.0).err(),
         Some(Error::Capacity { of: Array::Quads, needed: 1, limit: 0 })
     );
 

@@ -14,6 +14,7 @@ use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::error::Array;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::{Error, Tensor, discrete::assembly, solve::psor};
 use signorini_tolerances::kernel::BALANCE;
@@ -60,7 +61,7 @@ fn run(sides: [Side; 4], load: f64, sweeps: usize) -> Result<Run, Error> {
     assembly::load(&edges, loads, &boundary, &mut b)?;
     let mut memory = vec![Row::<f64, u16, QUADS>::EMPTY; counts.unknowns()];
     let mut rows = Rows::new(&edges, &mut memory)?;
-    rows.gather(&edges, stiffness, &boundary, &b, 1.5)?;
+    rows.gather(&edges, stiffness, DiagonalTerms::new(&boundary), &b, 1.5)?;
     let mut u = vec![0.0; counts.edges()];
     for _ in 0..sweeps {
         psor::sweep(&rows, Law::above(&gap), &mut u)?;

@@ -8,6 +8,8 @@ use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::error::Array;
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
@@ -90,7 +92,9 @@ fn spring<R>(
     let mut memory = [Row::EMPTY; 2];
     let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
     let system = System::new(matrix, &load, Law::above(lower), counts)?;
-    let system = system.with_shifts(Shifts { part: &[], parts: 1, robin: &[] })?;
+    let nothing = Boundary::new(&Edges::baked(&[], &[], &[], counts), &[], &[], &[])?;
+    let diagonal = DiagonalTerms::new(&nothing);
+    let system = system.with_shifts(Shifts { part: &[], parts: 1, diagonal })?;
     Ok(work(&system, &mut rows))
 }
 

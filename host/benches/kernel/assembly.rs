@@ -19,12 +19,12 @@ pub fn pattern<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 /// The values of the matrix.
 pub fn values<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
-    let boundary = assembled.boundary().expect("the records are admissible");
+    let diagonal = assembled.diagonal().expect("the records are admissible");
     let system = assembled.system().expect("the numbers are finite");
     let (edges, row_ptr) = (assembled.edges(), system.matrix().row_ptr());
     let mut values = vec![R::ZERO; edges.nonzeros()];
     let stiffness = assembled.stiffness();
-    bencher.iter(|| assembly::values(edges, stiffness, &boundary, row_ptr, &mut values));
+    bencher.iter(|| assembly::values(edges, stiffness, diagonal, row_ptr, &mut values));
 }
 
 /// The right-hand side.
@@ -56,10 +56,10 @@ pub fn gather<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 
 fn gather_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
-    let boundary = assembled.boundary().expect("the records are admissible");
+    let diagonal = assembled.diagonal().expect("the records are admissible");
     let system = assembled.system().expect("the numbers are finite");
     let (edges, stiffness, load) = (assembled.edges(), assembled.stiffness(), system.load());
     let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; load.len()];
     let mut rows = Rows::new(edges, &mut memory).expect("u32 holds the edges");
-    bencher.iter(|| rows.gather(edges, stiffness, &boundary, load, R::narrow(1.9)));
+    bencher.iter(|| rows.gather(edges, stiffness, diagonal, load, R::narrow(1.9)));
 }

@@ -19,7 +19,7 @@ pub fn refined<R: Scalar>(bencher: &mut Bencher, strip: &Strip) {
 fn refined_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &Strip) {
     let assembled = strip.assembled::<R>();
     let system = assembled.system().expect("the numbers are finite");
-    let boundary = assembled.boundary().expect("the records are admissible");
+    let diagonal = assembled.diagonal().expect("the records are admissible");
     let (edges, counts) = (assembled.edges(), system.counts());
     let zeros = |length| vec![R::ZERO; length];
     let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
@@ -35,7 +35,7 @@ fn refined_wide<R: Scalar, const WIDTH: usize>(bencher: &mut Bencher, strip: &St
             conjugate: ConjugateBuffers { direction: &mut direction, residual: &mut residual },
         };
         let settings = Settings { accuracy: R::EPSILON, ..Settings::default() };
-        refinement::run::<R, u32, Libm, WIDTH>(&system, &boundary, settings, 6, u, buffers)
+        refinement::run::<R, u32, Libm, WIDTH>(&system, diagonal, settings, 6, u, buffers)
     };
     bencher.iter_batched_ref(|| assembled.start(), run, BatchSize::LargeInput);
 }

@@ -9,6 +9,7 @@ use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Edges, Side};
 use crate::real::Real;
 
@@ -51,14 +52,15 @@ pub fn pattern<I: Index>(
     Ok(())
 }
 
-/// Numeric pass: fills `values` for the pattern of [`pattern`].
+/// Numeric pass: fills `values` for the pattern of [`pattern`] from the element matrices and the terms that K has on its
+/// diagonal beyond them.
 ///
 /// # Errors
 /// Slices of the wrong length.
 pub fn values<R: Real, I: Index>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     row_ptr: &[u32],
     values: &mut [R],
 ) -> Result<(), Error> {
@@ -82,12 +84,12 @@ pub fn values<R: Real, I: Index>(
             }
         }
     }
-    boundary.add_to_diagonal(|edge, addend| {
+    for (edge, term) in diagonal.entries() {
         let place = values.get_mut(read(row_ptr, edge) as usize);
         if let Some(own) = place {
-            *own += addend;
+            *own += term;
         }
-    });
+    }
     Ok(())
 }
 

@@ -17,7 +17,7 @@ use crate::discrete::signorini::System;
 use crate::discrete::stiffness::Stiffness;
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
-use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{EdgeCounts, Edges, Side};
 use crate::real::Real;
 
@@ -169,7 +169,8 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
     }
 
     /// Numeric pass without CSR: each row from the element matrices of its one or two cells, by the
-    /// same `edges` that the rows were made for. `load` holds b, one entry an unknown.
+    /// same `edges` that the rows were made for, and what `diagonal` has beyond the matrices. `load`
+    /// holds b, one entry an unknown.
     ///
     /// # Errors
     /// Arrays of the wrong length, quads where a row has the [`TRIANGLES`] entries of triangles.
@@ -178,7 +179,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         &mut self,
         edges: &Edges<I>,
         stiffness: Stiffness<R>,
-        boundary: &Boundary<R, I>,
+        diagonal: DiagonalTerms<R, I>,
         load: &[R],
         omega: R,
     ) -> Result<(), Error> {
@@ -192,22 +193,22 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
             return Err(Error::Capacity { of: Array::Quads, needed, limit: 0 });
         }
         self.omega = omega;
-        let fill = |rows: &mut [_], half_edges: &[_], load: &[_], addend| {
+        let fill = |rows: &mut [_], half_edges: &[_], load: &[_], term| {
             if WIDTH == TRIANGLES {
-                gather_triangles(rows, half_edges, stiffness.triangles, load, addend, omega);
+                gather_triangles(rows, half_edges, stiffness.triangles, load, term, omega);
             } else {
-                gather_cells(rows, half_edges, edges, stiffness, load, addend, omega);
+                gather_cells(rows, half_edges, edges, stiffness, load, term, omega);
             }
         };
         fill(self.rows, edges.half_edges(), load, R::ZERO);
-        boundary.add_to_diagonal(|edge, addend| {
+        for (edge, term) in diagonal.entries() {
             let only = edge..edge + 1;
             let row = self.rows.get_mut(only.clone());
             let half_edges = edges.half_edges().get(only.clone());
             if let (Some(row), Some(half_edges), Some(load)) = (row, half_edges, load.get(only)) {
-                fill(row, half_edges, load, addend);
+                fill(row, half_edges, load, term);
             }
-        });
+        }
         Ok(())
     }
 
@@ -239,14 +240,14 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
 }
 
 /// Rows of edges of triangles: two entries from each half-edge. The second half-edge of a boundary
-/// edge points to no entry. `addend` is what the boundary adds to K_ii.
+/// edge points to no entry. `term` is what K_ii has beyond the element matrices.
 #[inline(never)]
 fn gather_triangles<R: Real, I: Index, const WIDTH: usize>(
     rows: &mut [Row<R, I, WIDTH>],
     half_edges: &[[I; 2]],
     k: &[[R; 3]],
     load: &[R],
-    addend: R,
+    term: R,
     omega: R,
 ) {
     let (k, opposite) = (k.as_flattened(), -omega);
@@ -257,7 +258,7 @@ fn gather_triangles<R: Real, I: Index, const WIDTH: usize>(
             [c, d] = others;
             sum += c + d;
         }
-        row.put([a, b, c, d], load, opposite / (sum - addend));
+        row.put([a, b, c, d], load, opposite / (sum - term));
     }
 }
 
@@ -269,7 +270,7 @@ fn gather_cells<R: Real, I: Index, const WIDTH: usize>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
     load: &[R],
-    addend: R,
+    term: R,
     omega: R,
 ) {
     for ((row, pair), &load) in rows.iter_mut().zip(half_edges).zip(load) {
@@ -283,6 +284,6 @@ fn gather_cells<R: Real, I: Index, const WIDTH: usize>(
                 Side::Quad(at, side) => copy_row(&read(stiffness.quads, at), 4, side, &mut places),
             };
         }
-        row.put(entries, load, omega / (own + addend));
+        row.put(entries, load, omega / (own + term));
     }
 }

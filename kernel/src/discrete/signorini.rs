@@ -13,7 +13,7 @@ use crate::discrete::csr::Csr;
 use crate::discrete::law::{EdgeLaw, Law};
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::{Index, read};
-use crate::mesh::boundary::Robin;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::EdgeCounts;
 use crate::real::Real;
 
@@ -24,8 +24,8 @@ pub struct Shifts<'a, R, I> {
     pub part: &'a [I],
     /// How many parts there are.
     pub parts: usize,
-    /// The transfer laws.
-    pub robin: &'a [Robin<R, I>],
+    /// What K has on its diagonal beyond the element matrices.
+    pub diagonal: DiagonalTerms<'a, R, I>,
 }
 
 /// Matrix, load and bounds of one contact problem (borrowed, validated).

@@ -8,8 +8,8 @@
 //!               (u − ψ)(A∇u·n − q) = 0
 //! ```
 //! n points out of the domain, and flux is A∇u·n without a minus sign: heat that flows *in* when u
-//! is a temperature. A new kind of condition is a record here with what it adds to the matrix and
-//! to the load.
+//! is a temperature. A new kind of condition is a record here with what it adds to the load;
+//! [`crate::mesh::diagonal`] has what it adds to the matrix.
 
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
@@ -156,16 +156,6 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
             if let Some(entry) = load.get_mut(edge) {
                 *entry += integral;
             }
-        }
-    }
-
-    /// Calls `add` with each edge whose diagonal entry grows, and by how much.
-    pub fn add_to_diagonal(&self, mut add: impl FnMut(usize, R)) {
-        if !features::ROBIN {
-            return;
-        }
-        for record in self.robin {
-            add(record.edge.at(), record.coefficient);
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Connected parts of the domain, and whether each has a solution.
 //!
-//! A part with a Dirichlet or Robin edge always has one. A part held by contact alone needs loads
-//! that push it on: ∫f + ∫g + ∫q < 0 (= 0: not unique, > 0: none). A part held by nothing needs
-//! loads in balance, and its solution is determined up to a constant.
+//! A part with a Dirichlet edge always has one, and so has a part where K has more on its diagonal than element matrices
+//! ([`crate::mesh::diagonal`]): one with a Robin edge. A part held by contact alone needs loads that push it on:
+//! ∫f + ∫g + ∫q < 0 (= 0: not unique, > 0: none). A part held by nothing needs loads in balance, and its solution is
+//! determined up to a constant.
 
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
-use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Block, Edges};
 use crate::real::Real;
 
@@ -18,7 +19,7 @@ pub enum Support {
     None,
     /// Contact edges only: semi-coercive, the loads must push it on.
     Contact,
-    /// A Dirichlet or Robin edge.
+    /// A Dirichlet edge, or a term on the diagonal: a Robin edge.
     Held,
 }
 
@@ -36,7 +37,7 @@ pub struct Part<R, I> {
 /// How many connected parts of each kind there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PartCounts {
-    /// With a Dirichlet or Robin edge.
+    /// With a Dirichlet edge or a term on the diagonal.
     pub held: u32,
     /// With contact edges alone.
     pub contact: u32,
@@ -46,15 +47,16 @@ pub struct PartCounts {
 
 /// Finds the connected parts and checks that each has a solution.
 ///
-/// `load` is the assembled b, `parts` has one entry a cell. Loads count as balanced when their sum
-/// is below `slack` times the sum of their sizes: what quadrature and rounding left in them.
+/// `diagonal` is what K has on its diagonal beyond the element matrices, `load` is the assembled b, `parts` has one entry a
+/// cell. Loads count as balanced when their sum is below `slack` times the sum of their sizes: what quadrature and rounding
+/// left in them.
 ///
 /// # Errors
 /// [`Error::NoSolution`] and [`Error::NotUnique`] name a cell of the part; slices of the wrong
 /// length.
 pub fn examine<R: Real, I: Index>(
     edges: &Edges<I>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     load: &[R],
     slack: R,
     parts: &mut [Part<R, I>],
@@ -71,8 +73,7 @@ pub fn examine<R: Real, I: Index>(
         };
         hold(edges, parts, edge, support, read(load, edge));
     }
-    let robin = boundary.robin().iter().filter(|record| record.coefficient > R::ZERO);
-    robin.for_each(|record| hold(edges, parts, record.edge.at(), Support::Held, R::ZERO));
+    diagonal.holding().for_each(|edge| hold(edges, parts, edge, Support::Held, R::ZERO));
     judge(parts, slack)
 }
 

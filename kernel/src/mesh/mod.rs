@@ -11,10 +11,12 @@
 //!          side 0
 //! ```
 //!
-//! [`numbering`] and [`edges`] give the unknowns; [`boundary`] says what holds on the boundary, [`components`] whether a solution exists.
+//! [`numbering`] and [`edges`] give the unknowns; [`boundary`] says what holds on the boundary, [`diagonal`] what K has
+//! beyond the element matrices, [`components`] whether a solution exists.
 
 pub mod boundary;
 pub mod components;
+pub mod diagonal;
 pub mod edges;
 pub mod geometry;
 pub mod numbering;

@@ -4,7 +4,7 @@
 //! percents of u. The remedy is to know the defect of the iterate better than the sweep does. Written
 //! with differences,
 //! ```text
-//!   d_i = b_i − Σ_{j≠i} K_ij (u_j − u_i) − c_i u_i,       c_i what Robin edges add to K_ii,
+//!   d_i = b_i − Σ_{j≠i} K_ij (u_j − u_i) − c_i u_i,       c_i what K_ii has beyond the element matrices,
 //! ```
 //! each term is rounded by a few ε of *itself*: d is the exact defect of a matrix whose entries are
 //! changed by a few ε, symmetric like K. A correction v then solves the same contact problem with load d
@@ -16,7 +16,7 @@ use crate::discrete::signorini::{Residual, System};
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::math::Math;
-use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::real::Real;
 use crate::solve::conjugate::{self, ConjugateBuffers};
 use crate::solve::relaxation::Relaxation;
@@ -78,14 +78,15 @@ fn solve<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
 
 /// Solves, and where rounding ended the solve corrects until corrections vanish or `rounds` are up.
 ///
-/// `u` is start and answer, as for [`Solver::run`]. The outcome counts all sweeps; its residual is
-/// that of the corrected iterate, relative to the size of u.
+/// `u` is start and answer, as for [`Solver::run`]; `diagonal` is what K has on its diagonal beyond the
+/// element matrices. The outcome counts all sweeps; its residual is that of the corrected iterate,
+/// relative to the size of u.
 ///
 /// # Errors
 /// Slices of the wrong length, a relaxation factor outside (0, 2).
 pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
     system: &System<R, I>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     settings: Settings<R>,
     rounds: u32,
     u: &mut [R],
@@ -104,7 +105,7 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         if outcome.status != Status::RoundingLimit {
             break;
         }
-        measure_defect(system, boundary, u, defect);
+        measure_defect(system, diagonal, u, defect);
         let on_contact = u.get(system.counts().free..).unwrap_or(&[]);
         let law = system.law().of_correction(on_contact, lower);
         if law.check_finite().is_err() || defect.iter().any(|x| !x.finite()) {
@@ -154,19 +155,19 @@ fn goal<R: Real>(settings: Settings<R>, so_far: &Outcome<R>, scale: R) -> Settin
 
 fn measure_defect<R: Real, I: Index>(
     system: &System<R, I>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     u: &[R],
     defect: &mut [R],
 ) {
     defect.iter_mut().zip(defects(system, u)).for_each(|(entry, defect)| *entry = defect);
-    boundary.add_to_diagonal(|edge, coefficient| {
+    for (edge, product) in diagonal.products(u) {
         if let Some(defect) = defect.get_mut(edge) {
-            *defect -= coefficient * read(u, edge);
+            *defect -= product;
         }
-    });
+    }
 }
 
-/// b_i − Σ_{j≠i} K_ij (u_j − u_i) for every unknown; what Robin edges add is left to the caller.
+/// b_i − Σ_{j≠i} K_ij (u_j − u_i) for every unknown; what K_ii has beyond the element matrices is left to the caller.
 pub(crate) fn defects<R: Real, I: Index>(
     system: &System<R, I>,
     u: &[R],

@@ -2,13 +2,13 @@
 //!
 //! Where a connected part is held by a weak transfer coefficient only, or by a few contact edges,
 //! adding a constant to u costs next to no energy, and sweeps need millions of rounds to find it. Let
-//! d be 1 on the unknowns P of the part that are not in contact. The energy along u + c d is least at
+//! d be 1 on the unknowns P of the part that are not in contact. The energy along u + t d is least at
 //! ```text
-//!   c = dᵀr / dᵀKd,    dᵀKd = −Σ K_ij + Σ ∫h,    dᵀr = Σ b_i − Σ K_ij (u_j − u_i) − Σ u_i ∫h,
+//!   t = dᵀr / dᵀKd,    dᵀKd = −Σ K_ij + Σ c_i,    dᵀr = Σ b_i − Σ K_ij (u_j − u_i) − Σ c_i u_i,
 //! ```
-//! with i in P, j outside of it, and the Robin edges in P: what flows inside of P cancels, and left
-//! out it leaves no rounding errors behind. c < 0 ends where the first edge touches. Each shift lowers
-//! the energy, as every sweep does.
+//! with i in P, j outside of it, and c_i what K_ii has beyond the element matrices ([`crate::mesh::diagonal`]). What flows
+//! inside of P cancels, and left out it leaves no rounding errors behind. t < 0 ends where the first edge touches. Each
+//! shift lowers the energy, as every sweep does.
 
 use crate::discrete::signorini::{Shifts, System};
 use crate::index::{Index, read};
@@ -72,10 +72,10 @@ fn best<R: Real, I: Index>(
             room = room.or_smaller(law.opening(own));
         }
     }
-    for record in shifts.robin {
-        if moves(system, shifts, part, u, record.edge.at()) {
-            force -= record.coefficient * read(u, record.edge.at());
-            stiffness += record.coefficient;
+    for (i, term) in shifts.diagonal.entries() {
+        if moves(system, shifts, part, u, i) {
+            force -= term * read(u, i);
+            stiffness += term;
         }
     }
     let shift = if stiffness > R::ZERO {

@@ -1,7 +1,7 @@
 //! The kernel's exact solver with memory of its own, in any order of elimination.
 
 use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{SIDE, count, padded};
 use signorini_kernel::solve::solver::Settings;
@@ -15,7 +15,7 @@ use signorini_kernel::{Error, Index, Real};
 /// Solves with the free unknowns eliminated as `order` says, twice; `None` where the kernel finds no answer.
 pub fn solve<R: Real, I: Index>(
     system: &System<R, I>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     settings: &Settings<R>,
     order: &[I],
     u: &mut [R],
@@ -56,9 +56,9 @@ pub fn solve<R: Real, I: Index>(
     let places = &mut vec![R::ZERO; counts.unknowns()];
     let memory = DirectMemory { schur: &mut schur, scale, none, contact, places };
     let Some(mut direct) = Direct::new(factor, memory)? else { return Ok(None) };
-    let Some(found) = direct.solve(system, boundary, settings, u, low)? else { return Ok(None) };
+    let Some(found) = direct.solve(system, diagonal, settings, u, low)? else { return Ok(None) };
     // Again from its own answer: edges that changed sides stay where they are, but for rounding.
     let mut again = u.to_vec();
-    let warm = direct.solve(system, boundary, settings, &mut again, &mut vec![R::ZERO; u.len()])?;
+    let warm = direct.solve(system, diagonal, settings, &mut again, &mut vec![R::ZERO; u.len()])?;
     Ok(warm.map(|warm| [found, warm]))
 }

@@ -3,6 +3,7 @@
 use signorini_kernel::device::tick::{Memory, Tick};
 use signorini_kernel::discrete::csr::Csr;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
@@ -36,7 +37,8 @@ impl Baked {
         let mut col_idx = vec![0; edges.nonzeros()];
         let mut entries = vec![0.0; edges.nonzeros()];
         assembly::pattern(&edges, &mut row_ptr, &mut col_idx)?;
-        assembly::values(&edges, foundation.stiffness(), &boundary, &row_ptr, &mut entries)?;
+        let diagonal = DiagonalTerms::new(&boundary);
+        assembly::values(&edges, foundation.stiffness(), diagonal, &row_ptr, &mut entries)?;
         let matrix = Csr::new(&row_ptr, &col_idx, &entries, counts.edges())?;
         let free = counts.free;
         // Every third one first: places are not numbers.

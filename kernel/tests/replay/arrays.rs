@@ -9,6 +9,7 @@ use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::{Error, Tensor};
@@ -159,7 +160,7 @@ impl<R: Scalar> Arrays<R> {
         let (mut values, mut load) = (vec![R::ZERO; nonzeros], self.load.clone());
         let (edges, boundary) = (self.edges()?, self.boundary()?);
         assembly::pattern(&edges, &mut row_ptr, &mut col_idx)?;
-        assembly::values(&edges, self.stiffness(), &boundary, &row_ptr, &mut values)?;
+        assembly::values(&edges, self.stiffness(), self.diagonal()?, &row_ptr, &mut values)?;
         assembly::load(&edges, self.cell_loads(), &boundary, &mut load)?;
         (self.row_ptr, self.col_idx, self.values, self.load) = (row_ptr, col_idx, values, load);
         Ok(())
@@ -175,6 +176,10 @@ impl<R: Scalar> Arrays<R> {
 
     pub fn boundary(&self) -> Result<Boundary<'_, R, u16>, Error> {
         Boundary::new(&self.edges()?, &self.neumann, &self.robin, &self.flux)
+    }
+
+    pub fn diagonal(&self) -> Result<DiagonalTerms<'_, R, u16>, Error> {
+        Ok(DiagonalTerms::new(&self.boundary()?))
     }
 
     pub fn stiffness(&self) -> Stiffness<'_, R> {
@@ -199,7 +204,7 @@ impl<R: Scalar> Arrays<R> {
         let parts = usize::from(self.part.iter().max().copied().unwrap_or(0)) + 1;
         let part = if parts > 1 { &self.part[..] } else { &[] };
         if shifts {
-            system.with_shifts(Shifts { part, parts, robin: &self.robin })
+            system.with_shifts(Shifts { part, parts, diagonal: self.diagonal()? })
         } else {
             Ok(system)
         }

@@ -9,7 +9,7 @@ use crate::journal::Journal;
 use crate::scene::Scalar;
 
 pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), Error> {
-    let (system, boundary) = (arrays.system(false)?, arrays.boundary()?);
+    let (system, diagonal) = (arrays.system(false)?, arrays.diagonal()?);
     let free = arrays.counts.free as u16;
     let forward: Vec<u16> = (0..free).collect();
     let backward: Vec<u16> = (0..free).rev().collect();
@@ -22,7 +22,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             ..Settings::default()
         };
         let (mut u, mut low) = (arrays.start.clone(), vec![R::ONE; arrays.counts.edges()]);
-        let found = factored::solve(&system, &boundary, &settings, &order, &mut u, &mut low)?;
+        let found = factored::solve(&system, diagonal, &settings, &order, &mut u, &mut low)?;
         for progress in found.iter().flatten() {
             journal.line("factored", (progress.status, progress.pivots, progress.rounds));
             journal.digest("residual", progress.residual);

@@ -44,7 +44,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         journal.digest("load of triangles", &load);
     }
     let mut parts = vec![Part::default(); edges.cells()];
-    let found = examine(&edges, &boundary, &arrays.load, R::of(1e-4), &mut parts);
+    let found = examine(&edges, arrays.diagonal()?, &arrays.load, R::of(1e-4), &mut parts);
     journal.line("parts", found);
     journal.digest("parts", &parts);
     ways(arrays, journal)
@@ -78,7 +78,7 @@ fn of_width<R: Scalar, const WIDTH: usize>(
     arrays: &Arrays<R>,
     journal: &mut Journal,
 ) -> Result<(), Error> {
-    let (edges, boundary, system) = (arrays.edges()?, arrays.boundary()?, arrays.system(false)?);
+    let (edges, diagonal, system) = (arrays.edges()?, arrays.diagonal()?, arrays.system(false)?);
     let mut memory = vec![Row::<R, u16, WIDTH>::EMPTY; arrays.counts.unknowns()];
     let mut rows = Rows::new(&edges, &mut memory)?;
     for omega in [0.75, 1.0, 1.625] {
@@ -89,7 +89,7 @@ fn of_width<R: Scalar, const WIDTH: usize>(
         // Nothing is left of the rows from CSR.
         let mut memory = vec![Row::<R, u16, WIDTH>::EMPTY; arrays.counts.unknowns()];
         let mut rows = Rows::new(&edges, &mut memory)?;
-        rows.gather(&edges, arrays.stiffness(), &boundary, &arrays.load, omega)?;
+        rows.gather(&edges, arrays.stiffness(), diagonal, &arrays.load, omega)?;
         let mut u = arrays.start.clone();
         journal.line("defect", psor::defect(&rows, Law::above(&arrays.lower), &u)?);
         psor::sweep(&rows, Law::above(&arrays.lower), &mut u)?;

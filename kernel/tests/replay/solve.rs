@@ -105,10 +105,10 @@ fn refined<R: Scalar>(
         max_sweeps: 2000,
         ..Settings::default()
     };
-    let (system, boundary) = (arrays.system(true)?, arrays.boundary()?);
+    let (system, diagonal) = (arrays.system(true)?, arrays.diagonal()?);
     let mut u = arrays.start.clone();
     let outcome =
-        refinement::run::<R, u16, Libm, QUADS>(&system, &boundary, settings, 4, &mut u, buffers)?;
+        refinement::run::<R, u16, Libm, QUADS>(&system, diagonal, settings, 4, &mut u, buffers)?;
     journal.line("refined", (outcome.status, outcome.sweeps, outcome.conjugate, outcome.omega));
     journal.digest("residual", outcome.residual);
     journal.digest("u", (&u, &scratch[0]));

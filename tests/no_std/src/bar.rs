@@ -16,6 +16,7 @@ use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::components::{self, Part};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
@@ -77,9 +78,10 @@ fn solve<R: Real, I: Index>(
     let mut col_idx = [I::NONE; NONZEROS];
     let (mut values, mut load) = ([R::ZERO; NONZEROS], [R::ZERO; UNKNOWNS]);
     assembly::pattern(edges, &mut row_ptr, &mut col_idx)?;
-    assembly::values(edges, stiffness, &boundary, &row_ptr, &mut values)?;
+    let diagonal = DiagonalTerms::new(&boundary);
+    assembly::values(edges, stiffness, diagonal, &row_ptr, &mut values)?;
     assembly::load(edges, loads, &boundary, &mut load)?;
-    components::examine(edges, &boundary, &load, R::EPSILON, &mut [Part::default(); 3])?;
+    components::examine(edges, diagonal, &load, R::EPSILON, &mut [Part::default(); 3])?;
     let matrix = Csr::new(&row_ptr, &col_idx, &values, EDGES)?;
     let gap = [-R::ONE; CONTACT];
     let system = System::new(matrix, &load, Law::above(&gap), edges.counts())?;
@@ -97,7 +99,7 @@ fn solve<R: Real, I: Index>(
     };
     refinement::run::<R, I, Libm, QUADS>(
         &system,
-        &boundary,
+        diagonal,
         Settings::default(),
         1,
         &mut u,

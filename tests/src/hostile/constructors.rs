@@ -10,6 +10,7 @@ use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solve::prolongation::{Origin, prolong};
 use signorini_kernel::solve::solver::{Settings, Status};
@@ -173,7 +174,7 @@ fn of_matrix<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let packed = Rows::of_matrix(&matrix, counts, &mut memory)?;
     let apart = Edges::baked(&[], &[], &[], counts);
     let nothing = Boundary::new(&apart, &[], &[], &[])?;
-    stages::iterated(bytes, &system, &nothing, packed).map(drop)
+    stages::iterated(bytes, &system, DiagonalTerms::new(&nothing), packed).map(drop)
 }
 
 /// The short way through the layers, with data set anew.

@@ -8,8 +8,8 @@ use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::Mesh;
-use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::components::{Part, examine};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
@@ -81,22 +81,23 @@ fn solved<R: Bits>(
     conditions: &Conditions<R>,
 ) -> Result<(), Error> {
     let (counts, boundary) = (edges.counts(), conditions.boundary(edges)?);
+    let diagonal = DiagonalTerms::new(&boundary);
     let nonzeros = edges.nonzeros();
     let (mut row_ptr, mut col_idx) = (vec![0; counts.unknowns() + 1], vec![0; nonzeros]);
     assembly::pattern(edges, &mut row_ptr, &mut col_idx)?;
     let (mut values, mut load) = (vec![R::ZERO; nonzeros], vec![R::ZERO; counts.unknowns()]);
-    assembly::values(edges, k, &boundary, &row_ptr, &mut values)?;
+    assembly::values(edges, k, diagonal, &row_ptr, &mut values)?;
     let (triangles, quads) = (bytes.reals(k.triangles.len()), bytes.reals(k.quads.len()));
     let cells = CellLoads { triangles: &triangles, quads: &quads };
     assembly::load(edges, cells, &boundary, &mut load)?;
     let _ =
-        examine(edges, &boundary, &load, bytes.real(), &mut vec![Part::default(); edges.cells()]);
+        examine(edges, diagonal, &load, bytes.real(), &mut vec![Part::default(); edges.cells()]);
     let matrix = Csr::new(&row_ptr, &col_idx, &values, counts.edges())?;
     let mut memory = vec![Row::EMPTY; counts.unknowns()];
     let rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;
     let lower = bytes.reals(counts.contact);
     let system = System::new(matrix, &load, Law::above(&lower), counts)?;
-    let u = iterated(bytes, &system, &boundary, rows)?;
+    let u = iterated(bytes, &system, diagonal, rows)?;
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(edges, k, cells, &u, &[], &mut fluxes).map(drop)
 }
@@ -105,11 +106,11 @@ fn solved<R: Bits>(
 pub fn iterated<R: Bits, const WIDTH: usize>(
     bytes: &mut Bytes,
     system: &System<R, u16>,
-    boundary: &Boundary<R, u16>,
+    diagonal: DiagonalTerms<R, u16>,
     rows: Rows<R, u16, WIDTH>,
 ) -> Result<Vec<R>, Error> {
     let counts = system.counts();
-    let shifts = Shifts { part: &[], parts: bytes.below(3), robin: boundary.robin() };
+    let shifts = Shifts { part: &[], parts: bytes.below(3), diagonal };
     let system = if bytes.flag() { system.with_shifts(shifts)? } else { *system };
     let zeros = |length| vec![R::ZERO; length];
     let buffers = RefinementBuffers {
@@ -125,7 +126,7 @@ pub fn iterated<R: Bits, const WIDTH: usize>(
     let mut u = bytes.reals(counts.edges());
     let (settings, rounds) = (settings(bytes), bytes.below(4) as u32);
     let outcome = refinement::run::<R, u16, Libm, WIDTH>(
-        &system, boundary, settings, rounds, &mut u, buffers,
+        &system, diagonal, settings, rounds, &mut u, buffers,
     )?;
     sound(&outcome, counts, system.law().lower(), &u);
     Ok(u)
@@ -170,7 +171,8 @@ fn swept<R: Bits>(
     let mut rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;
     let (load, lower) = (bytes.reals(counts.unknowns()), bytes.reals(counts.contact));
     let mut u = bytes.reals(counts.edges());
-    rows.gather(edges, k, &conditions.boundary(edges)?, &load, bytes.real())?;
+    let diagonal = DiagonalTerms::new(&conditions.boundary(edges)?);
+    rows.gather(edges, k, diagonal, &load, bytes.real())?;
     for _ in 0..bytes.below(5) {
         psor::sweep(&rows, Law::above(&lower), &mut u)?;
         let defect = psor::defect(&rows, Law::above(&lower), &u)?;

@@ -15,6 +15,7 @@ use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
@@ -116,19 +117,20 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     let (mut values, mut load) =
         (vec![R::ZERO; edges.nonzeros()], vec![R::ZERO; counts.unknowns()]);
     assembly::pattern(&edges, &mut row_ptr, &mut col_idx).expect("lengths");
-    assembly::values(&edges, k, &boundary, &row_ptr, &mut values).expect("lengths");
+    let diagonal = DiagonalTerms::new(&boundary);
+    assembly::values(&edges, k, diagonal, &row_ptr, &mut values).expect("lengths");
     assembly::load(&edges, loads, &boundary, &mut load).expect("lengths");
     let matrix = Csr::new(&row_ptr, &col_idx, &values, counts.edges()).expect("a valid matrix");
-    let shifts = Shifts { part: &[], parts: 1, robin: &data.robin };
+    let shifts = Shifts { part: &[], parts: 1, diagonal };
     let system = System::new(matrix, &load, Law::above(&data.gap), counts).expect("finite");
     let system = system.with_shifts(shifts).expect("lengths");
 
     let mut u = vec![R::ZERO; counts.unknowns()];
     u.extend(&data.dirichlet);
     if quads.is_empty() {
-        rows_agree::<R, I, TRIANGLES>(&edges, k, &boundary, &system, &u);
+        rows_agree::<R, I, TRIANGLES>(&edges, k, diagonal, &system, &u);
     }
-    rows_agree::<R, I, QUADS>(&edges, k, &boundary, &system, &u);
+    rows_agree::<R, I, QUADS>(&edges, k, diagonal, &system, &u);
     let mut low = vec![R::ZERO; u.len()];
     let mut rows = vec![Row::<R, I, QUADS>::EMPTY; counts.unknowns()];
     let buffers = RefinementBuffers {
@@ -148,14 +150,14 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
     let converged = match method {
         Method::Sweeps => {
             let swept = refinement::run::<R, I, Libm, QUADS>(
-                &system, &boundary, settings, 6, &mut u, buffers,
+                &system, diagonal, settings, 6, &mut u, buffers,
             );
             let status = swept.expect("valid settings").status;
             matches!(status, Status::Converged | Status::RoundingLimit)
         }
         Method::Factor(seed) => {
             let order = shuffled::<I>(&mut Random::new(seed), counts.free);
-            let found = factored::solve(&system, &boundary, &settings, &order, &mut u, &mut low);
+            let found = factored::solve(&system, diagonal, &settings, &order, &mut u, &mut low);
             let [first, warm] = found.expect("lengths").expect("a solution");
             assert_eq!(warm.pivots, 0);
             matches!(first.status, Status::Converged | Status::RoundingLimit)
@@ -187,7 +189,7 @@ fn shuffled<I: Index>(random: &mut Random, n: usize) -> Vec<I> {
 fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
     edges: &Edges<I>,
     stiffness: Stiffness<R>,
-    boundary: &Boundary<R, I>,
+    diagonal: DiagonalTerms<R, I>,
     system: &System<R, I>,
     start: &[R],
 ) {
@@ -201,7 +203,7 @@ fn rows_agree<R: Narrow, I: Index, const WIDTH: usize>(
 
     let mut memory = vec![Row::<R, I, WIDTH>::EMPTY; counts.unknowns()];
     let mut rows = Rows::new(edges, &mut memory).expect("small enough");
-    rows.gather(edges, stiffness, boundary, system.load(), omega).expect("one numbering");
+    rows.gather(edges, stiffness, diagonal, system.load(), omega).expect("one numbering");
     let mut gathered = start.to_vec();
     psor::sweep(&rows, system.law(), &mut gathered).expect("lengths");
     assert_eq!(swept, gathered, "rows of either source");

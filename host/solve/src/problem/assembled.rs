@@ -10,6 +10,7 @@ use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::Stiffness;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error, Tensor, device::model::Model};
 
@@ -98,8 +99,8 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// Boundary records that are not admissible.
     pub fn fill_values(&mut self) -> Result<(), Error> {
         let mut values = std::mem::take(&mut self.values);
-        let filled = self.boundary().and_then(|boundary| {
-            assembly::values(&self.edges, self.stiffness(), &boundary, &self.row_ptr, &mut values)
+        let filled = self.diagonal().and_then(|diagonal| {
+            assembly::values(&self.edges, self.stiffness(), diagonal, &self.row_ptr, &mut values)
         });
         self.values = values;
         filled
@@ -186,6 +187,14 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.loads.boundary(&self.edges)
     }
 
+    /// What the matrix has on its diagonal beyond the element matrices.
+    ///
+    /// # Errors
+    /// As for [`Assembled::boundary`].
+    pub fn diagonal(&self) -> Result<DiagonalTerms<'_, R, u32>, Error> {
+        Ok(DiagonalTerms::new(&self.boundary()?))
+    }
+
     /// The law on the contact edges.
     pub fn law(&self) -> Law<'_, R> {
         Law::above(&self.loads.gap)
@@ -203,8 +212,9 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn system(&self) -> Result<System<'_, R, u32>, Error> {
         let counts = self.edges.counts();
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
-        let shifts = Shifts { part: &self.part, parts: self.parts, robin: &self.loads.robin };
-        System::new(matrix, &self.load, Law::above(&self.loads.gap), counts)?.with_shifts(shifts)
+        let system = System::new(matrix, &self.load, Law::above(&self.loads.gap), counts)?;
+        let diagonal = self.diagonal()?;
+        system.with_shifts(Shifts { part: &self.part, parts: self.parts, diagonal })
     }
 
     /// A cold start: unknowns at the gap on C and at the mean of all given values elsewhere, u_D in

@@ -83,12 +83,12 @@ pub(super) fn by_factor<R: Scalar>(
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.set_parts(parts);
     let system = assembled.system().map_err(&unfit)?;
-    let boundary = assembled.boundary().map_err(&unfit)?;
+    let diagonal = assembled.diagonal().map_err(&unfit)?;
     let assembly = clock.lap();
     let mut u = assembled.start();
     let mut low = vec![R::ZERO; u.len()];
     let settings = options.settings::<R>();
-    let found = factored::solve(&system, &boundary, &settings, &mut u, &mut low);
+    let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low);
     let Some((outcome, factored)) = found.map_err(&unfit)? else { return Ok(None) };
     if !matches!(outcome.status, Status::Converged | Status::RoundingLimit) {
         return Ok(None);

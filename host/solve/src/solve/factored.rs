@@ -3,7 +3,7 @@
 use serde::Serialize;
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::solver::{Outcome, Settings};
 use signorini_kernel::solve::sparse::{Direct, DirectMemory, Factor, SolveSummary};
@@ -30,7 +30,7 @@ pub struct Factored {
 /// Slices of the wrong length.
 pub(super) fn solve<R: Scalar>(
     system: &System<R, u32>,
-    boundary: &Boundary<R, u32>,
+    diagonal: DiagonalTerms<R, u32>,
     settings: &Settings<R>,
     u: &mut [R],
     low: &mut [R],
@@ -51,7 +51,7 @@ pub(super) fn solve<R: Scalar>(
     let Some(mut direct) = Direct::new(factor, memory)? else { return Ok(None) };
     stage(&format!("exchanges on {} contact edges, {entries} entries of a factor", counts.contact));
     let before = u.to_vec();
-    let Some(progress) = direct.solve(system, boundary, settings, u, low)? else {
+    let Some(progress) = direct.solve(system, diagonal, settings, u, low)? else {
         u.copy_from_slice(&before);
         low.fill(R::ZERO);
         return Ok(None);

@@ -25,7 +25,7 @@ pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
 
 use signorini_kernel::discrete::rows::{self, Row, Rows};
 use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
@@ -94,7 +94,7 @@ fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> 
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
     assembled.set_parts(parts);
     let system = assembled.system().map_err(&unfit)?;
-    let boundary = assembled.boundary().map_err(&unfit)?;
+    let diagonal = assembled.diagonal().map_err(&unfit)?;
     let assembly = clock.lap();
 
     let mut u = assembled.start();
@@ -104,7 +104,7 @@ fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> 
     } else {
         iterate::<R, { rows::QUADS }>
     };
-    let found = iterate(&system, &boundary, assembled.edges(), options, &mut u, &mut low);
+    let found = iterate(&system, diagonal, assembled.edges(), options, &mut u, &mut low);
     let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
@@ -115,7 +115,7 @@ fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> 
 /// becomes the low part of `u`.
 fn iterate<R: Scalar, const WIDTH: usize>(
     system: &System<R, u32>,
-    boundary: &Boundary<R, u32>,
+    diagonal: DiagonalTerms<R, u32>,
     edges: &Edges<u32>,
     options: &Options,
     u: &mut [R],
@@ -124,7 +124,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     let settings = options.settings::<R>();
     let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
     let sweep = |settings, u: &mut [R], low: &mut [R]| {
-        sweep::<R, WIDTH>(system, boundary, edges, settings, options.rounds(), u, low)
+        sweep::<R, WIDTH>(system, diagonal, edges, settings, options.rounds(), u, low)
     };
     stage(&format!("at most {} sweeps", patience.max_sweeps));
     let swept = sweep(patience, u, low)?;
@@ -132,7 +132,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     if ended || swept.sweeps >= options.max_sweeps {
         return Ok((swept, None));
     }
-    if let Some((found, factored)) = factored::solve(system, boundary, &settings, u, low)? {
+    if let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low)? {
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
     }
     let left = options.max_sweeps - swept.sweeps;
@@ -144,7 +144,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
 
 fn sweep<R: Scalar, const WIDTH: usize>(
     system: &System<R, u32>,
-    boundary: &Boundary<R, u32>,
+    diagonal: DiagonalTerms<R, u32>,
     edges: &Edges<u32>,
     settings: Settings<R>,
     rounds: u32,
@@ -163,5 +163,5 @@ fn sweep<R: Scalar, const WIDTH: usize>(
             residual: &mut vec![R::ZERO; counts.unknowns()],
         },
     };
-    refinement::run::<R, u32, Libm, WIDTH>(system, boundary, settings, rounds, u, buffers)
+    refinement::run::<R, u32, Libm, WIDTH>(system, diagonal, settings, rounds, u, buffers)
 }

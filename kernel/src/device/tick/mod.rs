@@ -42,6 +42,8 @@ use crate::discrete::law::Law;
 use crate::discrete::rows::Rows;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::index::Index;
+use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::EdgeCounts;
 use crate::real::Real;
 use crate::solve::relaxation::{Relaxation, Search};
@@ -121,11 +123,17 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
     pub(crate) fn admit(&mut self, data: &Data<R, I>) -> Result<R, Error> {
         check(data, &self.discretization)?;
         let (edges, given) = (&self.discretization.edges, &data.given);
-        let memory = &mut self.memory;
-        assembly::load(edges, given.loads, &given.boundary, memory.load)?;
-        let (stiffness, omega) = (self.discretization.stiffness, self.search.omega);
-        memory.rows.gather(edges, stiffness, &given.boundary, memory.load, omega)?;
-        range::size(data, memory)
+        assembly::load(edges, given.loads, &given.boundary, self.memory.load)?;
+        self.lay_out_rows(&given.boundary)?;
+        range::size(data, &self.memory)
+    }
+
+    /// The rows for the present load and ω.
+    fn lay_out_rows(&mut self, boundary: &Boundary<R, I>) -> Result<(), Error> {
+        let Self { discretization, memory, search, .. } = self;
+        let (edges, stiffness) = (&discretization.edges, discretization.stiffness);
+        let diagonal = DiagonalTerms::new(boundary);
+        memory.rows.gather(edges, stiffness, diagonal, memory.load, search.omega)
     }
 
     /// Begins with data that have been admitted.

@@ -79,7 +79,11 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
             self.tick.search.look::<M>(defect.sum, active, self.sweeps - self.measured);
         }
         self.measured = self.sweeps;
-        if self.tick.search.omega == before { Ok(()) } else { self.relax_anew() }
+        // Another ω asks for other rows.
+        match self.tick.search.omega == before {
+            true => Ok(()),
+            false => self.tick.lay_out_rows(&self.data.given.boundary),
+        }
     }
 
     pub(super) fn measure(&mut self) -> Result<(psor::Defect<R>, u32), Error> {
@@ -88,19 +92,6 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         let counts = self.tick.discretization.edges.counts();
         let (active, _) = contact_state(counts, law, memory.u, memory.active);
         Ok((defect, active))
-    }
-
-    /// Another ω asks for other rows.
-    fn relax_anew(&mut self) -> Result<(), Error> {
-        let Tick { discretization, memory, search, .. } = &mut *self.tick;
-        let boundary = &self.data.given.boundary;
-        memory.rows.gather(
-            &discretization.edges,
-            discretization.stiffness,
-            boundary,
-            memory.load,
-            search.omega,
-        )
     }
 
     /// Whether the residual may be all rounding.

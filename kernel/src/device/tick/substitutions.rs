@@ -14,6 +14,7 @@ use super::range::worth;
 use super::{Deadline, Limits, Report, Running};
 use crate::error::Error;
 use crate::index::Index;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::real::Real;
 use crate::solve::psor;
 use crate::solve::sparse::{Balance, Exact, SLACK};
@@ -53,7 +54,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
         let balance = Balance {
             edges: &discretization.edges,
             stiffness: discretization.stiffness,
-            boundary: data.given.boundary,
+            diagonal: DiagonalTerms::new(&data.given.boundary),
             load: memory.load,
         };
         let places = memory.tau.get_mut(..counts.unknowns()).unwrap_or(&mut []);

@@ -10,6 +10,7 @@ use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::Mesh;
 use crate::mesh::boundary::{Boundary, Neumann, Robin};
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Edges, known};
 use crate::real::Real;
 
@@ -131,7 +132,8 @@ impl<
         let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
         let stiffness = super::stiffness_of(&self.triangles, &self.quads);
         if N > 0 {
-            assembly::values(&edges, stiffness, &boundary, &self.row_ptr, values)?;
+            let diagonal = DiagonalTerms::new(&boundary);
+            assembly::values(&edges, stiffness, diagonal, &self.row_ptr, values)?;
         }
         equilibration.find_ways(mesh, &edges, stiffness, &boundary)
     }

@@ -27,6 +27,7 @@ use crate::index::{Index, read};
 use crate::math::{Libm, Math};
 use crate::mesh::Mesh;
 use crate::mesh::boundary::{Boundary, Neumann, Robin};
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{EdgeCounts, Edges};
 use crate::mesh::numbering::{NumberingBuffers, number};
 use crate::real::Real;
@@ -284,7 +285,8 @@ impl<
         let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
-        let shifts = Shifts { part: &[], parts: 1, robin: &self.robin };
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        let shifts = Shifts { part: &[], parts: 1, diagonal: DiagonalTerms::new(&boundary) };
         let system =
             System::new(matrix, &self.load, Law::above(&self.gap), *counts)?.with_shifts(shifts)?;
         let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
@@ -307,7 +309,6 @@ impl<
         for (at, active) in self.active.iter_mut().enumerate() {
             *active = contact::is_active(*counts, Law::above(&self.gap), u, at);
         }
-        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
         self.force = contact::force(*counts, &boundary, Law::above(&self.gap), u, flux);
         Ok(outcome)
     }

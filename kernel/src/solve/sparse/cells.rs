@@ -1,7 +1,7 @@
 //! Defects straight from the element matrices: no matrix is kept beside the factor.
 //!
 //! ```text
-//!   d_i = b_i − Σ_T Σ_j K^T_ij (u_j − u_i) − c_i u_i,       c_i what Robin edges add to K_ii
+//!   d_i = b_i − Σ_T Σ_j K^T_ij (u_j − u_i) − c_i u_i,       c_i what K_ii has beyond the K^T_ii
 //! ```
 //! Each difference is weighed with the entry of its own element, not of a sum: the defect is exact for element
 //! matrices that are changed by a few ε.
@@ -12,7 +12,7 @@ use crate::discrete::element::{crouzeix_raviart, rannacher_turek};
 use crate::discrete::stiffness::Stiffness;
 use crate::features;
 use crate::index::{Index, read, write};
-use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::Edges;
 use crate::real::Real;
 
@@ -23,8 +23,8 @@ pub struct Balance<'a, R, I> {
     pub edges: &'a Edges<'a, I>,
     /// K^T
     pub stiffness: Stiffness<'a, R>,
-    /// What holds the boundary.
-    pub boundary: Boundary<'a, R, I>,
+    /// c, what K has on its diagonal beyond the K^T.
+    pub diagonal: DiagonalTerms<'a, R, I>,
     /// b, one entry an unknown.
     pub load: &'a [R],
 }
@@ -60,6 +60,6 @@ impl<R: Real, I: Index> Balance<'_, R, I> {
                 sides.iter().zip(flows).for_each(|(side, flow)| take(side.at(), flow));
             }
         }
-        self.boundary.add_to_diagonal(|edge, coefficient| take(edge, coefficient * read(u, edge)));
+        self.diagonal.products(u).for_each(|(edge, product)| take(edge, product));
     }
 }

@@ -5,7 +5,7 @@ use super::factor::Factor;
 use crate::discrete::signorini::{Residual, System};
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read, write};
-use crate::mesh::boundary::Boundary;
+use crate::mesh::diagonal::DiagonalTerms;
 use crate::real::Real;
 use crate::solve::dense::blocks::{Block, Blocks, SIDE, count};
 use crate::solve::dense::tableau::InitialTableau;
@@ -69,22 +69,23 @@ impl<'a, R: Real, I: Index> Direct<'a, R, I> {
         Ok(Some(Self { exact, places }))
     }
 
-    /// Solves `system`, from any `u`, which becomes the answer together with its low part `low`; the
-    /// tolerances of `settings` tell whether it is good enough. `None` where there is no answer that this
-    /// scalar can hold: no solution, or a matrix that is singular in it; u is of no use then.
+    /// Solves `system`, from any `u`, which becomes the answer together with its low part `low`; `diagonal` is what K has
+    /// on its diagonal beyond the element matrices, and the tolerances of `settings` tell whether the answer is good
+    /// enough. `None` where there is no answer that this scalar can hold: no solution, or a matrix that is singular in
+    /// it; u is of no use then.
     ///
     /// # Errors
     /// Arrays of the wrong length, a system with other edges than the factor's.
     pub fn solve(
         &mut self,
         system: &System<R, I>,
-        boundary: &Boundary<R, I>,
+        diagonal: DiagonalTerms<R, I>,
         settings: &Settings<R>,
         u: &mut [R],
         low: &mut [R],
     ) -> Result<Option<SolveSummary<R>>, Error> {
         same_length(Array::Scratch, low.len(), u.len())?;
-        let rows = Rows { system, boundary };
+        let rows = Rows { system, diagonal };
         let Some(solved) = self.exact.solve(&rows, system.law(), self.places, u, low)? else {
             return Ok(None);
         };
@@ -113,7 +114,7 @@ fn is_solution<R: Real>(solved: &Solved<R>, residual: &Residual<R>) -> bool {
 /// Defects from the rows of K.
 struct Rows<'s, 'a, R, I> {
     system: &'s System<'a, R, I>,
-    boundary: &'s Boundary<'a, R, I>,
+    diagonal: DiagonalTerms<'s, R, I>,
 }
 
 impl<R: Real, I: Index> Defect<R, I> for Rows<'_, '_, R, I> {
@@ -121,11 +122,11 @@ impl<R: Real, I: Index> Defect<R, I> for Rows<'_, '_, R, I> {
         for (unknown, defect) in defects(self.system, u).enumerate() {
             write(places, factor.place(unknown), defect);
         }
-        self.boundary.add_to_diagonal(|edge, coefficient| {
+        for (edge, product) in self.diagonal.products(u) {
             if let Some(defect) = places.get_mut(factor.place(edge)) {
-                *defect -= coefficient * read(u, edge);
+                *defect -= product;
             }
-        });
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::{
     Error, Real, device::model::Model, discrete::assembly, discrete::contact, discrete::flux,
     solve::psor,
@@ -69,7 +70,7 @@ impl<
             assembly::load(&edges, model.loads, &boundary, &mut self.load)?;
         }
         let mut rows = Rows::new(&edges, &mut self.rows)?;
-        rows.gather(&edges, model.stiffness, &boundary, &self.load, omega)?;
+        rows.gather(&edges, model.stiffness, DiagonalTerms::new(&boundary), &self.load, omega)?;
         for _ in 0..sweeps {
             if CONTACT {
                 psor::sweep(&rows, Law::above(model.gap), u)?;

@@ -29,6 +29,7 @@ use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::solver::{Settings, Solver};
 use signorini_kernel::{Error, Tensor, discrete::flux, solve::psor};
 
@@ -102,6 +103,7 @@ impl Stages for Meter<'_, '_> {
         })?;
         let stiffness = Stiffness { triangles: &triangles, quads: &quads };
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
+        let diagonal = DiagonalTerms::new(&boundary);
         let sources = ([-R::ONE / R::from_count(64); T], [-R::ONE / R::from_count(32); Q]);
         let loads = CellLoads { triangles: black_box(&sources.0), quads: black_box(&sources.1) };
         let mut load = [R::ZERO; E];
@@ -114,7 +116,7 @@ impl Stages for Meter<'_, '_> {
         let mut rows = Rows::new(&edges, memory)?;
         let omega = black_box(R::ONE + R::HALF + R::QUARTER);
         self.count("rows from cells", "unknown", unknowns, || {
-            rows.gather(&edges, stiffness, &boundary, load, omega)
+            rows.gather(&edges, stiffness, diagonal, load, omega)
         })?;
 
         let (mut row_ptr, mut col_idx) = ([0; EDGES + 1], [[0; ENTRIES]; E]);
@@ -126,7 +128,7 @@ impl Stages for Meter<'_, '_> {
             assembly::pattern(&edges, row_ptr, col_idx)
         })?;
         self.count("CSR, values", "unknown", unknowns, || {
-            assembly::values(&edges, stiffness, &boundary, row_ptr, values)
+            assembly::values(&edges, stiffness, diagonal, row_ptr, values)
         })?;
         let matrix = Csr::new(row_ptr, col_idx, values, edges.counts().edges())?;
         let gap = [-R::QUARTER * R::QUARTER; 16];

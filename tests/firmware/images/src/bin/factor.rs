@@ -20,6 +20,7 @@ use signorini_kernel::discrete::csr::Csr;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::dense::blocks::{SIDE, count};
 use signorini_kernel::solve::sparse::elimination::PatternBuffers;
 use signorini_kernel::solve::sparse::factor::FactorBuffers;
@@ -62,13 +63,14 @@ fn stages<R: Bits, const ROW: usize, const T: usize, const Q: usize>(
     stiffness::fill(&mesh, Coefficient::Uniform(tensor), 2, &mut triangles, &mut quads)?;
     let stiffness = Stiffness { triangles: &triangles, quads: &quads };
     let boundary = Boundary::new(&edges, &[], &[], &[])?;
+    let diagonal = DiagonalTerms::new(&boundary);
     let (mut row_ptr, mut col_idx) = ([0; EDGES + 1], [[0; ROW]; EDGES]);
     let row_ptr = cut(&mut row_ptr, counts.unknowns() + 1)?;
     let col_idx = cut(col_idx.as_flattened_mut(), edges.nonzeros())?;
     let mut values = [[R::ZERO; ROW]; EDGES];
     let values = cut(values.as_flattened_mut(), col_idx.len())?;
     assembly::pattern(&edges, row_ptr, col_idx)?;
-    assembly::values(&edges, stiffness, &boundary, row_ptr, values)?;
+    assembly::values(&edges, stiffness, diagonal, row_ptr, values)?;
     let matrix = Csr::new(row_ptr, col_idx, values, counts.edges())?;
 
     let mut of_unknowns = [[0_u16; EDGES]; 5];
@@ -111,7 +113,7 @@ fn stages<R: Bits, const ROW: usize, const T: usize, const Q: usize>(
     let (load, mut y) = ([R::ONE; EDGES], [R::ZERO; EDGES]);
     let y = cut(&mut y, counts.unknowns())?;
     let load = load.get(..counts.unknowns()).unwrap_or_default();
-    let balance = Balance { edges: &edges, stiffness, boundary, load };
+    let balance = Balance { edges: &edges, stiffness, diagonal, load };
     meter.count("defect", "cell", cells, || {
         balance.defects(&factor, black_box(&*u), y);
         Ok(())

@@ -6,6 +6,7 @@ use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::mesh::boundary::Boundary;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{
     Error, Real, device::model::Model, discrete::assembly as numeric, discrete::flux as recovery,
@@ -38,7 +39,7 @@ impl<R: Real> Memory<R> {
         &'a mut self,
         model: &Model<'a, R, u16>,
         edges: &Edges<u16>,
-        boundary: &Boundary<R, u16>,
+        boundary: &Boundary<'a, R, u16>,
     ) -> Result<System<'a, R, u16>, Error> {
         let (unknowns, entries) = (model.counts.unknowns(), edges.nonzeros());
         let row_ptr = cut(&mut self.row_ptr, unknowns + 1)?;
@@ -46,10 +47,11 @@ impl<R: Real> Memory<R> {
         let values = cut(&mut self.values, entries)?;
         let load = cut(&mut self.load, unknowns)?;
         numeric::pattern(edges, row_ptr, col_idx)?;
-        numeric::values(edges, model.stiffness, boundary, row_ptr, values)?;
+        let diagonal = DiagonalTerms::new(boundary);
+        numeric::values(edges, model.stiffness, diagonal, row_ptr, values)?;
         numeric::load(edges, model.loads, boundary, load)?;
         let matrix = Csr::new(row_ptr, col_idx, values, model.counts.edges())?;
-        let shifts = Shifts { part: &[], parts: 1, robin: model.robin };
+        let shifts = Shifts { part: &[], parts: 1, diagonal };
         System::new(matrix, load, Law::above(model.gap), model.counts)?.with_shifts(shifts)
     }
 }
@@ -87,7 +89,8 @@ fn rows<R: Bits, const WIDTH: usize>(
     let mut rows = Rows::<R, u16, WIDTH>::new(&edges, cut(&mut memory, system.load().len())?)?;
     rows.set(system, omega)?;
     swept(model, &rows, 1, |u| journal.digest("swept by CSR", u.iter().copied()))?;
-    rows.gather(&edges, model.stiffness, &model.boundary()?, system.load(), omega)?;
+    let diagonal = DiagonalTerms::new(&model.boundary()?);
+    rows.gather(&edges, model.stiffness, diagonal, system.load(), omega)?;
     swept(model, &rows, 1, |u| journal.digest("swept by cells", u.iter().copied()))
 }
 

@@ -3,6 +3,7 @@
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
 use signorini_kernel::solve::solver::{Outcome, Settings, Status};
@@ -75,7 +76,8 @@ fn refine<R: Bits, M: Math<R>, const WIDTH: usize>(
         },
     };
     let settings = Settings { accuracy: R::EPSILON, max_sweeps: MOST, ..Settings::default() };
-    refinement::run::<R, u16, M, WIDTH>(system, &model.boundary()?, settings, 6, u, buffers)
+    let diagonal = DiagonalTerms::new(&model.boundary()?);
+    refinement::run::<R, u16, M, WIDTH>(system, diagonal, settings, 6, u, buffers)
 }
 
 fn name(status: Status) -> &'static str {
