@@ -5,7 +5,7 @@ mod strip;
 
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
-use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage, Storage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::error::Array;
@@ -295,12 +295,20 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         certificate: None,
         has_bound: false,
     };
-    let mut storage = Storage::<f64, PADDED, 0>::new();
+    let mut storage = ArrayStorage::<f64, PADDED, 0>::zeros();
     assert_eq!(storage.memory(&model).iterate.x, given);
     storage.memory(&model).iterate.x.fill(0.5);
     assert_eq!(storage.memory(&model).iterate.x, [0.5; PADDED]);
 
-    let mut tableau = TableauStorage::<f64, PADDED, 1>::new();
+    let mut vectors = Storage::of(vec![7.0; PADDED], vec![true; PADDED], vec![7.0; 3]);
+    let lent = vectors.memory(&model);
+    lent.iterate.open[1] = false;
+    lent.combination[2] = 0.5;
+    assert_eq!(vectors.x::<f64>(), given);
+    assert_eq!(vectors.open()[..3], [true, false, true]);
+    assert_eq!(vectors.combination::<f64>(), [7.0, 7.0, 0.5]);
+
+    let mut tableau = ArrayTableauStorage::<f64, PADDED, 1>::zeros();
     let load = strip.load(0.3, &mut Random::new(1));
     let mut pivots = Vec::new();
     for _ in 0..2 {

@@ -8,7 +8,7 @@ use signorini_kernel::Error;
 use signorini_kernel::bound::certificate::Verdict;
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::Sweeps;
-use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::{Ended, Report};
 use signorini_kernel::solve::dense::blocks::{count, padded};
@@ -23,14 +23,14 @@ const SWEEPS: Sweeps<f64> = Sweeps { omega: 1.0, tolerance: 1e-12, most: 4 };
 
 /// A controller's memory.
 struct Memory {
-    storage: Storage<f64, EDGES, 0>,
-    tableau: TableauStorage<f64, EDGES, BLOCKS>,
+    storage: ArrayStorage<f64, EDGES, 0>,
+    tableau: ArrayTableauStorage<f64, EDGES, BLOCKS>,
 }
 
 impl Memory {
     fn new() -> Self {
         assert_eq!(BLOCKS, count(EDGES));
-        Self { storage: Storage::new(), tableau: TableauStorage::new() }
+        Self { storage: ArrayStorage::zeros(), tableau: ArrayTableauStorage::zeros() }
     }
 
     /// A tick with time for so many exchanges and sweeps together, and x.
@@ -99,7 +99,7 @@ fn the_clock_ends_exchanges_and_the_next_ticks_go_on() -> Result<(), Error> {
 #[test]
 fn the_clock_ends_sweeps_too() -> Result<(), Error> {
     with_model(true, |model| {
-        let mut storage = Storage::<f64, EDGES, 0>::new();
+        let mut storage = ArrayStorage::<f64, EDGES, 0>::zeros();
         let mut left = 7;
         let remaining = || {
             left -= 1;

@@ -12,15 +12,17 @@ use signorini_kernel::{Error, Index, device::model::Model};
 use crate::range::{refuse_lengths, refuse_squares};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::{Assembled, Problem};
+use signorini_solve::problem::{Approach, Assembled, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{choose_units, unfit};
 
 /// The source text.
 ///
 /// # Errors
-/// Numbers that the scalar type cannot hold or compute with in the scene's units.
+/// What [`Approach::Export`] cannot treat; numbers that the scalar type cannot hold or compute with in the scene's
+/// units.
 pub fn export<R: Scalar>(problem: &Problem) -> Result<String> {
+    Approach::Export.check(problem)?;
     refuse_squares::<R>(&problem.scene, &choose_units(problem)?)?;
     refuse_lengths::<R>(problem)?;
     let unfit = unfit::<R>(&problem.scene);

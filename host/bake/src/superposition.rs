@@ -4,7 +4,7 @@
 //! which only that part is left.
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::term::{Term, left_with, refuse_time};
+use signorini_scene::scene::term::{Term, left_with};
 use signorini_solve::certify::Evaluated;
 use signorini_solve::certify::curved::{Curved, curved};
 use signorini_solve::certify::ends::Ends;
@@ -31,9 +31,8 @@ pub struct Part {
 /// The base and every input's part, in the order of the terms.
 ///
 /// # Errors
-/// A load that depends on t; data that are not finite.
+/// Data that are not finite.
 pub fn parts(problem: &Problem) -> Result<Vec<Part>> {
-    refuse_time(&problem.scene)?;
     (0..=problem.scene.inputs.len()).map(|term| Part::new(problem, term)).collect()
 }
 

@@ -24,9 +24,10 @@ use candidates::of_condensed;
 use meshes::of_full;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::condense::{CondensedModel, Recovery, check_size, recoverable};
-use signorini_solve::problem::Problem;
+use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
+use signorini_solve::problem::{Approach, Lack, Problem, Property};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::choose_for_inputs;
 
@@ -110,27 +111,24 @@ impl<R: Scalar> Choice<R> {
             return Err(foreign(&problem.scene, model, key).into());
         }
         let (mut candidates, mut excluded, mut origin) = (Vec::new(), Vec::new(), None);
-        let contact = problem.topology.counts.contact;
-        let few = contact <= MOST_CONTACTS && check_size(problem).is_ok();
         let units = choose_for_inputs(problem)?;
         refuse_answers::<R>(&problem.scene, &units)?;
         refuse_lengths::<R>(problem)?;
         // Condensation is in the scene's units, in f64.
-        let near = refuse_squares::<f64>(&problem.scene, &units);
-        if forced == Some(ModelKind::Condensed) || (forced.is_none() && few && near.is_ok()) {
-            near?;
+        let unsuited = match forced {
+            None => unsuited(problem, &units)?,
+            Some(_) => None,
+        };
+        if let Some(why) = unsuited {
+            excluded.push(format!("condensed: {why}"));
+        } else if forced != Some(ModelKind::Full) {
+            refuse_squares::<f64>(&problem.scene, &units)?;
             let (condensate, recovery) = recoverable(problem)?;
             match of_condensed(&problem.scene, &condensate, &budget) {
                 Ok(found) => (candidates, origin) = (found, Some((condensate, recovery))),
                 Err(error) if forced.is_some() => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
-        } else if let (None, Err(error)) = (forced, near) {
-            excluded.push(format!("condensed: {error}"));
-        } else if forced.is_none() {
-            let edges = problem.topology.counts.edges();
-            let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");
-            excluded.push(format!("condensed: {contact} contact edges among {edges}, {most}"));
         }
         let fits = candidates.iter().any(Candidate::has_all);
         let large = candidates.iter().any(|candidate| candidate.needs.flash > LARGE);
@@ -189,6 +187,23 @@ impl<R: Scalar> Choice<R> {
     pub fn candidate(&self) -> &Candidate<R> {
         &self.candidates[self.chosen]
     }
+}
+
+/// Why no condensed model is worked out where nobody asks for one, if so.
+fn unsuited(problem: &Problem, units: &Units) -> Result<Option<String>> {
+    if let Err(error) = refuse_squares::<f64>(&problem.scene, units) {
+        return Ok(Some(error.to_string()));
+    }
+    let (counts, lack) = (problem.topology.counts, Approach::Condensation.lack(problem)?);
+    let is_large = |lack: &Lack| lack.property == Property::ManyContactEdges;
+    if counts.contact > MOST_CONTACTS || lack.as_ref().is_some_and(is_large) {
+        let (contact, edges) = (counts.contact, counts.edges());
+        let most = format!("at most {MOST_CONTACTS}, and fewer on a large mesh");
+        return Ok(Some(format!("{contact} contact edges among {edges}, {most}")));
+    }
+    // What the full model cannot treat either, condensation refuses: its words are of more help.
+    let own = lack.filter(|lack| Approach::FullModel.treats(lack.property));
+    Ok(own.map(|lack| lack.to_string()))
 }
 
 /// The error that a key of the setting does not go with the model that the command asks for.

@@ -36,9 +36,9 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 
 fn imports<R: Scalar>(baked: &Baked<R>) -> String {
     let (method, storage) = match baked.solver() {
-        Solver::Linear => ("Linear", "storage::Storage"),
-        Solver::Sweeps => ("Sweeps", "storage::Storage"),
-        Solver::Exchanges(_) => ("Sweeps", "storage::{Storage, TableauStorage}"),
+        Solver::Linear => ("Linear", "storage::ArrayStorage"),
+        Solver::Sweeps => ("Sweeps", "storage::ArrayStorage"),
+        Solver::Exchanges(_) => ("Sweeps", "storage::{ArrayStorage, ArrayTableauStorage}"),
     };
     format!(
         "
@@ -105,12 +105,12 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let sweeps = if solver == Solver::Linear { 0 } else { baked.sweeps.most };
     let text = controller::controller(&Parts {
         fields: &format!(
-            "    storage: Storage<Scalar, PADDED, COLUMNS>,\n{}",
-            only("    tableau: TableauStorage<Scalar, PADDED, BLOCKS>,\n")
+            "    storage: ArrayStorage<Scalar, PADDED, COLUMNS>,\n{}",
+            only("    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,\n")
         ),
         values: &format!(
-            "            storage: Storage::new(),\n{}",
-            only("            tableau: TableauStorage::new(),\n")
+            "            storage: ArrayStorage::zeros(),\n{}",
+            only("            tableau: ArrayTableauStorage::zeros(),\n")
         ),
         first: "begins with the answer to the scene's own inputs",
         from: match baked.cold {

@@ -16,6 +16,8 @@ mod solution;
 pub use baked::baked;
 pub use solution::solve;
 
+use std::fmt::Display;
+
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::solve::solver::Status;
 
@@ -23,7 +25,7 @@ use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Precision, Setting};
 use signorini_solve::certify::{self, ErrorBound, NoBound};
-use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::problem::{Approach, Problem, Property};
 use signorini_solve::solve::{Factored, Ran};
 
 /// What a tick left, in f64.
@@ -115,36 +117,42 @@ pub fn with<T>(problem: &Problem, then: impl FnOnce(&mut dyn Engine) -> Result<T
     let setting = completed(&problem.scene);
     let mixed = setting.scalar == Some(Precision::Mixed);
     let single = setting.scalar == Some(Precision::F32);
-    let parts = Parts::examine(problem)?;
-    let is_loose = parts.counts.contact + parts.counts.floating > 0;
-    match setting.model {
-        Some(ModelKind::Condensed) if mixed => {
+    let lack = Approach::Tick.lack(problem)?.map(|lack| lack.property);
+    match (setting.model, lack) {
+        (Some(ModelKind::Condensed), _) if mixed => {
             Err(no_mixed(&problem.scene, "a condensed model").into())
         }
-        Some(ModelKind::Condensed) if single => condensed::with::<f32, _>(problem, then),
-        Some(ModelKind::Condensed) => condensed::with::<f64, _>(problem, then),
-        _ if mixed && is_loose => {
-            Err(no_mixed(&problem.scene, "a domain that contact alone holds").into())
+        (Some(ModelKind::Condensed), _) if single => condensed::with::<f32, _>(problem, then),
+        (Some(ModelKind::Condensed), _) => condensed::with::<f64, _>(problem, then),
+        (_, Some(property)) => {
+            refuse_tick_keys(&problem.scene, &setting, property)?;
+            single::with(problem, then)
         }
-        _ if is_loose && setting.solver == Some(Method::Factor) => {
-            Err(not_loose(&problem.scene, "solver", "a factor").into())
-        }
-        _ if is_loose && setting.math == MathKind::Micromath => {
-            Err(not_loose(&problem.scene, "math", "micromath").into())
-        }
-        _ if mixed || is_loose => single::with(problem, then),
+        _ if mixed => single::with(problem, then),
         _ if single => full::with::<f32, _>(problem, then),
         _ => full::with::<f64, _>(problem, then),
     }
 }
 
-/// A key of the full model that a domain held by contact alone, or by nothing, leaves no room for.
-fn not_loose(scene: &Scene, key: &str, what: &str) -> InputError {
-    let message = format!("setting.{key}: {what} is not for a domain that contact alone holds");
-    InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
+/// Refuses keys of the setting that mean the kernel's tick, where `property` leaves none.
+fn refuse_tick_keys(scene: &Scene, setting: &Setting, property: Property) -> Result<()> {
+    let refused = |key: &str, what: &str| {
+        let message = format!("setting.{key}: {what} is not for {property}");
+        InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
+    };
+    if setting.scalar == Some(Precision::Mixed) {
+        return Err(no_mixed(scene, property).into());
+    }
+    if setting.solver == Some(Method::Factor) {
+        return Err(refused("solver", "a factor").into());
+    }
+    if setting.math == MathKind::Micromath {
+        return Err(refused("math", "micromath").into());
+    }
+    Ok(())
 }
 
-fn no_mixed(scene: &Scene, what: &str) -> InputError {
+fn no_mixed(scene: &Scene, what: impl Display) -> InputError {
     InputError::new(format!("setting.scalar: f32+f64 is not for {what}"))
         .file(&scene.path)
         .hint("take f32 or f64")

@@ -19,12 +19,11 @@ use super::underflow::refuse_faint;
 use crate::module_api::ModuleApi;
 use crate::setting::checked;
 use crate::superposition::parts;
-use signorini_scene::error::{InputError, Result};
-use signorini_scene::scene::Scene;
+use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
 use signorini_solve::certify::Certifier;
 use signorini_solve::functional::functionals;
-use signorini_solve::problem::{Assembled, Parts, Problem};
+use signorini_solve::problem::{Approach, Assembled, Parts, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::unfit;
 
@@ -117,8 +116,8 @@ impl<R: Scalar> Baked<R> {
     /// The same in the units that `problem` is in.
     pub(super) fn in_its_units(problem: &Problem, face: ModuleApi) -> Result<Self> {
         let setting = checked::<R>(&problem.scene)?;
+        Approach::FullModel.check(problem)?;
         let held = Parts::examine(problem)?;
-        refuse_loose(&problem.scene, &held)?;
         let unfit = unfit::<R>(&problem.scene);
         let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
         assembled.system().map_err(&unfit)?;
@@ -246,17 +245,6 @@ impl<R: Scalar> Baked<R> {
     pub fn unknowns(&self) -> usize {
         self.counts.unknowns()
     }
-}
-
-/// The tick's certificate needs a way out of every part that no iterate can close.
-fn refuse_loose(scene: &Scene, parts: &Parts) -> Result<()> {
-    if parts.counts.contact + parts.counts.floating == 0 {
-        return Ok(());
-    }
-    let held = if parts.counts.floating > 0 { "nothing holds" } else { "contact alone holds" };
-    let message = format!("boundary: the full model has no tick for a part that {held}");
-    let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
-    Err(InputError::new(message).file(&scene.path).hint(hint).into())
 }
 
 /// For every vertex where a contact and a Dirichlet edge meet, an end of either.

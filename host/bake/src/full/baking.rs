@@ -10,7 +10,7 @@ use crate::module_api::ModuleApi;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
-use signorini_solve::problem::Problem;
+use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Scaled, choose_for_inputs};
 
@@ -18,8 +18,8 @@ impl<R: Scalar> Baked<R> {
     /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
-    /// A setting that no module can have. A part of the domain that contact alone or nothing holds; a load that depends on t; numbers or
-    /// answers that the scalar type cannot hold.
+    /// A setting that no module can have. What [`Approach::FullModel`] cannot treat. Numbers or answers that the scalar
+    /// type cannot hold.
     pub fn new(problem: &Problem) -> Result<Self> {
         Self::of_scaled(&Scaled::new(problem, choose_for_inputs(problem)?)?)
     }
@@ -45,12 +45,14 @@ impl<R: Scalar> Baked<R> {
     /// The same with ticks that a factor solves; `problem` is what it was baked from, in its units.
     ///
     /// # Errors
-    /// A matrix that this scalar cannot tell from a singular one, a factor beyond all memory.
+    /// What [`Approach::Factor`] cannot treat; a matrix that this scalar cannot tell from a singular one, a factor beyond
+    /// all memory.
     pub fn with_factor(self, problem: &Problem) -> Result<Self> {
         let refused = |message: String| {
             let hint = "take solver = \"sweeps\", or the scalar f64";
             InputError::new(message).file(&problem.scene.path).hint(hint)
         };
+        Approach::Factor.check(problem)?;
         let Some(factored) = Factored::new(problem)? else {
             return Err(refused("setting.solver: this mesh has no factor in f64".to_owned()).into());
         };

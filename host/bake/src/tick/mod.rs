@@ -30,7 +30,7 @@ use signorini_scene::scene::units::Units;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::problem::{Approach, Parts, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Options, ScalarKind, choose_units};
 
@@ -169,7 +169,7 @@ fn play_in<R: Scalar>(
     let parts = Parts::examine(problem)?;
     let mut all =
         |engine: &mut held::Engine| through(problem, moments, budget.scalar, engine, &mut done);
-    if parts.counts.contact + parts.counts.floating > 0 {
+    if Approach::Tick.lack_with(problem, parts.counts).is_some() {
         let mut player = Player::<R>::new(problem, budget)?;
         all(&mut |problem| player.tick(problem))
     } else if problem.mesh.quads.is_empty() {

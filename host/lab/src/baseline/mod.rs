@@ -37,7 +37,7 @@ use benchmark::Benchmark;
 use load_case::LoadCase;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_solve::norms;
-use signorini_solve::problem::Problem;
+use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::solve::{Options, SolverKind, solve};
 pub use sizes::{Size, Sizes, sizes};
 pub use table::{findings, table};
@@ -55,10 +55,10 @@ const SHARE: f64 = 0.01;
 /// most scenes the contact set moves by that.
 ///
 /// # Errors
-/// A problem without a solution. A solver that fails is a remark.
+/// A problem without a solution. A problem that the others cannot treat, or a solver that fails, is a remark.
 pub fn of_scene(problem: &Problem) -> Result<(Vec<Baseline>, Vec<String>)> {
-    if problem.topology.counts.contact == 0 {
-        return Ok((Vec::new(), vec!["without contact there is nothing to compare".to_owned()]));
+    if let Some(lack) = Approach::Baselines.lack(problem)? {
+        return Ok((Vec::new(), vec![lack.to_string()]));
     }
     let mut notes = Vec::new();
     let program = osqp::program();

@@ -24,7 +24,7 @@ use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{Precision, Setting};
-use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::solve::tuned_omega;
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
@@ -182,8 +182,7 @@ impl Study {
         }
         let other_cells = meshes.other_cells()?;
         let problem = meshes.problem(None, 0)?;
-        let parts = Parts::examine(problem)?.counts;
-        let is_loose = parts.contact + parts.floating > 0;
+        let is_loose = Approach::Tick.lack(problem)?.is_some();
         let tuned = || match is_loose {
             true => Ok(None),
             false => tuned_omega(problem, Precision::F64, GOAL).map(Some),

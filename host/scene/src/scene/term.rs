@@ -1,7 +1,6 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
 use super::{Located, Role, Scene};
-use crate::error::Result;
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
@@ -45,18 +44,6 @@ pub fn each_load(scene: &mut Scene, mut each: impl FnMut(&mut Located<Expression
     }
 }
 
-/// Refuses loads that change with t: firmware has no clock of the scene's.
-///
-/// # Errors
-/// The first load that does.
-pub fn refuse_time(scene: &Scene) -> Result<()> {
-    let Some(culprit) = first_in_time(scene) else { return Ok(()) };
-    let message = format!("{} depends on t, which firmware does not know", culprit.value);
-    let hint =
-        "declare an [input.…] with the part in x and y as its pattern, and set it every tick";
-    Err(scene.error(&culprit, message).hint(hint).into())
-}
-
 /// The sentence for whoever takes a scene that changes with t at rest.
 pub fn at_rest_warning(scene: &Scene) -> Option<String> {
     let load = first_in_time(scene)?;
@@ -67,7 +54,7 @@ pub fn at_rest_warning(scene: &Scene) -> Option<String> {
 }
 
 /// The first load that depends on t.
-fn first_in_time(scene: &Scene) -> Option<Located<Expression>> {
+pub fn first_in_time(scene: &Scene) -> Option<Located<Expression>> {
     let mut first = None;
     each_load(&mut scene.clone(), |load| {
         if load.value.uses_time() && first.is_none() {

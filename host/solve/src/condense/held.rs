@@ -1,27 +1,12 @@
-//! Parts of the domain that contact alone holds, and what has no condensed model for want of a hold.
+//! Parts of the domain that contact alone holds.
 
 use std::collections::BTreeMap;
 
 use signorini_kernel::mesh::components::Support;
 
 use crate::problem::{Parts, Problem};
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{Error, InputError};
 use signorini_scene::scene::Scene;
-
-/// The parts of the domain, each of which something holds.
-///
-/// # Errors
-/// A part that nothing holds.
-pub(super) fn examined(problem: &Problem) -> Result<Parts> {
-    let parts = Parts::examine(problem)?;
-    if parts.counts.floating == 0 {
-        return Ok(parts);
-    }
-    let message = "boundary: a part of the domain has neither dirichlet, robin nor contact edges: its \
-                   solution has no level, and its loads would have to stay in balance";
-    let hint = "give it a dirichlet or robin boundary to condense it";
-    Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
-}
 
 /// The cells of the one part that contact alone holds, where there is exactly one.
 pub(super) fn held_alone(problem: &Problem, parts: &Parts, edges: &[usize]) -> Option<Vec<bool>> {

@@ -45,54 +45,31 @@ mod unit;
 
 use faer::Mat;
 
-use crate::problem::Problem;
+use crate::problem::{Approach, Parts, Problem};
 use columns::columns;
 use elimination::{Field, fields};
 use form::FormData;
-use held::{examined, held_alone, held_by_contact, held_by_one};
+use held::{held_alone, held_by_contact, held_by_one};
 use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
 pub use order::along_boundary;
 use patterns::patterns;
 pub use recovery::{Recovery, recoverable};
-use signorini_scene::error::{InputError, Result};
-
-/// Numbers that the fields behind a condensed model may hold together: 1.6 GB.
-const MOST_NUMBERS: usize = 200_000_000;
-
-/// Whether the fields of all contact edges and inputs fit into memory.
-///
-/// # Errors
-/// More than 1.6 GB.
-pub fn check_size(problem: &Problem) -> Result<()> {
-    let counts = problem.topology.counts;
-    let (contact, edges) = (counts.contact, counts.edges());
-    let fields = contact + problem.scene.inputs.len() + 2;
-    // u and σ·n of every field, and Ŝ.
-    if fields.saturating_mul(2 * edges + contact) <= MOST_NUMBERS {
-        return Ok(());
-    }
-    let message = format!(
-        "boundary: {contact} contact edges on a mesh of {edges} edges are too many to condense, expected at \
-         most {MOST_NUMBERS} numbers in their fields"
-    );
-    let hint = "refine less, or take the full model (--full, model = \"full\")";
-    Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
-}
+use signorini_scene::error::Result;
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
 /// # Errors
-/// A load that changes with t, data that are not finite, a part that nothing holds or a single contact edge,
-/// a probe outside the mesh, more contact edges than memory holds fields of.
+/// What [`Approach::Condensation`] cannot treat; data that are not finite, a part that a single contact edge holds,
+/// a probe outside the mesh.
 pub fn condense(problem: &Problem) -> Result<CondensedModel> {
     Ok(build(problem)?.0)
 }
 
 /// The model, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
 fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
-    check_size(problem)?;
-    let parts = examined(problem)?;
+    Approach::Condensation.check(problem)?;
+    let parts = Parts::examine(problem)?;
     let patterns = patterns(problem)?;
     let (m, n) = (patterns.len(), problem.topology.counts.contact);
     let edges = along_boundary(problem);

@@ -8,7 +8,6 @@ use crate::certify::ends::Ends;
 use crate::certify::{Evaluated, NoBound};
 use crate::problem::{Loads, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::term::refuse_time;
 
 /// One pattern.
 pub(super) struct Pattern {
@@ -36,9 +35,8 @@ impl Pattern {
 /// The patterns of a problem: the constant one, then one an input.
 ///
 /// # Errors
-/// A load that changes with t, data that are not finite.
+/// Data that are not finite.
 pub(super) fn patterns(problem: &Problem) -> Result<Vec<Pattern>> {
-    refuse_time(&problem.scene)?;
     let terms = 0..=problem.scene.inputs.len();
     terms.map(|term| Pattern::new(problem.left_with(&[term])?)).collect()
 }

@@ -4,6 +4,8 @@
 //!   Scene + Mesh ─► binding (names to cells and edges) ─► topology ─► integrals ─► Problem ─► Assembled<R>
 //!                                        other loads or units on the same mesh ◄─ restated ◄─┘
 //! ```
+//! [`Approach`] says what can be done with it, and what not: no other place decides that.
+//!
 //! A [`Problem`] keeps the scene that states it: whoever has the one asks it for expressions, setting and places in the
 //! file. Clones share what does not change: mesh, edges and A.
 
@@ -13,7 +15,9 @@ mod corners;
 mod diagonal;
 mod element_matrices;
 mod integrals;
+mod lacks;
 mod loads;
+mod property;
 mod restated;
 mod solvability;
 mod sum;
@@ -26,7 +30,9 @@ mod warnings;
 pub use assembled::Assembled;
 pub use binding::Binding;
 pub use integrals::{Coefficients, QuadCoefficient};
+pub use lacks::{Approach, Lack};
 pub use loads::Loads;
+pub use property::Property;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};

@@ -21,7 +21,7 @@ use signorini_kernel::solve::solver::Status;
 use super::{
     Clock, Options, Ran, Result, Solution, Solved, by_kernel, conclude, direct, factored, unfit,
 };
-use crate::problem::{Assembled, Parts, Problem};
+use crate::problem::{Approach, Assembled, Parts, Problem};
 use crate::scalar::Scalar;
 
 /// Sweeps per √N, from below: a problem that needs more is only solved sooner by the factor.
@@ -68,14 +68,14 @@ pub(super) fn in_f32(problem: &Problem, parts: &Parts, options: &Options) -> Res
     by_kernel::<f32>(problem, parts, options)
 }
 
-/// The answer of the kernel's factor alone. Nothing where a part is held by nothing, which leaves the matrix
-/// singular, where the factor would be too large, or where it leaves digits open.
+/// The answer of the kernel's factor alone. Nothing where it cannot treat the problem, where a part is held by
+/// nothing, which leaves the matrix singular, where the factor would be too large, or where it leaves digits open.
 pub(super) fn by_factor<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,
 ) -> Result<Option<Solution>> {
-    if parts.counts.floating > 0 {
+    if parts.counts.floating > 0 || Approach::Factor.lack_with(problem, parts.counts).is_some() {
         return Ok(None);
     }
     let unfit = unfit::<R>(&problem.scene);

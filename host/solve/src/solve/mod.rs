@@ -32,7 +32,7 @@ use signorini_kernel::solve::refinement::{self, RefinementBuffers};
 use signorini_kernel::solve::solver::{Outcome, Settings, Status};
 use signorini_kernel::{Error as KernelError, Libm};
 
-use crate::problem::{Assembled, Parts, Problem};
+use crate::problem::{Approach, Assembled, Parts, Problem};
 use crate::progress::stage;
 use crate::scalar::Scalar;
 use conclude::{Clock, Solved, conclude};
@@ -104,20 +104,23 @@ fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> 
     } else {
         iterate::<R, { rows::QUADS }>
     };
-    let found = iterate(&system, diagonal, assembled.edges(), options, &mut u, &mut low);
+    let may_factor = Approach::Factor.lack_with(problem, parts.counts).is_none();
+    let edges = assembled.edges();
+    let found = iterate(&system, diagonal, edges, options, may_factor, &mut u, &mut low);
     let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
     let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
     let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
     conclude(problem, parts, &assembled, solved)
 }
 
-/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor; `low`
+/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor, if it may; `low`
 /// becomes the low part of `u`.
 fn iterate<R: Scalar, const WIDTH: usize>(
     system: &System<R, u32>,
     diagonal: DiagonalTerms<R, u32>,
     edges: &Edges<u32>,
     options: &Options,
+    may_factor: bool,
     u: &mut [R],
     low: &mut [R],
 ) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
@@ -132,7 +135,9 @@ fn iterate<R: Scalar, const WIDTH: usize>(
     if ended || swept.sweeps >= options.max_sweeps {
         return Ok((swept, None));
     }
-    if let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low)? {
+    if may_factor
+        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low)?
+    {
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
     }
     let left = options.max_sweeps - swept.sweeps;

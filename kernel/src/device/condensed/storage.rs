@@ -1,4 +1,4 @@
-//! Owned memory of exactly the size that a model needs; each can be a `static`.
+//! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices.
 
 use super::method::{Pivots, Sweeps};
 use super::{Condensed, Memory};
@@ -8,22 +8,26 @@ use crate::solve::dense::Iterate;
 use crate::solve::dense::blocks::{Block, SIDE};
 use crate::solve::dense::tableau::Tableau;
 
-/// Iterate and scratch: P = [`crate::solve::dense::blocks::padded`] contact edges, C columns of the bound's factor.
+/// Iterate and scratch. Numbers and flags have [`crate::solve::dense::blocks::padded`] contact edges, columns those of the
+/// bound's factor.
 #[derive(Debug)]
-pub struct Storage<R, const P: usize, const C: usize> {
-    x: [R; P],
-    residual: [R; P],
-    scratch: [R; P],
-    open: [bool; P],
-    load: [R; P],
-    combination: [R; C],
-    sum: [R; C],
+pub struct Storage<Numbers, Flags, Columns> {
+    x: Numbers,
+    residual: Numbers,
+    scratch: Numbers,
+    open: Flags,
+    load: Numbers,
+    combination: Columns,
+    sum: Columns,
     has_begun: bool,
 }
 
-impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
+/// The same in arrays: P padded contact edges, C columns.
+pub type ArrayStorage<R, const P: usize, const C: usize> = Storage<[R; P], [bool; P], [R; C]>;
+
+impl<R: Real, const P: usize, const C: usize> ArrayStorage<R, P, C> {
     /// Zeros, which take no room in flash: the first tick takes the model's x over.
-    pub const fn new() -> Self {
+    pub const fn zeros() -> Self {
         Self {
             x: [R::ZERO; P],
             residual: [R::ZERO; P],
@@ -35,47 +39,101 @@ impl<R: Real, const P: usize, const C: usize> Storage<R, P, C> {
             has_begun: false,
         }
     }
+}
 
-    /// The view that [`Condensed::tick`] takes.
-    pub fn memory(&mut self, model: &Condensed<R>) -> Memory<'_, R> {
-        let Self { x, residual, scratch, open, load, combination, sum, has_begun } = self;
-        if !*has_begun {
-            x.iter_mut().zip(model.x).for_each(|(x, &given)| *x = given);
-            *has_begun = true;
+impl<Numbers: Clone, Flags, Columns: Clone> Storage<Numbers, Flags, Columns> {
+    /// Before the first tick, with buffers like these, of any contents.
+    pub fn of(numbers: Numbers, open: Flags, columns: Columns) -> Self {
+        Self {
+            x: numbers.clone(),
+            residual: numbers.clone(),
+            scratch: numbers.clone(),
+            open,
+            load: numbers,
+            combination: columns.clone(),
+            sum: columns,
+            has_begun: false,
         }
-        Memory { iterate: Iterate { x, residual, scratch, open }, load, combination, sum }
+    }
+}
+
+impl<Numbers, Flags, Columns> Storage<Numbers, Flags, Columns> {
+    /// The view that [`Condensed::tick`] takes.
+    pub fn memory<R: Real>(&mut self, model: &Condensed<R>) -> Memory<'_, R>
+    where
+        Numbers: AsMut<[R]>,
+        Flags: AsMut<[bool]>,
+        Columns: AsMut<[R]>,
+    {
+        let x = self.x.as_mut();
+        if !self.has_begun {
+            x.iter_mut().zip(model.x).for_each(|(x, &given)| *x = given);
+            self.has_begun = true;
+        }
+        let (residual, scratch) = (self.residual.as_mut(), self.scratch.as_mut());
+        Memory {
+            iterate: Iterate { x, residual, scratch, open: self.open.as_mut() },
+            load: self.load.as_mut(),
+            combination: self.combination.as_mut(),
+            sum: self.sum.as_mut(),
+        }
     }
 
-    /// Back to [`Storage::new`]: the next tick takes the model's x over again.
+    /// x of the last tick, padding included.
+    pub fn x<R>(&self) -> &[R]
+    where
+        Numbers: AsRef<[R]>,
+    {
+        self.x.as_ref()
+    }
+
+    /// The edges that the last tick left open, padding included.
+    pub fn open(&self) -> &[bool]
+    where
+        Flags: AsRef<[bool]>,
+    {
+        self.open.as_ref()
+    }
+
+    /// What the certificate of the last tick multiplied the columns of its factor by.
+    pub fn combination<R>(&self) -> &[R]
+    where
+        Columns: AsRef<[R]>,
+    {
+        self.combination.as_ref()
+    }
+
+    /// Forgets all ticks: the next one takes the model's x over again.
     pub fn reset(&mut self) {
         self.has_begun = false;
     }
 }
 
-impl<R: Real, const P: usize, const C: usize> Default for Storage<R, P, C> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// A tableau of B = [`crate::solve::dense::blocks::count`] blocks, for the exact method.
+/// A tableau for the exact method, in [`crate::solve::dense::blocks::count`] blocks; flags and columns have
+/// [`crate::solve::dense::blocks::padded`] contact edges.
 #[derive(Debug)]
-pub struct TableauStorage<R, const P: usize, const B: usize> {
-    blocks: [Block<R>; B],
-    exchanged: [bool; P],
-    columns: [[R; P]; 2],
+pub struct TableauStorage<Blocks, Flags, Column> {
+    blocks: Blocks,
+    exchanged: Flags,
+    columns: [Column; 2],
     is_built: bool,
 }
 
-impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
+/// The same in arrays: P padded contact edges, B blocks.
+pub type ArrayTableauStorage<R, const P: usize, const B: usize> =
+    TableauStorage<[Block<R>; B], [bool; P], [R; P]>;
+
+impl<R: Real, const P: usize, const B: usize> ArrayTableauStorage<R, P, B> {
     /// Nothing yet: the first tick takes the model's own over.
-    pub const fn new() -> Self {
-        Self {
-            blocks: [[[R::ZERO; SIDE]; SIDE]; B],
-            exchanged: [false; P],
-            columns: [[R::ZERO; P]; 2],
-            is_built: false,
-        }
+    pub const fn zeros() -> Self {
+        Self::of([[[R::ZERO; SIDE]; SIDE]; B], [false; P], [[R::ZERO; P]; 2])
+    }
+}
+
+impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
+    /// Before the first tick, in buffers of any contents.
+    pub const fn of(blocks: Blocks, exchanged: Flags, columns: [Column; 2]) -> Self {
+        Self { blocks, exchanged, columns, is_built: false }
     }
 
     /// The exact method on `model`: at most so many exchanges a tick, and what follows where they do not
@@ -83,15 +141,20 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
     ///
     /// # Errors
     /// A model of another size.
-    pub fn method<'a>(
+    pub fn method<'a, R: Real>(
         &'a mut self,
         model: &Condensed<'a, R>,
         most: u32,
         sweeps: Sweeps<R>,
-    ) -> Result<Pivots<'a, R>, Error> {
-        let [column, next] = &mut self.columns;
-        let blocks = &mut self.blocks;
-        let mut tableau = Tableau::new(model.contact, blocks, &mut self.exchanged, [column, next])?;
+    ) -> Result<Pivots<'a, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
+        let columns = self.columns.each_mut().map(Column::as_mut);
+        let (blocks, exchanged) = (self.blocks.as_mut(), self.exchanged.as_mut());
+        let mut tableau = Tableau::new(model.contact, blocks, exchanged, columns)?;
         if !self.is_built {
             tableau.reset(&model.start)?;
             self.is_built = true;
@@ -99,14 +162,8 @@ impl<R: Real, const P: usize, const B: usize> TableauStorage<R, P, B> {
         Ok(Pivots { tableau, start: model.start, most, sweeps })
     }
 
-    /// Back to [`TableauStorage::new`]: the next tick takes the model's tableau over again.
+    /// Forgets all ticks: the next one takes the model's tableau over again.
     pub fn reset(&mut self) {
         self.is_built = false;
-    }
-}
-
-impl<R: Real, const P: usize, const B: usize> Default for TableauStorage<R, P, B> {
-    fn default() -> Self {
-        Self::new()
     }
 }

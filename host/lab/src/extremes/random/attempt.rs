@@ -9,7 +9,7 @@ use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{self, ErrorBound};
-use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
 
@@ -74,10 +74,10 @@ fn options(case: &RandomCase, problem: &Problem) -> Options {
 
 /// The earlier ticks, whatever they say, and then the one that is judged.
 fn ticks(case: &RandomCase, problem: Problem) -> Result<Attempt> {
-    let parts = Parts::examine(&problem)?.counts;
+    let has_tick = Approach::Tick.lack(&problem)?.is_none();
     let condensed = problem.scene.setting.and_then(|set| set.model) == Some(ModelKind::Condensed);
     // There an engine answers for the scene's own inputs.
-    let own = !condensed && parts.contact + parts.floating > 0;
+    let own = !condensed && !has_tick;
     let at = problem.with_inputs(if own { &[] } else { &case.effort.inputs })?;
     let inputs: Vec<f64> = at.scene.inputs.iter().map(|input| input.default).collect();
     let answer = engine::with(&problem, |engine| {

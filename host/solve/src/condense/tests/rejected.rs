@@ -1,7 +1,8 @@
 //! What cannot be condensed is named; what allows for no bound is told.
 
 use super::*;
-use crate::condense::{check_size, condense};
+use crate::condense::condense;
+use crate::problem::Approach;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 fn refusal(text: &str) -> Result<String> {
@@ -54,9 +55,10 @@ fn a_part_that_a_single_edge_holds() -> Result<()> {
 #[test]
 fn more_fields_than_memory_holds() -> Result<()> {
     let (_, problem) = on_grid(ALL, grid(2, Cells::Triangles))?;
-    check_size(&problem)?;
+    Approach::Condensation.check(&problem)?;
     let (_, problem) = on_grid(ALL, grid(240, Cells::Quads))?;
-    let message = check_size(&problem).expect_err("480 fields of 231 000 edges").to_string();
+    let refused = Approach::Condensation.check(&problem);
+    let message = refused.expect_err("480 fields of 231 000 edges").to_string();
     assert!(message.contains("480 contact edges on a mesh of 231120 edges"), "{message}");
     Ok(())
 }

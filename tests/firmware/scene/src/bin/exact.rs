@@ -13,7 +13,7 @@ use signorini_board::draw::Draw;
 use signorini_board::{end, run};
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::method::Method as _;
-use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::solve::dense::blocks::{count, padded};
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SWEEPS, SYSTEM};
@@ -23,13 +23,13 @@ const TICKS: u32 = 1000;
 
 /// x, loads and the tableau.
 struct Memory {
-    storage: Storage<f32, PADDED, 0>,
-    tableau: TableauStorage<f32, PADDED, { count(CONTACT) }>,
+    storage: ArrayStorage<f32, PADDED, 0>,
+    tableau: ArrayTableauStorage<f32, PADDED, { count(CONTACT) }>,
 }
 
 #[entry]
 fn main() -> ! {
-    static mut MEMORY: Memory = Memory { storage: Storage::new(), tableau: TableauStorage::new() };
+    static mut MEMORY: Memory = Memory { storage: ArrayStorage::zeros(), tableau: ArrayTableauStorage::zeros() };
     run(|journal| {
         let Some(clock) = Clock::start() else { end(false) };
         journal.count("@ heap", size_of::<Memory>() as u32);
