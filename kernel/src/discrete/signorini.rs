@@ -128,6 +128,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             highest = highest.or_larger(value);
         }
         measure.range = highest - lowest;
+        let (law, free) = (self.law, self.counts.free);
         for (i, (row, &load)) in self.matrix.iter().zip(self.load).enumerate() {
             let (mut r, mut size) = (load, load.magnitude());
             for (column, value) in row.entries() {
@@ -138,8 +139,8 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             let per_diagonal = R::ONE / row.diagonal();
             let mut step = r * per_diagonal;
             let mut terms = size * per_diagonal;
-            if i >= self.counts.free {
-                let (law, own) = (self.law.on(i - self.counts.free), read(u, i));
+            if i >= free {
+                let (law, own) = (law.on(i - free), read(u, i));
                 measure.active += u32::from(law.touches(own));
                 if let Some(opening) = law.blocks(own, step) {
                     step = opening;
