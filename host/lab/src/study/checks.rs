@@ -3,7 +3,7 @@
 use serde::Serialize;
 use signorini_kernel::Real;
 
-use signorini_solve::problem::{EdgeKind, Problem};
+use signorini_solve::problem::Problem;
 use signorini_solve::solve::{ScalarKind, Solution, status_name};
 
 /// A claim about one subject, and what was found.
@@ -126,7 +126,7 @@ fn largest_terms(problem: &Problem, solution: &Solution) -> f64 {
 fn neumann(problem: &Problem, solution: &Solution) -> f64 {
     let mut given = vec![0.0; problem.ends.len()];
     problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
-    let edges = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);
+    let edges = (0..given.len()).filter(|&edge| problem.kinds[edge].has_given_flux());
     edges.fold(0.0_f64, |most, edge| most.or_larger((solution.flux[edge] - given[edge]).abs()))
 }
 

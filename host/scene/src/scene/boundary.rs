@@ -109,6 +109,14 @@ impl Condition {
         }
     }
 
+    /// The transfer coefficient h, if its kind has one: ∫h u² on its edges belongs to the energy norm then.
+    pub fn transfer(&self) -> Option<&Located<Expression>> {
+        match self {
+            Self::Robin { coefficient, .. } => Some(coefficient),
+            Self::Dirichlet { .. } | Self::Neumann { .. } | Self::Contact { .. } => None,
+        }
+    }
+
     /// The load `field` of this boundary, if its kind has it.
     pub fn load(&self, field: Field) -> Option<&Located<Expression>> {
         self.data().into_iter().find_map(|(role, data)| (role == Role::Load(field)).then_some(data))

@@ -25,7 +25,7 @@ use crate::pointwise::{POINTS, exact_at};
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Exact, Field};
+use signorini_scene::scene::{Exact, Field};
 
 /// Panels on an edge, each with 8 points: the exact flux has kinks where contact ends.
 const PANELS: u32 = 8;
@@ -150,10 +150,8 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         for at in 0..self.problem.cells() {
             self.visit(at, &rule, |point| square += point.weight * point.square)?;
         }
-        for (edge, kind) in self.problem.kinds.iter().enumerate() {
-            if *kind == EdgeKind::Robin {
-                square += self.robin(edge)?[0];
-            }
+        for edge in 0..self.problem.kinds.len() {
+            square += self.robin(edge)?[0];
         }
         Ok(square.sqrt())
     }
@@ -221,13 +219,12 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         self.on_edge(edge, term)
     }
 
-    /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R.
+    /// ∫[h(u − S)² + ((σ − τ)·n)²/h] over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<Weighed> {
         let problem = self.problem;
-        let boundary = problem.binding.boundary(problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &self.problem.scene.boundaries[boundary].condition);
-        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok([0.0; 2]) };
-        let coefficient = Sum::alone(&self.problem.scene, coefficient, problem.time);
+        let Some(coefficient) = Sum::transfer(problem, edge, problem.time) else {
+            return Ok([0.0; 2]);
+        };
         let term = |point: EdgePoint| {
             let h = coefficient.finite(coefficient.at(point.x[0], point.x[1]), point.x)?;
             let EdgePoint { weight, u, s, sigma, tau, .. } = point;

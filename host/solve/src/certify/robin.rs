@@ -12,7 +12,7 @@ use signorini_kernel::Real;
 use crate::problem::{Problem, Sum};
 use crate::quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Field};
+use signorini_scene::scene::Field;
 
 /// \[h |E|, u_ext\] at the 8 Gauss points of an edge, in its direction.
 pub type RobinPoints = [[f64; 2]; DATA_POINTS];
@@ -25,13 +25,8 @@ pub fn robin(problem: &Problem, time: f64) -> Result<Vec<RobinPoints>> {
     let records = problem.loads.robin.iter();
     let edges = records.filter_map(|record| {
         let edge = record.edge as usize;
-        let boundary = problem.binding.boundary(problem.ends[edge])?;
-        let Condition::Robin { coefficient, .. } = &problem.scene.boundaries[boundary].condition
-        else {
-            return None;
-        };
         let ambient = Sum::on_edge(problem, edge, Field::Ambient, time)?;
-        Some((edge, Sum::alone(&problem.scene, coefficient, time), ambient))
+        Some((edge, Sum::transfer(problem, edge, time)?, ambient))
     });
     edges.map(|(edge, h, ambient)| points(problem, edge, &h, &ambient)).collect()
 }
@@ -62,13 +57,10 @@ const ROUNDING: f64 = 1e-13;
 /// # Errors
 /// Data that are not finite at a point.
 pub fn missed(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
-    let boundary = problem.binding.boundary(problem.ends[edge]);
-    let boundary = boundary.map(|boundary| &problem.scene.boundaries[boundary].condition);
-    let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
+    let Some(h) = Sum::transfer(problem, edge, time) else { return Ok(0.0) };
     let Some(ambient) = Sum::on_edge(problem, edge, Field::Ambient, time) else {
         return Ok(0.0);
     };
-    let h = Sum::alone(&problem.scene, coefficient, time);
     if h.constant().is_some() && ambient.constant().is_some() {
         return Ok(0.0);
     }

@@ -1,6 +1,7 @@
 //! The functions that s is a sum of: vertex functions and bubbles.
 
-use crate::problem::EdgeKind::{Interior, Neumann, Robin};
+use signorini_kernel::mesh::edges::Block;
+
 use crate::problem::Problem;
 
 /// The numbers of s: its vertex values, then the bubbles of free edges between quads.
@@ -18,7 +19,7 @@ impl Functions {
         let mut count = vertices;
         let bubbles = topology.half_edges.iter().enumerate().map(|(edge, halves)| {
             let of_quads = halves.iter().all(|&half| half as usize >= triangles);
-            let free = matches!(problem.kinds[edge], Interior | Neumann | Robin);
+            let free = problem.kinds[edge].block() == Block::Free;
             (of_quads && free).then(|| {
                 count += 1;
                 count as u32 - 1

@@ -90,7 +90,7 @@ impl FormData<'_> {
         let mut given = vec![0.0; kinds.len()];
         let neumann = loads.map_or(&[][..], |loads| &loads.neumann);
         neumann.iter().for_each(|of| given[of.edge as usize] = of.flux);
-        let missed = (0..kinds.len()).filter(|&edge| kinds[edge] == EdgeKind::Neumann);
+        let missed = (0..kinds.len()).filter(|&edge| kinds[edge].has_given_flux());
         of_cells + missed.map(|edge| (field.flux[edge] - given[edge]).abs()).sum::<f64>()
     }
 

@@ -52,6 +52,12 @@ impl<'s> Sum<'s> {
         Some(Self::new(&problem.scene, &boundary.name.value, field, base, time))
     }
 
+    /// The transfer coefficient of the boundary that an edge lies on, where its condition has one.
+    pub fn transfer(problem: &'s Problem, edge: usize, time: f64) -> Option<Self> {
+        let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
+        Some(Self::alone(&problem.scene, boundary.condition.transfer()?, time))
+    }
+
     /// Where the field stands in the scene file.
     pub fn key(&self) -> &'s Located<Expression> {
         self.base

@@ -46,7 +46,16 @@ impl EdgeKind {
         }
     }
 
-    fn block(self) -> Block {
+    /// Whether its flux is given: that of an answer may be compared with it.
+    pub fn has_given_flux(self) -> bool {
+        match self {
+            Self::Neumann => true,
+            Self::Interior | Self::Dirichlet | Self::Robin | Self::Contact => false,
+        }
+    }
+
+    /// Where its edges stand among all.
+    pub fn block(self) -> Block {
         match self {
             Self::Interior | Self::Neumann | Self::Robin => Block::Free,
             Self::Contact => Block::Contact,

@@ -49,7 +49,9 @@ fn idle_default(problem: &Problem) -> Option<String> {
         problem.scene.boundaries.iter().find(|boundary| boundary.name.value == "default")?;
     let kind = match &default.condition {
         Condition::Neumann { .. } => return None,
-        condition => condition.kind(),
+        Condition::Dirichlet { .. } | Condition::Robin { .. } | Condition::Contact { .. } => {
+            default.condition.kind()
+        }
     };
     is_idle(problem, "default").then(|| {
         format!("[boundary.default] ({kind}) acts nowhere: every boundary edge lies in a curve with a table of its own")

@@ -14,7 +14,7 @@ use super::super::load_case::LoadCase;
 use super::super::psor::TickLoads;
 use super::vertices::Vertices;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Condition, Field};
+use signorini_scene::scene::Field;
 use signorini_solve::problem::{EdgeKind, Problem, Sum};
 use signorini_solve::quadrature::{TRIANGLE_POINTS, mean_on_edge, on_triangle};
 
@@ -36,10 +36,8 @@ pub(super) fn matrix(problem: &Problem, vertices: &Vertices) -> Vec<BTreeMap<usi
         }
     }
     for edge in 0..problem.ends.len() {
-        let Some(Condition::Robin { coefficient, .. }) = condition(problem, edge) else {
-            continue;
-        };
-        let h = |x, y| coefficient.value.eval(x, y, 0.0);
+        let Some(transfer) = Sum::transfer(problem, edge, 0.0) else { continue };
+        let h = |x, y| transfer.at(x, y);
         let (ends, hats) = (problem.ends[edge], [0, 1].map(|k| hat(problem, edge, k)));
         for (v, first) in ends.iter().zip(&hats) {
             for (w, second) in ends.iter().zip(&hats) {
@@ -133,10 +131,8 @@ fn add_flux(
         EdgeKind::Interior | EdgeKind::Dirichlet => return Ok(()),
     };
     let Some(sum) = Sum::on_edge(problem, edge, field, problem.time) else { return Ok(()) };
-    let transfer = |x, y| match condition(problem, edge) {
-        Some(Condition::Robin { coefficient, .. }) => coefficient.value.eval(x, y, 0.0),
-        _ => 1.0,
-    };
+    let coefficient = Sum::transfer(problem, edge, 0.0);
+    let transfer = |x, y| coefficient.as_ref().map_or(1.0, |h| h.at(x, y));
     for (k, vertex) in problem.ends[edge].into_iter().enumerate() {
         let hat = hat(problem, edge, k);
         let factor = |x| match problem.kinds[edge] {
@@ -149,11 +145,6 @@ fn add_flux(
         load[vertices.number[vertex as usize]] += problem.lengths[edge] * mean;
     }
     Ok(())
-}
-
-fn condition(problem: &Problem, edge: usize) -> Option<&Condition> {
-    let boundary = problem.binding.boundary(problem.ends[edge])?;
-    Some(&problem.scene.boundaries[boundary].condition)
 }
 
 /// λ of end `k` along an edge.

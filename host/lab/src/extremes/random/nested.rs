@@ -4,14 +4,13 @@
 //! is known at any point of the finer mesh, without a search.
 
 use signorini_scene::error::Result;
-use signorini_scene::scene::Condition;
 use signorini_solve::certify::admissible::{Admissible, Chordal};
 use signorini_solve::certify::cell::{Cell, Jet};
 use signorini_solve::certify::conductivity::{Conductivity, inverse, product};
 use signorini_solve::certify::deviation::{Deviations, Lift};
 use signorini_solve::certify::weighed::{minus, on_robin};
 use signorini_solve::field::CellField;
-use signorini_solve::problem::{EdgeKind, Problem, Sum};
+use signorini_solve::problem::{Problem, Sum};
 use signorini_solve::quadrature::{Point, gauss};
 
 /// One of the two: its problem, s and τ, and u_h where that is asked for.
@@ -84,9 +83,7 @@ pub fn apart(
         last = Some((parent, of_parent));
     }
     for edge in 0..fine.problem.kinds.len() {
-        if fine.problem.kinds[edge] == EdgeKind::Robin {
-            squares.combined += study.robin(edge)?;
-        }
+        squares.combined += study.robin(edge)?;
     }
     let Apart { combined, of_u, energy } = squares;
     Ok(Apart { combined: combined.sqrt(), of_u: of_u.sqrt(), energy: energy.sqrt() })
@@ -175,13 +172,10 @@ impl NestedPair<'_> {
         Ok(())
     }
 
-    /// ∫[h(s′ − s)² + ((τ′ − τ)·n)²/h] over an edge of R.
+    /// ∫[h(s′ − s)² + ((τ′ − τ)·n)²/h] over an edge of R, 0 on others.
     fn robin(&self, edge: usize) -> Result<f64> {
         let (fine, coarse) = (self.fine.side, self.coarse.side);
-        let boundary = fine.problem.binding.boundary(fine.problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &fine.problem.scene.boundaries[boundary].condition);
-        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(0.0) };
-        let h = Sum::alone(&fine.problem.scene, coefficient, fine.problem.time);
+        let Some(h) = Sum::transfer(fine.problem, edge, fine.problem.time) else { return Ok(0.0) };
         let (at, side) = fine.problem.topology.first_side(edge);
         let parent = self.parent(at);
         let (own, of_parent) = (self.fine.on_cell(at), self.coarse.on_cell(parent));

@@ -14,13 +14,13 @@ use super::points::{Inside, points};
 use super::recovery;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
-use signorini_scene::scene::{Condition, Field, Scene};
+use signorini_scene::scene::{Field, Scene};
 use signorini_solve::certify::admissible::Admissible;
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::{Conductivity, apply, inverse, product};
 use signorini_solve::certify::deviation::Deviations;
 use signorini_solve::field::CellField;
-use signorini_solve::problem::{EdgeKind, Problem, Sum};
+use signorini_solve::problem::{Problem, Sum};
 use signorini_solve::quadrature::gauss;
 use signorini_solve::solve::{Options, Solution, SolverKind, solve};
 
@@ -102,8 +102,7 @@ fn sampled(problem: &Problem, solution: &Solution) -> Result<(Vec<Inside>, Vec<O
         sampler.add_cell(at, &mut inside)?;
     }
     let mut robin = Vec::new();
-    for (edge, _) in problem.kinds.iter().enumerate().filter(|(_, kind)| **kind == EdgeKind::Robin)
-    {
+    for edge in 0..problem.kinds.len() {
         sampler.add_robin(edge, &mut robin)?;
     }
     Ok((inside, robin))
@@ -136,10 +135,7 @@ impl Sampler<'_> {
     /// σ·n = h(u_ext − u) there, with u = s.
     fn add_robin(&self, edge: usize, robin: &mut Vec<OnRobin>) -> Result<()> {
         let problem = self.problem;
-        let boundary = problem.binding.boundary(problem.ends[edge]);
-        let boundary = boundary.map(|boundary| &problem.scene.boundaries[boundary].condition);
-        let Some(Condition::Robin { coefficient, .. }) = boundary else { return Ok(()) };
-        let transfer = Sum::alone(&problem.scene, coefficient, problem.time);
+        let Some(transfer) = Sum::transfer(problem, edge, problem.time) else { return Ok(()) };
         let ambient = Sum::on_edge(problem, edge, Field::Ambient, problem.time);
         let Some(ambient) = ambient else { return Ok(()) };
         let (length, [a, b]) = (problem.lengths[edge], problem.segment(edge));
