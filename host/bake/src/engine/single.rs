@@ -6,9 +6,7 @@
 use signorini_kernel::bound::certificate::Certificate;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{
-    Error as KernelError, discrete::contact, discrete::flux, solve::Relaxation,
-};
+use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
 
 use super::{Engine, TickSolution, completed};
 use signorini_scene::error::Result;
@@ -186,9 +184,7 @@ impl<R: Scalar> Engine for Single<'_, R> {
         let unfit = unfit::<R>(&self.problem.scene);
         let (assembled, counts) = (&self.assembled, problem.topology.counts);
         let mut fluxes = vec![R::ZERO; self.u.len()];
-        let (edges, cells) = (assembled.edges(), assembled.cells());
-        flux::recover(edges, assembled.stiffness(), cells, &self.u, &[], &mut fluxes)
-            .map_err(&unfit)?;
+        assembled.recover(&self.u, &[], &mut fluxes).map_err(&unfit)?;
         let boundary = assembled.boundary().map_err(&unfit)?;
         let force = contact::force(counts, &boundary, assembled.law(), &self.u, &fluxes).wide();
         let touching = |at| contact::is_active(counts, assembled.law(), &self.u, at);

@@ -7,9 +7,7 @@
 use signorini_kernel::discrete::rows::{self, Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{
-    Error as KernelError, discrete::contact, discrete::flux, solve::Relaxation,
-};
+use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
 
 use super::Budget;
 use signorini_scene::error::Result;
@@ -106,8 +104,7 @@ impl<'p, R: Scalar> Player<'p, R> {
     ) -> std::result::Result<PlayedTick, KernelError> {
         let (assembled, counts) = (&self.assembled, problem.topology.counts);
         let mut fluxes = vec![R::ZERO; u.len()];
-        let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
-        flux::recover(assembled.edges(), stiffness, cells, u, &[], &mut fluxes)?;
+        assembled.recover(u, &[], &mut fluxes)?;
         let touching =
             (0..counts.contact).filter(|&at| contact::is_active(counts, assembled.law(), u, at));
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();

@@ -91,7 +91,7 @@ impl<R: Scalar> Certifier<R> {
             refusal: None,
         };
         if !certifier.follows_contact && parts.counts.floating == 0 {
-            certifier.ways.find(assembled, &certifier.metric, |_| false)?;
+            certifier.seek(assembled, |_| false)?;
         }
         Ok(certifier)
     }
@@ -172,13 +172,13 @@ impl<R: Scalar> Certifier<R> {
         assembled: &Assembled<R>,
         u: &[R],
     ) -> Result<bool, KernelError> {
-        self.refusal = None;
         if parts.counts.floating > 0 {
             self.refusal = Some(Refusal::HeldByNothing);
             return Ok(false);
         }
         if !self.follows_contact {
-            return Ok(true);
+            // Found once and for all.
+            return Ok(!matches!(self.refusal, Some(Refusal::NothingActive(_))));
         }
         let edges = assembled.edges();
         let (free, law) = (edges.counts().free, assembled.law());
@@ -187,6 +187,16 @@ impl<R: Scalar> Certifier<R> {
             let alone = || parts.support(parts.of_edge(edges, edge)) == Support::Contact;
             contact.is_some_and(|at| law.on(at).touches(u[edge]) && alone())
         };
+        self.seek(assembled, active)
+    }
+
+    /// Finds ways out that may lead through these contact edges; whether there are any.
+    fn seek(
+        &mut self,
+        assembled: &Assembled<R>,
+        active: impl Fn(usize) -> bool,
+    ) -> Result<bool, KernelError> {
+        self.refusal = None;
         match self.ways.find(assembled, &self.metric, active) {
             Err(KernelError::NoWayOut { cell }) => {
                 self.refusal = Some(Refusal::NothingActive(cell));

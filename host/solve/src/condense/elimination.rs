@@ -6,8 +6,6 @@
 //! One factorisation serves all patterns of loads and all unit openings. The fluxes of a field are the
 //! conservative ones (15); on a contact edge they are the residual of the condensed problem.
 
-use signorini_kernel::discrete::flux;
-
 use crate::problem::{Assembled, Loads, Problem};
 use crate::reference::{self, ReferenceError};
 use crate::solve::unfit;
@@ -56,9 +54,7 @@ pub(super) fn fields(problem: &Problem, given: &[FieldLoads]) -> Result<Vec<Fiel
     for (at, (field, FieldLoads { loads, .. })) in fields.iter_mut().zip(given).enumerate() {
         field.u[..free].copy_from_slice(&solved[at * free..][..free]);
         assembled.set_loads(loads).map_err(&unfit)?;
-        let (edges, stiffness, cells) =
-            (assembled.edges(), assembled.stiffness(), assembled.cells());
-        flux::recover(edges, stiffness, cells, &field.u, &[], &mut field.flux).map_err(&unfit)?;
+        assembled.recover(&field.u, &[], &mut field.flux).map_err(&unfit)?;
     }
     Ok(fields)
 }

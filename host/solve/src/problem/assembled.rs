@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use signorini_kernel::discrete::assembly::{self, CellLoads};
 use signorini_kernel::discrete::csr::Csr;
+use signorini_kernel::discrete::flux::{self, Recovered};
 use signorini_kernel::discrete::signorini::Shifts;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::Stiffness;
@@ -192,7 +193,15 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// As for [`Assembled::boundary`].
     pub fn diagonal(&self) -> Result<DiagonalTerms<'_, R, u32>, Error> {
-        Ok(DiagonalTerms::new(&self.boundary()?))
+        self.loads.diagonal(&self.edges)
+    }
+
+    /// The fluxes (15) of `u`, which may have a low part, one an edge: see [`flux::recover`].
+    ///
+    /// # Errors
+    /// Slices of the wrong length.
+    pub fn recover(&self, u: &[R], low: &[R], flux: &mut [R]) -> Result<Recovered<R>, Error> {
+        flux::recover(&self.edges, self.stiffness(), self.cells(), u, low, flux)
     }
 
     /// The law on the contact edges.

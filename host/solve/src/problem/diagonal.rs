@@ -3,7 +3,6 @@
 use signorini_kernel::Error;
 use signorini_kernel::discrete::assembly;
 use signorini_kernel::error::Array;
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Side;
 
 use super::Problem;
@@ -29,7 +28,7 @@ impl Problem {
             halves.map(own).fold(0.0, |sum, own| sum + own)
         };
         let mut diagonal: Vec<f64> = pairs.map(sum).collect();
-        DiagonalTerms::new(&boundary).entries().for_each(|(edge, term)| diagonal[edge] += term);
+        loads.diagonal(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
         let mut load = vec![0.0; unknowns];
         assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
         finite(Array::MatrixValues, matrices.entries())?;

@@ -2,7 +2,6 @@
 
 use signorini_kernel::discrete::assembly;
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Edges, Side};
 
 use super::Problem;
@@ -41,7 +40,7 @@ impl Parts {
         let boundary = loads.boundary(&edges)?;
         let mut load = vec![0.0; edges.counts().unknowns()];
         assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
-        examine(&edges, DiagonalTerms::new(&boundary), &load, BALANCE, cells)
+        examine(&edges, loads.diagonal(&edges)?, &load, BALANCE, cells)
     }
 
     /// The part that an edge belongs to, by the number of a cell in it.

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use signorini_kernel::solve::solver::{Outcome, Status};
-use signorini_kernel::{Error as KernelError, Real, discrete::contact, discrete::flux};
+use signorini_kernel::{Error as KernelError, Real, discrete::contact};
 
 use super::{Factored, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit};
 use crate::certify::{Certified, Data};
@@ -97,8 +97,7 @@ impl<R: Scalar> Fluxes<R> {
     ) -> std::result::Result<Self, KernelError> {
         let edges = assembled.edges();
         let mut flux = vec![R::ZERO; u.len()];
-        let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
-        let found = flux::recover(edges, stiffness, cells, u, low, &mut flux)?;
+        let found = assembled.recover(u, low, &mut flux)?;
         let (boundary, law) = (assembled.boundary()?, assembled.law());
         let force = contact::force(edges.counts(), &boundary, law, u, &flux).wide();
         let mismatch = found.mismatch.wide() / found.largest.wide().max(f64::TINY);

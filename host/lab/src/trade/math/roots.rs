@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 
 use signorini_kernel::discrete::rows::{self, Row, Rows};
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
-use signorini_kernel::{Error, Libm, Math, Micromath, discrete::contact, discrete::flux};
+use signorini_kernel::{Error, Libm, Math, Micromath, discrete::contact};
 
 use super::super::record::FunctionCost;
 use super::change::{Change, State};
@@ -96,8 +96,7 @@ fn cold<M: Math<f32>, const WIDTH: usize>(
     let outcome = solver.run(&system, &mut rows, &mut u)?;
     let calls = CALLS.get();
     let mut flux = vec![0.0; u.len()];
-    let (stiffness, cells) = (assembled.stiffness(), assembled.cells());
-    flux::recover(edges, stiffness, cells, &u, &[], &mut flux)?;
+    assembled.recover(&u, &[], &mut flux)?;
     let length = contact::length::<_, _, Libm>(&assembled.mesh()?, edges, assembled.law(), &u);
     let boundary = assembled.boundary()?;
     let state = State {
