@@ -299,6 +299,8 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
     assert_eq!(storage.memory(&model).iterate.x, given);
     storage.memory(&model).iterate.x.fill(0.5);
     assert_eq!(storage.memory(&model).iterate.x, [0.5; PADDED]);
+    storage.reset();
+    assert_eq!(storage.memory(&model).iterate.x, given);
 
     let mut vectors = Storage::of(vec![7.0; PADDED], vec![true; PADDED], vec![7.0; 3]);
     let lent = vectors.memory(&model);
