@@ -193,7 +193,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     /// # Errors
     /// As for [`Assembled::boundary`].
     pub fn diagonal(&self) -> Result<DiagonalTerms<'_, R, u32>, Error> {
-        self.loads.diagonal(&self.edges)
+        Ok(DiagonalTerms::new(&self.boundary()?))
     }
 
     /// The fluxes (15) of `u`, which may have a low part, one an edge: see [`flux::recover`].

@@ -3,12 +3,21 @@
 use signorini_kernel::Error;
 use signorini_kernel::discrete::assembly;
 use signorini_kernel::error::Array;
-use signorini_kernel::mesh::edges::Side;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::mesh::edges::{Edges, Side};
 
 use super::Problem;
 use super::element_matrices::ElementMatrices;
 
 impl Problem {
+    /// What K has on its diagonal beyond the element matrices, in f64.
+    ///
+    /// # Errors
+    /// Records of the boundary that are not admissible.
+    pub fn diagonal_terms(&self, edges: &Edges<u32>) -> Result<DiagonalTerms<'_, f64, u32>, Error> {
+        Ok(DiagonalTerms::new(&self.loads.boundary(edges)?))
+    }
+
     /// The diagonal of K, and b, with the bits of [`super::Assembled`].
     ///
     /// # Errors
@@ -28,7 +37,7 @@ impl Problem {
             halves.map(own).fold(0.0, |sum, own| sum + own)
         };
         let mut diagonal: Vec<f64> = pairs.map(sum).collect();
-        loads.diagonal(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
+        self.diagonal_terms(&edges)?.entries().for_each(|(edge, term)| diagonal[edge] += term);
         let mut load = vec![0.0; unknowns];
         assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
         finite(Array::MatrixValues, matrices.entries())?;

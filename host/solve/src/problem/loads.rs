@@ -2,7 +2,6 @@
 
 use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::mesh::boundary::{Boundary, FluxRange, Neumann, Robin};
-use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::{Error as KernelError, Real};
 
@@ -52,17 +51,6 @@ impl<R: Scalar> Loads<R> {
         edges: &Edges<u32>,
     ) -> std::result::Result<Boundary<'a, R, u32>, KernelError> {
         Boundary::new(edges, &self.neumann, &self.robin, &self.contact_flux)
-    }
-
-    /// What K has on its diagonal beyond the element matrices.
-    ///
-    /// # Errors
-    /// As for [`Loads::boundary`].
-    pub fn diagonal<'a>(
-        &'a self,
-        edges: &Edges<u32>,
-    ) -> std::result::Result<DiagonalTerms<'a, R, u32>, KernelError> {
-        Ok(DiagonalTerms::new(&self.boundary(edges)?))
     }
 }
 
