@@ -13,8 +13,9 @@ use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::solve::refinement::{self, RefinementBuffers};
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
-use signorini_kernel::{Error, Index, solve::Relaxation, solve::psor};
+use signorini_kernel::{Error, Index, Libm, solve::Relaxation, solve::psor};
 
 const NONE: u16 = u16::MAX;
 
@@ -145,6 +146,32 @@ fn conjugate_gradients_stop_where_numbers_overflow() -> Result<(), Error> {
         })??;
         assert!(u.iter().all(|u| u.is_finite()), "{u:?}");
     }
+    Ok(())
+}
+
+/// b = 2¹⁰²⁰ and u = b/49, which no number is, leave a residual of rounding. The values next to u are held at 0, and 4000
+/// u is too large: in differences the defect is no number.
+#[test]
+fn a_defect_that_overflows_is_no_correction() -> Result<(), Error> {
+    let matrix = Csr::new(&[0, 3], &[0_u16, 1, 2], &[49.0, -4000.0, 3951.0], 3)?;
+    let counts = EdgeCounts { free: 1, contact: 0, dirichlet: 2 };
+    let mut memory = [Row::<f64, u16, 2>::EMPTY; 1];
+    let load = [2.0_f64.powi(1020)];
+    let system = System::new(matrix, &load, Law::above(&[]), counts)?;
+    let nothing = Boundary::new(&Edges::baked(&[], &[], &[], counts), &[], &[], &[])?;
+    let buffers = RefinementBuffers {
+        rows: Rows::of_matrix(&matrix, counts, &mut memory)?,
+        low: &mut [7.0; 3],
+        defect: &mut [0.0],
+        lower: &mut [],
+        conjugate: ConjugateBuffers { direction: &mut [0.0; 3], residual: &mut [0.0] },
+    };
+    let settings = Settings { tolerance: 0.0, ..Settings::default() };
+    let (diagonal, mut u) = (DiagonalTerms::new(&nothing), [0.0; 3]);
+    let outcome =
+        refinement::run::<_, _, Libm, 2>(&system, diagonal, settings, 1, &mut u, buffers)?;
+    assert_eq!(outcome.status, Status::NotFinite, "{outcome:?}");
+    assert!(outcome.residual.largest.is_finite() && u[0] == load[0] / 49.0, "{u:?}");
     Ok(())
 }
 

@@ -214,3 +214,82 @@ fn offset<I: Index, const WIDTH: usize>(offsets: &[I; WIDTH], k: usize) -> usize
     let high = (k % 2 == 1) == cfg!(target_endian = "little");
     (if high { word >> 16 } else { word & 0xffff }) as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrete::csr::Csr;
+    use crate::discrete::signorini::System;
+    use crate::mesh::edges::EdgeCounts;
+
+    const EPSILON: f64 = f64::EPSILON;
+    /// Multiples of ε that rounding may make.
+    const SLACK: u32 = 64;
+
+    /// Asks u of a row u_0 − `joined` u_1 = `load`, where u_1 is given, with rows for this ω: of a contact edge with this
+    /// gap, or of a free one.
+    fn asked(
+        load: f64,
+        joined: f64,
+        u: [f64; 2],
+        gap: Option<f64>,
+        omega: f64,
+    ) -> Result<bool, Error> {
+        let (values, gap) = ([1.0, -joined], gap.as_slice());
+        let matrix = Csr::new(&[0, 2], &[0_u16, 1], &values, 2)?;
+        let contact = gap.len();
+        let counts = EdgeCounts { free: 1 - contact, contact, dirichlet: 1 };
+        let mut memory = [Row::<f64, u16, 2>::EMPTY];
+        let mut rows = Rows::of_matrix(&matrix, counts, &mut memory)?;
+        rows.set(&System::new(matrix, &[load], Law::above(gap), counts)?, omega)?;
+        Ok(is_rounding(&rows, Law::above(gap), &u, SLACK))
+    }
+
+    /// b = 8 and u = 8 + d are terms of 16 in all, of which 64 ε may be off: d up to 1024 ε, for every ω.
+    #[test]
+    fn a_row_may_be_off_by_its_terms() -> Result<(), Error> {
+        for omega in [0.5, 1.0, 1.5] {
+            for (steps, solves) in [(0.0, true), (768.0, true), (1016.0, true), (1280.0, false)] {
+                for d in [steps * EPSILON, -steps * EPSILON] {
+                    let found = asked(8.0, 1.0, [8.0 + d, 0.0], None, omega)?;
+                    assert_eq!(found, solves, "{omega} {d:e}");
+                }
+            }
+            // Of u = 1000 + 1 − 1001 there may be more.
+            let off = 32768.0 * EPSILON;
+            assert!(asked(-1000.0, 1001.0, [1.0 + off, 1.0], None, omega)?, "{omega}");
+            assert!(!asked(-1000.0, 1001.0, [1.0 + 8.0 * off, 1.0], None, omega)?, "{omega}");
+        }
+        Ok(())
+    }
+
+    /// Where a row is pressed its opening decides, and may be 64 ε of |u| + |ψ|.
+    #[test]
+    fn a_pressed_edge_is_next_to_its_gap() -> Result<(), Error> {
+        for (gap, steps, solves) in [
+            (0.5, 0.0, true),
+            (0.5, 48.0, true),
+            (0.5, 96.0, false),
+            (2.0, 128.0, true),
+            (2.0, 320.0, false),
+            (4.0, 384.0, true),
+            (4.0, 768.0, false),
+        ] {
+            for omega in [0.5, 1.0, 1.5] {
+                let u = [gap + steps * EPSILON, 0.0];
+                assert_eq!(asked(-100.0, 1.0, u, Some(gap), omega)?, solves, "{gap} {steps}");
+            }
+        }
+        Ok(())
+    }
+
+    /// b = 1000, u = 1 + o and 999 u_1 leave −o, as much as the opening is: the row decides, of terms of 2000.
+    #[test]
+    fn an_edge_that_is_pulled_to_its_gap_asks_its_row() -> Result<(), Error> {
+        for (steps, solves) in [(65536.0, true), (262_144.0, false)] {
+            let u = [1.0 + steps * EPSILON, 1.0];
+            assert_eq!(asked(1000.0, -999.0, u, Some(1.0), 1.0)?, solves, "{steps}");
+        }
+        Ok(())
+    }
+}

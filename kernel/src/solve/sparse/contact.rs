@@ -328,3 +328,42 @@ fn lift<R: Real>(law: Law<R>, free: usize, u: &mut [R], low: &mut [R]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::edges::EdgeCounts;
+    use crate::solve::dense::blocks::SIDE;
+
+    /// An edge with an opening of 2 by x = 16 and 1/√S_ii = ⅛, and what is left of x.
+    fn forgotten(most: f64) -> Result<f64, Error> {
+        let counts = EdgeCounts { free: 0, contact: 1, dirichlet: 0 };
+        let factor = Factor::<f64, u16>::baked(&[], &[0], &[], &[], &[], counts);
+        let (schur, mut tableau) = ([[[0.0; SIDE]; SIDE]], [[[0.0; SIDE]; SIDE]]);
+        let (mut scale, mut x) = ([0.0; SIDE], [0.0; SIDE]);
+        (scale[0], x[0]) = (0.125, 16.0);
+        let start = InitialTableau { blocks: &schur, exchanged: &[false; SIDE] };
+        let iterate = Iterate {
+            x: &mut x,
+            residual: &mut [0.0; SIDE],
+            scratch: &mut [0.0; SIDE],
+            open: &mut [false; SIDE],
+        };
+        let memory = Memory {
+            tableau: &mut tableau,
+            exchanged: &mut [false; SIDE],
+            columns: [&mut [0.0; SIDE], &mut [0.0; SIDE]],
+            load: &mut [0.0; SIDE],
+            iterate,
+        };
+        Exact::new(Factored { factor, schur: &schur, scale: &scale, start }, memory)?
+            .forget_beyond(most);
+        Ok(x[0])
+    }
+
+    #[test]
+    fn openings_are_forgotten_beyond_what_is_worth_keeping() {
+        assert_eq!([3.0, 2.0, 1.99, 0.0].map(forgotten), [Ok(16.0), Ok(16.0), Ok(0.0), Ok(0.0)]);
+        assert_eq!(forgotten(f64::NAN), Ok(0.0));
+    }
+}
