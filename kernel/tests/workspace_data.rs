@@ -7,6 +7,7 @@ use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::Array;
 use signorini_kernel::solve::solver::Settings;
 use signorini_kernel::{Error, Libm, Mesh, Tensor, solve::Relaxation, workspace};
+use signorini_tolerances::kernel::BOUND;
 
 type Plate = workspace!(f64, u16: vertices 16, triangles 16, quads 4, boundary 16);
 type Edge = BoundaryEdge<f64, u16>;
@@ -133,7 +134,7 @@ fn a_gap_that_rounding_lifts_costs_what_it_lifts() -> Result<(), Error> {
         let moved = (2.0 + steps) * (2.0 + steps) + 4.0;
         let expected = (4.0 * 4.0 * moved).sqrt() * f64::EPSILON;
         // The rest of it are ε of what is left of u.
-        assert!((rounding / expected - 1.0).abs() < 1e-12, "{steps}: {rounding:e} {expected:e}");
+        BOUND.check(format_args!("{steps} ε below ψ"), rounding / expected - 1.0);
     }
     Ok(())
 }
