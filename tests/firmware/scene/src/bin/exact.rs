@@ -29,7 +29,8 @@ struct Memory {
 
 #[entry]
 fn main() -> ! {
-    static mut MEMORY: Memory = Memory { storage: ArrayStorage::zeros(), tableau: ArrayTableauStorage::zeros() };
+    static mut MEMORY: Memory =
+        Memory { storage: ArrayStorage::zeros(), tableau: ArrayTableauStorage::zeros() };
     run(|journal| {
         let Some(clock) = Clock::start() else { end(false) };
         journal.count("@ heap", size_of::<Memory>() as u32);
