@@ -30,12 +30,16 @@ impl<'a, R: Real> Law<'a, R> {
         self.lower
     }
 
+    /// `Ok` where there is a law for each contact edge.
+    ///
     /// # Errors
     /// Another number of edges than `counts` has contact edges.
     pub fn check_length(&self, counts: EdgeCounts) -> Result<(), Error> {
         same_length(Array::LowerBounds, self.lower.len(), counts.contact)
     }
 
+    /// `Ok` where all numbers of the law are finite.
+    ///
     /// # Errors
     /// A ψ that is not finite.
     pub fn check_finite(&self) -> Result<(), Error> {
