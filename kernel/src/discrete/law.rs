@@ -8,7 +8,7 @@
 //! contact is another body of these. Numbers that are not finite never satisfy it.
 
 use crate::error::{Array, Error, all_finite, same_length};
-use crate::index::read;
+use crate::index::{read, write};
 use crate::mesh::boundary::FluxRange;
 use crate::mesh::edges::EdgeCounts;
 use crate::real::Real;
@@ -68,6 +68,20 @@ impl<'a, R: Real> Law<'a, R> {
                 *u = law.gap();
             }
         }
+    }
+
+    /// Lifts u + low onto the gap wherever u is below (or not a number), and returns by how much at most. `u` and `low`
+    /// hold the means on the contact edges; `low` is empty where nobody asks for it.
+    pub(crate) fn land(&self, u: &mut [R], low: &mut [R]) -> R {
+        let mut most = R::ZERO;
+        for (at, (u, law)) in u.iter_mut().zip(self.edges()).enumerate() {
+            if !law.admits(*u) {
+                most = most.or_larger(-law.opening(*u));
+                *u = law.gap();
+                write(low, at, R::ZERO);
+            }
+        }
+        most
     }
 
     /// The law on corrections of `u`, the means on the contact edges: u + v is at least ψ where v is at least ψ − u.

@@ -126,7 +126,11 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         }
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
-        lift(system, u, low);
+        // u + (ψ − u) may round to less than ψ.
+        let free = system.counts().free;
+        if let (Some(u), Some(low)) = (u.get_mut(free..), low.get_mut(free..)) {
+            system.law().land(u, low);
+        }
         if u.iter().any(|u| !u.finite()) {
             outcome.status = Status::NotFinite;
             break;
@@ -178,16 +182,6 @@ pub(crate) fn defects<R: Real, I: Index>(
         let others = row.entries().skip(1);
         others.fold(load, |sum, (j, value)| sum - value * (read(u, j) - own))
     })
-}
-
-/// u + (ψ − u) may round to less than ψ.
-fn lift<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], low: &mut [R]) {
-    let on_contact = u.iter_mut().zip(low).skip(system.counts().free);
-    for ((u, low), law) in on_contact.zip(system.law().edges()) {
-        if !law.admits(*u) {
-            (*u, *low) = (law.gap(), R::ZERO);
-        }
-    }
 }
 
 /// u + low as the nearest number and the exact rest.

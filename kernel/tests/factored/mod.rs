@@ -1,5 +1,6 @@
 //! The kernel's exact solver with memory of its own, in any order of elimination.
 
+use signorini_kernel::discrete::csr::Csr;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::solve::dense::Iterate;
@@ -12,8 +13,10 @@ use signorini_kernel::solve::sparse::{
 };
 use signorini_kernel::{Error, Index, Real};
 
-/// Solves with the free unknowns eliminated as `order` says, twice; `None` where the kernel finds no answer.
+/// Solves by the factor of `matrix`, its free unknowns eliminated as `order` says, twice; `None` where the kernel finds
+/// no answer.
 pub fn solve<R: Real, I: Index>(
+    matrix: &Csr<R, I>,
     system: &System<R, I>,
     diagonal: DiagonalTerms<R, I>,
     settings: &Settings<R>,
@@ -26,7 +29,7 @@ pub fn solve<R: Real, I: Index>(
     let mut pointers = vec![0; counts.free + 1];
     let (place, parent) = (&mut place, &mut parent);
     let buffers = PatternBuffers { place, parent, visited: &mut scratch, pointers: &mut pointers };
-    let pattern = Pattern::new(system.matrix(), counts, order, buffers)?;
+    let pattern = Pattern::new(matrix, counts, order, buffers)?;
     let blocks = vec![[[R::ZERO; SIDE]; SIDE]; count(counts.contact)];
     let (mut schur, mut tableau) = (blocks.clone(), blocks);
     let buffers = FactorBuffers {
@@ -38,7 +41,7 @@ pub fn solve<R: Real, I: Index>(
         visited: &mut vec![I::FIRST; counts.free],
         row: &mut vec![R::ZERO; counts.unknowns()],
     };
-    let Some(factor) = Factor::new(system.matrix(), pattern, buffers, &mut schur)? else {
+    let Some(factor) = Factor::new(matrix, pattern, buffers, &mut schur)? else {
         return Ok(None);
     };
     let length = padded(counts.contact);

@@ -22,7 +22,9 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             ..Settings::default()
         };
         let (mut u, mut low) = (arrays.start.clone(), vec![R::ONE; arrays.counts.edges()]);
-        let found = factored::solve(&system, diagonal, &settings, &order, &mut u, &mut low)?;
+        let matrix = system.matrix();
+        let found =
+            factored::solve(matrix, &system, diagonal, &settings, &order, &mut u, &mut low)?;
         for progress in found.iter().flatten() {
             journal.line("factored", (progress.status, progress.pivots, progress.rounds));
             journal.digest("residual", progress.residual);

@@ -77,7 +77,8 @@ pub struct Solved<R> {
     pub pivots: u32,
     /// Substitutions with the factor.
     pub rounds: u32,
-    /// The last correction that was made, relative to u; infinite where none made it better.
+    /// The last correction that was made, relative to u; infinite where none made it better, or where one has closed
+    /// an edge that exchanges had opened.
     pub change: R,
     /// The first step, relative to u.
     pub first: R,
@@ -90,9 +91,12 @@ impl<R: Real> Solved<R> {
     }
 
     /// Whether corrections have shrunk as only those by a factor of this very matrix do. From a start next to the
-    /// answer they may be too small to tell: who needs to know then measures what is left.
+    /// answer they may be too small to tell: who needs to know then measures what is left. Nor do they tell where
+    /// rounds ran out.
     pub fn contracts(&self) -> bool {
-        self.first <= R::from_count(FAR) && R::from_count(64) * self.change <= self.first
+        self.rounds < ROUNDS
+            && self.first <= R::from_count(FAR)
+            && R::from_count(64) * self.change <= self.first
     }
 }
 
@@ -157,8 +161,8 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     }
 
     /// Solves from any `u`, which becomes the answer, within `law` on C, together with its low part `low`
-    /// (as long as u, or empty where nobody asks). `places` is scratch, one entry an unknown. `None` where there is no answer that this scalar can hold: no
-    /// solution, or a matrix that is singular in it; u is of no use then.
+    /// (as long as u, or empty where nobody asks). `places` is scratch, one entry per unknown. `None` where there is no answer that this scalar can
+    /// hold: no solution, or a matrix that is singular in it; u is of no use then.
     ///
     /// # Errors
     /// Arrays of the wrong length.
@@ -217,7 +221,12 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
                 break;
             }
         }
-        lift(law, counts.free, u, low);
+        // A correction may round to less than ψ. What sinks further was open by a factor that is not of this matrix.
+        let (_, on_contact) = u.split_at_mut(counts.free.min(u.len()));
+        let lifted = law.land(on_contact, low.get_mut(counts.free..).unwrap_or_default());
+        if lifted > R::from_count(SLACK) * R::EPSILON * largest(u) {
+            last = Some(R::ONE / R::ZERO);
+        }
         self.solved = last.map(|change| Solved { pivots, rounds, change, first });
         Ok(self.solved)
     }
@@ -317,16 +326,6 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
 fn largest<R: Real>(x: &[R]) -> R {
     let larger = |most: R, x: &R| if x.magnitude() <= most { most } else { x.magnitude() };
     x.iter().fold(R::TINY, larger)
-}
-
-/// A correction may round to less than ψ.
-fn lift<R: Real>(law: Law<R>, free: usize, u: &mut [R], low: &mut [R]) {
-    for ((u, law), at) in u.iter_mut().skip(free).zip(law.edges()).zip(free..) {
-        if !law.admits(*u) {
-            *u = law.gap();
-            write(low, at, R::ZERO);
-        }
-    }
 }
 
 #[cfg(test)]
