@@ -21,7 +21,7 @@ const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the s
 ///
 /// # Errors
 /// A file that cannot be read or holds no tick, a column that is no input or comes twice, a value
-/// that is no finite number, a time that does not increase; each with its line.
+/// that is no finite number or outside its input's range, a time that does not increase; each with its line.
 pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
     let wrong = |error: csv::Error| refused(path, &error);
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_path(path).map_err(wrong)?;
@@ -31,7 +31,8 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
         let record = record.map_err(wrong)?;
         let line = record.position().map_or(0, |position| position.line() as usize);
         let at_line = |message: String| InputError::new(message).file(path).line(line);
-        let moment = moment(&record, &columns).map_err(|message| at_line(message).hint(SHAPE))?;
+        let moment =
+            moment(&record, &columns, scene).map_err(|message| at_line(message).hint(SHAPE))?;
         if let Some(last) = moments.last().filter(|last| last.time >= moment.time) {
             let message = format!("t: {} does not come after {}", moment.time, last.time);
             return Err(at_line(message).hint("lines are ordered by time, each once").into());
@@ -72,11 +73,21 @@ fn columns(reader: &mut Reader<std::fs::File>, path: &Path, scene: &Scene) -> Re
     Ok(columns)
 }
 
-fn moment(record: &StringRecord, columns: &[Column]) -> std::result::Result<ScheduledTick, String> {
+fn moment(
+    record: &StringRecord,
+    columns: &[Column],
+    scene: &Scene,
+) -> std::result::Result<ScheduledTick, String> {
     let mut fields = record.iter();
     let time = number("t", fields.next().unwrap_or_default())?;
     let inputs = columns.iter().zip(fields);
-    let inputs = inputs.map(|((name, input), field)| Ok((*input, number(name, field)?)));
+    let inputs = inputs.map(|((name, input), field)| {
+        let value = number(name, field)?;
+        match scene.inputs[*input].refusal(value) {
+            Some(refusal) => Err(format!("{name}: {refusal}")),
+            None => Ok((*input, value)),
+        }
+    });
     Ok(ScheduledTick { time, inputs: inputs.collect::<std::result::Result<_, String>>()? })
 }
 

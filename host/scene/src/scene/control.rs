@@ -1,6 +1,7 @@
 //! What the controller sets and reads: inputs and outputs.
 
 use super::entry::Entry;
+use super::range::InputRange;
 use super::table::Table;
 use super::{Boundary, Condition, Field, Input, Located, Output, Quantity, Scene};
 use crate::error::{InputError, Result};
@@ -16,17 +17,27 @@ const FIELDS: [(&str, Field); 5] = [
 
 /// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
 pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input> {
-    table.only("an input", &["of", "field", "pattern", "default"])?;
+    table.only("an input", &["of", "field", "pattern", "default", "range"])?;
     let of = table.require("of")?;
     let field = table.require("field")?;
     check_field(&of, &field, boundaries)?;
-    Ok(Input {
+    let range = table.get("range");
+    let input = Input {
         name: table.name.clone(),
         of: of.text()?,
         field: field.choice(&FIELDS)?,
         pattern: table.require("pattern")?.expression(Variables::Space)?,
         default: table.get("default").map_or(Ok(0.0), |entry| entry.number())?,
-    })
+        range: range.as_ref().map(InputRange::read).transpose()?,
+    };
+    // Where no default is written the one that counts is 0, and the range is to blame.
+    match (input.refusal(input.default), table.get("default").or(range)) {
+        (Some(refusal), Some(entry)) => Err(entry
+            .error(format!("the default {refusal}"))
+            .hint("give a default inside it")
+            .into()),
+        _ => Ok(input),
+    }
 }
 
 /// Whether what `of` names has the field: the source has f, a boundary what its kind has.
@@ -135,11 +146,18 @@ impl Scene {
             .iter_mut()
             .find(|input| input.name.value == name)
             .ok_or_else(|| error(format!("no input `{name}` in the scene")))?;
-        input.default = value
+        let value = value
             .parse()
             .ok()
             .filter(|value: &f64| value.is_finite())
             .ok_or_else(|| error(format!("`{value}` is not a finite number")))?;
+        if let Some(refusal) = input.refusal(value) {
+            let hint = "a range in the scene says what the input may be";
+            return Err(InputError::new(format!("--input {assignment}: {refusal}"))
+                .hint(hint)
+                .into());
+        }
+        input.default = value;
         Ok(())
     }
 }

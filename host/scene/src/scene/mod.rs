@@ -21,6 +21,7 @@ mod entry;
 mod file;
 mod fragment;
 mod material;
+mod range;
 mod read;
 mod setting;
 mod table;
@@ -36,6 +37,7 @@ use std::sync::Arc;
 
 pub use boundary::Role;
 pub use material::Material;
+pub use range::InputRange;
 
 use crate::error::InputError;
 use crate::expression::Expression;
@@ -151,6 +153,8 @@ pub struct Input {
     pub pattern: Located<Expression>,
     /// Its value unless something else is set.
     pub default: f64,
+    /// What its value may be; anything, where the scene does not say.
+    pub range: Option<Located<InputRange>>,
 }
 
 /// What an output measures.

@@ -5,7 +5,7 @@ mod setting;
 
 use std::path::{Path, PathBuf};
 
-use super::{Condition, Field, Located, Quantity, Scene, Target, Time};
+use super::{Condition, Field, InputRange, Located, Quantity, Scene, Target, Time};
 use crate::error::{Error, Result};
 use crate::expression::Expression;
 
@@ -106,6 +106,25 @@ fn inputs_and_outputs_are_read_and_inputs_set() {
         assert_eq!(hint(&error), "inputs of the scene: rain");
     }
     assert_eq!(scene.inputs[0].default, -0.3);
+}
+
+#[test]
+fn an_input_stays_within_its_range() {
+    let text = LEVEE.replacen("default = 0.0", "default = 0.5\nrange = [0, 5.0]", 1);
+    let mut scene = scene(&text);
+    let range = scene.inputs[0].range.as_ref().expect("a range");
+    assert_eq!(
+        (range.value, range.key.as_str()),
+        (InputRange { lo: 0.0, hi: 5.0 }, "input.rain.range")
+    );
+    for inside in ["0", "5", "0.1"] {
+        scene.set_input(&format!("rain={inside}")).expect(inside);
+    }
+    for outside in ["-1e-300", "5.000001", "-5"] {
+        let error = scene.set_input(&format!("rain={outside}")).expect_err(outside);
+        assert_eq!(error.exit_status(), 2);
+        assert!(error.to_string().contains("is outside the range of `rain`, [0, 5]"), "{error}");
+    }
 }
 
 fn hint(error: &Error) -> String {

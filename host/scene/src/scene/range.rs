@@ -1,0 +1,52 @@
+//! The values that an input may take: all from `lo` to `hi`.
+//!
+//! ```toml
+//! [input.air]
+//! range = [-20.0, 5.0]
+//! ```
+//! Whatever is worked out for a controller beforehand holds for the whole box of these ranges, and for nothing else. So
+//! a value outside is refused wherever it comes from: the scene, the command line, a log, a device's tick.
+
+use super::entry::Entry;
+use super::{Input, Located};
+use crate::error::Result;
+
+/// A closed interval of finite numbers, in the unit of its input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputRange {
+    /// The least value.
+    pub lo: f64,
+    /// The largest value, not below `lo`.
+    pub hi: f64,
+}
+
+impl InputRange {
+    /// Whether it holds `value`. NaN is in no range.
+    pub fn contains(&self, value: f64) -> bool {
+        self.lo <= value && value <= self.hi
+    }
+
+    pub(super) fn read(entry: &Entry) -> Result<Located<Self>> {
+        let [first, second] = entry.pair("the least and the largest value")?;
+        let (lo, hi) = (first.number()?, second.number()?);
+        if lo <= hi {
+            return Ok(entry.at.with(Self { lo, hi }));
+        }
+        let message = format!("from {lo} to {hi} there is no value");
+        Err(entry
+            .error(message)
+            .hint(format!("write the smaller number first: [{hi}, {lo}]"))
+            .into())
+    }
+}
+
+impl Input {
+    /// Why the input may not have this value, in a sentence; nothing where it may.
+    pub fn refusal(&self, value: f64) -> Option<String> {
+        let range = self.range.as_ref()?.value;
+        let InputRange { lo, hi } = range;
+        let message =
+            || format!("{value} is outside the range of `{}`, [{lo}, {hi}]", self.name.value);
+        (!range.contains(value)).then(message)
+    }
+}
