@@ -22,6 +22,7 @@ pub mod pointwise;
 pub mod problem;
 pub mod progress;
 pub mod quadrature;
+pub mod ranges;
 pub mod reference;
 pub mod scalar;
 pub mod search;

@@ -1,0 +1,112 @@
+//! Where the solution of a condensed problem lies, entry by entry, for all loads of a box.
+//!
+//! With S = N + P as in [`Split`] and b_lo ≤ b ≤ b_hi, from lo = 0
+//! ```text
+//!   hi = LCP(N, b_hi − P lo),    lo = LCP(N, b_lo − P hi)          0 ≤ lo ≤ x ≤ hi at every step,
+//! ```
+//! since x solves the problem with matrix N and load b − Px. One step is all where P = 0, and exact at corners.
+
+use super::split::{Split, product};
+use crate::reference::ReferenceError;
+
+/// Steps at most: each is an enclosure, and later ones gain little.
+const STEPS: u32 = 16;
+/// An enclosure that shrinks by less than this part of its size in a step is taken.
+const GAIN: f64 = 1e-3;
+
+/// lo ≤ x ≤ hi for every load of a box.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Enclosure {
+    /// Not negative.
+    pub lo: Vec<f64>,
+    /// Not below `lo`.
+    pub hi: Vec<f64>,
+    /// At most Sx − b, for the edges of which it is positive.
+    pub reaction: Vec<f64>,
+}
+
+/// An interval for each entry of the load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadBox {
+    /// b_lo
+    pub lo: Vec<f64>,
+    /// b_hi
+    pub hi: Vec<f64>,
+}
+
+impl LoadBox {
+    /// All Σ p_j b_j for the columns b_j of n entries each and p_j in `ranges`, rounded outwards.
+    pub fn new(columns: &[Vec<f64>], ranges: &[[f64; 2]], n: usize) -> Self {
+        let (mut lo, mut hi) = (vec![0.0; n], vec![0.0; n]);
+        let mut size = vec![0.0; n];
+        for (column, &[least, most]) in columns.iter().zip(ranges) {
+            for (at, &entry) in column.iter().enumerate() {
+                let [a, b] = [entry * least, entry * most];
+                lo[at] += a.min(b);
+                hi[at] += a.max(b);
+                size[at] += a.abs().max(b.abs());
+            }
+        }
+        let noise = (columns.len() as f64 + 2.0) * f64::EPSILON;
+        for (at, size) in size.iter().enumerate() {
+            lo[at] -= noise * size;
+            hi[at] += noise * size;
+        }
+        Self { lo, hi }
+    }
+}
+
+impl Enclosure {
+    /// Encloses the solutions of x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0 for all b of `loads`.
+    ///
+    /// # Errors
+    /// Loads that are not finite.
+    pub fn new(split: &Split, loads: &LoadBox) -> Result<Self, ReferenceError> {
+        let n = loads.lo.len();
+        let mut now = Self { lo: vec![0.0; n], hi: vec![f64::INFINITY; n], reaction: vec![0.0; n] };
+        for step in 0..STEPS {
+            let before = now.width();
+            let [least, _] = split.push(&now.lo);
+            now.hi = lower(&now.hi, &split.above(&minus(&loads.hi, &least))?);
+            let [_, most] = split.push(&now.hi);
+            now.lo = higher(&now.lo, &split.below(&minus(&loads.lo, &most))?);
+            let gained = before - now.width();
+            if split.has_all_signs() || step > 0 && !(gained > GAIN * before) {
+                break;
+            }
+        }
+        now.reaction = split.reaction(&now, loads);
+        Ok(now)
+    }
+
+    /// Σ (hi − lo)
+    fn width(&self) -> f64 {
+        self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
+    }
+}
+
+impl Split {
+    /// At most (Sx − b)_i = s_ii x_i + (N x)_i off the diagonal + (Px)_i − b_i where x_i = 0 is taken.
+    fn reaction(&self, of: &Enclosure, loads: &LoadBox) -> Vec<f64> {
+        let [push, _] = self.push(&of.lo);
+        let rows = self.off_diagonal().zip(push).zip(&loads.hi);
+        let least = rows.map(|((row, push), b)| {
+            let (sum, noise) = product(&row, &of.hi);
+            let size = sum.abs() + push.abs() + b.abs();
+            sum - noise + push - b - 4.0 * f64::EPSILON * size
+        });
+        least.collect()
+    }
+}
+
+fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+fn lower(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a.min(*b)).collect()
+}
+
+fn higher(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a.max(*b)).collect()
+}

@@ -1,0 +1,11 @@
+//! What a condensed model can do for all inputs of a box: where its solution lies, and the edges that may change sides.
+//!
+//! ```text
+//!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, may change
+//! ```
+//! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
+
+pub mod enclosure;
+pub mod split;
+#[cfg(test)]
+mod tests;
