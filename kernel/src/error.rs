@@ -81,6 +81,11 @@ pub enum Error {
         /// A cell of the part.
         cell: usize,
     },
+    /// An input lies outside the range that the scene declares for it, or is not a number.
+    InputOutOfRange {
+        /// Its name.
+        name: &'static str,
+    },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
     /// A workspace holds no problem: it has not been built, or not since an error left it half done.
@@ -169,6 +174,7 @@ impl fmt::Display for Error {
             Self::NoWayOut { cell } => {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
+            Self::InputOutOfRange { name } => write!(f, "input `{name}` is outside its range"),
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),
             Self::OtherMesh => write!(f, "the workspace was built for a mesh with other cells"),

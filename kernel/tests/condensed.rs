@@ -291,6 +291,7 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         x: &given,
         start: InitialTableau { blocks: strip.blocks(), exchanged: &nothing },
         load: &[],
+        limits: &[],
         outputs: &[],
         certificate: None,
         has_bound: false,

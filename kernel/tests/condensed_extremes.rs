@@ -80,6 +80,7 @@ impl<R: Scalar> Plate<R> {
             x: &[],
             start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
+            limits: &[],
             outputs: &[Measure::Linear { of_inputs, of_contact }],
             certificate: None,
         })

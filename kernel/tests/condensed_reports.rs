@@ -67,6 +67,7 @@ fn with_model<T>(
         x: &[],
         start: InitialTableau { blocks: strip.blocks(), exchanged: &[false; EDGES] },
         load: &load,
+        limits: &[],
         outputs: &[],
         certificate: None,
         has_bound,

@@ -130,6 +130,7 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             x: &[],
             start: InitialTableau { blocks: &[], exchanged: &[] },
             load: &load,
+            limits: &[],
             outputs: &outputs,
             certificate: None,
         };

@@ -13,6 +13,7 @@ pub mod full;
 pub mod limits;
 #[cfg(feature = "mesh")]
 pub mod model;
+pub mod ranges;
 pub mod report;
 #[cfg(feature = "mesh")]
 pub mod tick;

@@ -99,7 +99,7 @@ impl<R: Scalar> Model<R> {
         let huge = [R::of(3.5) / R::TINY; INPUTS];
         let outputs = [
             Measure::Linear { of_inputs, of_contact },
-            Measure::Length { of_contact },
+            Measure::Length { always: 0.0, of_contact },
             Measure::Bound,
             Measure::Linear { of_inputs: &huge, of_contact },
         ];
@@ -109,6 +109,7 @@ impl<R: Scalar> Model<R> {
             x: &[],
             start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
+            limits: &[],
             outputs: &outputs,
             certificate: Some(certificate),
             has_bound: true,

@@ -81,7 +81,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let (of_inputs, of_contact) = (bytes.reals(m), bytes.given(n, false));
     let outputs = [
         Measure::Linear { of_inputs: &of_inputs, of_contact: &of_contact },
-        Measure::Length { of_contact: &of_contact },
+        Measure::Length { always: bytes.real(), of_contact: &of_contact },
         Measure::Bound,
     ];
     let exchanged: Vec<_> = (0..padded(n)).map(|_| bytes.flag()).collect();
@@ -89,12 +89,18 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let start = InitialTableau { blocks: &matrix, exchanged: &exchanged };
     let certificate = bytes.flag().then_some(form);
     let x = bytes.reals(padded(n));
+    let limits: Vec<_> = if bytes.flag() {
+        bytes.reals(2 * n).chunks(2).map(|pair| [pair[0], pair[1]]).collect()
+    } else {
+        Vec::new()
+    };
     let model = Condensed {
         contact: n,
         matrix: &matrix,
         x: &x,
         start,
         load: &load,
+        limits: &limits,
         outputs: &outputs,
         certificate,
         has_bound: true,

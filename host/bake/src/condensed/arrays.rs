@@ -53,6 +53,7 @@ pub struct Baked<R: Scalar> {
     pub(super) matrix: Vec<Block<R>>,
     pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
+    pub(super) limits: Vec<[R; 2]>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
@@ -82,6 +83,7 @@ impl<R: Scalar> Baked<R> {
             matrix: matrix(condensate),
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
+            limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
         };
@@ -146,7 +148,7 @@ impl<R: Scalar> Baked<R> {
         let corners: Vec<_> =
             corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
-        let Self { contact, matrix, load, .. } = self;
+        let Self { contact, matrix, load, limits, .. } = self;
         let (x, start) = (&self.start.x, self.start.view());
         then(&Condensed {
             contact: *contact,
@@ -154,6 +156,7 @@ impl<R: Scalar> Baked<R> {
             x,
             start,
             load,
+            limits,
             outputs: &outputs,
             certificate,
             has_bound: self.has_bound,

@@ -11,7 +11,7 @@ use signorini_solve::scalar::Scalar;
 pub(super) enum Output<R> {
     Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
     Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
-    Length { of_contact: Vec<R> },
+    Length { always: R, of_contact: Vec<R> },
     Bound,
 }
 
@@ -26,8 +26,8 @@ impl<R: Scalar> Output<R> {
                 of_contact: narrow(of_contact),
                 of_reaction: narrow(of_reaction),
             },
-            condense::Measure::Length { of_contact } => {
-                Self::Length { of_contact: narrow(of_contact) }
+            condense::Measure::Length { always, of_contact } => {
+                Self::Length { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
             condense::Measure::Bound => Self::Bound,
         }
@@ -40,7 +40,7 @@ impl<R: Scalar> Output<R> {
             Self::Flux { of_inputs, of_contact, of_reaction } => {
                 [of_inputs, of_contact, of_reaction]
             }
-            Self::Length { of_contact } => [&[], of_contact, &[]],
+            Self::Length { of_contact, .. } => [&[], of_contact, &[]],
             Self::Bound => [&[]; 3],
         }
     }
@@ -51,7 +51,7 @@ impl<R: Scalar> Output<R> {
             Self::Flux { of_inputs, of_contact, of_reaction } => {
                 Measure::Flux { of_inputs, of_contact, of_reaction }
             }
-            Self::Length { of_contact } => Measure::Length { of_contact },
+            Self::Length { always, of_contact } => Measure::Length { always: *always, of_contact },
             Self::Bound => Measure::Bound,
         }
     }

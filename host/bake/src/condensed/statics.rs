@@ -42,6 +42,14 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         "B by columns: what each input, the constant first, does.",
         &baked.load,
     );
+    let limits = match baked.limits.is_empty() {
+        true => "&[]",
+        false => {
+            let value = (baked.limits.len(), array(&baked.limits, 4));
+            put(&mut text, "WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", value);
+            "&WITHIN"
+        }
+    };
     for (output, name) in baked.outputs.iter().zip(face.outputs()) {
         names.push(measure(&mut text, &name.to_ascii_uppercase(), output));
     }
@@ -72,6 +80,7 @@ mod data {{
         x: &START,
         start: {start},
         load: &LOAD,
+        limits: {limits},
         outputs: &[{}],
         certificate: {certificate},
         has_bound: {},
@@ -127,9 +136,9 @@ fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> Strin
                  of_reaction: {of_reaction} }}"
             )
         }
-        Output::Length { of_contact } => {
+        Output::Length { always, of_contact } => {
             numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
-            format!("Measure::Length {{ of_contact: &{name}_OF_CONTACT }}")
+            format!("Measure::Length {{ always: {always:?}, of_contact: &{name}_OF_CONTACT }}")
         }
         Output::Bound => "Measure::Bound".to_owned(),
     }

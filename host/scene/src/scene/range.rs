@@ -41,6 +41,12 @@ impl InputRange {
 }
 
 impl Input {
+    /// The least and the largest value that it may have: all numbers where there is no range.
+    pub fn interval(&self) -> [f64; 2] {
+        let range = self.range.as_ref().map(|range| [range.value.lo, range.value.hi]);
+        range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+    }
+
     /// Why the input may not have this value, in a sentence; nothing where it may.
     pub fn refusal(&self, value: f64) -> Option<String> {
         let range = self.range.as_ref()?.value;

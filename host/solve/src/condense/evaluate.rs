@@ -60,9 +60,9 @@ impl CondensedModel {
                 let elsewhere = dot(of_inputs, p) + dot(of_contact, x);
                 Some(elsewhere + pressed(of_reaction, x, &residual))
             }
-            Measure::Length { of_contact } => {
+            Measure::Length { always, of_contact } => {
                 let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
-                Some(touching.fold(0.0, |sum, (length, _)| sum + length))
+                Some(touching.fold(*always, |sum, (length, _)| sum + length))
             }
             Measure::Bound => self.bound(p, x),
         };

@@ -30,7 +30,9 @@ pub(super) fn measures(
         },
         Functional::Probe(cell, point) => columns
             .linear(|Field { u, flux }| CellField::new(problem, *cell, u, flux).sample(point).u),
-        Functional::Length(lengths) => Measure::Length { of_contact: columns.by_unknown(lengths) },
+        Functional::Length(lengths) => {
+            Measure::Length { always: 0.0, of_contact: columns.by_unknown(lengths) }
+        }
         Functional::Bound => Measure::Bound,
     };
     Ok(functionals(problem)?.iter().map(measure).collect())

@@ -56,6 +56,7 @@ pub use order::along_boundary;
 use patterns::patterns;
 pub use recovery::{Recovery, recoverable};
 use signorini_scene::error::Result;
+use signorini_scene::scene::Input;
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
@@ -90,8 +91,12 @@ fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
         matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
         multiplier: opening.iter().map(|d| 1.0 / d).collect(),
         load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads().contact_flux)).collect(),
+        limits: Vec::new(),
         defaults: std::iter::once(1.0)
             .chain(problem.scene.inputs.iter().map(|i| i.default))
+            .collect(),
+        ranges: std::iter::once([1.0, 1.0])
+            .chain(problem.scene.inputs.iter().map(Input::interval))
             .collect(),
         outputs: measures(problem, &edges, &opening, &patterns, &fields)?,
         certificate: Err(String::new()),

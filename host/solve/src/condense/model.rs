@@ -18,8 +18,13 @@ pub struct CondensedModel {
     pub multiplier: Vec<f64>,
     /// The m columns of B̂, n numbers each.
     pub load: Vec<Vec<f64>>,
+    /// A tick keeps x_i within these; empty where nothing was taken out of the model.
+    pub limits: Vec<[f64; 2]>,
     /// The inputs' default values, the constant 1 first.
     pub defaults: Vec<f64>,
+    /// The values that each input may have, the least and the largest: \[1, 1\] of the constant, and all numbers where the
+    /// scene declares no range.
+    pub ranges: Vec<[f64; 2]>,
     /// The outputs in the order of the scene; without any declared, contact force and length.
     pub outputs: Vec<Measure>,
     /// The error bound, or a sentence why there is none.
@@ -50,8 +55,10 @@ pub enum Measure {
         /// n factors, 0 where the edge does not count.
         of_reaction: Vec<f64>,
     },
-    /// The sum over the edges with x_i = 0.
+    /// The sum over the edges with x_i = 0, and those that always touch.
     Length {
+        /// Of edges that always touch and have no x.
+        always: f64,
         /// |E|, or 0 where the edge does not count.
         of_contact: Vec<f64>,
     },

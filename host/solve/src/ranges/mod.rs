@@ -6,6 +6,7 @@
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
 pub mod enclosure;
+pub mod reduced;
 pub mod reduction;
 pub mod sides;
 pub mod split;

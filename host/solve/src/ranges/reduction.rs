@@ -1,11 +1,13 @@
-//! A condensed model with the edges that never change sides taken out, exactly.
+//! The affine maps that take edges which never change sides out of a condensed model.
 //!
 //! With O always open, T always touching and U kept,
 //! ```text
 //!   x_T = 0,    x_O = S_OO⁻¹ (B_O p − S_OU x_U),
-//!   S′ = S_UU − S_UO S_OO⁻¹ S_OU,    B′ = B_U − S_UO S_OO⁻¹ B_O,    r_T = S_TU x_U + S_TO x_O − B_T p.
+//!   r_U = S′x_U − B′p,    S′ = S_UU − S_UO S_OO⁻¹ S_OU,    B′ = B_U − S_UO S_OO⁻¹ B_O,
+//!   r_T = S_TU x_U + S_TO x_O − B_T p.
 //! ```
-//! All that a model has is affine in x_O, x_T, r_T or a form in them, and follows.
+//! x_O is what its row says, to the last bit: any x ≥ 0 has a bound. What rounding of that solve leaves of r_O, and what
+//! it leaves of the other rows, is counted beside them.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -14,7 +16,16 @@ use super::sides::{EdgeSide, Sides};
 use super::split::product;
 use crate::condense::CondensedModel;
 
-/// Affine maps (p, x_U) ─► x_O and (p, x_U) ─► r_T, a row an edge: m numbers of p, then those of x_U.
+/// A number as an affine function of (p, x_U).
+#[derive(Debug, Clone)]
+pub struct Affine {
+    /// m factors of p, then those of x_U.
+    pub factors: Vec<f64>,
+    /// By how much rounding may have put each off.
+    pub noise: Vec<f64>,
+}
+
+/// Affine maps (p, x_U) ─► x_O, r_T, r_U and what is left of r_O.
 #[derive(Debug, Clone)]
 pub struct Reduction {
     /// U
@@ -23,56 +34,87 @@ pub struct Reduction {
     pub open: Vec<usize>,
     /// T
     pub touching: Vec<usize>,
-    /// The openings of O.
+    /// x_O, exact by definition.
     pub openings: Vec<Vec<f64>>,
-    /// The reactions of T.
-    pub reactions: Vec<Vec<f64>>,
-    /// S′ x_U − B′ p of U.
-    pub residuals: Vec<Vec<f64>>,
+    /// r_T
+    pub reactions: Vec<Affine>,
+    /// r_U
+    pub residuals: Vec<Affine>,
+    /// r_O: zeros but for rounding.
+    pub left: Vec<Affine>,
 }
 
 impl Reduction {
     /// The maps for these sides; nothing where S_OO is not positive definite.
     pub fn new(model: &CondensedModel, sides: &Sides) -> Option<Self> {
-        let [kept, open, touching] =
-            [EdgeSide::MayChange, EdgeSide::Open, EdgeSide::Touching].map(|side| sides.all(side));
-        let (n, m) = (model.contact, model.inputs);
-        let entry = |i: usize, j: usize| model.matrix[i * n + j];
-        let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
-        let given = Mat::from_fn(open.len(), m + kept.len(), |i, j| match j.checked_sub(m) {
-            None => model.load[j][open[i]],
-            Some(j) => -entry(open[i], kept[j]),
-        });
-        let solved = own.llt(Side::Lower).ok()?.solve(given);
-        let openings: Vec<Vec<f64>> =
-            (0..open.len()).map(|i| (0..m + kept.len()).map(|j| solved[(i, j)]).collect()).collect();
-        let residual = |&edge: &usize| {
-            let column = |j: usize| {
-                let direct = match j.checked_sub(m) {
-                    None => -model.load[j][edge],
-                    Some(j) => entry(edge, kept[j]),
-                };
-                open.iter().zip(&openings).fold(direct, |sum, (&o, row)| sum + entry(edge, o) * row[j])
-            };
-            (0..m + kept.len()).map(column).collect::<Vec<f64>>()
+        let all = |is: &dyn Fn(usize) -> bool| (0..model.contact).filter(|&at| is(at)).collect();
+        let kept: Vec<usize> = all(&|at| sides.kept[at]);
+        let dropped = |side| all(&|at| !sides.kept[at] && sides.of[at] == side);
+        let [open, touching]: [Vec<usize>; 2] = [EdgeSide::Open, EdgeSide::Touching].map(dropped);
+        let openings = openings(model, &kept, &open)?;
+        let rows = |edges: &[usize]| {
+            edges.iter().map(|&edge| residual(model, &kept, &open, &openings, edge)).collect()
         };
-        let residuals = kept.iter().map(residual).collect();
-        let reactions = touching.iter().map(residual).collect();
-        Some(Self { kept, open, touching, openings, reactions, residuals })
+        let (reactions, residuals, left) = (rows(&touching), rows(&kept), rows(&open));
+        Some(Self { kept, open, touching, openings, reactions, residuals, left })
     }
 
-    /// The edges of O and T that some p of the box and some 0 ≤ x_U ≤ `most` might put on their other side.
-    pub fn unproved(&self, ranges: &[[f64; 2]], most: &[f64]) -> Vec<usize> {
-        let rows = self.open.iter().zip(&self.openings).chain(self.touching.iter().zip(&self.reactions));
-        let intervals: Vec<[f64; 2]> =
-            ranges.iter().copied().chain(most.iter().map(|&most| [0.0, most])).collect();
-        let fails = |row: &[f64]| {
-            let worst = |(a, [lo, hi]): (&f64, &[f64; 2])| if *a > 0.0 { *lo } else { *hi };
-            let at: Vec<f64> = row.iter().zip(&intervals).map(worst).collect();
-            let (sum, noise) = product(row, &at);
-            // The rows were solved for: some n ε of their entries more.
-            !(sum > 64.0 * noise)
-        };
-        rows.filter(|(_, row)| fails(row)).map(|(&edge, _)| edge).collect()
+    /// The edges of O and T that some (p, x_U) within `intervals` might put on their other side.
+    pub fn unproved(&self, intervals: &[[f64; 2]]) -> Vec<usize> {
+        let open = self.open.iter().zip(&self.openings);
+        let open = open.filter(|(_, row)| !(least(row, &[], intervals) > 0.0));
+        let touching = self.touching.iter().zip(&self.reactions);
+        let touching =
+            touching.filter(|(_, row)| !(least(&row.factors, &row.noise, intervals) >= 0.0));
+        open.map(|(&edge, _)| edge).chain(touching.map(|(&edge, _)| edge)).collect()
     }
+}
+
+/// At most the least value of an affine function whose variables lie in `intervals`.
+pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f64 {
+    let worst = |(a, [lo, hi]): (&f64, &[f64; 2])| if *a > 0.0 { *lo } else { *hi };
+    let at: Vec<f64> = factors.iter().zip(intervals).map(worst).collect();
+    let (sum, rounding) = product(factors, &at);
+    let largest = |[lo, hi]: &[f64; 2]| lo.abs().max(hi.abs());
+    let off: f64 = noise.iter().zip(intervals).map(|(noise, range)| noise * largest(range)).sum();
+    sum - 2.0 * (rounding + off)
+}
+
+/// x_O by rows.
+fn openings(model: &CondensedModel, kept: &[usize], open: &[usize]) -> Option<Vec<Vec<f64>>> {
+    let (n, m) = (model.contact, model.inputs);
+    let entry = |i: usize, j: usize| model.matrix[i * n + j];
+    let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
+    let columns = m + kept.len();
+    let given = Mat::from_fn(open.len(), columns, |i, j| match j.checked_sub(m) {
+        None => model.load[j][open[i]],
+        Some(j) => -entry(open[i], kept[j]),
+    });
+    let solved = own.llt(Side::Lower).ok()?.solve(given);
+    let row = |i: usize| (0..columns).map(|j| solved[(i, j)]).collect();
+    Some((0..open.len()).map(row).collect())
+}
+
+/// (Sx − Bp)_edge with x_T = 0 and x_O as the rows of `openings` have it.
+fn residual(
+    model: &CondensedModel,
+    kept: &[usize],
+    open: &[usize],
+    openings: &[Vec<f64>],
+    edge: usize,
+) -> Affine {
+    let (n, m) = (model.contact, model.inputs);
+    let own = &model.matrix[edge * n..(edge + 1) * n];
+    let of_open: Vec<f64> = open.iter().map(|&at| own[at]).collect();
+    let column = |j: usize| {
+        let direct = match j.checked_sub(m) {
+            None => -model.load[j][edge],
+            Some(j) => own[kept[j]],
+        };
+        let through: Vec<f64> = openings.iter().map(|row| row[j]).collect();
+        let (sum, noise) = product(&of_open, &through);
+        (direct + sum, noise + f64::EPSILON * direct.abs())
+    };
+    let (factors, noise) = (0..m + kept.len()).map(column).unzip();
+    Affine { factors, noise }
 }

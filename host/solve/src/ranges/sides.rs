@@ -6,16 +6,26 @@
 //!   may change        all else          kept
 //! ```
 //! What the enclosure proposes is checked on the affine maps themselves, for every p of the box and every x of what is
-//! kept between 0 and hi, solutions or not: a tick that is cut off, or rounded, leaves them admissible too. An edge that
-//! fails is kept.
+//! kept between its limits, solutions or not: a tick that is cut off, or rounded, leaves them admissible too. An edge that
+//! fails may change. So that the error bound sees move what it must, an edge is kept as well that
+//! ```text
+//!   is open and tells e = s − ψ at a vertex where an edge that may change ends,     with x held above 0,
+//!   ends at a Dirichlet value.
+//! ```
 
 use super::enclosure::{Enclosure, LoadBox};
-use super::reduction::Reduction;
+use super::reduction::{Reduction, least};
 use super::split::Split;
-use crate::condense::CondensedModel;
+use crate::condense::{CondensedModel, Form, Vertex};
 use crate::reference::ReferenceError;
 
-/// The side of each contact edge, in the order of the model's unknowns.
+/// Openings are kept below hi and this part of the largest one more: rounding in any scalar stays below.
+const MARGIN: f64 = 1.0 / 1024.0;
+
+/// Openings below this part of the largest may be rounding of the target's scalar.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// The side of a contact edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EdgeSide {
     /// u > ψ for every input.
@@ -26,72 +36,151 @@ pub enum EdgeSide {
     MayChange,
 }
 
-/// The sides of all edges, with proof.
+/// The sides of all edges, with proof. Arrays have an entry per unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sides {
-    /// One an unknown.
+    /// The box of p that it is proved for, the constant 1 first.
+    pub inputs: Vec<[f64; 2]>,
+    /// The side of each edge.
     pub of: Vec<EdgeSide>,
-    /// At most so far each opens, scaled as x; infinite where nothing is proved.
-    pub hi: Vec<f64>,
-    /// Whether exchanges are proved to end: every entry off the diagonal is at most 0.
-    pub has_all_signs: bool,
+    /// Which edges a reduced model keeps: all that may change, and some for the error bound.
+    pub kept: Vec<bool>,
+    /// A tick keeps x within these, scaled as x; infinite where nothing is proved.
+    pub limits: Vec<[f64; 2]>,
+    /// Where every solution lies, where that is proved.
+    pub enclosure: Option<Enclosure>,
+}
+
+/// What a contact vertex adds to the error bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum VertexSide {
+    /// An edge beside it always touches: d = −e.
+    Touching,
+    /// Its edges are always open, and e ≥ 0: d = 0.
+    Open,
+    /// d depends on what is kept.
+    MayChange,
 }
 
 impl Sides {
-    /// Finds the sides for all p within `ranges`, the constant 1 first.
+    /// Finds the sides for all inputs within their ranges. Where one has none, or N is no M-matrix, nothing is proved.
     ///
     /// # Errors
     /// Loads that are not finite.
-    pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Result<Self, ReferenceError> {
-        let n = model.contact;
-        let Some(split) = Split::new(&model.matrix, n) else {
-            let (of, hi) = (vec![EdgeSide::MayChange; n], vec![f64::INFINITY; n]);
-            return Ok(Self { of, hi, has_all_signs: false });
-        };
-        let loads = LoadBox::new(&model.load, ranges, n);
-        let Enclosure { lo, hi, reaction } = Enclosure::new(&split, &loads)?;
-        let side = |(&lo, &reaction): (&f64, &f64)| match (lo > 0.0, reaction > 0.0) {
-            (true, _) => EdgeSide::Open,
-            (_, true) => EdgeSide::Touching,
-            _ => EdgeSide::MayChange,
-        };
-        let of = lo.iter().zip(&reaction).map(side).collect();
-        let mut sides = Self { of, hi, has_all_signs: split.has_all_signs() };
-        sides.guard(model);
-        while sides.demote(model, ranges)? {}
+    pub fn new(model: &CondensedModel) -> Result<Self, ReferenceError> {
+        let (n, inputs) = (model.contact, widened(&model.ranges));
+        let is_bounded = inputs.iter().flatten().all(|end| end.is_finite());
+        let split = Split::new(&model.matrix, n).filter(|_| is_bounded && n > 0);
+        let Some(split) = split else { return Ok(Self::unproved(n, inputs)) };
+        let enclosure = Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?;
+        let mut sides = Self::proposed(enclosure, inputs);
+        while sides.demote(model) {}
         Ok(sides)
     }
 
-    /// Unknowns of one side.
-    pub fn all(&self, side: EdgeSide) -> Vec<usize> {
-        (0..self.of.len()).filter(|&at| self.of[at] == side).collect()
+    /// Every edge of `n` may change.
+    fn unproved(n: usize, inputs: Vec<[f64; 2]>) -> Self {
+        let (of, limits) = (vec![EdgeSide::MayChange; n], vec![[0.0, f64::INFINITY]; n]);
+        Self { inputs, of, kept: vec![true; n], limits, enclosure: None }
     }
 
-    /// Keeps what the error bound must see move: the edges that tell s at a vertex beside one that may change, and
-    /// those beside a Dirichlet value above ψ.
-    fn guard(&mut self, model: &CondensedModel) {
-        let Ok(form) = &model.certificate else { return };
-        let may = |sides: &Self, at: usize| sides.of[at] == EdgeSide::MayChange;
-        let mut kept: Vec<usize> = form.corners.iter().map(|corner| corner.edge).collect();
+    /// As the enclosure says.
+    fn proposed(enclosure: Enclosure, inputs: Vec<[f64; 2]>) -> Self {
+        let largest = enclosure.hi.iter().fold(0.0, |most: f64, hi| most.max(*hi));
+        let side = |(&lo, &reaction): (&f64, &f64)| match (lo, reaction) {
+            _ if lo > NEGLIGIBLE * largest => EdgeSide::Open,
+            _ if reaction > 0.0 => EdgeSide::Touching,
+            _ => EdgeSide::MayChange,
+        };
+        let of: Vec<_> = enclosure.lo.iter().zip(&enclosure.reaction).map(side).collect();
+        let limits = of.iter().zip(enclosure.lo.iter().zip(&enclosure.hi));
+        let limits = limits.map(|(&side, (lo, hi))| match side {
+            EdgeSide::Open => [0.5 * lo, hi + MARGIN * largest],
+            _ => [0.0, hi + MARGIN * largest],
+        });
+        let limits = limits.collect();
+        let kept = of.iter().map(|&side| side == EdgeSide::MayChange).collect();
+        Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
+    }
+
+    /// How many edges are on this side.
+    pub fn count(&self, side: EdgeSide) -> usize {
+        self.of.iter().filter(|&&of| of == side).count()
+    }
+
+    /// Keeps the edges for which the affine maps do not prove their side, and those that the bound needs; whether there
+    /// were any.
+    fn demote(&mut self, model: &CondensedModel) -> bool {
+        let Some(reduction) = Reduction::new(model, self) else {
+            *self = Self::unproved(model.contact, self.inputs.clone());
+            return false;
+        };
+        let unproved = reduction.unproved(&self.box_of(&reduction));
+        for &at in &unproved {
+            (self.of[at], self.limits[at][0]) = (EdgeSide::MayChange, 0.0);
+        }
+        let form = model.certificate.as_ref().ok();
+        let needed = form.map_or_else(Vec::new, |form| self.needed(form, &reduction));
+        let any = !unproved.is_empty() || !needed.is_empty();
+        unproved.into_iter().chain(needed).for_each(|at| self.kept[at] = true);
+        any
+    }
+
+    /// The box of (p, x_U).
+    fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
+        let of_kept = reduction.kept.iter().map(|&at| self.limits[at]);
+        self.inputs.iter().copied().chain(of_kept).collect()
+    }
+
+    /// What the error bound must see move and is not kept yet.
+    fn needed(&self, form: &Form, reduction: &Reduction) -> Vec<usize> {
+        let mut needed: Vec<usize> = form.corners.iter().map(|corner| corner.edge).collect();
         for vertex in &form.vertices {
-            let sees = vertex.edges.iter().chain(&vertex.beside);
-            if sees.clone().any(|&edge| may(self, edge)) {
-                kept.extend(sees.filter(|&&edge| self.of[edge] == EdgeSide::Open));
+            if self.at(vertex, reduction) == VertexSide::MayChange {
+                let edges = vertex.edges.iter().chain(&vertex.beside);
+                needed.extend(edges.filter(|&&edge| self.of[edge] == EdgeSide::Open));
             }
         }
-        kept.into_iter().for_each(|edge| self.of[edge] = EdgeSide::MayChange);
+        needed.retain(|&edge| !self.kept[edge]);
+        needed
     }
 
-    /// Keeps the edges for which the affine maps do not prove their side; whether there were any.
-    fn demote(&mut self, model: &CondensedModel, ranges: &[[f64; 2]]) -> Result<bool, ReferenceError> {
-        let Some(reduction) = Reduction::new(model, self) else {
-            self.of.fill(EdgeSide::MayChange);
-            return Ok(false);
-        };
-        let kept = self.all(EdgeSide::MayChange);
-        let most: Vec<f64> = kept.iter().map(|&at| self.hi[at]).collect();
-        let unproved = reduction.unproved(ranges, &most);
-        unproved.iter().for_each(|&at| self.of[at] = EdgeSide::MayChange);
-        Ok(!unproved.is_empty())
+    /// What `vertex` adds to the bound.
+    pub(super) fn at(&self, vertex: &Vertex, reduction: &Reduction) -> VertexSide {
+        let mut beside = vertex.beside.iter();
+        if beside.clone().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
+            return VertexSide::Touching;
+        }
+        let e = reduction.interpolated(vertex, self.inputs.len());
+        let is_open = beside.all(|&at| self.of[at] == EdgeSide::Open)
+            && least(&e, &[], &self.box_of(reduction)) >= 0.0;
+        if is_open { VertexSide::Open } else { VertexSide::MayChange }
+    }
+}
+
+/// The box that any scalar rounds `ranges` into.
+fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let noise = f64::from(f32::EPSILON);
+    ranges.iter().map(|[lo, hi]| [lo - noise * lo.abs(), hi + noise * hi.abs()]).collect()
+}
+
+impl Reduction {
+    /// x_edge as factors of (p, x_U).
+    pub(super) fn opening(&self, edge: usize, inputs: usize) -> Vec<f64> {
+        let mut factors = vec![0.0; inputs + self.kept.len()];
+        if let Some(at) = self.open.iter().position(|&open| open == edge) {
+            return self.openings[at].clone();
+        }
+        if let Some(at) = self.kept.iter().position(|&kept| kept == edge) {
+            factors[inputs + at] = 1.0;
+        }
+        factors
+    }
+
+    /// e of a vertex as factors of (p, x_U).
+    pub(super) fn interpolated(&self, vertex: &Vertex, inputs: usize) -> Vec<f64> {
+        let [a, b] = vertex.edges.map(|edge| self.opening(edge, inputs));
+        let [p, q] = vertex.weights;
+        a.iter().zip(b).map(|(a, b)| p * a + q * b).collect()
     }
 }

@@ -28,6 +28,7 @@ use crate::device::report::Report;
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::real::Real;
 use crate::solve::dense::blocks::{self, Block, Blocks};
+use crate::solve::dense::pivoting::settle;
 use crate::solve::dense::tableau::InitialTableau;
 use crate::solve::dense::{Iterate, sizes};
 use certificate::{Candidate, Form};
@@ -47,6 +48,9 @@ pub struct Condensed<'a, R> {
     pub start: InitialTableau<'a, R>,
     /// B by columns: [`blocks::padded`] entries for each input, the constant first.
     pub load: &'a [R],
+    /// x is kept within these, a pair per contact edge: there the edges that were taken out, since they never change
+    /// sides within the ranges of the inputs, are on their sides. Empty where none was.
+    pub limits: &'a [[R; 2]],
     /// The outputs.
     pub outputs: &'a [Measure<'a, R>],
     /// What bounds the error; absent where there is no bound, or nobody asks for it.
@@ -94,6 +98,7 @@ impl<R: Real> Condensed<'_, R> {
         self.combine(inputs, memory.load)?;
         self.hold(inputs, memory.load)?;
         let progress = method.solve(&matrix, memory.load, memory.iterate.reborrow(), deadline)?;
+        self.hold_back(&matrix, memory)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
         let answer = Candidate { inputs, x, residual };
@@ -128,6 +133,18 @@ impl<R: Real> Condensed<'_, R> {
             }
             _ => Ok(value),
         }
+    }
+
+    /// x within [`Condensed::limits`]: solutions are, a tick that was cut off need not be.
+    fn hold_back(&self, matrix: &Blocks<R>, memory: &mut Memory<R>) -> Result<(), Error> {
+        let Iterate { x, residual, open, .. } = &mut memory.iterate;
+        let mut is_beyond = false;
+        for (x, &[least, most]) in x.iter_mut().zip(self.limits) {
+            if !(least <= *x && *x <= most) {
+                (*x, is_beyond) = (if *x > most { most } else { least }, true);
+            }
+        }
+        if is_beyond { settle(matrix, memory.load, x, residual, open) } else { Ok(()) }
     }
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {

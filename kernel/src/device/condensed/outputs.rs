@@ -29,6 +29,8 @@ pub enum Measure<'a, R> {
     },
     /// The length of the edges that touch, x = 0.
     Length {
+        /// That of edges which touch whatever the inputs are, and have no x.
+        always: R,
         /// |E|, or 0 of an edge that does not count.
         of_contact: &'a [R],
     },
@@ -62,10 +64,10 @@ impl<R: Real> Measure<'_, R> {
                 let elsewhere = dot(of_inputs, inputs) + dot(of_contact, x);
                 Ok(elsewhere + pressed(of_reaction, x, residual))
             }
-            Self::Length { of_contact } => {
+            Self::Length { always, of_contact } => {
                 same_length(Array::Contact, of_contact.len(), x.len())?;
                 let touching = of_contact.iter().zip(x).filter(|(_, x)| **x == R::ZERO);
-                Ok(touching.fold(R::ZERO, |sum, (&length, _)| sum + length))
+                Ok(touching.fold(always, |sum, (&length, _)| sum + length))
             }
             Self::Bound => {
                 Ok(certificate.map_or(R::ONE / R::ZERO, |certificate| certificate.total))

@@ -1,0 +1,301 @@
+//! A condensed model without the edges that never change sides: a condensed model again, for the box of its inputs.
+//!
+//! With s the diagonal of S′, unknowns are x′ = x_U √s and r′ = r_U/√s, so that its matrix has a unit diagonal. All that
+//! the model has is affine in x_O and r_T, or a form in (p, x, d), and follows:
+//! ```text
+//!   outputs   Y_p p + Y_x x + Y_r r⁺     r_T ≥ 0 is part of the affine terms, r_O = 0 of none
+//!   bound     F (p, x, d) = F M (p, x′, d′) = Q F′ (p, x′, d′)
+//! ```
+//! d = −e at a vertex beside a touching edge, 0 at one whose edges are open and whose e is never below 0, and d′ elsewhere.
+//! What F M loses to rounding, and what x_O leaves of r_O, is counted with what the columns of F had lost before.
+
+use faer::Mat;
+
+use super::reduction::{Affine, Reduction};
+use super::sides::{Sides, VertexSide};
+use crate::condense::{CondensedModel, Corner, Form, Measure, Vertex};
+
+/// A condensed model and where each number of the whole one has gone.
+#[derive(Debug, Clone)]
+pub struct Reduced {
+    /// What is left.
+    pub model: CondensedModel,
+    /// Why.
+    pub sides: Sides,
+    maps: Reduction,
+    /// √s
+    scale: Vec<f64>,
+}
+
+impl Reduced {
+    /// Takes out what never changes; nothing where every edge may.
+    pub fn new(whole: &CondensedModel, sides: Sides) -> Option<Self> {
+        if sides.kept.iter().all(|&kept| kept) {
+            return None;
+        }
+        let maps = Reduction::new(whole, &sides)?;
+        let m = whole.inputs;
+        let scale: Vec<f64> =
+            maps.residuals.iter().enumerate().map(|(at, row)| row.factors[m + at].sqrt()).collect();
+        // Not positive definite to working precision.
+        if scale.iter().any(|s| !(*s > 0.0)) {
+            return None;
+        }
+        let build = Build { whole, sides: &sides, maps: &maps, scale: &scale };
+        let model = build.model();
+        Some(Self { model, sides, maps, scale })
+    }
+
+    /// x of the whole model.
+    pub fn expand(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut whole = vec![0.0; self.sides.of.len()];
+        let kept: Vec<f64> = x.iter().zip(&self.scale).map(|(x, s)| x / s).collect();
+        for (&at, row) in self.maps.open.iter().zip(&self.maps.openings) {
+            let terms = row.iter().zip(p.iter().chain(&kept));
+            whole[at] = terms.map(|(factor, value)| factor * value).sum();
+        }
+        self.maps.kept.iter().zip(kept).for_each(|(&at, x)| whole[at] = x);
+        whole
+    }
+}
+
+/// What a reduced model is built from.
+struct Build<'b> {
+    whole: &'b CondensedModel,
+    sides: &'b Sides,
+    maps: &'b Reduction,
+    scale: &'b [f64],
+}
+
+impl Build<'_> {
+    fn model(&self) -> CondensedModel {
+        let Self { whole, maps, scale, .. } = *self;
+        let (m, kept) = (whole.inputs, &maps.kept);
+        let n = kept.len();
+        let entry = |i: usize, j: usize| maps.residuals[i].factors[m + j] / (scale[i] * scale[j]);
+        let matrix = |at: usize| match (at / n, at % n) {
+            (i, j) if i == j => 1.0,
+            (i, j) => 0.5 * (entry(i, j) + entry(j, i)),
+        };
+        let load = |j: usize| {
+            maps.residuals.iter().zip(scale).map(|(row, s)| -row.factors[j] / s).collect()
+        };
+        let scaled = |of: &dyn Fn(usize, f64) -> f64| {
+            kept.iter().zip(scale).map(|(&at, &s)| of(at, s)).collect::<Vec<f64>>()
+        };
+        CondensedModel {
+            contact: n,
+            edges: kept.iter().map(|&at| whole.edges[at]).collect(),
+            inputs: m,
+            matrix: (0..n * n).map(matrix).collect(),
+            opening: scaled(&|at, s| whole.opening[at] / s),
+            multiplier: scaled(&|at, s| whole.multiplier[at] * s),
+            load: (0..m).map(load).collect(),
+            limits: kept
+                .iter()
+                .zip(scale)
+                .map(|(&at, s)| self.sides.limits[at].map(|limit| limit * s))
+                .collect(),
+            defaults: whole.defaults.clone(),
+            ranges: whole.ranges.clone(),
+            outputs: whole.outputs.iter().map(|measure| self.measure(measure)).collect(),
+            certificate: whole
+                .certificate
+                .as_ref()
+                .map(|form| self.form(form))
+                .map_err(Clone::clone),
+            energy_unit: whole.energy_unit,
+            held_by_contact: Vec::new(),
+        }
+    }
+
+    /// Factors of (p, x′) from those of (p, x_U).
+    fn rescaled(&self, mut factors: Vec<f64>) -> Vec<f64> {
+        let of_contact = factors.iter_mut().skip(self.whole.inputs);
+        of_contact.zip(self.scale).for_each(|(factor, s)| *factor /= s);
+        factors
+    }
+
+    /// Factors of (p, x′) of Y_x x, and those of Y_r r on the edges that always touch.
+    fn affine(&self, of_contact: &[f64], of_reaction: &[f64]) -> [Vec<f64>; 2] {
+        let mut sum = vec![0.0; self.whole.inputs + self.maps.kept.len()];
+        let mut add = |weight: f64, row: &[f64]| {
+            sum.iter_mut().zip(row).for_each(|(sum, factor)| *sum += weight * factor);
+        };
+        for (&edge, row) in self.maps.open.iter().zip(&self.maps.openings) {
+            add(of_contact.get(edge).copied().unwrap_or(0.0), row);
+        }
+        for (&edge, row) in self.maps.touching.iter().zip(&self.maps.reactions) {
+            add(of_reaction.get(edge).copied().unwrap_or(0.0), &row.factors);
+        }
+        for (at, &edge) in self.maps.kept.iter().enumerate() {
+            sum[self.whole.inputs + at] += of_contact.get(edge).copied().unwrap_or(0.0);
+        }
+        let mut of_inputs = self.rescaled(sum);
+        let of_contact = of_inputs.split_off(self.whole.inputs);
+        [of_inputs, of_contact]
+    }
+
+    fn measure(&self, measure: &Measure) -> Measure {
+        let sum = |a: &[f64], b: Vec<f64>| match a.is_empty() {
+            true => b,
+            false => a.iter().zip(b).map(|(a, b)| a + b).collect(),
+        };
+        let or_none = |factors: Vec<f64>| match factors.iter().any(|&factor| factor != 0.0) {
+            true => factors,
+            false => Vec::new(),
+        };
+        let kept = |of: &[f64]| self.maps.kept.iter().map(|&at| of[at]).collect::<Vec<f64>>();
+        match measure {
+            Measure::Linear { of_inputs, of_contact } => {
+                let [more, of_contact] = self.affine(of_contact, &[]);
+                Measure::Linear { of_inputs: sum(of_inputs, more), of_contact }
+            }
+            Measure::Flux { of_inputs, of_contact, of_reaction } => {
+                let [more, of_contact] = self.affine(of_contact, of_reaction);
+                let reactions = kept(of_reaction).into_iter().zip(self.scale);
+                Measure::Flux {
+                    of_inputs: or_none(sum(of_inputs, more)),
+                    of_contact: or_none(of_contact),
+                    of_reaction: reactions.map(|(weight, s)| weight * s).collect(),
+                }
+            }
+            Measure::Length { always, of_contact } => {
+                let touching: f64 = self.maps.touching.iter().map(|&at| of_contact[at]).sum();
+                Measure::Length { always: always + touching, of_contact: kept(of_contact) }
+            }
+            Measure::Bound => Measure::Bound,
+        }
+    }
+
+    fn form(&self, form: &Form) -> Form {
+        let at = |vertex: &Vertex| self.sides.at(vertex, self.maps);
+        let seen: Vec<_> =
+            form.vertices.iter().filter(|vertex| at(vertex) == VertexSide::MayChange).collect();
+        let columns = self.columns(form, &seen);
+        let most = self.scale.iter().fold(0.0, |most: f64, s| most.max(*s));
+        Form {
+            factor: columns.of(&form.factor),
+            jump: form.jump.as_ref().map(|jump| columns.of(jump)),
+            lost: columns.lost(form, &self.left()),
+            vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
+            stability: form.stability * most.min(1.0),
+            corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
+            oscillation: form.oscillation.clone(),
+            floating: Vec::new(),
+        }
+    }
+
+    /// M: what each column of F is multiplied by, in (p, x′, d′).
+    fn columns(&self, form: &Form, seen: &[&Vertex]) -> Columns {
+        let (m, n) = (self.whole.inputs, self.sides.of.len());
+        let width = m + self.maps.kept.len() + seen.len();
+        let wide = |mut row: Vec<f64>| {
+            row.resize(width, 0.0);
+            row
+        };
+        let unit = |at: usize| {
+            let mut row = vec![0.0; width];
+            row[at] = 1.0;
+            row
+        };
+        let inputs = (0..m).map(unit);
+        let openings = (0..n).map(|edge| wide(self.rescaled(self.maps.opening(edge, m))));
+        let mut next = m + self.maps.kept.len();
+        let corrections =
+            form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
+                VertexSide::Open => vec![0.0; width],
+                VertexSide::Touching => {
+                    let e = self.rescaled(self.maps.interpolated(vertex, m));
+                    wide(e.into_iter().map(|factor| -factor).collect())
+                }
+                VertexSide::MayChange => {
+                    next += 1;
+                    unit(next - 1)
+                }
+            });
+        Columns { rows: inputs.chain(openings).chain(corrections).collect(), width }
+    }
+
+    /// Σ_i of what rounding leaves of r_O, and of r_U beside what the model says, by columns of (p, x′).
+    fn left(&self) -> Vec<f64> {
+        let mut sum = vec![0.0; self.whole.inputs + self.maps.kept.len()];
+        let mut add = |row: &Affine, share: f64| {
+            for ((sum, factor), noise) in sum.iter_mut().zip(&row.factors).zip(&row.noise) {
+                *sum += share * factor.abs() + noise + 4.0 * f64::EPSILON * factor.abs();
+            }
+        };
+        self.maps.left.iter().for_each(|row| add(row, 1.0));
+        self.maps.residuals.iter().for_each(|row| add(row, 0.0));
+        self.rescaled(sum)
+    }
+
+    /// e in x′; an edge that always touches has no share in it.
+    fn vertex(&self, vertex: &Vertex) -> Vertex {
+        let place = |edge: usize| self.maps.kept.iter().position(|&kept| kept == edge);
+        let first = vertex.beside.iter().find_map(|&edge| place(edge)).unwrap_or(0);
+        let (mut edges, mut weights) = ([first; 2], [0.0; 2]);
+        for (at, (edge, weight)) in vertex.edges.into_iter().zip(vertex.weights).enumerate() {
+            if let Some(place) = place(edge) {
+                (edges[at], weights[at]) = (place, weight / self.scale[place]);
+            }
+        }
+        Vertex { edges, weights, beside: vertex.beside.map(|edge| place(edge).unwrap_or(first)) }
+    }
+
+    fn corner(&self, corner: &Corner) -> Corner {
+        let edge = self.maps.kept.iter().position(|&kept| kept == corner.edge).unwrap_or(0);
+        let s = self.scale[edge];
+        Corner {
+            edge,
+            excess: corner.excess.iter().map(|e| e * s).collect(),
+            energy: corner.energy / s,
+        }
+    }
+}
+
+/// M, row by row.
+struct Columns {
+    rows: Vec<Vec<f64>>,
+    width: usize,
+}
+
+impl Columns {
+    /// F′ of F, both upper triangles by columns.
+    fn of(&self, factor: &[f64]) -> Vec<f64> {
+        let order = self.rows.len();
+        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+        let mut product = Mat::<f64>::zeros(order.max(self.width), self.width);
+        for (j, row) in self.rows.iter().enumerate() {
+            for (k, &weight) in row.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                for (i, entry) in column(j).iter().enumerate() {
+                    product[(i, k)] += weight * entry;
+                }
+            }
+        }
+        let r = product.qr().thin_R().to_owned();
+        (0..self.width).flat_map(|j| (0..=j).map(move |i| (i, j))).map(|at| r[at]).collect()
+    }
+
+    /// What rounding may hide of the columns of F′.
+    fn lost(&self, form: &Form, left: &[f64]) -> Vec<f64> {
+        let order = self.rows.len();
+        // Sums of `order` products, and the rotations of as many rows.
+        let share = 8.0 * (order + self.width) as f64 * f64::EPSILON;
+        let norm = |factor: &[f64], j: usize| {
+            let column = &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
+            column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+        };
+        let size = |j: usize| {
+            let of_jump = form.jump.as_ref().map_or(0.0, |jump| norm(jump, j));
+            form.lost[j] + share * norm(&form.factor, j).max(of_jump)
+        };
+        let mut lost = vec![0.0; self.width];
+        for (j, row) in self.rows.iter().enumerate() {
+            let size = size(j);
+            lost.iter_mut().zip(row).for_each(|(lost, weight)| *lost += size * weight.abs());
+        }
+        lost.iter_mut().zip(left).for_each(|(lost, left)| *lost += form.stability * left);
+        lost
+    }
+}

@@ -1,0 +1,62 @@
+//! The values that the inputs of a baked scene may have.
+//!
+//! What was worked out beforehand, such as edges that never change sides, holds for these and no others: a tick refuses
+//! the rest by name and keeps its last answer. Who would rather have the nearest answer asks for [`clamp`] first.
+
+use crate::error::Error;
+use crate::real::Real;
+
+/// `Ok` where every value lies within its range [lo, hi]; NaN lies in none.
+///
+/// # Errors
+/// [`Error::InputOutOfRange`] with the name of the first that does not.
+pub fn check<R: Real>(
+    values: &[R],
+    ranges: &[[R; 2]],
+    names: &[&'static str],
+) -> Result<(), Error> {
+    for ((&value, &[lo, hi]), &name) in values.iter().zip(ranges).zip(names) {
+        if !(lo <= value && value <= hi) {
+            return Err(Error::InputOutOfRange { name });
+        }
+    }
+    Ok(())
+}
+
+/// The nearest value of a range; NaN stays what it is, and is refused.
+pub fn clamp<R: Real>(value: R, [lo, hi]: [R; 2]) -> R {
+    if value < lo {
+        lo
+    } else if value > hi {
+        hi
+    } else {
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RANGES: [[f32; 2]; 3] = [[-1.0, 2.0], [f32::NEG_INFINITY, f32::INFINITY], [0.0, 0.0]];
+
+    #[test]
+    fn the_first_input_outside_its_range_is_named() {
+        let tried = |values: [f32; 3]| check(&values, &RANGES, &["air", "any", "zero"]);
+        let refused = |name| Err(Error::InputOutOfRange { name });
+        assert_eq!(tried([-1.0, 1e30, 0.0]), Ok(()));
+        assert_eq!(tried([2.0, -1e30, -0.0]), Ok(()));
+        assert_eq!(tried([2.0000002, 0.0, 1.0]), refused("air"));
+        assert_eq!(tried([-1.0000001, 0.0, 0.0]), refused("air"));
+        assert_eq!(tried([f32::NAN, 0.0, 0.0]), refused("air"));
+        assert_eq!(tried([0.0, f32::NAN, 0.0]), refused("any"));
+        assert_eq!(tried([0.0, 0.0, 1e-45]), refused("zero"));
+    }
+
+    #[test]
+    fn the_nearest_value_is_taken() {
+        let nearest = |value: f32| clamp(value, RANGES[0]);
+        assert_eq!([-7.0, -1.0, 0.5, 2.0, 1e9].map(nearest), [-1.0, -1.0, 0.5, 2.0, 2.0]);
+        assert!(nearest(f32::NAN).is_nan());
+    }
+}
