@@ -83,8 +83,8 @@ pub enum Error {
     },
     /// An input lies outside the range that the scene declares for it, or is not a number.
     InputOutOfRange {
-        /// Its name.
-        name: &'static str,
+        /// Its number.
+        input: usize,
     },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
@@ -174,7 +174,7 @@ impl fmt::Display for Error {
             Self::NoWayOut { cell } => {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
-            Self::InputOutOfRange { name } => write!(f, "input `{name}` is outside its range"),
+            Self::InputOutOfRange { input } => write!(f, "input {input} is outside its range"),
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),
             Self::OtherMesh => write!(f, "the workspace was built for a mesh with other cells"),

@@ -24,6 +24,8 @@ pub struct Recipe {
     pub model: Option<String>,
     /// `NAME=VALUE`, as they were given.
     pub inputs: Vec<String>,
+    /// Whether edges that never change sides are kept.
+    pub full_edges: bool,
 }
 
 /// Why there is no module, and the exit status for it.
@@ -67,6 +69,7 @@ impl Recipe {
             scalar: Some("f32".to_owned()),
             model: Some(model.to_owned()),
             inputs: Vec::new(),
+            full_edges: false,
         }
     }
 
@@ -78,7 +81,8 @@ impl Recipe {
     fn name(&self) -> String {
         let scalar = self.scalar.iter().map(|scalar| format!("_{scalar}"));
         let inputs = self.inputs.iter().map(|input| format!("_{input}"));
-        let asked: String = scalar.chain(self.model.clone()).chain(inputs).collect();
+        let edges = self.full_edges.then(|| "--full-edges".to_owned());
+        let asked: String = scalar.chain(self.model.clone()).chain(inputs).chain(edges).collect();
         let name = format!("{}-{:08x}{asked}", self.scene_name(), self.place());
         name.replace(['/', '\\'], "_")
     }
@@ -112,6 +116,9 @@ impl Recipe {
         command.args(&self.model);
         if let Some(scalar) = &self.scalar {
             command.args(["--scalar", scalar]);
+        }
+        if self.full_edges {
+            command.arg("--full-edges");
         }
         for input in &self.inputs {
             command.args(["--input", input]);

@@ -23,6 +23,8 @@ pub(super) struct Parts<'a> {
     pub limits: &'a str,
     /// Whether `tick_within` reads its limits.
     pub is_limited: bool,
+    /// What refuses inputs outside their ranges; empty where they have none.
+    pub check: &'a str,
     /// The body of `tick_within`, down to an `Ok` with the answer.
     pub tick: &'a str,
     /// That of `reset`.
@@ -31,7 +33,7 @@ pub(super) struct Parts<'a> {
 
 /// The struct and its methods.
 pub(super) fn controller(parts: &Parts) -> String {
-    let Parts { fields, values, first, from, ends, limits, is_limited, tick, reset } = parts;
+    let Parts { fields, values, first, from, ends, limits, is_limited, check, tick, reset } = parts;
     let name = if *is_limited { "limits" } else { "_" };
     format!(
         "
@@ -53,7 +55,8 @@ impl Controller {{
     /// Answers for these inputs, {from}.
     ///
     /// # Errors
-    /// Inputs that are not finite, or so large that data, answers or outputs may overflow; the last answer stays.
+    /// Inputs outside [`Inputs::RANGES`], that are not finite, or so large that data, answers or outputs may overflow; the
+    /// last answer stays.
     pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {{
         self.tick_within(inputs, LIMITS, &mut Deadline::never())
     }}
@@ -69,7 +72,7 @@ impl Controller {{
         {name}: Limits<Scalar>,
         deadline: &mut Deadline<F>,
     ) -> Result<Answer, Error> {{
-{tick}    }}
+{check}{tick}    }}
 
     /// Forgets all ticks: the next one is the first again.
     pub fn reset(&mut self) {{

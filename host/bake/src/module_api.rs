@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::inputs;
 use super::item::{Item, braced, from_array, items, names, structure, to_array};
 use super::text::{code, prose};
 use signorini_scene::scene::{Field, Input, Output, Quantity};
@@ -17,6 +18,7 @@ pub struct ModuleApi {
     hash: u64,
     inputs: Vec<Item>,
     defaults: Vec<f64>,
+    ranges: Vec<[f64; 2]>,
     outputs: Vec<Item>,
 }
 
@@ -63,7 +65,23 @@ impl ModuleApi {
             hash: hash(problem),
             inputs,
             defaults: problem.scene.inputs.iter().map(|input| input.default).collect(),
+            ranges: problem.scene.inputs.iter().map(Input::interval).collect(),
             outputs,
+        }
+    }
+
+    /// The ranges of the inputs in the scalar of the target; none where the scene declares none.
+    pub fn ranges<R: Scalar>(&self) -> Vec<[R; 2]> {
+        inputs::ranges(&self.ranges)
+    }
+
+    /// What a tick does first.
+    pub(super) fn check(&self) -> &'static str {
+        match self.ranges::<f64>().is_empty() {
+            true => "",
+            false => {
+                "        signorini_kernel::device::ranges::check(&inputs.to_array(), &Inputs::RANGES)?;\n"
+            }
         }
     }
 
@@ -164,6 +182,7 @@ impl Inputs {
         text += &names("INPUTS", &self.inputs);
         text += &from_array("INPUTS", &self.inputs);
         text += &to_array("INPUTS", &self.inputs);
+        text += &self.range_items::<R>();
         text += "}\n";
         text += &structure("Outputs", "What the controller reads.", &self.outputs);
         text += "\nimpl Outputs {\n";
@@ -171,6 +190,37 @@ impl Inputs {
         text += &from_array("OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
         text + "}\n" + ANSWER
+    }
+}
+
+impl ModuleApi {
+    /// The ranges, and what takes a value into its own.
+    fn range_items<R: Scalar>(&self) -> String {
+        let end = |end: f64| match (end.is_finite(), end > 0.0) {
+            (true, _) => format!("{:?}", R::narrow(end)),
+            (false, true) => "Scalar::INFINITY".to_owned(),
+            (false, false) => "Scalar::NEG_INFINITY".to_owned(),
+        };
+        let range = |[lo, hi]: &[f64; 2]| format!("[{}, {}]", end(*lo), end(*hi));
+        let ranges: Vec<_> = self.ranges.iter().map(range).collect();
+        let clamped = self.inputs().enumerate().map(|(at, name)| {
+            format!(
+                "{name}: signorini_kernel::device::ranges::clamp(self.{name}, Self::RANGES[{at}])"
+            )
+        });
+        format!(
+            "
+    /// The least and the largest value of each. A tick refuses what lies outside, by its number here.
+    pub const RANGES: [[Scalar; 2]; INPUTS] = [{}];
+
+    /// The nearest values within the ranges, for a caller who wants no refusal.
+    pub fn clamped(self) -> Self {{
+        {}
+    }}
+",
+            ranges.join(", "),
+            braced("Self", clamped),
+        )
     }
 }
 

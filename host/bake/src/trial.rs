@@ -1,9 +1,10 @@
-//! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs near the scene's own.
+//! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs of the declared ranges.
 
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
 use super::dense::Done;
+use super::inputs::{InputSpace, drawn};
 use super::{condensed, full};
 use signorini_solve::scalar::Scalar;
 
@@ -41,12 +42,12 @@ struct TickWork {
 /// That of a condensed model, and what `price` makes of its median tick and of the longest.
 pub fn of_condensed<R: Scalar>(
     baked: &condensed::Baked<R>,
-    defaults: &[f64],
+    spaces: &[InputSpace],
     price: impl Fn(&Done) -> Option<f64>,
 ) -> (Trial, [Option<f64>; 2]) {
     let mut controller = condensed::Controller::new(baked);
     let (mut before, mut prices) = (condensed::Visited::default(), Vec::new());
-    let ticks = inputs::<R>(defaults, TICKS).filter_map(|inputs| {
+    let ticks = drawn::<R>(spaces, TICKS).filter_map(|inputs| {
         let (_, report) = controller.tick(&inputs).ok()?;
         let (pivots, sweeps) = (report.exchanges, report.sweeps);
         let now = controller.visited();
@@ -62,18 +63,21 @@ pub fn of_condensed<R: Scalar>(
 }
 
 /// That of a full model under the limits that its module has.
-pub fn of_full<R: Scalar>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+pub fn of_full<R: Scalar>(baked: &full::Baked<R>, spaces: &[InputSpace]) -> Trial {
     if baked.has_quads() {
-        with_width::<R, QUADS>(baked, defaults)
+        with_width::<R, QUADS>(baked, spaces)
     } else {
-        with_width::<R, TRIANGLES>(baked, defaults)
+        with_width::<R, TRIANGLES>(baked, spaces)
     }
 }
 
-fn with_width<R: Scalar, const WIDTH: usize>(baked: &full::Baked<R>, defaults: &[f64]) -> Trial {
+fn with_width<R: Scalar, const WIDTH: usize>(
+    baked: &full::Baked<R>,
+    spaces: &[InputSpace],
+) -> Trial {
     let mut controller = full::Controller::<R, WIDTH>::new(baked);
     let (mut ticks, mut updates) = (Vec::new(), 0.0);
-    for inputs in inputs::<R>(defaults, TICKS) {
+    for inputs in drawn::<R>(spaces, TICKS) {
         if ticks.len() > FULL_TICKS && updates > UPDATES {
             break;
         }
@@ -115,24 +119,4 @@ fn summary(ticks: impl Iterator<Item = TickWork>) -> Trial {
         looks: [both(|tick| tick.looks[0]), both(|tick| tick.looks[1])],
         settled: !ticks.is_empty() && ticks.iter().all(|tick| tick.settled),
     }
-}
-
-/// The scene's own inputs, then such within a tenth of them (within ±0.1 where they are 0), as
-/// `cargo xtask firmware` draws them.
-pub fn inputs<R: Scalar>(defaults: &[f64], ticks: usize) -> impl Iterator<Item = Vec<R>> {
-    let mut state = 0x5169_0e1d_u32;
-    let mut tenth = move || {
-        state ^= state << 13;
-        state ^= state >> 17;
-        state ^= state << 5;
-        f64::from(state >> 8) * (0.2 / f64::from(1 << 24)) - 0.1
-    };
-    (0..=ticks).map(move |tick| {
-        let moved = defaults.iter().map(|&value| match tick {
-            0 => value,
-            _ if value == 0.0 => tenth(),
-            _ => value + value * tenth(),
-        });
-        moved.map(R::narrow).collect()
-    })
 }

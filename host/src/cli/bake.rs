@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{scene_at, write_beside};
-use signorini_bake::choice::Choice;
+use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::setting;
@@ -58,6 +58,9 @@ pub struct Arguments {
     /// The condensed model: contact edges, inputs and outputs alone
     #[arg(long)]
     condensed: bool,
+    /// Keep all contact edges of a condensed model, those that never change sides too
+    #[arg(long)]
+    full_edges: bool,
     /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -99,10 +102,11 @@ impl Arguments {
             (_, true) => Some(ModelKind::Condensed),
             _ => None,
         };
+        let wanted =
+            Wanted { model: kind, is_compared: self.explain, has_all_edges: self.full_edges };
         let unknowns = problem.topology.counts.unknowns();
-        let choice = waiting(&format!("baking {unknowns} unknowns"), || {
-            Choice::<R>::new(problem, kind, self.explain)
-        })?;
+        let choice =
+            waiting(&format!("baking {unknowns} unknowns"), || Choice::<R>::new(problem, wanted))?;
         if problem
             .scene
             .target
@@ -138,7 +142,7 @@ mod tests {
         let scene = scene_at(&path, &[]).expect("a scene");
         let mesh = adapted::of_scene(&scene).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
-        let choice = Choice::<f32>::new(&problem, Some(ModelKind::Condensed), false);
+        let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Condensed));
         emit(&problem, &choice.expect("a choice")).source
     }
 

@@ -99,7 +99,7 @@ impl<R: Scalar> Model<R> {
         let huge = [R::of(3.5) / R::TINY; INPUTS];
         let outputs = [
             Measure::Linear { of_inputs, of_contact },
-            Measure::Length { always: 0.0, of_contact },
+            Measure::Length { always: R::ZERO, of_contact },
             Measure::Bound,
             Measure::Linear { of_inputs: &huge, of_contact },
         ];

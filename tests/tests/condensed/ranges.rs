@@ -31,6 +31,24 @@ fn look() {
             count(EdgeSide::MayChange),
             sides.kept.iter().filter(|c| **c).count()
         );
+        if name == "strip" {
+            let e = sides.enclosure.as_ref().unwrap();
+            for i in 24..40 {
+                println!(
+                    "{i} {:?} kept {} lo {:.3e} hi {:.3e} r {:.3e}",
+                    sides.of[i], sides.kept[i], e.lo[i], e.hi[i], e.reaction[i]
+                );
+            }
+            for row in 28..36 {
+                println!(
+                    "{:?}",
+                    whole.matrix[row * 64 + 28..row * 64 + 36]
+                        .iter()
+                        .map(|x| (x * 1e4).round() / 1e4)
+                        .collect::<Vec<_>>()
+                );
+            }
+        }
         let Some(reduced) = Reduced::new(&whole, sides) else { continue };
         let mut random = Random::new(1);
         let mut worst = [0.0_f64; 4];

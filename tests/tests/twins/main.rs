@@ -157,7 +157,9 @@ fn by_kernel<R: Narrow, I: Index>(problem: &Problem, method: Method) -> Answer {
         }
         Method::Factor(seed) => {
             let order = shuffled::<I>(&mut Random::new(seed), counts.free);
-            let found = factored::solve(&system, diagonal, &settings, &order, &mut u, &mut low);
+            let matrix = system.matrix();
+            let found =
+                factored::solve(matrix, &system, diagonal, &settings, &order, &mut u, &mut low);
             let [first, warm] = found.expect("lengths").expect("a solution");
             assert_eq!(warm.pivots, 0);
             matches!(first.status, Status::Converged | Status::RoundingLimit)

@@ -23,12 +23,14 @@ Usage: cargo xtask firmware SCENE.toml [OPTIONS]
 
 Bakes a scene, puts it on an emulated board, plays 101 ticks there and on this machine, and compares them bit
 for bit. Tick 1 has all inputs at their defaults, from a cold start; in each of the others every input is drawn
-from within a tenth of its default (±0.1 where that is 0), the same on both.
+from its range, two of four ticks at a corner of all ranges; without a range from within a tenth of its default
+(±0.1 where that is 0). They are the same on both.
 
 Options:
   --board m4|m4-192k|m7    mps2-an386, netduinoplus2 (an STM32F405), mps2-an500 [m4]
   --scalar f32|f64         [the scene's setting.scalar, else f32]
   --full, --condensed      forces a model, whatever the scene's setting says
+  --full-edges             keeps contact edges that never change sides
   --input NAME=VALUE       the default of an input; repeatable
   --out DIR                where firmware.json goes [out/SCENE]
 
@@ -53,6 +55,7 @@ impl Options {
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let (mut scene, mut scalar, mut model) = (None, None, None);
         let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0], None);
+        let mut full_edges = false;
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
@@ -66,6 +69,7 @@ impl Options {
                     Some(other) if other != word => return Err(format!("{other} or {word}?")),
                     _ => {}
                 },
+                "--full-edges" => full_edges = true,
                 "--input" => inputs.push(value()?.to_owned()),
                 "--out" => out = Some(PathBuf::from(value()?)),
                 option if option.starts_with('-') => return Err(format!("no option `{option}`")),
@@ -74,7 +78,7 @@ impl Options {
             }
         }
         let scene = scene.ok_or("no scene given")?;
-        let recipe = Recipe { scene, scalar, model, inputs };
+        let recipe = Recipe { scene, scalar, model, inputs, full_edges };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
         Ok(Self { recipe, board, out })
     }

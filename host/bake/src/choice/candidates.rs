@@ -7,6 +7,7 @@ use super::{Candidate, Model};
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::dense::{Done, Price};
+use crate::inputs::InputSpace;
 use crate::setting::checked;
 use crate::{condensed, trial};
 use signorini_scene::error::{InputError, Result};
@@ -102,8 +103,10 @@ fn condensed_as<R: Scalar>(
         exact,
         forms: baked.forms(),
     };
+    let spaces = condensate.defaults.iter().zip(&condensate.ranges).skip(1);
+    let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
     let price = |done: &Done| price.of::<R>(&costs, done);
-    let (trial, instructions) = trial::of_condensed(&baked, &condensate.defaults[1..], price);
+    let (trial, instructions) = trial::of_condensed(&baked, &spaces, price);
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
     let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
     let work = within::<R>(&costs, condensate.contact, all, trial, time);

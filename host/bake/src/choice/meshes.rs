@@ -5,6 +5,7 @@ use super::{Candidate, Model};
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::full;
+use crate::inputs::InputSpace;
 use crate::trial::{self, Trial};
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
@@ -42,10 +43,10 @@ pub(super) fn of_full<R: Scalar>(
 fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R>) -> Candidate<R> {
     let sizes = full::sizes(&baked);
     let memory = Needs::with_code(baked.code(), sizes, [None; 2]);
-    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let spaces = InputSpace::of(&problem.scene);
     // A model that has no room is not tried.
     let trial = match budget.shortfalls(&memory).is_empty() {
-        true => trial::of_full(&baked, &defaults),
+        true => trial::of_full(&baked, &spaces),
         false => Trial::default(),
     };
     let tick = TickCost { costs: Costs::measured(), problem, baked: &baked, trial };

@@ -28,6 +28,9 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
 use signorini_solve::problem::{Approach, Lack, Problem, Property};
+use signorini_solve::ranges::reduced::Reduced;
+use signorini_solve::ranges::sides::Sides;
+use signorini_solve::reference::ReferenceError;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::choose_for_inputs;
 
@@ -90,21 +93,76 @@ pub struct Choice<R: Scalar> {
     pub budget: Budget,
     /// Why a model was not considered.
     pub excluded: Vec<String>,
-    /// What condensed candidates were made of, with the way back to the mesh.
-    origin: Option<(CondensedModel, Recovery)>,
+    /// What condensed candidates were made of.
+    origin: Option<Origin>,
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Wanted {
+    /// Only this model.
+    pub model: Option<ModelKind>,
+    /// The full model is worked out in any case.
+    pub is_compared: bool,
+    /// All contact edges are kept, those that never change sides too.
+    pub has_all_edges: bool,
+}
+
+impl Wanted {
+    /// This model, whatever the setting says.
+    pub fn model(model: ModelKind) -> Self {
+        Self { model: Some(model), ..Self::default() }
+    }
+}
+
+/// What condensed candidates were made of, with the way back to the mesh.
+#[derive(Debug)]
+pub struct Origin {
+    /// With all contact edges.
+    pub whole: CondensedModel,
+    /// From its answers to fields on the mesh.
+    pub recovery: Recovery,
+    /// The sides that its edges are on for all inputs within their ranges.
+    pub sides: Sides,
+    /// Without the edges that never change, where there are any and they may be taken out.
+    pub reduced: Option<Reduced>,
+}
+
+impl Origin {
+    fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
+        let (whole, recovery) = recoverable(problem)?;
+        let sides = Sides::new(&whole).map_err(|error| no_reference(&problem.scene, &error))?;
+        let reduced = match wanted.has_all_edges {
+            true => None,
+            false => Reduced::new(&whole, sides.clone()),
+        };
+        Ok(Self { whole, recovery, sides, reduced })
+    }
+
+    /// The model that is baked.
+    pub fn model(&self) -> &CondensedModel {
+        self.reduced.as_ref().map_or(&self.whole, |reduced| &reduced.model)
+    }
+
+    /// x of the whole model, from that of the one that is baked.
+    pub fn expand(&self, p: &[f64], x: Vec<f64>) -> Vec<f64> {
+        match &self.reduced {
+            Some(reduced) => reduced.expand(p, &x),
+            None => x,
+        }
+    }
 }
 
 impl<R: Scalar> Choice<R> {
-    /// Chooses for `problem`, as its setting asks where `forced` does not; with `compared`, the full model is
-    /// worked out in any case.
+    /// Chooses for `problem`, as its setting asks where `wanted` does not.
     ///
     /// # Errors
     /// No model fits what the scene declares: by how much the smallest one does not. What keeps a model that
     /// was asked for from existing, or a key of the setting from meaning anything to it.
-    pub fn new(problem: &Problem, forced: Option<ModelKind>, compared: bool) -> Result<Self> {
+    pub fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
         let budget = Budget::of(&problem.scene);
         let setting = problem.scene.setting.unwrap_or_default();
-        let forced = forced.or(setting.model_kind());
+        let (forced, compared) = (wanted.model.or(setting.model_kind()), wanted.is_compared);
         if let Some((model, key)) =
             forced.and_then(|model| Some((model, setting.foreign_to(model)?)))
         {
@@ -123,9 +181,9 @@ impl<R: Scalar> Choice<R> {
             excluded.push(format!("condensed: {why}"));
         } else if forced != Some(ModelKind::Full) {
             refuse_squares::<f64>(&problem.scene, &units)?;
-            let (condensate, recovery) = recoverable(problem)?;
-            match of_condensed(&problem.scene, &condensate, &budget) {
-                Ok(found) => (candidates, origin) = (found, Some((condensate, recovery))),
+            let own = Origin::new(problem, wanted)?;
+            match of_condensed(&problem.scene, own.model(), &budget) {
+                Ok(found) => (candidates, origin) = (found, Some(own)),
                 Err(error) if forced.is_some() => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
@@ -175,10 +233,10 @@ impl<R: Scalar> Choice<R> {
     }
 
     /// The condensed model, where that is chosen, with what it was made of.
-    pub fn condensed(&self) -> Option<(&condensed::Baked<R>, &CondensedModel, &Recovery)> {
-        let (condensate, recovery) = self.origin.as_ref()?;
+    pub fn condensed(&self) -> Option<(&condensed::Baked<R>, &Origin)> {
+        let origin = self.origin.as_ref()?;
         match &self.candidate().model {
-            Model::Condensed(baked) => Some((baked, condensate, recovery)),
+            Model::Condensed(baked) => Some((baked, origin)),
             Model::Full(_) => None,
         }
     }
@@ -215,4 +273,11 @@ fn foreign(scene: &Scene, model: ModelKind, key: &str) -> InputError {
     InputError::new(format!("setting.{key}: means nothing to the {model} model"))
         .file(&scene.path)
         .hint(format!("remove it, or do not ask for the {model} model"))
+}
+
+/// The error that loads leave no solution to enclose.
+fn no_reference(scene: &Scene, error: &ReferenceError) -> InputError {
+    InputError::new(format!("ranges: {error}"))
+        .file(&scene.path)
+        .hint("take smaller numbers for the ranges of the inputs")
 }

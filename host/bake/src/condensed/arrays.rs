@@ -11,6 +11,7 @@ use super::output::Output;
 use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
+use crate::inputs::ranges;
 use signorini_scene::setting::{Omega, Setting, Start as From};
 use signorini_solve::condense::CondensedModel;
 use signorini_solve::scalar::Scalar;
@@ -54,6 +55,8 @@ pub struct Baked<R: Scalar> {
     pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
     pub(super) limits: Vec<[R; 2]>,
+    /// Of the inputs without the constant; empty where no range is declared.
+    pub(super) ranges: Vec<[R; 2]>,
     pub(super) outputs: Vec<Output<R>>,
     pub(super) bound: Result<Bound<R>, String>,
 }
@@ -84,6 +87,7 @@ impl<R: Scalar> Baked<R> {
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
+            ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
         };

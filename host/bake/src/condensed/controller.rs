@@ -5,6 +5,7 @@ use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::{Linear, Method};
 use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
 use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::ranges::check;
 use signorini_kernel::device::report::Report;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 
@@ -42,9 +43,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
     /// Answers for these values of the inputs: every output in order, and the report.
     ///
     /// # Errors
-    /// Inputs that are not finite, or so large that the answer or an output may overflow: the last answer stays.
+    /// Inputs outside their ranges, that are not finite, or so large that the answer or an output may overflow: the last answer stays.
     pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
         let baked = self.baked;
+        check(inputs, &baked.ranges)?;
         if baked.cold {
             self.storage.reset();
             self.tableau.reset();

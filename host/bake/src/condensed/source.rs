@@ -119,6 +119,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         },
         ends,
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
+        check: face.check(),
         is_limited: solver != Solver::Linear,
         tick: &tick(face, baked),
         reset: &format!(

@@ -1,7 +1,7 @@
 //! The generated text: no warnings, and the bits of the same arrays on this machine.
 
 use super::{Baked, Controller, Work, source};
-use crate::choice::{Choice, Model};
+use crate::choice::{Choice, Model, Wanted};
 use crate::compiled::{FIRMWARE, printed};
 use crate::module_api::ModuleApi;
 use signorini_scene::error::Result;
@@ -251,7 +251,7 @@ fn what_is_too_far_from_1_is_not_condensed() -> Result<()> {
         let units = Units { u: 2f64.powi(u), conductivity: 2f64.powi(conductivity) };
         let scene = units.inverse().scene(&scene);
         let problem = Problem::new(&scene, problem.mesh)?;
-        Choice::<f64>::new(&problem, kind, false)
+        Choice::<f64>::new(&problem, Wanted { model: kind, ..Wanted::default() })
     };
     let refused = choice(-400, -200, Some(ModelKind::Condensed)).expect_err("underflow");
     assert!(refused.to_string().contains("fluxes are near 1e-181, which f64"), "{refused}");

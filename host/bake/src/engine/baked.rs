@@ -1,7 +1,7 @@
 //! The controller that `bake` would write, on this machine.
 
 use super::{Engine, condensed, full};
-use crate::choice::{Choice, Model};
+use crate::choice::{Choice, Model, Wanted};
 use crate::setting;
 use signorini_scene::error::Result;
 use signorini_solve::problem::Problem;
@@ -28,7 +28,7 @@ fn baked_in<R: Scalar, T>(
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine, &str) -> Result<T>,
 ) -> Result<T> {
-    let choice = Choice::<R>::new(problem, None, false)?;
+    let choice = Choice::<R>::new(problem, Wanted::default())?;
     let candidate = choice.candidate();
     let name = format!("{}, {}", candidate.name, R::NAME);
     match &candidate.model {

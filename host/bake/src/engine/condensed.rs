@@ -4,20 +4,19 @@ use signorini_kernel::device::report::{Ended, Report};
 use signorini_kernel::solve::solver::Status;
 
 use super::{Engine, TickSolution, status};
-use crate::choice::Choice;
+use crate::choice::Origin;
+use crate::choice::{Choice, Wanted};
 use crate::condensed::{Baked, Controller};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{ErrorBound, NoBound};
-use signorini_solve::condense::{CondensedModel, Recovery};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ran, ended_name, unfit};
 
 struct Condensed<'b, R: Scalar> {
     problem: &'b Problem,
-    condensate: &'b CondensedModel,
-    recovery: &'b Recovery,
+    origin: &'b Origin,
     baked: &'b Baked<R>,
     controller: Controller<'b, R>,
     inputs: Vec<R>,
@@ -30,7 +29,7 @@ pub(super) fn with<R: Scalar, T>(
     problem: &Problem,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let choice = Choice::<R>::new(problem, Some(ModelKind::Condensed), false)?;
+    let choice = Choice::<R>::new(problem, Wanted::model(ModelKind::Condensed))?;
     lend(problem, &choice, then)
 }
 
@@ -40,14 +39,13 @@ pub(super) fn lend<R: Scalar, T>(
     choice: &Choice<R>,
     then: impl FnOnce(&mut dyn Engine) -> Result<T>,
 ) -> Result<T> {
-    let Some((baked, condensate, recovery)) = choice.condensed() else {
+    let Some((baked, origin)) = choice.condensed() else {
         let message = "setting.model: there is no condensed model of this scene";
         return Err(InputError::new(message).file(&problem.scene.path).into());
     };
     then(&mut Condensed {
         problem,
-        condensate,
-        recovery,
+        origin,
         baked,
         controller: Controller::new(baked),
         inputs: Vec::new(),
@@ -75,16 +73,18 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
         let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
         let p: Vec<f64> =
             std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
-        let (mut u, flux) = self.recovery.field(self.condensate, &p, &x);
+        let Origin { whole, recovery, .. } = self.origin;
+        let x = self.origin.expand(&p, x);
+        let (mut u, flux) = recovery.field(whole, &p, &x);
         let counts = problem.topology.counts;
-        let active: Vec<_> = self.condensate.by_edge(&x).into_iter().map(|x| x == 0.0).collect();
+        let active: Vec<_> = whole.by_edge(&x).into_iter().map(|x| x == 0.0).collect();
         // A sum of columns meets the gap but for rounding; whoever asks for contact compares the two.
         let contact = u[counts.free..].iter_mut().zip(&problem.loads.gap).zip(&active);
         for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
             *u = gap;
         }
         let certificate = self.report.as_ref().and_then(|report| report.certificate());
-        let certified = self.recovery.admissible(self.condensate, problem, &p, &x);
+        let certified = recovery.admissible(whole, problem, &p, &x);
         Ok(TickSolution {
             status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),
             ended: self.report.map_or("out-of-sweeps", |report| ended_name(report.ended)),
@@ -97,12 +97,12 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
             outputs: self.outputs.iter().map(|x| x.wide()).collect(),
             sweeps: self.report.map_or(0, |report| report.sweeps),
             omega: self.baked.sweeps.omega.wide(),
-            residual: largest_violation(&self.condensate.residual(&p, &x), &x),
-            force: self.condensate.force(&p, &x),
+            residual: largest_violation(&whole.residual(&p, &x), &x),
+            force: whole.force(&p, &x),
             active,
             bound: certificate.map(ErrorBound::new),
             no_bound: self.report.and_then(|report| {
-                let reason = || self.condensate.certificate.as_ref().err().cloned();
+                let reason = || whole.certificate.as_ref().err().cloned();
                 let data = || reason().map(NoBound::Condensed);
                 NoBound::of_verdict(&report.verdict, problem, data)
             }),

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::{TickSolution, completed, with};
-use crate::trial;
+use crate::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
@@ -13,11 +13,11 @@ use signorini_solve::solve::{ScalarKind, Seconds, Solution};
 
 /// Ticks before the one that is asked for: a fixed number of warm sweeps is one of a controller that has run for a
 /// while, with inputs around the defaults as a trade study draws them.
-fn earlier(scene: &Scene, inputs: &[f64]) -> Vec<Vec<f64>> {
+fn earlier(scene: &Scene) -> Vec<Vec<f64>> {
     const TICKS: usize = 100;
     let setting = completed(scene);
-    let runs = setting.start == Start::Warm && setting.sweeps.is_some() && !inputs.is_empty();
-    if runs { trial::inputs::<f64>(inputs, TICKS).collect() } else { Vec::new() }
+    let runs = setting.start == Start::Warm && setting.sweeps.is_some() && !scene.inputs.is_empty();
+    if runs { drawn::<f64>(&InputSpace::of(scene), TICKS).collect() } else { Vec::new() }
 }
 
 /// Solves `problem` for its default inputs and at t = 0, as its setting says.
@@ -31,7 +31,7 @@ pub fn solve(problem: &Problem) -> Result<Solution> {
     let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     let (prepared, swept, answer) = with(problem, |engine| {
         let prepared = start.elapsed().as_secs_f64();
-        for earlier in earlier(&problem.scene, &inputs) {
+        for earlier in earlier(&problem.scene) {
             engine.tick(&earlier)?;
         }
         engine.tick(&inputs)?;

@@ -3,6 +3,7 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::bound::certificate::Curved;
 use signorini_kernel::device::full::{Lengths, Numbers, Storage};
+use signorini_kernel::device::ranges::check;
 use signorini_kernel::device::tick::{
     CertifiedSweeps, Deadline, Limits, Method, Report, Substitutions, UncertifiedSweeps,
 };
@@ -56,7 +57,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     /// Outputs and report for these inputs, within the limits of the baked module.
     ///
     /// # Errors
-    /// Inputs that are not finite, of another number, or so large that data or answers may overflow: the last answer
+    /// Inputs outside their ranges, that are not finite, of another number, or so large that data or answers may overflow: the last answer
     /// stays. A `WIDTH` that is not that of the mesh.
     pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), KernelError> {
         self.tick_within(inputs, self.baked.how.limits)
@@ -72,6 +73,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         limits: Limits<R>,
     ) -> Result<(Vec<R>, Report<R>), KernelError> {
         let (baked, lengths) = (self.baked, &self.lengths);
+        check(inputs, &baked.face.ranges::<R>())?;
         if baked.how.cold {
             self.storage.reset();
         }

@@ -42,6 +42,7 @@ fn body<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
     let text = controller::controller(&Parts {
         fields: &fields,
         values: &values,
+        check: baked.face.check(),
         first: "starts cold",
         from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
         ends: ends(baked),

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use signorini_bake::trial;
+use signorini_bake::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::problem::{Loads, Problem};
@@ -68,7 +68,8 @@ impl LoadCase {
     pub fn drawn(problem: &Problem, ticks: usize) -> Vec<Self> {
         let here = Self::at(&problem.scene, problem.time);
         if problem.scene.inputs.is_empty() {
-            let factors = trial::inputs::<f64>(&[1.0, 1.0, 0.0], ticks);
+            let spaces = [1.0, 1.0, 0.0].map(InputSpace::near);
+            let factors = drawn::<f64>(&spaces, ticks);
             let moment = |(tick, f): (usize, Vec<f64>)| {
                 let tilt = if tick == 0 { 0.0 } else { TILT * f[2] };
                 let loads = Factor::across(problem, f[0], tilt);
@@ -76,8 +77,8 @@ impl LoadCase {
             };
             return factors.enumerate().map(moment).collect();
         }
-        let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
-        let drawn = trial::inputs::<f64>(&defaults, ticks).map(|values| {
+        let spaces = InputSpace::of(&problem.scene);
+        let drawn = drawn::<f64>(&spaces, ticks).map(|values| {
             let mut moment = here.clone();
             let inputs = Arc::make_mut(&mut moment.scene).inputs.iter_mut();
             inputs.zip(values).for_each(|(input, value)| input.default = value);

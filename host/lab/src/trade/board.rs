@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use signorini_bake::choice::Choice;
+use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_image::board::Board;
@@ -59,7 +59,7 @@ fn module(problem: &Problem, name: &str) -> Result<Module> {
 }
 
 fn emitted<R: Scalar>(problem: &Problem) -> Result<Emitted> {
-    Ok(emit(problem, &Choice::<R>::new(problem, None, false)?))
+    Ok(emit(problem, &Choice::<R>::new(problem, Wanted::default())?))
 }
 
 fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {

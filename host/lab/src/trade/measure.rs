@@ -7,7 +7,7 @@ use signorini_kernel::solve::solver::Status;
 
 use crate::cycles;
 use signorini_bake::engine::{self, Engine, TickSolution};
-use signorini_bake::trial::inputs;
+use signorini_bake::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 use signorini_solve::problem::Problem;
@@ -39,11 +39,12 @@ pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
     if problem.scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
         setting.start = Start::Cold;
     }
-    let defaults: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let spaces = InputSpace::of(&problem.scene);
+    let defaults: Vec<f64> = spaces.iter().map(|space| space.default).collect();
     let (timing, answer) = engine::with(problem, |engine| {
         let timing = match setting.start {
             Start::Cold => cold(engine, &defaults)?,
-            Start::Warm => warm(engine, &defaults)?,
+            Start::Warm => warm(engine, &spaces)?,
         };
         Ok((timing, engine.answer(problem)?))
     })?;
@@ -67,8 +68,10 @@ fn cold(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
     Ok(Timing { cycles: median(&mut costs), spread: spread(&costs), sweeps })
 }
 
-/// Ticks with inputs drawn around the defaults, and a last one at the defaults, whose answer is kept.
-fn warm(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
+/// Ticks with inputs drawn from their ranges, and a last one at the defaults, whose answer is kept.
+fn warm(engine: &mut dyn Engine, spaces: &[InputSpace]) -> Result<Timing> {
+    let defaults: Vec<f64> = spaces.iter().map(|space| space.default).collect();
+    let defaults = &defaults;
     let mut medians = Vec::new();
     let mut sweeps = Vec::new();
     for _ in 0..RUNS {
@@ -76,7 +79,7 @@ fn warm(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
         engine.tick(defaults)?;
         let (mut costs, mut all) = (Vec::new(), 0);
         sweeps.clear();
-        for inputs in inputs::<f64>(defaults, TICKS).skip(1) {
+        for inputs in drawn::<f64>(spaces, TICKS).skip(1) {
             let start = cycles::now();
             sweeps.push(u64::from(engine.tick(&inputs)?));
             let cost = cycles::now().saturating_sub(start);

@@ -19,8 +19,12 @@ use super::split::Split;
 use crate::condense::{CondensedModel, Form, Vertex};
 use crate::reference::ReferenceError;
 
-/// Openings are kept below hi and this part of the largest one more: rounding in any scalar stays below.
+/// Openings are kept below hi, this part of it and [`ROUNDING`] of the largest more.
 const MARGIN: f64 = 1.0 / 1024.0;
+
+/// Part of the largest opening that rounding in any scalar hardly reaches. Where it does, a solution is cut off so far,
+/// and its bound counts that.
+const ROUNDING: f64 = 1.0 / 65536.0;
 
 /// Openings below this part of the largest may be rounding of the target's scalar.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -94,9 +98,9 @@ impl Sides {
         };
         let of: Vec<_> = enclosure.lo.iter().zip(&enclosure.reaction).map(side).collect();
         let limits = of.iter().zip(enclosure.lo.iter().zip(&enclosure.hi));
-        let limits = limits.map(|(&side, (lo, hi))| match side {
-            EdgeSide::Open => [0.5 * lo, hi + MARGIN * largest],
-            _ => [0.0, hi + MARGIN * largest],
+        let limits = limits.map(|(&side, (lo, hi))| {
+            let least = if side == EdgeSide::Open { 0.5 * lo } else { 0.0 };
+            [least, hi + MARGIN * hi + ROUNDING * largest]
         });
         let limits = limits.collect();
         let kept = of.iter().map(|&side| side == EdgeSide::MayChange).collect();

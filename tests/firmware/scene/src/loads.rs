@@ -1,7 +1,7 @@
 //! The inputs of every tick, the same on every machine.
 //!
-//! The first tick has the defaults. In the others each input is drawn evenly from within a tenth of its
-//! default, or from ±0.1 where that is 0.
+//! The first tick has the defaults. Of four others two are drawn evenly from the ranges and two are corners of them, one
+//! after the other. An input without a range stays within a tenth of its default, or within ±0.1 where that is 0.
 
 use crate::scene::{INPUTS, Inputs, Scalar};
 
@@ -19,10 +19,23 @@ impl Xorshift {
         self.0
     }
 
-    /// Evenly from [−0.1, 0.1), in steps that both scalars hold.
-    fn tenth(&mut self) -> Scalar {
-        const STEP: Scalar = 0.2 / (1 << 24) as Scalar;
-        (self.next() >> 8) as Scalar * STEP - 0.1
+    /// Evenly from [0, 1), in steps that both scalars hold.
+    fn part(&mut self) -> Scalar {
+        const STEP: Scalar = 1.0 / (1 << 24) as Scalar;
+        (self.next() >> 8) as Scalar * STEP
+    }
+}
+
+/// A value of `tick` for an input.
+fn value(tick: u32, part: Scalar, default: Scalar, [lo, hi]: [Scalar; 2]) -> Scalar {
+    if !(lo.is_finite() && hi.is_finite()) {
+        let unit = if default == 0.0 { 1.0 } else { default };
+        return default + unit * (0.2 * part - 0.1);
+    }
+    match tick % 4 {
+        0 | 1 => lo + (hi - lo) * part,
+        _ if part < 0.5 => lo,
+        _ => hi,
     }
 }
 
@@ -34,10 +47,9 @@ pub fn loads() -> impl Iterator<Item = Inputs> {
             return Inputs::DEFAULT;
         }
         let mut values: [Scalar; INPUTS] = Inputs::DEFAULT.to_array();
-        for value in &mut values {
-            let part = random.tenth();
-            *value = if *value == 0.0 { part } else { *value + *value * part };
+        for (value, range) in values.iter_mut().zip(Inputs::RANGES) {
+            *value = self::value(tick, random.part(), *value, range);
         }
-        Inputs::from_array(values)
+        Inputs::from_array(values).clamped()
     })
 }

@@ -12,7 +12,7 @@ use signorini_kernel::discrete::rows::TRIANGLES;
 use super::compiled::same_bits_of;
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, rows, source};
-use crate::choice::{Candidate, Choice, Model};
+use crate::choice::{Candidate, Choice, Model, Wanted};
 use crate::full::sizes;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
@@ -193,7 +193,7 @@ fn entries<R: Scalar>(candidate: &Candidate<R>) -> Option<usize> {
 fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
     let (_, asked) = anisotropy()?;
     let with = |solver| asked.with_setting(Some(Setting { solver, ..Setting::default() }));
-    let choose = |problem: &Problem| Choice::<f64>::new(problem, Some(ModelKind::Full), false);
+    let choose = |problem: &Problem| Choice::<f64>::new(problem, Wanted::model(ModelKind::Full));
     let choice = choose(&with(None))?;
     let [factored, swept] = &choice.candidates[..] else { panic!("two models") };
     assert!(choice.chosen == 0 && entries(factored).is_some() && entries(swept).is_none());
@@ -219,7 +219,7 @@ fn bake_takes_the_factor_where_sweeps_do_not_end() -> Result<()> {
 fn bake_takes_the_one_that_costs_less() -> Result<()> {
     let coarse = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
     for (_, problem) in [coarse, super::standard("strip.toml")?] {
-        let choice = Choice::<f32>::new(&problem, Some(ModelKind::Full), false)?;
+        let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Full))?;
         let costs: Vec<_> = choice.candidates.iter().map(|of| of.needs.instructions()).collect();
         let [Some(first), Some(second)] = costs[..] else { panic!("{costs:?}") };
         assert!(

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::replay;
-use crate::choice::{Choice, Model};
+use crate::choice::{Choice, Model, Wanted};
 use crate::compiled::printed;
 use crate::module_api::ModuleApi;
 use crate::tick::ScheduledTick;
@@ -59,7 +59,7 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
     let moments = log(scene.inputs.len());
     let (model, ticks) = replay(&problem, &moments, None, |_| {})?;
 
-    let choice = Choice::<f32>::new(&problem, None, false)?;
+    let choice = Choice::<f32>::new(&problem, Wanted::default())?;
     let module = match &choice.candidate().model {
         Model::Condensed(baked) => condensed::source(&ModuleApi::new(&problem), baked),
         Model::Full(baked) => full::source(baked),

@@ -1,0 +1,94 @@
+//! The inputs of a controller: their ranges in its scalar, and values drawn from them for trials.
+
+use signorini_scene::scene::{Input, Scene};
+use signorini_solve::scalar::Scalar;
+
+/// Where values of an input are drawn from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputSpace {
+    /// What the first tick has.
+    pub default: f64,
+    /// The least and the largest value; infinite where the scene declares none.
+    pub range: [f64; 2],
+}
+
+impl InputSpace {
+    /// Those of a scene, in its order.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let space = |input: &Input| Self { default: input.default, range: input.interval() };
+        scene.inputs.iter().map(space).collect()
+    }
+
+    /// Within a tenth of `default`.
+    pub fn near(default: f64) -> Self {
+        Self { default, range: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+
+    /// The value of `tick` that 32 random bits stand for.
+    fn value(&self, tick: usize, bits: u32) -> f64 {
+        let Self { default, range: [lo, hi] } = *self;
+        let part = f64::from(bits >> 8) / f64::from(1 << 24);
+        match (tick % 4, lo.is_finite() && hi.is_finite()) {
+            _ if tick == 0 => default,
+            (_, false) => {
+                default + (if default == 0.0 { 1.0 } else { default }) * 0.1 * (2.0 * part - 1.0)
+            }
+            (0 | 1, true) => lo + (hi - lo) * part,
+            _ if part < 0.5 => lo,
+            _ => hi,
+        }
+    }
+}
+
+/// The defaults, then so many ticks more, the same in every run: of four, two are drawn evenly from the ranges and two
+/// are corners of them, one after the other. An input without a range stays within a tenth of its default (within ±0.1
+/// where that is 0). `cargo xtask firmware` draws them so too.
+pub fn drawn<R: Scalar>(spaces: &[InputSpace], ticks: usize) -> impl Iterator<Item = Vec<R>> {
+    let mut state = 0x5169_0e1d_u32;
+    let mut bits = move || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        state
+    };
+    (0..=ticks).map(move |tick| {
+        let value = |space: &InputSpace| {
+            let bits = if tick == 0 { 0 } else { bits() };
+            R::narrow(space.value(tick, bits))
+        };
+        spaces.iter().map(value).collect()
+    })
+}
+
+/// The ranges in the scalar of the target; none where no input has one.
+pub fn ranges<R: Scalar>(ranges: &[[f64; 2]]) -> Vec<[R; 2]> {
+    let is_declared = |[lo, hi]: &[f64; 2]| lo.is_finite() || hi.is_finite();
+    match ranges.iter().any(is_declared) {
+        true => ranges.iter().map(|range| range.map(R::narrow)).collect(),
+        false => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_lie_in_their_ranges_and_at_both_ends() {
+        let spaces = [InputSpace { default: 3.0, range: [-1.0, 7.0] }, InputSpace::near(10.0)];
+        let ticks: Vec<Vec<f64>> = drawn(&spaces, 100).collect();
+        assert_eq!((ticks.len(), &ticks[0]), (101, &vec![3.0, 10.0]));
+        assert!(ticks.iter().all(|p| (-1.0..=7.0).contains(&p[0]) && (p[1] - 10.0).abs() <= 1.0));
+        let jumps = ticks.windows(2).filter(|pair| (pair[0][0] - pair[1][0]).abs() == 8.0);
+        assert!(jumps.count() > 8, "from end to end");
+        let inside = ticks.iter().filter(|p| ![-1.0, 3.0, 7.0].contains(&p[0]));
+        assert_eq!(inside.count(), 50);
+        assert!(ticks.iter().map(|p| p[1]).fold(0.0, f64::max) > 10.9);
+    }
+
+    #[test]
+    fn ranges_are_those_of_the_scalar() {
+        assert_eq!(ranges::<f32>(&[[0.1, 0.3]]), [[0.1_f32, 0.3]]);
+        assert_eq!(ranges::<f32>(&[InputSpace::near(1.0).range]), [[0.0_f32; 2]; 0]);
+    }
+}
