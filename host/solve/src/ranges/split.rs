@@ -30,6 +30,9 @@ pub struct Split {
 impl Split {
     /// Splits `matrix`, n × n row by row; nothing where its part N is not proved to be a nonsingular M-matrix.
     pub fn new(matrix: &[f64], n: usize) -> Option<Self> {
+        if !matrix.iter().all(|entry| entry.is_finite()) {
+            return None;
+        }
         let is_diagonal = |at: usize| at / n == at % n;
         let entries = || matrix.iter().copied().enumerate();
         let negative: Vec<f64> =

@@ -34,7 +34,7 @@ fn main() {{
 
 /// A slow drift with jumps and a tick that repeats another.
 fn log(inputs: usize) -> Vec<ScheduledTick> {
-    let values = [0.0, 0.01, 0.02, -0.3, -0.3, 0.25, 0.24];
+    let values = [0.0, 0.01, 0.02, 0.3, 0.3, 0.05, 0.04];
     let moment = |(at, value): (usize, &f64)| ScheduledTick {
         time: at as f64,
         inputs: (0..inputs).map(|input| (input, value / (1.0 + input as f64))).collect(),
