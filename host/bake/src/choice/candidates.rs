@@ -40,6 +40,8 @@ pub(super) fn of_condensed<R: Scalar>(
             _ if condensate.contact == 0 || setting.sweeps.is_some() => &[false][..],
             Some(Method::Sweeps) => &[false],
             Some(Method::Exact) => &[true],
+            // Nothing else has an end that is proved.
+            _ if condensed::is_monotone::<R>(condensate) => &[true],
             _ => &[true, false],
         };
         for &exact in methods {
@@ -109,8 +111,13 @@ fn condensed_as<R: Scalar>(
     let (trial, instructions) = trial::of_condensed(&baked, &spaces, price);
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
     let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
-    let work = within::<R>(&costs, condensate.contact, all, trial, time);
-    let baked = baked.with_work(work);
+    let baked = match baked.worst_exchanges() {
+        Some(_) => baked,
+        None => {
+            let work = within::<R>(&costs, condensate.contact, all, trial, time);
+            baked.with_work(work)
+        }
+    };
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(", condensed", sizes, instructions);
     let solver = match (condensate.contact, exact) {

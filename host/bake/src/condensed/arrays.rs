@@ -14,6 +14,7 @@ use super::start::InitialState;
 use crate::inputs::ranges;
 use signorini_scene::setting::{Omega, Setting, Start as From};
 use signorini_solve::condense::CondensedModel;
+use signorini_solve::ranges::split::Split;
 use signorini_solve::scalar::Scalar;
 
 /// How much the solver of a baked model may do in a tick.
@@ -34,6 +35,8 @@ pub(super) enum Solver {
     Sweeps,
     /// At most so many exchanges, and sweeps where they do not suffice.
     Exchanges(u32),
+    /// Exchanges in two phases, which come to their end.
+    TwoPhases,
 }
 
 /// A condensed scene in the scalar `R`.
@@ -51,6 +54,9 @@ pub struct Baked<R: Scalar> {
     pub cold: bool,
     /// Whether the data allow for a bound, even if it is left out.
     pub has_bound: bool,
+    /// Whether exchanges in two phases come to an end from every state, for every load: the matrix as the target has it
+    /// is positive definite, with no positive entry off the diagonal.
+    pub is_monotone: bool,
     pub(super) matrix: Vec<Block<R>>,
     pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
@@ -83,6 +89,7 @@ impl<R: Scalar> Baked<R> {
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             cold: false,
             has_bound: condensate.certificate.is_ok(),
+            is_monotone: is_monotone::<R>(condensate),
             matrix: matrix(condensate),
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
@@ -98,7 +105,17 @@ impl<R: Scalar> Baked<R> {
         match self.work.pivots {
             _ if self.contact == 0 => Solver::Linear,
             None => Solver::Sweeps,
+            Some(_) if self.is_monotone => Solver::TwoPhases,
             Some(most) => Solver::Exchanges(most),
+        }
+    }
+
+    /// Exchanges that no tick exceeds, from whatever state and for whatever load; nothing where that is not proved.
+    pub fn worst_exchanges(&self) -> Option<u32> {
+        match self.solver() {
+            Solver::Linear => Some(0),
+            Solver::TwoPhases => Some(2 * self.contact as u32),
+            Solver::Sweeps | Solver::Exchanges(_) => None,
         }
     }
 
@@ -184,4 +201,11 @@ impl<R: Scalar> Baked<R> {
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
     }
+}
+
+/// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
+pub(crate) fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
+    let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
+    let split = Split::new(&stored, condensate.contact);
+    split.is_some_and(|split| split.has_all_signs())
 }

@@ -56,6 +56,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
         baked.with_model(|model| match baked.solver() {
             Solver::Linear => answer(model, &inputs, Linear, storage),
             Solver::Sweeps => answer(model, &inputs, baked.sweeps, storage),
+            Solver::TwoPhases => {
+                let method = self.tableau.two_phases(model)?;
+                answer(model, &inputs, method, storage)
+            }
             Solver::Exchanges(most) => {
                 let method = self.tableau.method(model, most, baked.sweeps)?;
                 answer(model, &inputs, method, storage)

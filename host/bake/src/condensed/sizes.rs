@@ -78,7 +78,9 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     let (n, scalar) = (padded(baked.contact), baked.scalar());
     let columns = baked.columns();
     let tableau = match baked.solver() {
-        Solver::Exchanges(_) => (BLOCK * count(baked.contact) + 2 * n) * scalar + n,
+        Solver::Exchanges(_) | Solver::TwoPhases => {
+            (BLOCK * count(baked.contact) + 2 * n) * scalar + n
+        }
         _ => 0,
     };
     let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();

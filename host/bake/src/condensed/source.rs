@@ -35,15 +35,17 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 }
 
 fn imports<R: Scalar>(baked: &Baked<R>) -> String {
+    const BOTH: &str = "storage::{ArrayStorage, ArrayTableauStorage}";
+    let method = |name| format!("use signorini_kernel::device::condensed::method::{name};\n");
     let (method, storage) = match baked.solver() {
-        Solver::Linear => ("Linear", "storage::ArrayStorage"),
-        Solver::Sweeps => ("Sweeps", "storage::ArrayStorage"),
-        Solver::Exchanges(_) => ("Sweeps", "storage::{ArrayStorage, ArrayTableauStorage}"),
+        Solver::Linear => (method("Linear"), "storage::ArrayStorage"),
+        Solver::Sweeps => (method("Sweeps"), "storage::ArrayStorage"),
+        Solver::Exchanges(_) => (method("Sweeps"), BOTH),
+        Solver::TwoPhases => (String::new(), BOTH),
     };
     format!(
         "
-use signorini_kernel::device::condensed::method::{method};
-use signorini_kernel::device::condensed::{storage};
+{method}use signorini_kernel::device::condensed::{storage};
 use signorini_kernel::device::limits::{{Deadline, Limits}};
 use signorini_kernel::{{Error, Report}};
 "
@@ -64,18 +66,27 @@ const COLUMNS: usize = {columns};
         padded = padded(contact),
         columns = baked.columns(),
     );
+    let blocks = format!("/// Blocks of the tableau.\nconst BLOCKS: usize = {};\n", count(contact));
     let purpose = match baked.solver() {
         Solver::Linear => return text,
+        Solver::TwoPhases => {
+            let worst = baked.worst_exchanges().unwrap_or_default();
+            let _ = write!(
+                text,
+                "{blocks}/// No tick takes more exchanges, whatever its load and the state it begins in: proved, for no entry of S off
+/// the diagonal is positive.
+pub const WORST_EXCHANGES: u32 = {worst};
+"
+            );
+            return text;
+        }
         Solver::Sweeps => "from the last tick's answer",
         Solver::Exchanges(most) => {
             let _ = write!(
                 text,
-                "/// Blocks of the tableau.
-const BLOCKS: usize = {};
-/// Most edges that may change sides in one tick; where more want to, the next ticks go on.
+                "{blocks}/// Most edges that may change sides in one tick; where more want to, the next ticks go on.
 pub const PIVOTS: u32 = {most};
-",
-                count(contact)
+"
             );
             "where the exchanges do not suffice"
         }
@@ -93,16 +104,18 @@ pub const SWEEPS: Sweeps<Scalar> =
 
 fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let solver = baked.solver();
-    let is_exact = matches!(solver, Solver::Exchanges(_));
+    let is_exact = matches!(solver, Solver::Exchanges(_) | Solver::TwoPhases);
     let only = |text: &'static str| if is_exact { text } else { "" };
     let ends = match solver {
         Solver::Linear => "with the solution, for nothing is in contact",
         Solver::Sweeps => "with complementarity, or after so many sweeps",
+        Solver::TwoPhases => "with the solution, after [`WORST_EXCHANGES`] at most",
         Solver::Exchanges(_) => {
             "with the solution; where [`PIVOTS`] do not suffice, after so many sweeps"
         }
     };
-    let sweeps = if solver == Solver::Linear { 0 } else { baked.sweeps.most };
+    let is_limited = matches!(solver, Solver::Sweeps | Solver::Exchanges(_));
+    let sweeps = if is_limited { baked.sweeps.most } else { 0 };
     let text = controller::controller(&Parts {
         fields: &format!(
             "    storage: ArrayStorage<Scalar, PADDED, COLUMNS>,\n{}",
@@ -120,7 +133,7 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         ends,
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
         check: face.check(),
-        is_limited: solver != Solver::Linear,
+        is_limited,
         tick: &tick(face, baked),
         reset: &format!(
             "        self.storage.reset();\n{}",
@@ -135,6 +148,7 @@ fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
     let method = match baked.solver() {
         Solver::Linear => "Linear".to_owned(),
+        Solver::TwoPhases => "self.tableau.two_phases(&data::SYSTEM)?".to_owned(),
         Solver::Sweeps => SWEEPS.to_owned(),
         Solver::Exchanges(_) => {
             format!(

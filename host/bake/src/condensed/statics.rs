@@ -19,7 +19,7 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         (baked.matrix.len(), blocks(&baked.matrix))
     });
     let start = match baked.solver() {
-        Solver::Exchanges(_) => {
+        Solver::Exchanges(_) | Solver::TwoPhases => {
             let doc = "The tableau of the scene's own inputs: where exchanges begin.";
             let value = (baked.start.blocks.len(), blocks(&baked.start.blocks));
             put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);

@@ -13,6 +13,7 @@ use crate::real::Real;
 use crate::solve::dense::Iterate;
 use crate::solve::dense::blocks::Blocks;
 use crate::solve::dense::pivoting::{self, Found, settle};
+use crate::solve::dense::rule::{Largest, Phases, Rule as _};
 use crate::solve::dense::sizes;
 use crate::solve::dense::sor;
 use crate::solve::dense::tableau::{InitialTableau, Tableau};
@@ -159,8 +160,9 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         let lent = iterate.reborrow();
         let most = self.most;
         let may_exchange = |pivots| pivots < most && deadline.allows_a_sweep();
+        let rule = &mut Largest;
         let (found, pivots) =
-            pivoting::find(matrix, load, &mut self.tableau, &self.start, may_exchange, lent)?;
+            pivoting::find(matrix, load, &mut self.tableau, &self.start, rule, may_exchange, lent)?;
         if found == Found::Exact {
             return Ok(SolveSummary { ended: Ended::Exact, pivots, sweeps: 0 });
         }
@@ -173,5 +175,47 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
                 Err(error)
             }
         }
+    }
+}
+
+/// Principal pivoting in two phases, for a matrix none of whose entries off the diagonal is positive: an end after at most
+/// 2n exchanges is proved, so that nothing follows.
+#[derive(Debug)]
+pub struct TwoPhases<'a, R> {
+    /// The tableau, kept from tick to tick.
+    pub tableau: Tableau<'a, R>,
+    /// Where it began.
+    pub start: InitialTableau<'a, R>,
+}
+
+impl<R: Real> Method<R> for TwoPhases<'_, R> {
+    fn solve<F: FnMut() -> u32>(
+        &mut self,
+        matrix: &Blocks<R>,
+        load: &[R],
+        iterate: Iterate<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<SolveSummary, Error> {
+        let mut iterate = iterate;
+        let most = Phases::default().most(matrix.order()) as u32;
+        let mut is_in_time = true;
+        let may_exchange = |pivots| {
+            is_in_time = deadline.allows_a_sweep();
+            pivots < most && is_in_time
+        };
+        let (lent, rule) = (iterate.reborrow(), &mut Phases::default());
+        let (found, pivots) =
+            pivoting::find(matrix, load, &mut self.tableau, &self.start, rule, may_exchange, lent)?;
+        let ended = match found {
+            Found::Exact => Ended::Exact,
+            _ if !is_in_time => Ended::OutOfTime,
+            // Rounding has eaten the tableau: x is zeros, and the next tick begins anew.
+            _ => Ended::OutOfSweeps,
+        };
+        if found == Found::Worn {
+            let Iterate { x, residual, open, .. } = iterate;
+            settle(matrix, load, x, residual, open)?;
+        }
+        Ok(SolveSummary { ended, pivots, sweeps: 0 })
     }
 }

@@ -1,6 +1,6 @@
 //! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices.
 
-use super::method::{Pivots, Sweeps};
+use super::method::{Pivots, Sweeps, TwoPhases};
 use super::{Condensed, Memory};
 use crate::error::Error;
 use crate::real::Real;
@@ -152,6 +152,31 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
         Flags: AsMut<[bool]>,
         Column: AsMut<[R]>,
     {
+        Ok(Pivots { tableau: self.tableau(model)?, start: model.start, most, sweeps })
+    }
+
+    /// The exact method on a `model` whose matrix has no positive entry off the diagonal.
+    ///
+    /// # Errors
+    /// A model of another size.
+    pub fn two_phases<'a, R: Real>(
+        &'a mut self,
+        model: &Condensed<'a, R>,
+    ) -> Result<TwoPhases<'a, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
+        Ok(TwoPhases { tableau: self.tableau(model)?, start: model.start })
+    }
+
+    fn tableau<R: Real>(&mut self, model: &Condensed<R>) -> Result<Tableau<'_, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
         let columns = self.columns.each_mut().map(Column::as_mut);
         let (blocks, exchanged) = (self.blocks.as_mut(), self.exchanged.as_mut());
         let mut tableau = Tableau::new(model.contact, blocks, exchanged, columns)?;
@@ -159,7 +184,7 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
             tableau.reset(&model.start)?;
             self.is_built = true;
         }
-        Ok(Pivots { tableau, start: model.start, most, sweeps })
+        Ok(tableau)
     }
 
     /// Forgets all ticks: the next one takes the model's tableau over again.

@@ -8,6 +8,7 @@
 pub mod blocks;
 mod correction;
 pub mod pivoting;
+pub mod rule;
 pub(crate) mod sizes;
 pub mod sor;
 pub mod tableau;

@@ -3,17 +3,15 @@
 //!
 //! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
 //! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
-//! wrong side. The one that is wrong by most is exchanged, until none is: that takes as many exchanges
-//! as edges change sides, or hardly more, where a pass over all that are wrong takes a sixth more. It
-//! need not end for every positive definite S, and after n exchanges the first wrong one is taken instead,
-//! which does (Murty).
+//! wrong side. Which of them is exchanged next is up to a [`Rule`]; one after the other, until none is wrong.
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
 //! tableau that no longer corrects goes back to where it began, and exchanges from there.
 
 use super::Iterate;
-use super::blocks::{Blocks, SIDE, groups, multiply_add};
+use super::blocks::{Blocks, multiply_add};
+use super::rule::Rule;
 use super::sizes;
 use super::tableau::{InitialTableau, Tableau};
 use crate::error::Error;
@@ -50,6 +48,7 @@ pub fn find<R: Real>(
     load: &[R],
     tableau: &mut Tableau<R>,
     start: &InitialTableau<R>,
+    rule: &mut impl Rule,
     may_exchange: impl FnMut(u32) -> bool,
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
@@ -63,7 +62,8 @@ pub fn find<R: Real>(
         tableau.answer(load, answer)?;
         size = sizes::norm_of_both(load, answer);
     }
-    let (mut found, pivots, now) = exchange_all(load, tableau, may_exchange, &mut size, answer)?;
+    let (mut found, pivots, now) =
+        exchange_all(load, tableau, (rule, may_exchange), &mut size, answer)?;
     tableau.finish();
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
@@ -85,7 +85,7 @@ pub fn find<R: Real>(
             found = Found::Worn;
         }
     }
-    if found == Found::OutOfPivots && pivots as usize >= x.len() {
+    if found == Found::OutOfPivots && pivots as usize >= rule.most(matrix.order()) {
         found = Found::Worn;
     }
     if found == Found::Worn {
@@ -99,14 +99,15 @@ pub fn find<R: Real>(
 fn exchange_all<R: Real>(
     load: &[R],
     tableau: &mut Tableau<R>,
-    mut may_exchange: impl FnMut(u32) -> bool,
+    (rule, mut may_exchange): (&mut impl Rule, impl FnMut(u32) -> bool),
     size: &mut R,
     answer: &mut [R],
 ) -> Result<(Found, u32, R), Error> {
     let mut pivots = 0;
     loop {
         let noise = R::TWO * R::EPSILON * *size;
-        let (found, more) = search(tableau, |more| may_exchange(pivots + more), noise, answer)?;
+        let allowed = |more| may_exchange(pivots + more);
+        let (found, more) = search(tableau, rule, allowed, noise, answer)?;
         pivots += more;
         let now = sizes::norm_of_both(load, answer);
         // A first answer that was far too large hides what is wrong with the last one.
@@ -120,15 +121,14 @@ fn exchange_all<R: Real>(
 /// Exchanges until nothing is wrong by more than `noise`, which rounding may be.
 fn search<R: Real>(
     tableau: &mut Tableau<R>,
+    rule: &mut impl Rule,
     mut may_exchange: impl FnMut(u32) -> bool,
     noise: R,
     z: &mut [R],
 ) -> Result<(Found, u32), Error> {
-    let patience = z.len() as u32;
     let mut pivots = 0;
     loop {
-        let is_patient = pivots < patience;
-        let Some(at) = wrong(z, tableau.exchanged(), noise, is_patient) else {
+        let Some(at) = rule.next(z, tableau.exchanged(), noise, pivots) else {
             return Ok((Found::Exact, pivots));
         };
         if !may_exchange(pivots) {
@@ -139,51 +139,6 @@ fn search<R: Real>(
         }
         pivots += 1;
     }
-}
-
-/// The unknown that is on the wrong side by most, or the first that is.
-fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
-    if by_most && cfg!(not(target_arch = "arm")) {
-        return in_lanes(z, exchanged, noise);
-    }
-    in_turn(z, exchanged, noise, by_most)
-}
-
-/// One after the other: z = −x within, w elsewhere, and both are wrong where their signs say otherwise.
-fn in_turn<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
-    let (mut found, mut most) = (None, noise);
-    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
-        if (z > R::ZERO) == within && z.magnitude() > most {
-            (found, most) = (Some(at), z.magnitude());
-            if !by_most {
-                break;
-            }
-        }
-    }
-    found
-}
-
-/// The same by most, where a register holds several numbers: by how much first, and then who.
-fn in_lanes<R: Real>(z: &[R], exchanged: &[bool], noise: R) -> Option<usize> {
-    let most = largest(z, exchanged);
-    let is_it = |(&z, &within)| excess(z, within) >= most;
-    if most > noise { z.iter().zip(exchanged).position(is_it) } else { None }
-}
-
-/// What the one that is wrong by most is wrong by; 0 where none is.
-fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
-    let mut most = [R::ZERO; SIDE];
-    for (z, exchanged) in groups(z).iter().zip(groups(exchanged)) {
-        for ((most, &z), &within) in most.iter_mut().zip(z).zip(exchanged) {
-            *most = most.or_larger(excess(z, within));
-        }
-    }
-    most.into_iter().fold(R::ZERO, R::or_larger)
-}
-
-/// By how much an unknown is on the wrong side, below 0 where it is on the right one.
-fn excess<R: Real>(z: R, within: bool) -> R {
-    if within { z } else { -z }
 }
 
 /// x of the answer (−x_I, w_A), not below 0.
@@ -222,30 +177,4 @@ fn correct<R: Real>(
         *x = if within && corrected > R::ZERO { corrected } else { R::ZERO };
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lanes_find_the_same_unknown() {
-        let exchanged: [bool; 24] = core::array::from_fn(|at| at % 3 == 0);
-        let (mut some, mut none) = (0, 0);
-        for shift in 0..200 {
-            // Every value twice, some of both signs.
-            let number = |at: usize| ((at % 12 * 37 + shift * 53) % 101) as f64 - 70.0;
-            let z: [f64; 24] =
-                core::array::from_fn(|at| if at % 5 == 4 { 0.0 } else { number(at) });
-            for noise in [0.0, 28.0, 69.0] {
-                let one = in_turn(&z, &exchanged, noise, true);
-                assert_eq!(in_lanes(&z, &exchanged, noise), one, "{shift}, {noise}");
-                *(if one.is_some() { &mut some } else { &mut none }) += 1;
-            }
-            let first = in_turn(&z, &exchanged, 1.0, false);
-            let by = z.iter().zip(&exchanged).map(|(z, within)| if *within { *z } else { -z });
-            assert_eq!(first, by.into_iter().position(|by| by > 1.0));
-        }
-        assert!(none > 0 && some > 100, "{none} {some}");
-    }
 }

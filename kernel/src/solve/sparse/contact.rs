@@ -20,6 +20,7 @@ use crate::real::Real;
 use crate::solve::dense::Iterate;
 use crate::solve::dense::blocks::{Block, Blocks, multiply_add, padded};
 use crate::solve::dense::pivoting::{self, Found};
+use crate::solve::dense::rule::Largest;
 use crate::solve::dense::sizes;
 use crate::solve::dense::tableau::{InitialTableau, Tableau};
 
@@ -278,8 +279,15 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         multiply_add(&matrix, x, open, self.load)?;
         let cap = (4 * counts.contact + 16) as u32;
         let iterate = Iterate { x, residual, scratch, open };
-        let search =
-            pivoting::find(&matrix, self.load, &mut self.tableau, &start, |at| at < cap, iterate);
+        let search = pivoting::find(
+            &matrix,
+            self.load,
+            &mut self.tableau,
+            &start,
+            &mut Largest,
+            |at| at < cap,
+            iterate,
+        );
         let pivots = match search {
             Ok((Found::Exact, pivots)) => pivots,
             // What overflows has no answer either.

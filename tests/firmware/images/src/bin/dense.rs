@@ -16,6 +16,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE};
+use signorini_kernel::solve::dense::rule::Largest;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::solve::dense::{Iterate, pivoting, sor};
 
@@ -80,7 +81,8 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
             scratch: &mut *scratch,
             open: &mut *open,
         };
-        pivoting::find(&matrix, load, &mut tableau, &start, |_| true, iterate).map(|_| ())
+        pivoting::find(&matrix, load, &mut tableau, &start, &mut Largest, |_| true, iterate)
+            .map(|_| ())
     };
     meter.count("exact, no edge changes", "n²", n * n, || solve(load))?;
     let mut other = [R::ZERO; MOST];

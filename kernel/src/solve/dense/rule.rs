@@ -1,0 +1,173 @@
+//! Which unknown on the wrong side is exchanged next.
+//!
+//! ```text
+//!   Largest   the one that is wrong by most, and after n exchanges the first: few, and an end for every positive
+//!             definite S (Murty)
+//!   Phases    first those that must leave, x_i < 0, the worst of them first; then those that must come in, w_i < 0
+//! ```
+//! [`Largest`] takes as many exchanges as edges change sides, or hardly more, where a pass over all that are wrong takes a
+//! sixth more. How many it takes at worst nobody knows. Where no entry of S off the diagonal is positive, and S is
+//! positive definite, [`Phases`] need at most n exchanges and those that are open at the start, 2n in all, for every load:
+//! ```text
+//!   1.  S_II⁻¹ ≥ 0. As an i with x_i < 0 leaves, the other x_I fall: whoever must leave goes on having to.
+//!   2.  With x_I ≥ 0 and some w_k < 0, k comes in with x_k > 0, and x_I rise: none ever has to leave, and w_A falls.
+//! ```
+
+use super::blocks::{SIDE, groups, padded};
+use crate::real::Real;
+
+/// Chooses exchanges.
+pub trait Rule {
+    /// Exchanges, for a matrix of this order, after which there is no solution or rounding has eaten the tableau.
+    fn most(&self, order: usize) -> usize;
+
+    /// The unknown to exchange after so many `pivots`; nothing where none is wrong by more than `noise`.
+    ///
+    /// z = −x where an unknown is exchanged, w elsewhere.
+    fn next<R: Real>(
+        &mut self,
+        z: &[R],
+        exchanged: &[bool],
+        noise: R,
+        pivots: u32,
+    ) -> Option<usize>;
+}
+
+/// The one that is wrong by most, and after n exchanges the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Largest;
+
+impl Rule for Largest {
+    fn most(&self, order: usize) -> usize {
+        padded(order)
+    }
+
+    fn next<R: Real>(
+        &mut self,
+        z: &[R],
+        exchanged: &[bool],
+        noise: R,
+        pivots: u32,
+    ) -> Option<usize> {
+        wrong(z, exchanged, noise, pivots < z.len() as u32)
+    }
+}
+
+/// Those that must leave, then those that must come in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Phases {
+    comes_in: bool,
+}
+
+impl Rule for Phases {
+    fn most(&self, order: usize) -> usize {
+        2 * order
+    }
+
+    fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, _: u32) -> Option<usize> {
+        if !self.comes_in {
+            let leaving = worst(z, exchanged, noise, true);
+            if leaving.is_some() {
+                return leaving;
+            }
+            self.comes_in = true;
+        }
+        worst(z, exchanged, noise, false)
+    }
+}
+
+/// The one that is wrong by most of those that are exchanged, or of those that are not.
+fn worst<R: Real>(z: &[R], exchanged: &[bool], noise: R, within: bool) -> Option<usize> {
+    let (mut found, mut most) = (None, noise);
+    for (at, (&z, &is_within)) in z.iter().zip(exchanged).enumerate() {
+        let excess = excess(z, within);
+        if is_within == within && excess > most {
+            (found, most) = (Some(at), excess);
+        }
+    }
+    found
+}
+
+/// The unknown that is on the wrong side by most, or the first that is.
+fn wrong<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    if by_most && cfg!(not(target_arch = "arm")) {
+        return in_lanes(z, exchanged, noise);
+    }
+    in_turn(z, exchanged, noise, by_most)
+}
+
+/// One after the other: z = −x within, w elsewhere, and both are wrong where their signs say otherwise.
+fn in_turn<R: Real>(z: &[R], exchanged: &[bool], noise: R, by_most: bool) -> Option<usize> {
+    let (mut found, mut most) = (None, noise);
+    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
+        if (z > R::ZERO) == within && z.magnitude() > most {
+            (found, most) = (Some(at), z.magnitude());
+            if !by_most {
+                break;
+            }
+        }
+    }
+    found
+}
+
+/// The same by most, where a register holds several numbers: by how much first, and then who.
+fn in_lanes<R: Real>(z: &[R], exchanged: &[bool], noise: R) -> Option<usize> {
+    let most = largest(z, exchanged);
+    let is_it = |(&z, &within)| excess(z, within) >= most;
+    if most > noise { z.iter().zip(exchanged).position(is_it) } else { None }
+}
+
+/// What the one that is wrong by most is wrong by; 0 where none is.
+fn largest<R: Real>(z: &[R], exchanged: &[bool]) -> R {
+    let mut most = [R::ZERO; SIDE];
+    for (z, exchanged) in groups(z).iter().zip(groups(exchanged)) {
+        for ((most, &z), &within) in most.iter_mut().zip(z).zip(exchanged) {
+            *most = most.or_larger(excess(z, within));
+        }
+    }
+    most.into_iter().fold(R::ZERO, R::or_larger)
+}
+
+/// By how much an unknown is on the wrong side, below 0 where it is on the right one.
+fn excess<R: Real>(z: R, within: bool) -> R {
+    if within { z } else { -z }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_must_leave_goes_first() {
+        let exchanged = [true, true, false, false, true];
+        let mut phases = Phases::default();
+        let mut next = |z: [f64; 5]| phases.next(&z, &exchanged, 0.5, 0);
+        assert_eq!(next([1.0, 2.0, -9.0, -3.0, -4.0]), Some(1));
+        assert_eq!(next([1.0, 0.5, -9.0, -3.0, -4.0]), Some(0));
+        assert_eq!(next([0.5, 0.5, -2.0, -3.0, -4.0]), Some(3));
+        // Nothing goes back: whoever would have to is rounding, or S has another sign.
+        assert_eq!(next([9.0, 0.5, -2.0, -0.5, f64::NAN]), Some(2));
+        assert_eq!(next([9.0, 0.5, -0.5, 3.0, 0.0]), None);
+    }
+
+    #[test]
+    fn lanes_find_the_same_unknown() {
+        let exchanged: [bool; 24] = core::array::from_fn(|at| at % 3 == 0);
+        let (mut some, mut none) = (0, 0);
+        for shift in 0..200 {
+            // Every value twice, some of both signs.
+            let number = |at: usize| ((at % 12 * 37 + shift * 53) % 101) as f64 - 70.0;
+            let z: [f64; 24] =
+                core::array::from_fn(|at| if at % 5 == 4 { 0.0 } else { number(at) });
+            for noise in [0.0, 28.0, 69.0] {
+                let one = in_turn(&z, &exchanged, noise, true);
+                assert_eq!(in_lanes(&z, &exchanged, noise), one, "{shift}, {noise}");
+                *(if one.is_some() { &mut some } else { &mut none }) += 1;
+            }
+            let first = in_turn(&z, &exchanged, 1.0, false);
+            let by = z.iter().zip(&exchanged).map(|(z, within)| if *within { *z } else { -z });
+            assert_eq!(first, by.into_iter().position(|by| by > 1.0));
+        }
+        assert!(none > 0 && some > 100, "{none} {some}");
+    }
+}
