@@ -76,12 +76,13 @@ pub fn multiply_add<R: Real>(
     let mut rest = matrix.blocks();
     let is_any = |used: &[bool; SIDE]| *used != [false; SIDE];
     for (row, (own, is_used)) in x.iter().zip(used).enumerate() {
-        let Some((left, [diagonal, below @ ..])) = rest.split_at_checked(row) else { break };
+        let Some((own_row, below)) = rest.split_at_checked(row + 1) else { break };
+        let Some((left, _)) = own_row.split_at_checked(row) else { break };
         let Some((above, [sum, ..])) = sums.split_at_mut_checked(row) else { break };
         let mut pairs = sum.map(|sum| [sum, R::ZERO]);
-        add_products(left.iter().zip(x).zip(used.iter().map(is_any)), &mut pairs);
+        // The diagonal block is the last.
+        add_products(own_row.iter().zip(x).zip(used.iter().map(is_any)), &mut pairs);
         if is_any(is_used) {
-            add_products([((diagonal, own), true)].into_iter(), &mut pairs);
             // A copy, which no write to a sum can change, stays in registers.
             let own = *own;
             left.iter().zip(above).for_each(|(block, sum)| add_transposed(block, &own, sum));

@@ -65,27 +65,20 @@ impl Rule for Phases {
     }
 
     fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, _: u32) -> Option<usize> {
-        if !self.comes_in {
-            let leaving = worst(z, exchanged, noise, true);
-            if leaving.is_some() {
-                return leaving;
+        // The one that is wrong by most of those outside, and of those within.
+        let (mut found, mut most) = ([None; 2], [noise; 2]);
+        for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
+            let excess = excess(z, within);
+            let ([coming, leaving], [least, less]) = (&mut found, &mut most);
+            let (found, most) = if within { (leaving, less) } else { (coming, least) };
+            if excess > *most {
+                (*found, *most) = (Some(at), excess);
             }
-            self.comes_in = true;
         }
-        worst(z, exchanged, noise, false)
+        let [coming, leaving] = found;
+        self.comes_in |= leaving.is_none();
+        if self.comes_in { coming } else { leaving }
     }
-}
-
-/// The one that is wrong by most of those that are exchanged, or of those that are not.
-fn worst<R: Real>(z: &[R], exchanged: &[bool], noise: R, within: bool) -> Option<usize> {
-    let (mut found, mut most) = (None, noise);
-    for (at, (&z, &is_within)) in z.iter().zip(exchanged).enumerate() {
-        let excess = excess(z, within);
-        if is_within == within && excess > most {
-            (found, most) = (Some(at), excess);
-        }
-    }
-    found
 }
 
 /// The unknown that is on the wrong side by most, or the first that is.

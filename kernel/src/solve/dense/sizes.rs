@@ -42,15 +42,10 @@ pub(crate) fn norm_of_both<R: Real>(a: &[R], b: &[R]) -> R {
 /// The root of the sum of r_i² over the edges that are open, or should be.
 pub(crate) fn unbalanced<R: Real>(residual: &[R], x: &[R]) -> R {
     let wrong = |r: R, x: R| if x > R::ZERO { r } else { r.or_smaller(R::ZERO) };
-    let mut sums = [R::ZERO; SIDE];
-    for (group, x) in groups(residual).iter().zip(groups(x)) {
-        for ((sum, &r), &x) in sums.iter_mut().zip(group).zip(x) {
-            let wrong = wrong(r, x);
-            *sum += wrong * wrong;
-        }
-    }
+    let entries = residual.iter().zip(x).map(|(&r, &x)| wrong(r, x));
+    let sum = entries.fold(R::ZERO, |sum, wrong| sum + wrong * wrong);
     let entry = |at: usize| wrong(read(residual, at), read(x, at));
-    root(total(sums), residual.len().min(x.len()), &entry)
+    root(sum, residual.len().min(x.len()), &entry)
 }
 
 /// The sum of eight numbers.

@@ -85,8 +85,8 @@ impl<'a, R: Real> Tableau<'a, R> {
         same_length(Array::MatrixValues, start.blocks.len(), self.blocks.len())?;
         same_length(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
         self.waiting = None;
-        self.exchanged.iter_mut().zip(start.exchanged).for_each(|(own, given)| *own = *given);
-        self.blocks.iter_mut().zip(start.blocks).for_each(|(own, given)| *own = *given);
+        self.exchanged.copy_from_slice(start.exchanged);
+        self.blocks.copy_from_slice(start.blocks);
         Ok(())
     }
 
@@ -156,6 +156,7 @@ impl<'a, R: Real> Tableau<'a, R> {
     }
 
     /// Carries out the correction that waits.
+    #[inline(never)]
     pub(super) fn finish(&mut self) {
         if let Some(Pivot { at, inverse, shrink }) = self.waiting.take() {
             let column = groups(self.column);

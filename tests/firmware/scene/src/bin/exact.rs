@@ -16,7 +16,7 @@ use signorini_kernel::device::condensed::method::Method as _;
 use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::solve::dense::blocks::{count, padded};
-use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SWEEPS, SYSTEM};
+use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SYSTEM};
 
 const PADDED: usize = padded(CONTACT);
 const TICKS: u32 = 1000;
@@ -71,6 +71,6 @@ fn load(inputs: &[f32; INPUTS], memory: &mut Memory) {
 fn solve(memory: &mut Memory) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
     let lent = memory.storage.memory(&SYSTEM);
-    let mut method = memory.tableau.method(&SYSTEM, u32::MAX, SWEEPS)?;
+    let mut method = memory.tableau.two_phases(&SYSTEM)?;
     method.solve(&matrix, lent.load, lent.iterate, &mut Deadline::never()).map(|_| ())
 }
