@@ -105,7 +105,8 @@ impl<R: Scalar> Baked<R> {
         match self.work.pivots {
             _ if self.contact == 0 => Solver::Linear,
             None => Solver::Sweeps,
-            Some(_) if self.is_monotone => Solver::TwoPhases,
+            // Fewer than may be needed leave something to sweeps.
+            Some(most) if self.is_monotone && most >= 2 * self.contact as u32 => Solver::TwoPhases,
             Some(most) => Solver::Exchanges(most),
         }
     }
