@@ -68,6 +68,10 @@ impl Enclosure {
             let before = now.width();
             let [least, _] = split.push(&now.lo);
             now.hi = lower(&now.hi, &split.above(&minus(&loads.hi, &least))?);
+            // What overflows tells nothing of any edge.
+            if now.hi.iter().any(|hi| !hi.is_finite()) {
+                return Ok(now);
+            }
             let [_, most] = split.push(&now.hi);
             now.lo = higher(&now.lo, &split.below(&minus(&loads.lo, &most))?);
             let gained = before - now.width();
