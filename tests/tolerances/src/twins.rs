@@ -66,6 +66,10 @@ table! {
         "4√n ε, times the condition of their matrices";
     REDUCED_TICK_NARROW: "outputs of a controller without edges that never change sides in f32, over their terms", 2e-5,
         "what rounding S to f32 costs";
+    REDUCED_VALUES: "outputs of a controller without edges that never change sides in f64, over their largest value", 1e-13,
+        "on standard scenes, whose outputs are sums of few large terms";
+    REDUCED_VALUES_NARROW: "outputs of a controller without edges that never change sides in f32, over their largest value", 5e-5,
+        "on standard scenes, whose outputs are sums of few large terms";
     FORCE_OF_EDGES: "force against the law of contact on the table of edges in f64, over its terms", 1e-14,
         "both sum the same fluxes: only the rounding of sums of a hundred terms enters";
     FORCE_OF_EDGES_NARROW: "force against the law of contact on the table of edges in f32, over its terms", 5e-6,

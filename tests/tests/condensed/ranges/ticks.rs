@@ -6,7 +6,9 @@ use signorini_solve::condense::{CondensedModel, Measure};
 use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::twins::{REDUCED_TICK, REDUCED_TICK_NARROW};
+use signorini_tolerances::twins::{
+    REDUCED_TICK, REDUCED_TICK_NARROW, REDUCED_VALUES, REDUCED_VALUES_NARROW,
+};
 
 use super::standard::standard;
 use super::{Pair, drawn, over, terms};
@@ -91,27 +93,33 @@ fn is_force(measure: &Measure) -> bool {
         if of_inputs.is_empty() && of_contact.is_empty() && of_reaction.iter().all(|&y| y >= 0.0))
 }
 
-/// Ticks solved to the end, against the solution of the whole model in f64; the largest deviation of outputs.
-fn solved<R: Scalar>(pair: &Pair, ticks: usize, allowed: Tolerance) -> f64 {
+/// Ticks solved to the end, against the solution of the whole model in f64; the largest deviation of outputs over their
+/// terms, and over their largest values.
+fn solved<R: Scalar>(pair: &Pair, ticks: usize, allowed: Tolerance) -> [f64; 2] {
     let Pair { what, whole, reduced, .. } = pair;
     let baked = Baked::<R>::new(&reduced.model, EXACT, true).expect("in range");
     let (mut controller, random) = (Controller::new(&baked), &mut Random::new(5));
     let mut most = 0.0_f64;
+    let mut values = vec![[0.0_f64; 2]; whole.outputs.len()];
     for _ in 0..ticks {
         let tick = Tick::new(pair, &mut controller, random);
         assert_eq!(tick.report.ended, Ended::Exact, "{what}");
         let solution = whole.solve(&tick.p).expect("a solution");
         tick.check(pair, &solution);
         let expected = whole.outputs(&tick.p, &solution);
-        for ((measure, found), expected) in whole.outputs.iter().zip(&tick.outputs).zip(expected) {
+        let all = whole.outputs.iter().zip(&mut values).zip(tick.outputs.iter().zip(expected));
+        for ((measure, [off, value]), (found, expected)) in all {
             let doubt = R::EPSILON.wide().sqrt();
             if let Some(terms) = terms(whole, measure, &tick.p, &solution, doubt) {
-                most = most.max(over(found - expected.expect("a value"), terms));
+                let expected = expected.expect("a value");
+                most = most.max(over(found - expected, terms));
+                [*off, *value] = [off.max((found - expected).abs()), value.max(expected.abs())];
             }
         }
     }
     allowed.check(what, most);
-    most
+    let of_values = values.iter().map(|[off, value]| over(*off, *value)).fold(0.0, f64::max);
+    [most, of_values]
 }
 
 /// Ticks cut off, from one corner of the box to another.
@@ -146,7 +154,9 @@ fn controllers_of_standard_scenes_tell_what_the_whole_model_tells() {
     of_standard(|pair| {
         let wide = solved::<f64>(pair, TICKS / 10, REDUCED_TICK);
         let narrow = solved::<f32>(pair, TICKS, REDUCED_TICK_NARROW);
-        println!("{}: {wide:e} {narrow:e}", pair.what);
+        println!("{}: {wide:?} {narrow:?}", pair.what);
+        REDUCED_VALUES.check(&pair.what, wide[1]);
+        REDUCED_VALUES_NARROW.check(&pair.what, narrow[1]);
     });
 }
 
@@ -154,8 +164,8 @@ fn controllers_of_standard_scenes_tell_what_the_whole_model_tells() {
 fn controllers_of_random_scenes_tell_what_the_whole_model_tells() {
     let (mut wide, mut narrow) = (0.0_f64, 0.0_f64);
     of_random(200, |pair| {
-        wide = wide.max(solved::<f64>(pair, 40, REDUCED_TICK));
-        narrow = narrow.max(solved::<f32>(pair, 40, REDUCED_TICK_NARROW));
+        wide = wide.max(solved::<f64>(pair, 40, REDUCED_TICK)[0]);
+        narrow = narrow.max(solved::<f32>(pair, 40, REDUCED_TICK_NARROW)[0]);
     });
     println!("{wide:e} {narrow:e}");
 }
