@@ -74,8 +74,8 @@ impl Enclosure {
             }
             let [_, most] = split.push(&now.hi);
             now.lo = higher(&now.lo, &split.below(&minus(&loads.lo, &most))?);
-            let gained = before - now.width();
-            if split.has_all_signs() || step > 0 && !(gained > GAIN * before) {
+            let has_shrunk = before - now.width() > GAIN * before;
+            if split.has_all_signs() || step > 0 && !has_shrunk {
                 break;
             }
         }

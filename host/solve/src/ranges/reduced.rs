@@ -37,7 +37,7 @@ impl Reduced {
         let scale: Vec<f64> =
             maps.residuals.iter().enumerate().map(|(at, row)| row.factors[m + at].sqrt()).collect();
         // Not positive definite to working precision.
-        if scale.iter().any(|s| !(*s > 0.0)) {
+        if !scale.iter().all(|s| *s > 0.0) {
             return None;
         }
         let build = Build { whole, sides: &sides, maps: &maps, scale: &scale };
