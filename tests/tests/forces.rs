@@ -13,7 +13,7 @@ use signorini_bake::{condensed, full};
 use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::mesh::gmsh;
-use signorini_scene::scene::{Quantity, Scene};
+use signorini_scene::scene::{Input, Quantity, Scene};
 use signorini_scene::setting::Setting;
 use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
 use signorini_solve::outputs::outputs;
@@ -73,18 +73,20 @@ fn signed<'s>(scene: &'s Scene, values: &'s [f64]) -> impl Iterator<Item = (&'s 
     pairs.map(|(output, value)| (output.name.value.as_str(), *value))
 }
 
-/// Values of the inputs about as large as in use.
+/// Values of the inputs about as large as in use, within their ranges: rain is never below 0.
 fn inputs(scene: &Scene, random: &mut Random) -> Vec<f64> {
     let near = |name: &str| match name {
         "air" => 2.0,
         "depth" => 0.1,
         _ => 0.2,
     };
-    let value = |name: &str, default: f64, random: &mut Random| {
-        f64::from((default + near(name) * random.between(-2.0, 2.0)) as f32)
+    let value = |input: &Input, random: &mut Random| {
+        let change = near(&input.name.value) * random.between(-2.0, 2.0);
+        let [there, mirrored] =
+            [change, -change].map(|change| f64::from((input.default + change) as f32));
+        if input.refusal(there).is_none() { there } else { mirrored }
     };
-    let all = scene.inputs.iter();
-    all.map(|input| value(&input.name.value, input.default, random)).collect()
+    scene.inputs.iter().map(|input| value(input, random)).collect()
 }
 
 /// The problem for these inputs.

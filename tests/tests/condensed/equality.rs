@@ -15,7 +15,7 @@ use signorini_bake::condensed::{Baked, Controller};
 use signorini_kernel::bound::certificate::Verdict;
 use signorini_kernel::device::report::Ended;
 use signorini_scene::mesh::gmsh;
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Input, Scene};
 use signorini_solve::condense::{CondensedModel, Measure};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -40,10 +40,15 @@ struct Output {
     terms: f64,
 }
 
-/// Values of the inputs that f32 holds exactly.
+/// Values of the inputs that f32 holds exactly, on the other side of the default where they would leave their range.
 fn inputs(model: &Model, amount: f64, random: &mut Random) -> Vec<f64> {
-    let mut near = |default: f64| default + amount * (f64::from(random.below(256)) / 64.0 - 2.0);
-    model.scene.inputs.iter().map(|input| f64::from(near(input.default) as f32)).collect()
+    let near = |input: &Input| {
+        let change = amount * (f64::from(random.below(256)) / 64.0 - 2.0);
+        let [there, mirrored] =
+            [change, -change].map(|change| f64::from((input.default + change) as f32));
+        if input.refusal(there).is_none() { there } else { mirrored }
+    };
+    model.scene.inputs.iter().map(near).collect()
 }
 
 /// Y_p and Y_x of an output, its reactions being linear in p and x.

@@ -56,6 +56,20 @@ table! {
         "two exact solves of one problem: 3e-12 at worst over 600 seeds";
     CONDENSED_NARROW: "output of the condensed model in f32 against the full one, over its terms", 1e-4,
         "what rounding S to f32 costs: 1e-5 at worst over 600 seeds where λ_min(S) is above 1e-3";
+    REDUCED_OPENINGS: "openings without edges that never change sides against those with all, over loads and openings", 5e-13,
+        "two exact solves of one problem";
+    REDUCED_OUTPUTS: "outputs without edges that never change sides against those with all, over their terms", 1e-12,
+        "two exact solves of one problem";
+    REDUCED_BOUND: "the bound without edges that never change sides below that with all, or needlessly above, over its terms", 2e-13,
+        "the same form in fewer variables: the rounding of its triangular factor";
+    REDUCED_TICK: "outputs of a controller without edges that never change sides in f64, over their terms", 1e-12,
+        "4√n ε, times the condition of their matrices";
+    REDUCED_TICK_NARROW: "outputs of a controller without edges that never change sides in f32, over their terms", 2e-5,
+        "what rounding S to f32 costs";
+    REDUCED_VALUES: "outputs of a controller without edges that never change sides in f64, over their largest value", 1e-13,
+        "on standard scenes, whose outputs are sums of few large terms";
+    REDUCED_VALUES_NARROW: "outputs of a controller without edges that never change sides in f32, over their largest value", 5e-5,
+        "on standard scenes, whose outputs are sums of few large terms";
     FORCE_OF_EDGES: "force against the law of contact on the table of edges in f64, over its terms", 1e-14,
         "both sum the same fluxes: only the rounding of sums of a hundred terms enters";
     FORCE_OF_EDGES_NARROW: "force against the law of contact on the table of edges in f32, over its terms", 5e-6,

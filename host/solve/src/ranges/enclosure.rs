@@ -68,10 +68,14 @@ impl Enclosure {
             let before = now.width();
             let [least, _] = split.push(&now.lo);
             now.hi = lower(&now.hi, &split.above(&minus(&loads.hi, &least))?);
+            // What overflows tells nothing of any edge.
+            if now.hi.iter().any(|hi| !hi.is_finite()) {
+                return Ok(now);
+            }
             let [_, most] = split.push(&now.hi);
             now.lo = higher(&now.lo, &split.below(&minus(&loads.lo, &most))?);
-            let gained = before - now.width();
-            if split.has_all_signs() || step > 0 && !(gained > GAIN * before) {
+            let has_shrunk = before - now.width() > GAIN * before;
+            if split.has_all_signs() || step > 0 && !has_shrunk {
                 break;
             }
         }

@@ -5,6 +5,7 @@
 //! ```
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
+mod columns;
 pub mod enclosure;
 pub mod reduced;
 pub mod reduction;

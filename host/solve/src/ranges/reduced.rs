@@ -9,9 +9,8 @@
 //! d = −e at a vertex beside a touching edge, 0 at one whose edges are open and whose e is never below 0, and d′ elsewhere.
 //! What F M loses to rounding, and what x_O leaves of r_O, is counted with what the columns of F had lost before.
 
-use faer::Mat;
-
-use super::reduction::{Affine, Reduction};
+use super::columns::Columns;
+use super::reduction::Reduction;
 use super::sides::{Sides, VertexSide};
 use crate::condense::{CondensedModel, Corner, Form, Measure, Vertex};
 
@@ -38,7 +37,7 @@ impl Reduced {
         let scale: Vec<f64> =
             maps.residuals.iter().enumerate().map(|(at, row)| row.factors[m + at].sqrt()).collect();
         // Not positive definite to working precision.
-        if scale.iter().any(|s| !(*s > 0.0)) {
+        if !scale.iter().all(|s| *s > 0.0) {
             return None;
         }
         let build = Build { whole, sides: &sides, maps: &maps, scale: &scale };
@@ -177,9 +176,9 @@ impl Build<'_> {
         Form {
             factor: columns.of(&form.factor),
             jump: form.jump.as_ref().map(|jump| columns.of(jump)),
-            lost: columns.lost(form, &self.left()),
+            lost: columns.lost(form, &self.rescaled(self.maps.hidden(self.whole.inputs))),
             vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
-            stability: form.stability * most.min(1.0),
+            stability: form.stability * most,
             corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
             oscillation: form.oscillation.clone(),
             floating: Vec::new(),
@@ -204,30 +203,20 @@ impl Build<'_> {
         let mut next = m + self.maps.kept.len();
         let corrections =
             form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
-                VertexSide::Open => vec![0.0; width],
+                VertexSide::Open => [vec![0.0; width], vec![0.0; width]],
                 VertexSide::Touching => {
-                    let e = self.rescaled(self.maps.interpolated(vertex, m));
-                    wide(e.into_iter().map(|factor| -factor).collect())
+                    let e = self.maps.interpolated(vertex, m);
+                    let factors = self.rescaled(e.factors).into_iter().map(|factor| -factor);
+                    [wide(factors.collect()), wide(self.rescaled(e.noise))]
                 }
                 VertexSide::MayChange => {
                     next += 1;
-                    unit(next - 1)
+                    [unit(next - 1), vec![0.0; width]]
                 }
             });
-        Columns { rows: inputs.chain(openings).chain(corrections).collect(), width }
-    }
-
-    /// Σ_i of what rounding leaves of r_O, and of r_U beside what the model says, by columns of (p, x′).
-    fn left(&self) -> Vec<f64> {
-        let mut sum = vec![0.0; self.whole.inputs + self.maps.kept.len()];
-        let mut add = |row: &Affine, share: f64| {
-            for ((sum, factor), noise) in sum.iter_mut().zip(&row.factors).zip(&row.noise) {
-                *sum += share * factor.abs() + noise + 4.0 * f64::EPSILON * factor.abs();
-            }
-        };
-        self.maps.left.iter().for_each(|row| add(row, 1.0));
-        self.maps.residuals.iter().for_each(|row| add(row, 0.0));
-        self.rescaled(sum)
+        let exact = inputs.chain(openings).map(|row| [row, vec![0.0; width]]);
+        let (rows, noise) = exact.chain(corrections).map(|[row, noise]| (row, noise)).unzip();
+        Columns { rows, noise, width }
     }
 
     /// e in x′; an edge that always touches has no share in it.
@@ -251,51 +240,5 @@ impl Build<'_> {
             excess: corner.excess.iter().map(|e| e * s).collect(),
             energy: corner.energy / s,
         }
-    }
-}
-
-/// M, row by row.
-struct Columns {
-    rows: Vec<Vec<f64>>,
-    width: usize,
-}
-
-impl Columns {
-    /// F′ of F, both upper triangles by columns.
-    fn of(&self, factor: &[f64]) -> Vec<f64> {
-        let order = self.rows.len();
-        let column = |j: usize| &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-        let mut product = Mat::<f64>::zeros(order.max(self.width), self.width);
-        for (j, row) in self.rows.iter().enumerate() {
-            for (k, &weight) in row.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                for (i, entry) in column(j).iter().enumerate() {
-                    product[(i, k)] += weight * entry;
-                }
-            }
-        }
-        let r = product.qr().thin_R().to_owned();
-        (0..self.width).flat_map(|j| (0..=j).map(move |i| (i, j))).map(|at| r[at]).collect()
-    }
-
-    /// What rounding may hide of the columns of F′.
-    fn lost(&self, form: &Form, left: &[f64]) -> Vec<f64> {
-        let order = self.rows.len();
-        // Sums of `order` products, and the rotations of as many rows.
-        let share = 8.0 * (order + self.width) as f64 * f64::EPSILON;
-        let norm = |factor: &[f64], j: usize| {
-            let column = &factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
-            column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
-        };
-        let size = |j: usize| {
-            let of_jump = form.jump.as_ref().map_or(0.0, |jump| norm(jump, j));
-            form.lost[j] + share * norm(&form.factor, j).max(of_jump)
-        };
-        let mut lost = vec![0.0; self.width];
-        for (j, row) in self.rows.iter().enumerate() {
-            let size = size(j);
-            lost.iter_mut().zip(row).for_each(|(lost, weight)| *lost += size * weight.abs());
-        }
-        lost.iter_mut().zip(left).for_each(|(lost, left)| *lost += form.stability * left);
-        lost
     }
 }

@@ -61,12 +61,34 @@ impl Reduction {
 
     /// The edges of O and T that some (p, x_U) within `intervals` might put on their other side.
     pub fn unproved(&self, intervals: &[[f64; 2]]) -> Vec<usize> {
+        // A NaN proves nothing.
+        let is_open = |row: &[f64]| least(row, &[], intervals) > 0.0;
+        let is_touching = |row: &Affine| least(&row.factors, &row.noise, intervals) >= 0.0;
         let open = self.open.iter().zip(&self.openings);
-        let open = open.filter(|(_, row)| !(least(row, &[], intervals) > 0.0));
+        let open = open.filter(|(_, row)| !is_open(row)).map(|(&edge, _)| edge);
         let touching = self.touching.iter().zip(&self.reactions);
-        let touching =
-            touching.filter(|(_, row)| !(least(&row.factors, &row.noise, intervals) >= 0.0));
-        open.map(|(&edge, _)| edge).chain(touching.map(|(&edge, _)| edge)).collect()
+        let touching = touching.filter(|(_, row)| !is_touching(row)).map(|(&edge, _)| edge);
+        open.chain(touching).collect()
+    }
+
+    /// Σ_i of what rounding leaves of r_O, and of r_U beside what S′ and B′ say, by columns of (p, x_U). S′ is made
+    /// symmetric: what the solve for x_O leaves of r_O stands in its skew part too.
+    pub(super) fn hidden(&self, inputs: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; inputs + self.kept.len()];
+        let mut add = |row: &Affine, share: f64| {
+            for ((sum, factor), noise) in sum.iter_mut().zip(&row.factors).zip(&row.noise) {
+                *sum += share * factor.abs() + noise + 4.0 * f64::EPSILON * factor.abs();
+            }
+        };
+        self.left.iter().for_each(|row| add(row, 1.0));
+        self.residuals.iter().for_each(|row| add(row, 0.0));
+        for (i, row) in self.residuals.iter().enumerate() {
+            for (j, other) in self.residuals.iter().enumerate() {
+                sum[inputs + j] +=
+                    0.5 * (row.factors[inputs + j] - other.factors[inputs + i]).abs();
+            }
+        }
+        sum
     }
 }
 

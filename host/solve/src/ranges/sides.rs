@@ -14,7 +14,7 @@
 //! ```
 
 use super::enclosure::{Enclosure, LoadBox};
-use super::reduction::{Reduction, least};
+use super::reduction::{Affine, Reduction, least};
 use super::split::Split;
 use crate::condense::{CondensedModel, Form, Vertex};
 use crate::reference::ReferenceError;
@@ -67,14 +67,16 @@ pub(super) enum VertexSide {
 }
 
 impl Sides {
-    /// Finds the sides for all inputs within their ranges. Where one has none, or N is no M-matrix, nothing is proved.
+    /// Finds the sides for all inputs within their ranges. Where one has none, or N is no M-matrix, nothing is proved;
+    /// nor where contact alone holds a part, whose matrix is singular whatever rounding makes of it.
     ///
     /// # Errors
     /// Loads that are not finite.
     pub fn new(model: &CondensedModel) -> Result<Self, ReferenceError> {
         let (n, inputs) = (model.contact, widened(&model.ranges));
         let is_bounded = inputs.iter().flatten().all(|end| end.is_finite());
-        let split = Split::new(&model.matrix, n).filter(|_| is_bounded && n > 0);
+        let is_held = model.held_by_contact.is_empty();
+        let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
         let Some(split) = split else { return Ok(Self::unproved(n, inputs)) };
         let enclosure = Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?;
         let mut sides = Self::proposed(enclosure, inputs);
@@ -130,9 +132,10 @@ impl Sides {
         any
     }
 
-    /// The box of (p, x_U).
+    /// The box of (p, x_U). A scalar may round limits outwards, as it may ranges.
     fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
-        let of_kept = reduction.kept.iter().map(|&at| self.limits[at]);
+        let limits: Vec<_> = reduction.kept.iter().map(|&at| self.limits[at]).collect();
+        let of_kept = widened(&limits).into_iter().map(|[lo, hi]| [lo.max(0.0), hi]);
         self.inputs.iter().copied().chain(of_kept).collect()
     }
 
@@ -157,15 +160,15 @@ impl Sides {
         }
         let e = reduction.interpolated(vertex, self.inputs.len());
         let is_open = beside.all(|&at| self.of[at] == EdgeSide::Open)
-            && least(&e, &[], &self.box_of(reduction)) >= 0.0;
+            && least(&e.factors, &e.noise, &self.box_of(reduction)) >= 0.0;
         if is_open { VertexSide::Open } else { VertexSide::MayChange }
     }
 }
 
 /// The box that any scalar rounds `ranges` into.
 fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let noise = f64::from(f32::EPSILON);
-    ranges.iter().map(|[lo, hi]| [lo - noise * lo.abs(), hi + noise * hi.abs()]).collect()
+    let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
+    ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
 }
 
 impl Reduction {
@@ -181,10 +184,12 @@ impl Reduction {
         factors
     }
 
-    /// e of a vertex as factors of (p, x_U).
-    pub(super) fn interpolated(&self, vertex: &Vertex, inputs: usize) -> Vec<f64> {
+    /// e of a vertex as factors of (p, x_U). Its two terms may cancel, their rounding does not.
+    pub(super) fn interpolated(&self, vertex: &Vertex, inputs: usize) -> Affine {
         let [a, b] = vertex.edges.map(|edge| self.opening(edge, inputs));
         let [p, q] = vertex.weights;
-        a.iter().zip(b).map(|(a, b)| p * a + q * b).collect()
+        let factors = a.iter().zip(&b).map(|(a, b)| p * a + q * b).collect();
+        let noise = |(a, b): (&f64, &f64)| 2.0 * f64::EPSILON * ((p * a).abs() + (q * b).abs());
+        Affine { factors, noise: a.iter().zip(&b).map(noise).collect() }
     }
 }

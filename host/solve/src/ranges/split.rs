@@ -98,7 +98,8 @@ impl Split {
         reference::minimise(matrix, &[], load)
     }
 
-    /// x ± t w, where t is so large that no row is wrong any more; the step is rounded away from x.
+    /// x ± t w, where t is so large that no row is wrong any more; the step is rounded away from x. What overflows bounds
+    /// nothing: ∞ above, 0 below.
     fn moved<'s>(
         &'s self,
         x: &'s [f64],
@@ -107,8 +108,15 @@ impl Split {
         sign: f64,
     ) -> Vec<f64> {
         let rows = self.negative.chunks(self.n.max(1)).zip(load).zip(x);
-        let most = rows.map(wrong).fold(0.0, f64::max);
+        // A NaN among them is not lost, as the larger of it and 0 would be 0.
+        let most = rows.map(wrong).fold(0.0, |most: f64, wrong| match wrong.is_nan() {
+            true => f64::INFINITY,
+            false => most.max(wrong),
+        });
         let step = most / self.slope * (1.0 + 8.0 * f64::EPSILON);
+        if !step.is_finite() {
+            return vec![if sign > 0.0 { f64::INFINITY } else { 0.0 }; self.n];
+        }
         let moved = |(&x, &w): (&f64, &f64)| {
             let rounding = 2.0 * f64::EPSILON * (x + step * w);
             (x + sign * (step * w + rounding)).max(0.0)

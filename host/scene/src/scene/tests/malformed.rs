@@ -110,6 +110,38 @@ const CHANGES: &[(&str, &str, &str)] = &[
     ),
     ("default = 0.0", "range = [0, nan]", "32: input.rain.range: not a finite number"),
     ("default = 0.0", "range = [-inf, 0]", "32: input.rain.range: not a finite number"),
+    ("default = 0.0", "range = [0, inf]", "32: input.rain.range: not a finite number"),
+    ("default = 0.0", "range = [0, 1e999]", "32: input.rain.range: not a finite number"),
+    (
+        "default = 0.0",
+        "range = 5",
+        "32: input.rain.range: expected an array of two: the least and the largest value, found the number 5",
+    ),
+    (
+        "default = 0.0",
+        "range = \"0, 5\"",
+        "32: input.rain.range: expected an array of two: the least and the largest value, found the text \"0, 5\"",
+    ),
+    (
+        "default = 0.0",
+        "range = [0, 1, 2]",
+        "32: input.rain.range: expected an array of two: the least and the largest value, found an array of 3",
+    ),
+    (
+        "default = 0.0",
+        "range = [0, '5']",
+        "32: input.rain.range: expected a number, found the text \"5\"",
+    ),
+    (
+        "default = 0.0",
+        "default = -1e-300\nrange = [0, 5]",
+        "32: input.rain.default: the default -1e-300 is outside the range of `rain`, [0, 5]",
+    ),
+    (
+        "default = 0.0",
+        "range = [0, 5]\nranges = 1",
+        "33: input.rain.ranges: unknown key of an input",
+    ),
     (
         "default = 0.0",
         "range = [0]",

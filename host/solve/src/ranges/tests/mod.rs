@@ -1,5 +1,9 @@
 //! Enclosures against solutions for loads drawn from the box.
 
+mod rounding;
+mod sides;
+mod twice;
+
 use faer::MatRef;
 
 use super::enclosure::{Enclosure, LoadBox};
@@ -92,4 +96,21 @@ fn what_is_no_m_matrix_proves_nothing() {
     assert!(Split::new(&indefinite, 2).is_none());
     let not_a_number = [1.0, f64::NAN, f64::NAN, 1.0];
     assert!(Split::new(&not_a_number, 2).is_none());
+}
+
+/// N w is 2 where w is 1: the middle of the chain overflows first.
+#[test]
+fn loads_that_overflow_prove_nothing() {
+    let matrix = [4.0, -2.0, -2.0, 4.0];
+    let split = Split::new(&matrix, 2).expect("an M-matrix");
+    for size in [1e308, f64::MAX] {
+        let above = split.above(&[size, size]).expect("finite loads");
+        assert!(above.iter().all(|&x| x >= 0.5 * size), "{above:?}");
+        let below = split.below(&[size, size]).expect("finite loads");
+        assert!(below.iter().all(|&x| (0.0..=0.5 * size).contains(&x)), "{below:?}");
+        let loads = LoadBox { lo: vec![-size; 2], hi: vec![size; 2] };
+        let Enclosure { lo, hi, reaction } = Enclosure::new(&split, &loads).expect("finite loads");
+        assert_eq!((lo, reaction), (vec![0.0; 2], vec![0.0; 2]));
+        assert!(hi.iter().all(|&x| x >= 0.5 * size), "{hi:?}");
+    }
 }

@@ -1,0 +1,32 @@
+//! Random scenes whose inputs have random ranges.
+
+use signorini_tests::random::Random;
+
+use super::{Off, Pair, drawn};
+
+/// Scenes to draw.
+const SEEDS: u64 = 400;
+/// Samples of each that has edges to take out, solutions and others each.
+const SAMPLES: usize = 40;
+
+#[test]
+fn random_scenes_agree() {
+    let (mut most, mut pairs, mut empty, mut dropped) = (Off::default(), 0, 0, 0);
+    let count = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
+    for seed in 0..count {
+        let Some(pair) = Pair::random(seed) else { continue };
+        pairs += 1;
+        empty += u64::from(pair.reduced.model.contact == 0);
+        dropped += pair.whole.contact - pair.reduced.model.contact;
+        let (random, mut off) = (&mut Random::new(seed), Off::default());
+        for _ in 0..SAMPLES {
+            let p = drawn(&pair.whole, random);
+            pair.at_solution(&p, &mut off);
+            pair.at(&p, &pair.within(random), &mut off);
+        }
+        off.check(&pair.what);
+        most = most.or_larger(&off);
+    }
+    println!("{pairs} scenes, {dropped} edges taken out, {empty} without any left: {most:?}");
+    assert!(pairs > count / 3 && empty > count / 40, "{pairs} {empty}");
+}

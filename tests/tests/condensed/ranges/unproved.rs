@@ -1,0 +1,85 @@
+//! Where nothing is proved, nothing is taken out.
+
+use signorini_solve::condense::CondensedModel;
+use signorini_solve::ranges::reduced::Reduced;
+use signorini_solve::ranges::sides::{EdgeSide, Sides};
+use signorini_tests::random::Random;
+
+use super::standard::standard;
+use super::{Off, Pair, drawn, limit};
+use crate::scenes::Model;
+
+fn keeps_all(what: &str, whole: &CondensedModel) {
+    let sides = Sides::new(whole).expect("finite loads");
+    assert_eq!(sides.count(EdgeSide::MayChange), whole.contact, "{what}");
+    assert!(sides.kept.iter().all(|&kept| kept), "{what}");
+    assert!(sides.limits.iter().all(|&limits| limits == [0.0, f64::INFINITY]), "{what}");
+    assert!(Reduced::new(whole, sides).is_none(), "{what}");
+}
+
+#[test]
+fn what_contact_alone_holds_is_kept() {
+    let mut whole = standard("membrane");
+    assert!(!whole.held_by_contact.is_empty());
+    keeps_all("membrane", &whole);
+    // Rounding may make a singular matrix a definite one: it proves no more then.
+    let n = whole.contact;
+    (0..n).for_each(|i| whole.matrix[i * n + i] += 1e-9);
+    keeps_all("membrane, rounded", &whole);
+}
+
+#[test]
+fn an_input_without_a_range_keeps_all() {
+    for name in ["levee", "slab", "strip"] {
+        let whole = standard(name);
+        let without = [f64::NEG_INFINITY, f64::INFINITY];
+        for range in [without, [without[0], 0.0], [0.0, without[1]]] {
+            let mut whole = whole.clone();
+            *whole.ranges.last_mut().expect("an input") = range;
+            keeps_all(name, &whole);
+        }
+    }
+}
+
+/// Loads that are in range, and answers that are not.
+#[test]
+fn ranges_that_overflow_keep_all() {
+    for name in ["levee", "slab", "strip"] {
+        for most in [1e300, 1e308, f64::MAX] {
+            let mut whole = standard(name);
+            whole.ranges.iter_mut().skip(1).for_each(|range| *range = [-most, most]);
+            let Ok(sides) = Sides::new(&whole) else { continue };
+            assert_eq!(sides.count(EdgeSide::Open) + sides.count(EdgeSide::Touching), 0, "{name}");
+        }
+    }
+}
+
+/// Oblique tensors make entries positive: some scenes are proved all the same, and right.
+#[test]
+fn positive_entries_are_counted_or_refused() {
+    let (mut refused, mut proved, mut most) = (0, 0, Off::default());
+    for seed in 0..200 {
+        let Some(model) = Model::random(seed, 5) else { continue };
+        let (random, mut whole) = (&mut Random::new(seed), model.condensate);
+        limit(&mut whole, random);
+        let n = whole.contact;
+        let is_off = |at: usize| at / n != at % n && whole.matrix[at] > 1e-6;
+        if !(0..n * n).any(is_off) {
+            continue;
+        }
+        let Some(pair) = Pair::new(&model.what, &whole) else {
+            refused += 1;
+            continue;
+        };
+        let mut off = Off::default();
+        for _ in 0..20 {
+            let p = drawn(&whole, random);
+            pair.at_solution(&p, &mut off);
+            pair.at(&p, &pair.within(random), &mut off);
+        }
+        off.check(&model.what);
+        (proved, most) = (proved + 1, most.or_larger(&off));
+    }
+    println!("refused {refused}, proved {proved}: {most:?}");
+    assert!(refused > 10 && proved > 10, "{refused} {proved}");
+}
