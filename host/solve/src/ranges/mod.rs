@@ -2,13 +2,17 @@
 //!
 //! ```text
 //!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, may change
+//!                                                                                    └─► where every output lies
 //! ```
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
 pub mod enclosure;
+pub mod interval;
+pub mod outputs;
 pub mod reduced;
 pub mod reduction;
 pub mod sides;
+mod slopes;
 pub mod split;
 #[cfg(test)]
 mod tests;

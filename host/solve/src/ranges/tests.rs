@@ -3,8 +3,13 @@
 use faer::MatRef;
 
 use super::enclosure::{Enclosure, LoadBox};
+use super::interval::Interval;
+use super::outputs::intervals;
+use super::sides::Sides;
 use super::split::Split;
+use crate::condense::{CondensedModel, Measure};
 use crate::reference::minimise;
+use signorini_tolerances::solve::WITHIN_INTERVAL;
 
 /// Numbers in [0, 1), as Knuth's generator draws them.
 fn scatter(seed: u64) -> impl FnMut() -> f64 {
@@ -92,4 +97,78 @@ fn what_is_no_m_matrix_proves_nothing() {
     assert!(Split::new(&indefinite, 2).is_none());
     let not_a_number = [1.0, f64::NAN, f64::NAN, 1.0];
     assert!(Split::new(&not_a_number, 2).is_none());
+}
+
+/// A model of `entries` with three inputs and an output of each kind but the bound.
+fn model(entries: Vec<f64>, n: usize, ranges: [[f64; 2]; 3], seed: u64) -> CondensedModel {
+    let mut random = scatter(seed);
+    let mut signed = |length: usize| (0..length).map(|_| 2.0 * random() - 1.0).collect::<Vec<_>>();
+    let load = (0..3).map(|_| signed(n)).collect();
+    let flux = Measure::Flux { of_inputs: signed(3), of_contact: signed(n), of_reaction: signed(n) };
+    let linear = Measure::Linear { of_inputs: signed(3), of_contact: signed(n) };
+    let force = Measure::Flux {
+        of_inputs: Vec::new(),
+        of_contact: Vec::new(),
+        of_reaction: (0..n).map(|at| at as f64).collect(),
+    };
+    CondensedModel {
+        contact: n,
+        edges: (0..n).collect(),
+        inputs: 3,
+        matrix: entries,
+        opening: vec![1.0; n],
+        multiplier: vec![1.0; n],
+        load,
+        limits: Vec::new(),
+        defaults: vec![1.0, 0.0, 0.0],
+        ranges: ranges.to_vec(),
+        outputs: vec![flux, linear, force, Measure::Length { always: 0.5, of_contact: vec![1.0; n] }],
+        certificate: Err(String::new()),
+        energy_unit: 1.0,
+        held_by_contact: Vec::new(),
+    }
+}
+
+/// What outputs reach at the corners of the box and at 200 points of it.
+fn reached(model: &CondensedModel, seed: u64) -> Vec<Interval> {
+    let mut random = scatter(seed);
+    let corners = (0..8_usize).map(|bits| {
+        let end = |(at, range): (usize, &[f64; 2])| range[(bits >> at) & 1];
+        model.ranges.iter().enumerate().map(end).collect()
+    });
+    let corners: Vec<Vec<f64>> = corners.collect();
+    let points = (0..200).map(|_| drawn(&model.ranges, &mut random));
+    let mut all = vec![Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY }; model.outputs.len()];
+    for p in corners.into_iter().chain(points) {
+        let x = model.solve(&p).expect("a solution");
+        for (range, value) in all.iter_mut().zip(model.outputs(&p, &x)) {
+            let value = value.expect("no output is a bound");
+            *range = Interval { lo: range.lo.min(value), hi: range.hi.max(value) };
+        }
+    }
+    all
+}
+
+#[test]
+fn every_output_lies_in_its_interval() {
+    let (mut judged, mut widest) = ([0, 0], [0.0_f64; 2]);
+    for case in 0..60 {
+        let n = 3 + case as usize % 17;
+        let positive = if case % 3 == 0 { 0.2 } else { 0.0 };
+        let ranges = [[1.0, 1.0], [-0.05, 0.025], [0.0, 0.03]];
+        let model = model(matrix(n, case, positive), n, ranges, 2000 + case);
+        let sides = Sides::new(&model).expect("finite loads");
+        let Some(intervals) = intervals(&model, &sides).expect("finite loads") else { continue };
+        let is_m_matrix = model.matrix.iter().enumerate().all(|(at, &s)| at % (n + 1) == 0 || s <= 0.0);
+        judged[usize::from(is_m_matrix)] += 1;
+        for (interval, reached) in intervals.iter().zip(reached(&model, 3000 + case)) {
+            let Interval { lo, hi } = interval.expect("no output is a bound");
+            let outside = (lo - reached.lo).max(reached.hi - hi).max(0.0);
+            WITHIN_INTERVAL.check_over(format_args!("case {case}"), outside, 1.0 + hi.abs().max(lo.abs()));
+            let widest = &mut widest[usize::from(is_m_matrix)];
+            *widest = widest.max((hi - lo) / reached.width());
+        }
+    }
+    assert!(judged.iter().all(|&count| count >= 10), "{judged:?}");
+    println!("{widest:?}");
 }
