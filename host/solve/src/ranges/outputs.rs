@@ -126,7 +126,8 @@ impl Known<'_> {
         };
         let mut range = self.with_reactions(&own, of_reaction);
         let mut sum = own;
-        let touching = of_reaction.iter().enumerate().filter(|(at, _)| !self.enclosure.is_open(*at));
+        let touching =
+            of_reaction.iter().enumerate().filter(|(at, _)| !self.enclosure.is_open(*at));
         touching.for_each(|(at, &weight)| sum.add(self.model, at, weight));
         let eliminated = self.eliminated(&sum);
         let x = self.enclosure.intervals();

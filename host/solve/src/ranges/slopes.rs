@@ -47,7 +47,8 @@ impl<'s> Slopes<'s> {
         }
         let open = (0..n).filter(|&at| enclosure.is_open(at)).collect();
         let not_touching = (0..n).filter(|&at| !enclosure.is_touching(at)).collect();
-        let [Some(least), Some(most)] = [open, not_touching].map(|part| Part::new(model, part)) else {
+        let [Some(least), Some(most)] = [open, not_touching].map(|part| Part::new(model, part))
+        else {
             return Ok(None);
         };
         let slopes = |column: &Vec<f64>| slopes(&least, &most, column);
@@ -73,7 +74,8 @@ impl<'s> Slopes<'s> {
     /// y at p*, the end of each input that is the upper one where its slope is rather positive.
     fn at_end(&self, of: &AffineOutput, slopes: &[Interval]) -> Result<Interval, ReferenceError> {
         let ends = slopes.iter().zip(self.inputs);
-        let corner: Vec<_> = ends.map(|(slope, range)| [range[usize::from(rises(slope))]; 2]).collect();
+        let corner: Vec<_> =
+            ends.map(|(slope, range)| [range[usize::from(rises(slope))]; 2]).collect();
         let x = match &self.split {
             None => Vec::new(),
             Some(split) => {
@@ -90,9 +92,9 @@ impl<'s> Slopes<'s> {
             let wrong = if rises(slope) { -slope.lo } else { slope.hi };
             Interval::point(wrong.max(0.0))
         });
-        let widths = between(self.inputs).into_iter().map(|range| {
-            Interval::point(range.hi) - Interval::point(range.lo)
-        });
+        let widths = between(self.inputs)
+            .into_iter()
+            .map(|range| Interval::point(range.hi) - Interval::point(range.lo));
         dot(wrong, widths)
     }
 }
