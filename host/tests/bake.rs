@@ -237,7 +237,20 @@ fn the_explanation_tells_each_feature() {
     {
         assert!(stdout.contains(part), "{part}: {stdout}");
     }
+    for part in [
+        "always open",
+        "along the boundary",
+        "\"seepage face\"",
+        "(30, 0)",
+        "largest seen",
+        "error bound seen",
+    ] {
+        assert!(stdout.contains(part), "{part}: {stdout}");
+    }
+    let (_, stdout, _, _) = bake("scenes/levee.toml", &[], &["--explain", "--full-edges"]);
+    assert!(stdout.contains("--full-edges keeps all of them"), "{stdout}");
     let (_, stdout, _, _) = bake("scenes/slab.toml", &[], &["--explain", "--full"]);
+    assert!(!stdout.contains("Ranges of the inputs"), "{stdout}");
     assert!(stdout.contains("no triangles") && stdout.contains("Robin edges"), "{stdout}");
 }
 

@@ -9,6 +9,8 @@
 mod counts;
 mod reach;
 mod runs;
+#[cfg(test)]
+mod tests;
 mod why;
 
 use std::fmt::Write as _;
@@ -33,16 +35,18 @@ pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     if let Some(why) = nothing_proved(&problem.scene, origin) {
         return text + &why + "\n";
     }
-    if origin.sides.of.is_empty() {
-        return text + &outputs(problem, origin, &Reach::new(problem, baked, origin));
+    if origin.whole.contact > 0 {
+        text += &along_boundary(problem, origin);
     }
-    text += &along_boundary(problem, origin);
     text + &outputs(problem, origin, &Reach::new(problem, baked, origin))
 }
 
 /// How many edges are on which side, in a sentence.
 fn summary(origin: &Origin) -> String {
     let counts = counts::of(&origin.sides);
+    if counts.contact == 0 {
+        return "nothing is in contact.".to_owned();
+    }
     let kept = origin.model().contact;
     let beside = kept - counts.may_change.min(kept);
     let of_edges = format!(
@@ -51,6 +55,7 @@ fn summary(origin: &Origin) -> String {
     );
     match (origin.has_all_edges, beside) {
         (true, _) => format!("{of_edges} --full-edges keeps all of them."),
+        (false, 0) if kept == 0 => format!("{of_edges} The model keeps none."),
         (false, 0) => format!("{of_edges} The model keeps those that may change."),
         (false, _) => format!(
             "{of_edges} The model keeps {kept}: those that may change, and {beside} that its error bound needs."
@@ -92,14 +97,14 @@ fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
     }
     let _ = writeln!(
         text,
-        "The least and the largest value are proved for the exact solution at all inputs within their ranges; those \
-         seen are of {} inputs drawn from them, corners included. The width is the proved one over that seen.",
+        "Least and largest are proved for the exact solution at all inputs within their ranges. Those seen are of {} \
+         inputs drawn from them, all corners included where inputs are few. The width is the proved one over that seen.",
         reach.inputs
     );
     let _ = match reach.bound {
         Some(bound) => writeln!(
             text,
-            "The largest error bound seen in {} ticks with them is {}; that is not guaranteed.",
+            "The largest error bound seen in {} ticks with them is {}. Other inputs may have a larger one.",
             reach.inputs,
             short(bound)
         ),

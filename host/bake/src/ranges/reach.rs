@@ -49,7 +49,8 @@ fn inputs(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
         let end = |(at, space): (usize, &InputSpace)| space.range[(bits >> at) & 1];
         spaces.iter().enumerate().map(end).collect()
     };
-    (0..corners).map(corner).chain(drawn(spaces, DRAWN)).collect()
+    let drawn = drawn(spaces, if spaces.is_empty() { 0 } else { DRAWN - 1 });
+    (0..corners).map(corner).filter(|_| !spaces.is_empty()).chain(drawn).collect()
 }
 
 /// The outputs of the solution; none where there is no solution or for the bound.
