@@ -54,11 +54,11 @@ fn summary(origin: &Origin) -> String {
         counts.contact, counts.always_open, counts.always_touching, counts.may_change
     );
     match (origin.has_all_edges, beside) {
-        (true, _) => format!("{of_edges} --full-edges keeps all of them."),
-        (false, 0) if kept == 0 => format!("{of_edges} The model keeps none."),
-        (false, 0) => format!("{of_edges} The model keeps those that may change."),
+        (true, _) => format!("{of_edges}\n--full-edges keeps all of them."),
+        (false, 0) if kept == 0 => format!("{of_edges}\nThe model keeps none."),
+        (false, 0) => format!("{of_edges}\nThe model keeps those that may change."),
         (false, _) => format!(
-            "{of_edges} The model keeps {kept}: those that may change, and {beside} that its error bound needs."
+            "{of_edges}\nThe model keeps {kept}: those that may change, and {beside} that its error bound needs."
         ),
     }
 }
@@ -97,8 +97,9 @@ fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
     }
     let _ = writeln!(
         text,
-        "Least and largest are proved for the exact solution at all inputs within their ranges. Those seen are of {} \
-         inputs drawn from them, all corners included where inputs are few. The width is the proved one over that seen.",
+        "Least and largest are proved for the exact solution at all inputs within their ranges.\n\
+         Those seen are of {} inputs drawn from them, all corners included where inputs are few.\n\
+         The width is the proved one over that seen.",
         reach.inputs
     );
     let _ = match reach.bound {
