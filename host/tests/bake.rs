@@ -237,7 +237,26 @@ fn the_explanation_tells_each_feature() {
     {
         assert!(stdout.contains(part), "{part}: {stdout}");
     }
+    for part in [
+        "always open",
+        "along the boundary",
+        "\"seepage face\"",
+        "(30, 0)",
+        "largest seen",
+        "error bound seen",
+    ] {
+        assert!(stdout.contains(part), "{part}: {stdout}");
+    }
+    let (_, ranges) = stdout.split_once("Ranges of the inputs").expect("a section");
+    let page = include_str!("../../docs/firmware.md");
+    assert!(
+        page.contains(&format!("```text\nRanges of the inputs{}\n```", ranges.trim_end())),
+        "{ranges}"
+    );
+    let (_, stdout, _, _) = bake("scenes/levee.toml", &[], &["--explain", "--full-edges"]);
+    assert!(stdout.contains("--full-edges keeps all of them"), "{stdout}");
     let (_, stdout, _, _) = bake("scenes/slab.toml", &[], &["--explain", "--full"]);
+    assert!(!stdout.contains("Ranges of the inputs"), "{stdout}");
     assert!(stdout.contains("no triangles") && stdout.contains("Robin edges"), "{stdout}");
 }
 

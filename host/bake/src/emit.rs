@@ -6,6 +6,7 @@ use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::full;
 use crate::module_api::ModuleApi;
+use crate::ranges;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -27,6 +28,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         }
         Model::Full(baked) => ("full", baked.features(), full::source(baked)),
     };
+    let origin = choice.condensed().map(|(_, origin)| origin);
     let chosen = Chosen {
         model: model.to_owned(),
         scalar: R::NAME.to_owned(),
@@ -34,6 +36,8 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         ram_bytes: candidate.needs.ram,
         flash_bytes: candidate.needs.flash,
         instructions: candidate.needs.instructions(),
+        ranges: origin.and_then(|origin| ranges::counts(&problem.scene, origin)),
     };
+    let source = source + &origin.map(ranges::constants).unwrap_or_default();
     Emitted { source, chosen }
 }

@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
+use super::ranges;
+use super::table::table;
 use signorini_scene::scene::Quantity;
 use signorini_solve::problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_solve::scalar::Scalar;
@@ -43,7 +45,7 @@ pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     text += &table(&rows);
     text += "\nBytes and instructions: what the general model spends on it on this mesh, RAM and flash \
              together; instructions a tick, of quads' columns a sweep (Cortex-M4F, counted parts).\n";
-    text
+    text + &ranges::section(problem, choice)
 }
 
 /// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.
@@ -245,23 +247,4 @@ fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
 fn varying(problem: &Problem) -> usize {
     let points = |quad: &&QuadCoefficient| matches!(quad, QuadCoefficient::AtPoints(_));
     problem.coefficients.quads.iter().filter(points).count()
-}
-
-/// Columns, the first and the last to the left.
-fn table<const N: usize>(rows: &[[String; N]]) -> String {
-    let width =
-        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: [usize; N] = std::array::from_fn(width);
-    let mut text = String::new();
-    for row in rows {
-        let cells = row.iter().zip(widths).enumerate().map(|(at, (cell, width))| match at {
-            0 => format!("{cell:<width$}"),
-            _ if at + 1 == N => cell.clone(),
-            _ => format!("{cell:>width$}"),
-        });
-        let line: Vec<String> = cells.collect();
-        text += line.join("  ").trim_end();
-        text += "\n";
-    }
-    text
 }

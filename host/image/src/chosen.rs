@@ -17,4 +17,19 @@ pub struct Chosen {
     pub flash_bytes: u64,
     /// Instructions of the median tick of a trial; none where its parts were not counted in this scalar.
     pub instructions: Option<f64>,
+    /// The sides of its contact edges; none of a full model, or where inputs have no range.
+    pub ranges: Option<Ranges>,
+}
+
+/// Contact edges by what they do for all inputs within their ranges, as far as is proved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ranges {
+    /// All of the scene.
+    pub contact: usize,
+    /// Those that are open for all inputs.
+    pub always_open: usize,
+    /// Those that touch for all inputs.
+    pub always_touching: usize,
+    /// The others.
+    pub may_change: usize,
 }

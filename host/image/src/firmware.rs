@@ -2,25 +2,23 @@
 
 use std::fmt::{self, Write as _};
 
-use serde::ser::SerializeMap as _;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::board::Board;
+use crate::chosen::Ranges;
 use crate::footprint::Footprint;
 use crate::module::Module;
 use crate::programs::Programs;
 use crate::room::NoImage;
 use crate::ticks::{Ticks, text};
+use crate::values::Values;
+use crate::worst::{WorstTick, without_range};
 
 /// Ticks that both programs play.
 const TICKS: usize = 101;
 
 /// What an image prints in place of a count that its counter could not hold.
 const BEYOND: &str = "beyond-the-counter";
-
-/// Outputs by name, in their order; null where a value is no number.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outputs(pub Vec<(String, Option<f64>)>);
 
 /// Instructions of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -43,9 +41,9 @@ pub struct Firmware {
     /// `full` or `condensed`.
     pub model: String,
     /// Those of the first tick on the board.
-    pub outputs: Outputs,
+    pub outputs: Values,
     /// Those of the first tick on this machine.
-    pub host_outputs: Outputs,
+    pub host_outputs: Values,
     /// Whether every tick has the same bits on both.
     pub bit_identical: bool,
     /// Of one call of `Controller::tick`.
@@ -60,6 +58,12 @@ pub struct Firmware {
     pub ticks: usize,
     /// What the kernel was built with.
     pub kernel_features: Vec<String>,
+    /// The sides of the contact edges, as the bake says.
+    pub ranges: Option<Ranges>,
+    /// The tick that took most instructions.
+    pub worst_tick: Option<WorstTick>,
+    /// Inputs without a range: they stay within a tenth of their defaults (±0.1 where that is 0).
+    pub inputs_without_range: Vec<String>,
     /// Where the bits differ.
     #[serde(skip)]
     difference: Option<String>,
@@ -95,19 +99,23 @@ impl Firmware {
         let word = |name| desk.notes(name).filter_map(|words| words.first()).cloned();
         let names: Vec<String> = word("output").map(|digits| text(&digits)).collect();
         let difference = said.difference(&desk);
+        let instructions_per_tick = instructions(&said)?;
         Ok(Self {
             board: board.word,
             scalar: word("scalar").next().unwrap_or_default(),
             model: word("model").next().unwrap_or_default(),
-            outputs: Outputs::new(&names, &said),
-            host_outputs: Outputs::new(&names, &desk),
+            outputs: Values::new(&names, said.outputs()),
+            host_outputs: Values::new(&names, desk.outputs()),
             bit_identical: difference.is_none(),
-            instructions_per_tick: instructions(&said)?,
+            instructions_per_tick,
             ram_bytes: statics.ram + stack,
             flash_bytes: statics.flash(),
             stack_bytes: stack,
             ticks: TICKS,
             kernel_features: module.chosen.kernel_features.clone(),
+            ranges: module.chosen.ranges,
+            worst_tick: WorstTick::new(&said.numbers("instructions")?, &desk),
+            inputs_without_range: without_range(&desk),
             difference,
             refused: desk.refused().map(str::to_owned),
         })
@@ -135,11 +143,42 @@ impl Firmware {
         let equal = self.difference.as_deref().unwrap_or("the same bits on both");
         let _ = writeln!(table, "  {TICKS} ticks: {equal}");
         let _ = writeln!(table, "  instructions per tick: {median} in the median, {max} at most");
+        table += &self.worst();
         let _ = writeln!(
             table,
             "  RAM: {ram_bytes} bytes, {stack_bytes} of them stack; flash: {flash_bytes} bytes"
         );
         table
+    }
+
+    /// The inputs of the worst tick, the contact edges, and which inputs were not drawn from a range.
+    fn worst(&self) -> String {
+        let mut text = String::new();
+        if let Some(WorstTick { tick, inputs, .. }) = &self.worst_tick {
+            let value = |value: &Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
+            let inputs = inputs.0.iter().map(|(name, x)| format!("{name} = {}", value(x)));
+            let inputs: Vec<_> = inputs.collect();
+            let at = if inputs.is_empty() {
+                String::new()
+            } else {
+                format!(", at {}", inputs.join(", "))
+            };
+            let _ = writeln!(text, "  the most at tick {tick}{at}");
+        }
+        if let Some(Ranges { contact, always_open, always_touching, may_change }) = self.ranges {
+            let _ = writeln!(
+                text,
+                "  contact edges: {contact}; {always_open} always open, {always_touching} always touching, \
+                 {may_change} may change"
+            );
+        }
+        for name in &self.inputs_without_range {
+            let _ = writeln!(
+                text,
+                "  {name:?} has no range: it stays within ±10 % of its default (±0.1 of 0)"
+            );
+        }
+        text
     }
 
     /// `Ok` where every tick has an answer, with the same bits on both machines.
@@ -152,21 +191,6 @@ impl Firmware {
             (None, Some(tick)) => Err(format!("{tick} has no answer")),
             (None, None) => Ok(()),
         }
-    }
-}
-
-impl Outputs {
-    fn new(names: &[String], played: &Ticks) -> Self {
-        let mut values = played.outputs().into_iter();
-        Self(names.iter().map(|name| (name.clone(), values.next().flatten())).collect())
-    }
-}
-
-impl Serialize for Outputs {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        self.0.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
-        map.end()
     }
 }
 

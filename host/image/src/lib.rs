@@ -22,3 +22,5 @@ pub mod sections;
 pub mod ticks;
 pub mod toolchain;
 pub mod tools;
+pub mod values;
+pub mod worst;

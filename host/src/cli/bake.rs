@@ -29,6 +29,10 @@ a condensed one by exchanges to the exact solution or by sweeps to a tolerance: 
 takes fewer instructions for inputs within a tenth of the scene's own. setting.solver asks \
 for one of them: sweeps, factor, exact.
 
+Where inputs declare range = [lo, hi], contact edges that never change sides within these ranges \
+are proved to be so, and taken out of a condensed model; --full-edges keeps them. --explain lists \
+them along the boundary, with the values that outputs can take. A tick refuses inputs outside.
+
 What does not fit is an error: bytes of RAM and flash, and the cycles of the median tick \
 tried, counted instructions times 1.4, more than tick times clock. Where the longest takes \
 more at 2 cycles an instruction there is a warning, and for a full model that is asked for \
@@ -61,10 +65,10 @@ pub struct Arguments {
     /// Keep all contact edges of a condensed model, those that never change sides too
     #[arg(long)]
     full_edges: bool,
-    /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions
+    /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions, ranges
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Print which models were considered and what each feature left out saves
+    /// Print which models were considered, what each feature left out saves, and what ranges of inputs prove
     #[arg(long)]
     explain: bool,
     /// Scalar type of the firmware [default: the scene's setting.scalar, else f32]

@@ -69,4 +69,6 @@ table! {
         "sums of at most 20 weights";
     CATALOGUE: "errors on other meshes against the catalogue, relative", 5e-4,
         "quadrature of the norms";
+    REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
+        "ranges are widened by ε of f32";
 }

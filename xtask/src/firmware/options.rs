@@ -39,6 +39,9 @@ Examples:
   cargo xtask firmware tests/firmware/scenes/levee-96.toml --board m4-192k --input rain=2
   cargo xtask firmware meshes/scenes/slab.toml --board m7 --scalar f64 --condensed --out out/slab-m7
 
+firmware.json also has the inputs of the tick that took most instructions (worst_tick), the contact edges that
+ranges leave open, touching or free to change (ranges), and the inputs that have no range.
+
 Instructions are those of one call of Controller::tick over all ticks: to the instruction on m4-192k, to 40
 either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
 stack; stack is the deepest of all ticks, and part of RAM; flash is .vector_table, .text, .rodata and .data.

@@ -126,6 +126,8 @@ pub struct Origin {
     pub sides: Sides,
     /// Without the edges that never change, where there are any and they may be taken out.
     pub reduced: Option<Reduced>,
+    /// Whether it was asked for that none is taken out.
+    pub has_all_edges: bool,
 }
 
 impl Origin {
@@ -136,7 +138,7 @@ impl Origin {
             true => None,
             false => Reduced::new(&whole, sides.clone()),
         };
-        Ok(Self { whole, recovery, sides, reduced })
+        Ok(Self { whole, recovery, sides, reduced, has_all_edges: wanted.has_all_edges })
     }
 
     /// The model that is baked.

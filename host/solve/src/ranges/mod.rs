@@ -2,14 +2,18 @@
 //!
 //! ```text
 //!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, may change
+//!                                                                                    └─► where every output lies
 //! ```
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
 mod columns;
 pub mod enclosure;
+pub mod interval;
+pub mod outputs;
 pub mod reduced;
 pub mod reduction;
 pub mod sides;
+mod slopes;
 pub mod split;
 #[cfg(test)]
 mod tests;

@@ -10,6 +10,8 @@ use super::enclosure::{Enclosure, LoadBox};
 use super::split::Split;
 use crate::reference::minimise;
 
+mod outputs;
+
 /// Numbers in [0, 1), as Knuth's generator draws them.
 fn scatter(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;

@@ -4,13 +4,15 @@
 //!   @ scalar f32
 //!   @ model condensed
 //!   @ output 73656570616765       a name, its bytes in hexadecimal digits
+//!   @ input 7261696e ranged       the same, and whether it has a range: ranged or free
+//!   @ inputs 0.5 -1.0             of a tick
 //! ```
 
 use std::sync::{Mutex, PoisonError};
 
 use signorini_board::journal::Journal;
 use signorini_scene::play::play;
-use signorini_scene::scene::{Controller, MODEL, Outputs, Scalar};
+use signorini_scene::scene::{Controller, Inputs, MODEL, Outputs, Scalar};
 
 /// A static, as on a board: it may be larger than a stack.
 static CONTROLLER: Mutex<Controller> = Mutex::new(Controller::new());
@@ -19,12 +21,17 @@ fn main() {
     println!("@ scalar {}", std::any::type_name::<Scalar>());
     println!("@ model {MODEL}");
     for name in Outputs::NAMES {
-        let digits: String = name.bytes().map(|byte| format!("{byte:02x}")).collect();
-        println!("@ output {digits}");
+        println!("@ output {}", digits(name));
+    }
+    for (name, range) in Inputs::NAMES.into_iter().zip(Inputs::RANGES) {
+        let word = if range.iter().all(|end| end.is_finite()) { "ranged" } else { "free" };
+        println!("@ input {} {word}", digits(name));
     }
     let mut told = false;
     let mut controller = CONTROLLER.lock().unwrap_or_else(PoisonError::into_inner);
     play(&mut controller, &mut Journal(&mut |text| print!("{text}")), |controller, inputs, _| {
+        let values: Vec<_> = inputs.to_array().iter().map(|value| format!("{value:?}")).collect();
+        println!("@ inputs {}", values.join(" "));
         let answer = controller.tick(inputs);
         if let Err(error) = &answer
             && !told
@@ -34,4 +41,9 @@ fn main() {
         }
         answer.ok()
     });
+}
+
+/// The bytes of a name in hexadecimal digits.
+fn digits(name: &str) -> String {
+    name.bytes().map(|byte| format!("{byte:02x}")).collect()
 }

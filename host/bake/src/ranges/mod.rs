@@ -1,0 +1,136 @@
+//! What the declared ranges of the inputs make of a condensed model, as `--explain` prints it.
+//!
+//! ```text
+//!   sides of the edges ─► counts, runs along the boundary          proved
+//!   enclosure          ─► intervals of the outputs                 proved
+//!   random inputs      ─► what outputs and error bound reach       seen
+//! ```
+
+mod counts;
+mod reach;
+mod runs;
+#[cfg(test)]
+mod tests;
+mod why;
+
+use std::fmt::Write as _;
+
+use crate::choice::{Choice, Origin};
+use crate::table::table;
+use reach::Reach;
+use runs::runs;
+use signorini_solve::functional::wanted;
+use signorini_solve::problem::Problem;
+use signorini_solve::ranges::interval::Interval;
+use signorini_solve::ranges::outputs::intervals;
+use signorini_solve::scalar::Scalar;
+use why::nothing_proved;
+
+pub use counts::{constants, counts};
+
+/// The section on ranges; empty for a full model, whose ticks need none.
+pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
+    let Some((baked, origin)) = choice.condensed() else { return String::new() };
+    let mut text = format!("\nRanges of the inputs: {}\n", summary(origin));
+    if let Some(why) = nothing_proved(&problem.scene, origin) {
+        return text + &why + "\n";
+    }
+    if origin.whole.contact > 0 {
+        text += &along_boundary(problem, origin);
+    }
+    text + &outputs(problem, origin, &Reach::new(problem, baked, origin))
+}
+
+/// How many edges are on which side, in a sentence.
+fn summary(origin: &Origin) -> String {
+    let counts = counts::of(&origin.sides);
+    if counts.contact == 0 {
+        return "nothing is in contact.".to_owned();
+    }
+    let kept = origin.model().contact;
+    let beside = kept - counts.may_change.min(kept);
+    let of_edges = format!(
+        "of {} contact edges {} are always open, {} always touch, {} may change sides.",
+        counts.contact, counts.always_open, counts.always_touching, counts.may_change
+    );
+    match (origin.has_all_edges, beside) {
+        (true, _) => format!("{of_edges}\n--full-edges keeps all of them."),
+        (false, 0) if kept == 0 => format!("{of_edges}\nThe model keeps none."),
+        (false, 0) => format!("{of_edges}\nThe model keeps those that may change."),
+        (false, _) => format!(
+            "{of_edges}\nThe model keeps {kept}: those that may change, and {beside} that its error bound needs."
+        ),
+    }
+}
+
+/// The runs of edges on one side, in the order of the unknowns.
+fn along_boundary(problem: &Problem, origin: &Origin) -> String {
+    let head = ["along the boundary", "edges", "kept", "from", "to", "boundary"];
+    let mut rows = vec![head.map(str::to_owned)];
+    let point = |[x, y]: [f64; 2]| format!("({}, {})", short(x), short(y));
+    for run in runs(problem, origin) {
+        rows.push([
+            run.side.to_owned(),
+            run.edges.to_string(),
+            run.kept.to_string(),
+            point(run.from),
+            point(run.to),
+            run.boundary,
+        ]);
+    }
+    table(&rows)
+}
+
+/// Where each output lies, what of it was reached, and the largest error bound seen.
+fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
+    // Loads were finite when the sides were found.
+    let proved = intervals(&origin.whole, &origin.sides).ok().flatten().unwrap_or_default();
+    let head = ["output", "least", "largest", "least seen", "largest seen", "width", ""];
+    let mut rows = vec![head.map(str::to_owned)];
+    for ((output, proved), seen) in wanted(&problem.scene).iter().zip(proved).zip(&reach.outputs) {
+        let Some((proved, seen)) = proved.zip(*seen) else { continue };
+        rows.push(row(&output.name.value, proved, seen));
+    }
+    let mut text = String::from("\n");
+    if rows.len() > 1 {
+        text += &table(&rows);
+    }
+    let _ = writeln!(
+        text,
+        "Least and largest are proved for the exact solution at all inputs within their ranges.\n\
+         Those seen are of {} inputs drawn from them, all corners included where inputs are few.\n\
+         The width is the proved one over that seen.",
+        reach.inputs
+    );
+    let _ = match reach.bound {
+        Some(bound) => writeln!(
+            text,
+            "The largest error bound seen in {} ticks with them is {}. Other inputs may have a larger one.",
+            reach.inputs,
+            short(bound)
+        ),
+        None => writeln!(text, "No error bound was seen: {}.", reach.unbounded),
+    };
+    text
+}
+
+fn row(name: &str, proved: Interval, seen: Interval) -> [String; 7] {
+    let Interval { lo, hi } = proved;
+    // What is proved of a single number is off by its rounding.
+    let is_wider = proved.width() > 1e-9 * lo.abs().max(hi.abs());
+    let width = match (is_wider, seen.width() > 0.0) {
+        (false, _) => "1".to_owned(),
+        (true, true) => format!("{:.3}", proved.width() / seen.width()),
+        (true, false) => "-".to_owned(),
+    };
+    let [lo, hi, least, most] = [lo, hi, seen.lo, seen.hi].map(short);
+    [name.to_owned(), lo, hi, least, most, width, String::new()]
+}
+
+/// A number with five digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    // Rounding around 0.
+    let rounded = if rounded == 0.0 { 0.0 } else { rounded };
+    format!("{rounded:?}").trim_end_matches(".0").to_owned()
+}

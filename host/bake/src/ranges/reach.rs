@@ -1,0 +1,75 @@
+//! What outputs and error bound reach for inputs drawn from their ranges, corners included.
+
+use crate::choice::Origin;
+use crate::condensed::{Baked, Controller};
+use crate::inputs::{InputSpace, drawn};
+use signorini_solve::problem::Problem;
+use signorini_solve::ranges::interval::Interval;
+use signorini_solve::scalar::Scalar;
+
+/// Inputs drawn.
+const DRAWN: usize = 1000;
+/// Inputs of which all corners are tried; of more, those that are drawn.
+const CORNERS: usize = 8;
+
+/// What was seen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reach {
+    /// How many inputs there were.
+    pub inputs: usize,
+    /// Each output at exact solutions in f64; none of the error bound.
+    pub outputs: Vec<Option<Interval>>,
+    /// The largest error bound of a tick of the controller.
+    pub bound: Option<f64>,
+    /// Why there is none.
+    pub unbounded: String,
+}
+
+impl Reach {
+    /// What the exact solution reaches, and the controller's bound: it is ticked with the same inputs.
+    pub fn new<R: Scalar>(problem: &Problem, baked: &Baked<R>, origin: &Origin) -> Self {
+        let all = inputs(&InputSpace::of(&problem.scene));
+        let nothing = Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
+        let mut outputs = vec![None; origin.model().outputs.len()];
+        for inputs in &all {
+            for (range, value) in outputs.iter_mut().zip(exact(origin, inputs)) {
+                let Interval { lo, hi } = range.unwrap_or(nothing);
+                *range = value.map(|value| Interval { lo: lo.min(value), hi: hi.max(value) });
+            }
+        }
+        let unbounded = baked.without_bound().unwrap_or("no tick had one").to_owned();
+        Self { inputs: all.len(), outputs, bound: bound(baked, &all), unbounded }
+    }
+}
+
+/// The corners, then what is drawn.
+fn inputs(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
+    let corners = if spaces.len() <= CORNERS { 1_usize << spaces.len() } else { 0 };
+    let corner = |bits: usize| {
+        let end = |(at, space): (usize, &InputSpace)| space.range[(bits >> at) & 1];
+        spaces.iter().enumerate().map(end).collect()
+    };
+    let drawn = drawn(spaces, if spaces.is_empty() { 0 } else { DRAWN - 1 });
+    (0..corners).map(corner).filter(|_| !spaces.is_empty()).chain(drawn).collect()
+}
+
+/// The outputs of the solution; none where there is no solution or for the bound.
+fn exact(origin: &Origin, inputs: &[f64]) -> Vec<Option<f64>> {
+    let model = origin.model();
+    let p: Vec<f64> = std::iter::once(1.0).chain(inputs.iter().copied()).collect();
+    match model.solve(&p) {
+        Ok(x) => model.outputs(&p, &x),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// The largest bound of a tick that had one.
+fn bound<R: Scalar>(baked: &Baked<R>, all: &[Vec<f64>]) -> Option<f64> {
+    let mut controller = Controller::new(baked);
+    let bounds = all.iter().filter_map(|inputs| {
+        let inputs: Vec<R> = inputs.iter().map(|&input| R::narrow(input)).collect();
+        let (_, report) = controller.tick(&inputs).ok()?;
+        report.certificate().map(|certificate| certificate.total.wide())
+    });
+    bounds.reduce(f64::max)
+}

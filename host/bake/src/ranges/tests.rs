@@ -1,0 +1,122 @@
+//! Runs, reasons and reach on the standard scenes.
+
+use std::path::Path;
+
+use super::{constants, counts, reach::Reach, runs::runs, section};
+use crate::choice::{Choice, Wanted};
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
+use signorini_solve::problem::Problem;
+use signorini_solve::ranges::outputs::intervals;
+
+/// A standard scene, changed by `change`.
+fn problem(name: &str, change: impl Fn(&mut Scene)) -> Problem {
+    let path = format!("../../meshes/scenes/{name}.toml");
+    let mut scene = Scene::read(Path::new(&path)).expect("a standard scene");
+    change(&mut scene);
+    let mesh = adapted::of_scene(&scene).expect("its mesh");
+    Problem::new(&scene, mesh).expect("a sound problem")
+}
+
+fn choice(problem: &Problem, has_all_edges: bool) -> Choice<f32> {
+    let wanted = Wanted { has_all_edges, ..Wanted::model(ModelKind::Condensed) };
+    Choice::new(problem, wanted).expect("a model")
+}
+
+#[test]
+fn runs_follow_each_other_and_have_all_edges() {
+    for (name, breaks) in [("levee", 0), ("strip", 0), ("slab", 1)] {
+        let problem = problem(name, |_| ());
+        let choice = choice(&problem, false);
+        let (baked, origin) = choice.condensed().expect("condensed");
+        let runs = runs(&problem, origin);
+        let counts = counts(&problem.scene, origin).expect("ranges");
+        let of = |side| runs.iter().filter(|run| run.side == side).map(|run| run.edges).sum();
+        let found: [usize; 3] = ["open", "touching", "may change"].map(of);
+        assert_eq!(
+            found,
+            [counts.always_open, counts.always_touching, counts.may_change],
+            "{name}"
+        );
+        assert_eq!(found.iter().sum::<usize>(), counts.contact);
+        assert!(found.iter().all(|&count| count > 0), "{name}: {found:?}");
+        assert_eq!(runs.iter().map(|run| run.kept).sum::<usize>(), baked.contact);
+        let parted = runs.windows(2).filter(|pair| pair[0].to != pair[1].from);
+        assert_eq!(parted.count(), breaks, "{name}: {runs:?}");
+    }
+}
+
+#[test]
+fn the_levee_touches_below_and_is_open_above() {
+    let problem = problem("levee", |_| ());
+    let choice = choice(&problem, false);
+    let runs = runs(&problem, choice.condensed().expect("condensed").1);
+    let (first, last) = (&runs[0], &runs[runs.len() - 1]);
+    assert_eq!(
+        (first.side, first.from, &*first.boundary),
+        ("touching", [30.0, 0.0], "\"seepage face\"")
+    );
+    assert_eq!((last.side, last.to, &*last.boundary), ("open", [12.0, 6.0], "\"crest\""));
+}
+
+#[test]
+fn outputs_reach_no_further_than_is_proved() {
+    for name in ["levee", "slab", "strip"] {
+        let problem = problem(name, |_| ());
+        let choice = choice(&problem, false);
+        let (baked, origin) = choice.condensed().expect("condensed");
+        let reach = Reach::new(&problem, baked, origin);
+        assert!(reach.inputs > 1000 && reach.bound.is_some_and(|bound| bound > 0.0), "{reach:?}");
+        let proved = intervals(&origin.whole, &origin.sides).expect("finite loads");
+        let proved = proved.expect("an enclosure");
+        assert_eq!(proved.len(), reach.outputs.len());
+        for (proved, seen) in proved.into_iter().zip(&reach.outputs) {
+            let (proved, seen) = (proved.expect("a value"), seen.expect("a value"));
+            assert!(proved.lo <= seen.lo && seen.hi <= proved.hi, "{name}: {proved:?}, {seen:?}");
+            assert!(proved.width() < 1.6 * seen.width(), "{name}: {proved:?}, {seen:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_proved_has_a_reason() {
+    let text = |problem: &Problem, all| section(problem, &choice(problem, all));
+    let levee = problem("levee", |_| ());
+    let said = text(&levee, true);
+    assert!(
+        said.contains("--full-edges keeps all of them") && said.contains("proved for"),
+        "{said}"
+    );
+    let without = problem("levee", |scene| scene.inputs[1].range = None);
+    let said = text(&without, false);
+    assert!(said.contains("Nothing is proved: \"river\" has no range"), "{said}");
+    assert!(said.contains("50 may change"), "{said}");
+    let neither = problem("levee", |scene| scene.inputs.iter_mut().for_each(|of| of.range = None));
+    assert!(text(&neither, false).contains("\"rain\", \"river\" have no range"));
+    let said = text(&problem("membrane", |scene| scene.inputs.clear()), false);
+    assert!(said.contains("contact alone holds a part"), "{said}");
+}
+
+#[test]
+fn programs_are_told_of_ranges_where_there_are_any() {
+    let levee = problem("levee", |_| ());
+    let choice_of = |problem: &Problem| choice(problem, false);
+    let full = Choice::<f32>::new(&levee, Wanted::model(ModelKind::Full)).expect("a model");
+    assert!(full.condensed().is_none() && section(&levee, &full).is_empty());
+    assert_eq!(crate::emit::emit(&levee, &full).chosen.ranges, None);
+    let chosen = choice_of(&levee);
+    let emitted = crate::emit::emit(&levee, &chosen);
+    let ranges = emitted.chosen.ranges.expect("ranges");
+    assert_eq!(ranges.contact, ranges.always_open + ranges.always_touching + ranges.may_change);
+    let constant = format!("pub const MAY_CHANGE: usize = {};", ranges.may_change);
+    assert!(emitted.source.contains(&constant) && ranges.may_change < ranges.contact);
+    let without = problem("levee", |scene| scene.inputs.iter_mut().for_each(|of| of.range = None));
+    let chosen = choice_of(&without);
+    assert_eq!(crate::emit::emit(&without, &chosen).chosen.ranges, None);
+    let all = constants(chosen.condensed().expect("condensed").1);
+    assert!(
+        all.contains("MAY_CHANGE: usize = 50") && all.contains("ALWAYS_OPEN: usize = 0"),
+        "{all}"
+    );
+}

@@ -1,0 +1,30 @@
+//! Why nothing is proved of the contact edges of a scene.
+
+use crate::choice::Origin;
+use signorini_scene::scene::Scene;
+use signorini_solve::ranges::split::Split;
+
+/// A sentence that names the inputs or the reason; nothing where something is proved.
+pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
+    let without = scene.inputs.iter().filter(|input| input.range.is_none());
+    let without: Vec<_> = without.map(|input| format!("{:?}", input.name.value)).collect();
+    if !without.is_empty() {
+        let (have, their) = if without.len() == 1 { ("has", "its") } else { ("have", "their") };
+        let names = without.join(", ");
+        return Some(format!(
+            "Nothing is proved: {names} {have} no range. Declare `range = [lo, hi]` in {their} [input] table."
+        ));
+    }
+    let whole = &origin.whole;
+    if whole.contact == 0 || origin.sides.enclosure.is_some() {
+        return None;
+    }
+    let reason = if !whole.held_by_contact.is_empty() {
+        "contact alone holds a part of the domain, and its matrix is singular"
+    } else if Split::new(&whole.matrix, whole.contact).is_none() {
+        "the contact edges' matrix without its positive entries off the diagonal is no M-matrix"
+    } else {
+        "the matrix of the edges that are always open is not positive definite to working precision"
+    };
+    Some(format!("Nothing is proved: {reason}."))
+}
