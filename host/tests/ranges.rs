@@ -17,7 +17,8 @@ fn run(verb: &str, scene: &Path, more: &[&str]) -> Output {
 fn refused(verb: &str, scene: &Path, more: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
-    let to = [more, &["--out", out.to_str().expect("UTF-8")]].concat();
+    let to = if matches!(verb, "solve" | "tick") { "--out" } else { "--output" };
+    let to = [more, &[to, out.to_str().expect("UTF-8")]].concat();
     let output = run(verb, scene, &to);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{verb} {more:?}: {message}");
@@ -92,22 +93,23 @@ fn scene(range: &str) -> (tempfile::TempDir, PathBuf) {
 fn wrong_ranges_are_refused_with_file_line_and_key() {
     let whole = std::fs::read_to_string(levee()).expect("a scene");
     let line = 1 + whole.lines().position(|line| line.starts_with("range")).expect("a range");
-    for range in [
-        "range = [5.0, 0.0]",
-        "range = [1.0, 5.0]",
-        "range = [0.0, nan]",
-        "range = [0.0, inf]",
-        "range = [-inf, inf]",
-        "range = [0.0]",
-        "range = 5.0",
-        "range = [\"0\", \"5\"]",
+    // A default outside is the culprit itself, on the line above.
+    for (range, line, key) in [
+        ("range = [1.0, 5.0]", line - 1, "input.rain.default"),
+        ("range = [5.0, 0.0]", line, "input.rain.range"),
+        ("range = [0.0, nan]", line, "input.rain.range"),
+        ("range = [0.0, inf]", line, "input.rain.range"),
+        ("range = [-inf, inf]", line, "input.rain.range"),
+        ("range = [0.0]", line, "input.rain.range"),
+        ("range = 5.0", line, "input.rain.range"),
+        ("range = [\"0\", \"5\"]", line, "input.rain.range"),
     ] {
         let (_folder, file) = scene(range);
         for verb in ["solve", "tick", "bake"] {
             let message = refused(verb, &file, &[]);
             let place = format!("levee.toml:{line}:");
             assert!(message.contains(&place), "{verb} {range}: {message}");
-            assert!(message.contains("input.rain.range"), "{verb} {range}: {message}");
+            assert!(message.contains(key), "{verb} {range}: {message}");
         }
     }
 }

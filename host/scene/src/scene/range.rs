@@ -32,6 +32,7 @@ impl InputRange {
         if lo <= hi {
             return Ok(entry.at.with(Self { lo, hi }));
         }
+        let [lo, hi] = [lo, hi].map(shown);
         let message = format!("from {lo} to {hi} there is no value");
         Err(entry
             .error(message)
@@ -51,8 +52,19 @@ impl Input {
     pub fn refusal(&self, value: f64) -> Option<String> {
         let range = self.range.as_ref()?.value;
         let InputRange { lo, hi } = range;
-        let message =
-            || format!("{value} is outside the range of `{}`, [{lo}, {hi}]", self.name.value);
+        let [value_shown, lo, hi] = [value, lo, hi].map(shown);
+        let name = &self.name.value;
+        let message = || format!("{value_shown} is outside the range of `{name}`, [{lo}, {hi}]");
         (!range.contains(value)).then(message)
+    }
+}
+
+/// Numbers far from 1 with their power of ten, not with hundreds of zeros.
+fn shown(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-5..1e16).contains(&size) && size.is_finite() {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }
