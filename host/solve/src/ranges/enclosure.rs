@@ -6,6 +6,7 @@
 //! ```
 //! since x solves the problem with matrix N and load b − Px. One step is all where P = 0, and exact at corners.
 
+use super::interval::Interval;
 use super::split::{Split, product};
 use crate::reference::ReferenceError;
 
@@ -86,6 +87,23 @@ impl Enclosure {
     /// Σ (hi − lo)
     fn width(&self) -> f64 {
         self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
+    }
+}
+
+impl Enclosure {
+    /// lo ≤ x ≤ hi
+    pub(super) fn intervals(&self) -> Vec<Interval> {
+        self.lo.iter().zip(&self.hi).map(|(&lo, &hi)| Interval { lo, hi }).collect()
+    }
+
+    /// Whether x_at > 0 for all loads.
+    pub(super) fn is_open(&self, at: usize) -> bool {
+        self.lo[at] > 0.0
+    }
+
+    /// Whether x_at = 0 for all loads.
+    pub(super) fn is_touching(&self, at: usize) -> bool {
+        self.reaction[at] > 0.0
     }
 }
 

@@ -92,6 +92,11 @@ pub fn dot(
     a.into_iter().zip(b).fold(Interval::ZERO, |sum, (a, b)| sum + a * b)
 }
 
+/// Boxes as intervals.
+pub(super) fn between(ranges: &[[f64; 2]]) -> Vec<Interval> {
+    ranges.iter().copied().map(Interval::between).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@
 //! ```
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
+mod affine;
 mod columns;
 pub mod enclosure;
 pub mod interval;

@@ -15,8 +15,9 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
+use super::affine::AffineOutput;
 use super::enclosure::Enclosure;
-use super::interval::{Interval, dot};
+use super::interval::{Interval, between};
 use super::sides::Sides;
 use super::slopes::Slopes;
 use crate::condense::{CondensedModel, Measure};
@@ -41,55 +42,6 @@ pub fn intervals(
     let slopes = Slopes::new(model, enclosure, &sides.inputs)?;
     let known = Known { model, enclosure, inputs: between(&sides.inputs), slopes };
     model.outputs.iter().map(|measure| known.output(measure)).collect::<Result<_, _>>().map(Some)
-}
-
-/// y = a·p + c·x, for solutions.
-#[derive(Debug, Clone)]
-pub(super) struct AffineOutput {
-    /// a
-    pub of_inputs: Vec<Interval>,
-    /// c
-    pub of_contact: Vec<Interval>,
-}
-
-impl AffineOutput {
-    /// Where it lies for p and x within these.
-    pub fn within(&self, p: &[Interval], x: &[Interval]) -> Interval {
-        let of_inputs = dot(self.of_inputs.iter().copied(), p.iter().copied());
-        of_inputs + dot(self.of_contact.iter().copied(), x.iter().copied())
-    }
-
-    /// Adds μ times row `at` of Sx − Bp.
-    fn add(&mut self, model: &CondensedModel, at: usize, weight: f64) {
-        if weight == 0.0 {
-            return;
-        }
-        let weight = Interval::point(weight);
-        for (sum, column) in self.of_inputs.iter_mut().zip(&model.load) {
-            *sum = *sum - weight * Interval::point(column[at]);
-        }
-        let row = &model.matrix[at * model.contact..][..model.contact];
-        for (sum, &entry) in self.of_contact.iter_mut().zip(row) {
-            *sum = *sum + weight * Interval::point(entry);
-        }
-    }
-}
-
-impl Enclosure {
-    /// lo ≤ x ≤ hi
-    pub(super) fn intervals(&self) -> Vec<Interval> {
-        self.lo.iter().zip(&self.hi).map(|(&lo, &hi)| Interval { lo, hi }).collect()
-    }
-
-    /// Whether x_at > 0 for all loads.
-    pub(super) fn is_open(&self, at: usize) -> bool {
-        self.lo[at] > 0.0
-    }
-
-    /// Whether x_at = 0 for all loads.
-    pub(super) fn is_touching(&self, at: usize) -> bool {
-        self.reaction[at] > 0.0
-    }
 }
 
 /// What is known of all solutions.
@@ -193,9 +145,4 @@ fn points(numbers: &[f64], length: usize) -> Vec<Interval> {
         true => vec![Interval::ZERO; length],
         false => numbers.iter().copied().map(Interval::point).collect(),
     }
-}
-
-/// Boxes as intervals.
-pub(super) fn between(ranges: &[[f64; 2]]) -> Vec<Interval> {
-    ranges.iter().copied().map(Interval::between).collect()
 }

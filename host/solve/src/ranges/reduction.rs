@@ -12,7 +12,6 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
-use super::sides::{EdgeSide, Sides};
 use super::split::product;
 use crate::condense::CondensedModel;
 
@@ -23,6 +22,17 @@ pub struct Affine {
     pub factors: Vec<f64>,
     /// By how much rounding may have put each off.
     pub noise: Vec<f64>,
+}
+
+/// The unknowns of a condensed model by what becomes of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Partition {
+    /// U
+    pub kept: Vec<usize>,
+    /// O
+    pub open: Vec<usize>,
+    /// T
+    pub touching: Vec<usize>,
 }
 
 /// Affine maps (p, x_U) ─► x_O, r_T, r_U and what is left of r_O.
@@ -45,12 +55,9 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// The maps for these sides; nothing where S_OO is not positive definite.
-    pub fn new(model: &CondensedModel, sides: &Sides) -> Option<Self> {
-        let all = |is: &dyn Fn(usize) -> bool| (0..model.contact).filter(|&at| is(at)).collect();
-        let kept: Vec<usize> = all(&|at| sides.kept[at]);
-        let dropped = |side| all(&|at| !sides.kept[at] && sides.of[at] == side);
-        let [open, touching]: [Vec<usize>; 2] = [EdgeSide::Open, EdgeSide::Touching].map(dropped);
+    /// The maps for these edges; nothing where S_OO is not positive definite.
+    pub fn new(model: &CondensedModel, parts: Partition) -> Option<Self> {
+        let Partition { kept, open, touching } = parts;
         let openings = openings(model, &kept, &open)?;
         let rows = |edges: &[usize]| {
             edges.iter().map(|&edge| residual(model, &kept, &open, &openings, edge)).collect()

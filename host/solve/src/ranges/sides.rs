@@ -14,7 +14,7 @@
 //! ```
 
 use super::enclosure::{Enclosure, LoadBox};
-use super::reduction::{Affine, Reduction, least};
+use super::reduction::{Affine, Partition, Reduction, least};
 use super::split::Split;
 use crate::condense::{CondensedModel, Form, Vertex};
 use crate::reference::ReferenceError;
@@ -109,6 +109,14 @@ impl Sides {
         Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
     }
 
+    /// What becomes of each edge.
+    pub fn partition(&self) -> Partition {
+        let all = |is: &dyn Fn(usize) -> bool| (0..self.of.len()).filter(|&at| is(at)).collect();
+        let dropped = |side| all(&|at| !self.kept[at] && self.of[at] == side);
+        let [open, touching] = [EdgeSide::Open, EdgeSide::Touching].map(dropped);
+        Partition { kept: all(&|at| self.kept[at]), open, touching }
+    }
+
     /// How many edges are on this side.
     pub fn count(&self, side: EdgeSide) -> usize {
         self.of.iter().filter(|&&of| of == side).count()
@@ -117,7 +125,7 @@ impl Sides {
     /// Keeps the edges for which the affine maps do not prove their side, and those that the bound needs; whether there
     /// were any.
     fn demote(&mut self, model: &CondensedModel) -> bool {
-        let Some(reduction) = Reduction::new(model, self) else {
+        let Some(reduction) = Reduction::new(model, self.partition()) else {
             *self = Self::unproved(model.contact, self.inputs.clone());
             return false;
         };

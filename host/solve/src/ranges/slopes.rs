@@ -12,9 +12,9 @@
 //! ```
 //! which is y(p*) where no slope changes its sign. The same from below.
 
+use super::affine::AffineOutput;
 use super::enclosure::{Enclosure, LoadBox};
-use super::interval::{Interval, dot};
-use super::outputs::{AffineOutput, between};
+use super::interval::{Interval, between, dot};
 use super::split::Split;
 use crate::condense::CondensedModel;
 use crate::reference::ReferenceError;

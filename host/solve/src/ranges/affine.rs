@@ -1,0 +1,36 @@
+//! Outputs of solutions as affine functions of (p, x), with intervals for factors.
+
+use super::interval::{Interval, dot};
+use crate::condense::CondensedModel;
+
+/// y = a·p + c·x, for solutions.
+#[derive(Debug, Clone)]
+pub(super) struct AffineOutput {
+    /// a
+    pub of_inputs: Vec<Interval>,
+    /// c
+    pub of_contact: Vec<Interval>,
+}
+
+impl AffineOutput {
+    /// Where it lies for p and x within these.
+    pub fn within(&self, p: &[Interval], x: &[Interval]) -> Interval {
+        let of_inputs = dot(self.of_inputs.iter().copied(), p.iter().copied());
+        of_inputs + dot(self.of_contact.iter().copied(), x.iter().copied())
+    }
+
+    /// Adds μ times row `at` of Sx − Bp.
+    pub fn add(&mut self, model: &CondensedModel, at: usize, weight: f64) {
+        if weight == 0.0 {
+            return;
+        }
+        let weight = Interval::point(weight);
+        for (sum, column) in self.of_inputs.iter_mut().zip(&model.load) {
+            *sum = *sum - weight * Interval::point(column[at]);
+        }
+        let row = &model.matrix[at * model.contact..][..model.contact];
+        for (sum, &entry) in self.of_contact.iter_mut().zip(row) {
+            *sum = *sum + weight * Interval::point(entry);
+        }
+    }
+}
