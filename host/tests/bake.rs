@@ -51,13 +51,16 @@ fn the_levee_is_condensed_and_its_module_says_so() {
         "pub const MODEL: &str = \"condensed\";",
         "pub rain: Scalar,",
         "pub wet: Scalar,",
-        "pub const CONTACT: usize = 50;",
+        "pub const CONTACT: usize = 7;",
+        "pub const WORST_EXCHANGES: u32 = 14;",
         "//! Kernel features: none.",
         "A flux is (A∇u)·n with the normal outward: positive where u rises",
         "scene hash",
     ] {
         assert!(source.contains(part), "{part}");
     }
+    let (_, _, _, source) = bake("scenes/levee.toml", &[], &["--full-edges"]);
+    assert!(source.expect("a module").contains("pub const CONTACT: usize = 50;"));
 }
 
 #[test]
@@ -88,21 +91,22 @@ fn what_does_not_fit_is_an_error_with_the_shortfall() {
 fn the_bound_is_not_left_out_to_make_room() {
     for tick in ["tick = 0.00021", "tick = 0.00015"] {
         let tight = [("tick = 0.001", tick)];
-        let (status, _, stderr, source) = bake("scenes/levee.toml", &tight, &[]);
+        let (status, _, stderr, source) = bake("scenes/levee.toml", &tight, &["--full-edges"]);
         assert_eq!((status, source), (2, None), "{tick}: {stderr}");
         assert!(stderr.contains("target.tick: ") && stderr.contains(" too many"), "{stderr}");
     }
     let tight = [("tick = 0.001", "tick = 0.00021")];
-    let (_, _, stderr, _) = bake("scenes/levee.toml", &tight, &["--condensed"]);
+    let all = ["--condensed", "--full-edges"];
+    let (_, _, stderr, _) = bake("scenes/levee.toml", &tight, &all);
     assert!(stderr.contains("(certificate = false in [setting]) it would fit"), "{stderr}");
     let asked =
         [tight[0], ("[target]", "[setting]\nmodel = \"condensed\"\ncertificate = false\n[target]")];
-    let (status, _, stderr, source) = bake("scenes/levee.toml", &asked, &[]);
+    let (status, _, stderr, source) = bake("scenes/levee.toml", &asked, &["--full-edges"]);
     let source = source.expect("a module");
     assert!(status == 0 && source.contains("(certificate = false leaves it out)"), "{stderr}");
     // Room in flash for all but the bound.
     let little = [("flash = 1048576", "flash = 60000")];
-    let (status, _, stderr, source) = bake("scenes/levee.toml", &little, &["--condensed"]);
+    let (status, _, stderr, source) = bake("scenes/levee.toml", &little, &all);
     assert_eq!((status, source), (2, None), "{stderr}");
     assert!(stderr.contains("target.flash"), "{stderr}");
 }
@@ -117,14 +121,17 @@ fn a_condensed_model_has_the_solver_that_is_asked_for() {
         (status, stderr, source.unwrap_or_default())
     };
     let exact = with("solver = \"exact\"", &[]).2;
-    assert!(exact.contains("MODEL: &str = \"condensed\"") && exact.contains("pub const PIVOTS"));
+    assert!(
+        exact.contains("MODEL: &str = \"condensed\"")
+            && exact.contains("pub const WORST_EXCHANGES")
+    );
     for (lines, more) in [
         ("model = \"condensed\"\nsolver = \"sweeps\"", &[][..]),
         ("solver = \"sweeps\"", &["--condensed"]),
     ] {
         let (status, stderr, sweeps) = with(&format!("{lines}\ncertificate = false"), more);
         assert!(sweeps.contains("MODEL: &str = \"condensed\""), "{status} {stderr}");
-        assert!(!sweeps.contains("PIVOTS") && sweeps.contains("pub const SWEEPS"));
+        assert!(!sweeps.contains("WORST_EXCHANGES") && sweeps.contains("pub const SWEEPS"));
     }
     for (solver, model) in [("exact", "full"), ("factor", "condensed")] {
         let (status, stderr, _) = with(&format!("solver = \"{solver}\""), &[&format!("--{model}")]);
@@ -136,7 +143,7 @@ fn a_condensed_model_has_the_solver_that_is_asked_for() {
 #[test]
 fn a_device_without_room_for_the_tableau_gets_sweeps() {
     let tight = [("ram = 196608", "ram = 6000"), ("tick = 0.001", "tick = 0.01")];
-    let (status, _, _, source) = bake("scenes/levee.toml", &tight, &[]);
+    let (status, _, _, source) = bake("scenes/levee.toml", &tight, &["--full-edges"]);
     let source = source.expect("a module");
     assert_eq!(status, 0);
     assert!(!source.contains("TableauStorage") && source.contains("pub const SWEEPS"));
@@ -149,7 +156,8 @@ fn an_output_that_stands_in_the_way_is_named() {
         ("flash = 1048576", "flash = 45000"),
         ("tick = 0.001", "tick = 0.01"),
     ];
-    let (status, _, stderr, _) = bake("scenes/levee.toml", &bound, &["--condensed"]);
+    let all = ["--condensed", "--full-edges"];
+    let (status, _, stderr, _) = bake("scenes/levee.toml", &bound, &all);
     assert_eq!(status, 2);
     let hint =
         "without output.error and its error bound (certificate = false in [setting]) it would fit";

@@ -40,8 +40,6 @@ pub(super) fn of_condensed<R: Scalar>(
             _ if condensate.contact == 0 || setting.sweeps.is_some() => &[false][..],
             Some(Method::Sweeps) => &[false],
             Some(Method::Exact) => &[true],
-            // Nothing else has an end that is proved.
-            _ if condensed::is_monotone::<R>(condensate) => &[true],
             _ => &[true, false],
         };
         for &exact in methods {
@@ -53,8 +51,9 @@ pub(super) fn of_condensed<R: Scalar>(
             }
             pair.push(candidate);
         }
-        // Sweeps come back from loads without a solution by small steps, where contact alone holds a part.
-        if condensate.held_by_contact.is_empty() {
+        // Sweeps come back from loads without a solution by small steps, where contact alone holds a part. Nor do they have
+        // an end that is proved, where exchanges have.
+        if condensate.held_by_contact.is_empty() && !condensed::is_monotone::<R>(condensate) {
             pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
         }
         all.extend(pair);
