@@ -96,6 +96,8 @@ fn what_is_no_m_matrix_proves_nothing() {
     assert!(Split::new(&singular, 2).is_none(), "contact alone holds it");
     let indefinite = [1.0, -2.0, -2.0, 1.0];
     assert!(Split::new(&indefinite, 2).is_none());
+    let nearly = -1.0 + 0.5 * f64::EPSILON;
+    assert!(Split::new(&[1.0, nearly, nearly, 1.0], 2).is_none(), "definite, if rounding is right");
     let not_a_number = [1.0, f64::NAN, f64::NAN, 1.0];
     assert!(Split::new(&not_a_number, 2).is_none());
 }
