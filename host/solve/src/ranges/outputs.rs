@@ -9,7 +9,7 @@
 //! ```text
 //!   y = (a − μB) p + (c + μS) x                          whatever μ is, to the last bit.
 //! ```
-//! Each form has an interval for p in its box and lo ≤ x ≤ hi, and one by its slopes ([`Slopes`]); the sum with its
+//! Each form has an interval for p in its box and lo ≤ x ≤ hi, and one by its slopes (`slopes.rs`); the sum with its
 //! reactions r ≥ 0 has another. An output lies in all of them. Sums are of intervals, rounded outwards.
 
 use faer::linalg::solvers::Solve;
