@@ -25,7 +25,7 @@ struct Kind {
 }
 
 /// What is condensed, then what is solved on its mesh; the leanest first.
-const KINDS: [Kind; 8] = [
+const KINDS: [Kind; 9] = [
     Kind {
         what: "linear, condensed",
         scene: "tests/firmware/scenes/linear.toml",
@@ -33,7 +33,7 @@ const KINDS: [Kind; 8] = [
         most: 8 * 1024,
     },
     Kind {
-        what: "strip, condensed",
+        what: "strip, condensed, swept",
         scene: "meshes/scenes/strip.toml",
         model: "--condensed",
         most: 34 * 1024,
@@ -47,6 +47,12 @@ const KINDS: [Kind; 8] = [
     Kind {
         what: "levee on 50 000 unknowns, condensed",
         scene: "tests/firmware/scenes/levee-96.toml",
+        model: "--condensed",
+        most: 34 * 1024,
+    },
+    Kind {
+        what: "slab, condensed, on quads",
+        scene: "meshes/scenes/slab.toml",
         model: "--condensed",
         most: 34 * 1024,
     },

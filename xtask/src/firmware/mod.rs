@@ -68,6 +68,8 @@ const EXPLAINED: [&str; 3] = ["slab", "levee", "strip-swept"];
 pub fn check(steps: &mut Steps) {
     for (scene, model, most) in TESTED {
         let recipe = Recipe::of(scene, model);
+        // Of the slab's smaller model two kilobytes of constants, which `bake` does not state, are more than the tolerance.
+        let recipe = Recipe { full_edges: recipe.scene_name() == "slab", ..recipe };
         let name = format!("{} {}", recipe.scene_name(), model.trim_start_matches('-'));
         steps.check(&format!("{name}, baked, on the M4F-192K, bit for bit"), || {
             let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));

@@ -118,7 +118,7 @@ fn condensed_as<R: Scalar>(
         }
     };
     let sizes = condensed::sizes(&baked);
-    let needs = Needs::with_code(", condensed", sizes, instructions);
+    let needs = Needs::with_code(baked.kind(), sizes, instructions);
     let solver = match (condensate.contact, exact) {
         (0, _) => "linear",
         (_, true) => "exact method",

@@ -111,6 +111,15 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
+    /// What the record of sizes calls images with this solver.
+    pub fn kind(&self) -> &'static str {
+        match self.solver() {
+            Solver::Sweeps => ", condensed, swept",
+            _ if self.forms() > 1 => ", condensed, on quads",
+            _ => ", condensed",
+        }
+    }
+
     /// Exchanges that no tick exceeds, from whatever state and for whatever load; nothing where that is not proved.
     pub fn worst_exchanges(&self) -> Option<u32> {
         match self.solver() {
