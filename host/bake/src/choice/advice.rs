@@ -58,7 +58,7 @@ fn nearest<R: Scalar>(candidate: &Candidate<R>) -> String {
     match &candidate.model {
         // Bytes and instructions of dense blocks grow like n².
         Model::Condensed(baked) => {
-            let factor = growth(candidate, &Footprint::measured(", condensed"));
+            let factor = growth(candidate, &Footprint::measured(baked.kind()));
             let fitting = (baked.contact as f64 / factor.sqrt()).floor();
             if fitting < 1.0 {
                 return hopeless.to_owned();
