@@ -57,7 +57,7 @@ fn exchanges(n: usize, blocks: &[Block<f64>], load: &[f64], open: &[bool]) -> Re
     }
     let iterate =
         Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
-    let mut method = TwoPhases { tableau, start };
+    let mut method = TwoPhases { tableau };
     let found = method.solve(&Blocks::new(blocks, n)?, load, iterate, &mut Deadline::never())?;
     assert_eq!((found.ended, found.sweeps), (Ended::Exact, 0));
     let size = x.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
@@ -82,7 +82,8 @@ fn every_state_leads_to_the_solution_within_the_bound() -> Result<(), Error> {
                 .map(|at| if n <= 6 { state >> at & 1 == 1 } else { draw.part() < 0.5 })
                 .collect();
             let taken = exchanges(n, &blocks, &load, &open)? as usize;
-            let limit = n + open.iter().filter(|open| **open).count();
+            // Half of the open edges leave at most, before it starts anew.
+            let limit = n + open.iter().filter(|open| **open).count() / 2;
             assert!(taken <= limit && limit <= Phases::default().most(n), "{taken} of {limit}");
             most = most.max(taken as f64 / n as f64);
         }
@@ -93,7 +94,7 @@ fn every_state_leads_to_the_solution_within_the_bound() -> Result<(), Error> {
 
 #[test]
 fn the_bound_is_that_of_the_order() {
-    assert_eq!([0, 1, 7].map(|n| Phases::default().most(n)), [0, 2, 14]);
+    assert_eq!([0, 1, 7].map(|n| Phases::default().most(n)), [0, 1, 10]);
     assert_eq!([0, 1, 8, 9].map(|n| Largest.most(n)), [0, 8, 8, 16]);
 }
 
@@ -108,7 +109,7 @@ fn a_deadline_ends_a_tick_between_exchanges() -> Result<(), Error> {
     let mut tableau = Tableau::new(6, &mut own, &mut exchanged, [&mut column, &mut next])?;
     let start = InitialTableau { blocks: &blocks, exchanged: &nothing };
     tableau.reset(&start)?;
-    let mut method = TwoPhases { tableau, start };
+    let mut method = TwoPhases { tableau };
     let mut ended = Vec::new();
     for _ in 0..8 {
         let iterate =

@@ -40,7 +40,7 @@ const IMAGES: [Image; 4] = [
     },
     Image {
         bin: "dense",
-        kinds: &["f32, n = 16", "f32, n = 32", "f32, n = 64", "f64, n = 64"],
+        kinds: &["f32, n = 8", "f32, n = 16", "f32, n = 32", "f32, n = 64", "f64, n = 64"],
         last: "norm of the bound, half of x zero",
     },
     Image { bin: "functions", kinds: &["f32 libm", "f32 micromath"], last: "powf" },

@@ -58,6 +58,7 @@ pub fn run(steps: &mut Steps) {
     cross::run(steps);
     boards::run(steps);
     firmware::check(steps);
+    firmware::check_worst(steps);
     audit::run(steps);
     size::run(steps);
     cost::run(steps);

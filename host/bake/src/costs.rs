@@ -21,7 +21,13 @@ pub const CYCLES: f64 = 2.0;
 pub const FEWEST_CYCLES: f64 = 1.4;
 
 /// The sizes of dense problems that were counted.
-pub(super) const ORDERS: [f64; 3] = [16.0, 32.0, 64.0];
+pub(super) const ORDERS: [f64; 4] = [8.0, 16.0, 32.0, 64.0];
+
+/// The three of them around n, or next to it.
+pub(super) fn around(n: f64) -> [f64; 3] {
+    let [a, b, c, d] = ORDERS;
+    if n < b { [a, b, c] } else { [b, c, d] }
+}
 
 /// Counts by kind and stage.
 #[derive(Debug)]
@@ -51,15 +57,18 @@ impl Costs {
         count.map(|count| count * order * order)
     }
 
-    /// Instructions of a stage on a dense problem with n contact edges: the quadratic through the sizes
+    /// Instructions of a stage on a dense problem with n contact edges: the quadratic through three sizes
     /// counted. In f64, which was counted at one size, they grow like n².
     pub fn of_dense<R: Scalar>(&self, stage: &str, n: usize) -> Option<f64> {
         let n = n as f64;
-        let [a, b, c] = ORDERS.map(|order| self.counted::<R>(stage, order));
-        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
-            return c.map(|count| count * (n / ORDERS[2]).powi(2));
+        let orders = around(n);
+        let [Some(a), Some(b), Some(c)] = orders.map(|order| self.counted::<R>(stage, order))
+        else {
+            let [.., largest] = ORDERS;
+            let count = self.counted::<R>(stage, largest);
+            return count.map(|count| count * (n / largest).powi(2));
         };
-        Some(quadratic([a, b, c], n).max(0.0))
+        Some(quadratic(orders, [a, b, c], n).max(0.0))
     }
 }
 
@@ -89,11 +98,11 @@ impl Footprint {
     }
 }
 
-/// The value at n of the quadratic with these values at [`ORDERS`] (Lagrange).
-fn quadratic(values: [f64; 3], n: f64) -> f64 {
+/// The value at n of the quadratic with these values at three `orders` (Lagrange).
+fn quadratic(orders: [f64; 3], values: [f64; 3], n: f64) -> f64 {
     let term = |(i, value): (usize, f64)| {
         let others = (0..3).filter(|&j| j != i);
-        others.fold(value, |product, j| product * (n - ORDERS[j]) / (ORDERS[i] - ORDERS[j]))
+        others.fold(value, |product, j| product * (n - orders[j]) / (orders[i] - orders[j]))
     };
     values.into_iter().enumerate().map(term).sum()
 }
@@ -148,7 +157,7 @@ mod tests {
     fn a_quadratic_is_met_everywhere() {
         let exact = |n: f64| 3.0 * n * n - 5.0 * n + 7.0;
         for n in [0.0, 16.0, 50.0, 96.0] {
-            COSTS.check("a quadratic", quadratic(ORDERS.map(exact), n) - exact(n));
+            COSTS.check("a quadratic", quadratic(around(n), around(n).map(exact), n) - exact(n));
         }
     }
 }

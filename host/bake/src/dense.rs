@@ -4,9 +4,15 @@
 //!   exact method: a (blocks before + blocks after) + b n + c       exchanges in pairs, an odd one half as much again
 //!   a norm of the bound: a entries + b order + c           one for s, one more for u_h on quads
 //! ```
+//! And of the worst tick, with whatever load and from whatever state, of a method that comes to its end in so many exchanges:
+//! ```text
+//!   2 S₀ + (exchanges + 1) E + all entries of the bound        S₀ = all edges open before and after; twice, for a correction
+//!                                                              E  = (all edges come in − ½ S₀) / n, going back to nothing
+//!                                                                   open and an exchange alone included
+//! ```
 
 use super::condensed::Visited;
-use super::costs::{Costs, ORDERS};
+use super::costs::{Costs, ORDERS, around};
 use signorini_solve::scalar::Scalar;
 
 /// A column entry of a load or an output: two loads, a multiply-add, half of a loop.
@@ -20,6 +26,10 @@ const AN_EDGE: f64 = 4.0;
 
 /// What an odd exchange costs, which corrects the tableau alone, of one in a pair.
 const ALONE: f64 = 1.5;
+
+/// What the worst case is multiplied by: compilers make more or less of the same stage in another image (the record's stages
+/// differ by up to 5 % from those of images), and what is fitted by up to 7 %.
+const MARGIN: f64 = 1.12;
 
 /// What a tick did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -41,6 +51,8 @@ pub struct Price {
     pub entries: usize,
     /// Contact vertices.
     pub vertices: usize,
+    /// Columns of the bound's factor.
+    pub columns: usize,
     /// Whether the exact method is there.
     pub exact: bool,
     /// Forms of the error bound: none, that of s, and that of u_h where it is another.
@@ -52,26 +64,56 @@ impl Price {
     pub fn of<R: Scalar>(&self, costs: &Costs, done: &Done) -> Option<f64> {
         let n = self.order as f64;
         let [before, after] = done.visited.map(|visited| visited.blocks as f64);
-        let given = A_TICK + AN_EDGE * n + AN_ENTRY * self.entries as f64;
+        let given = self.given();
         let solve = match (self.order, self.exact) {
             (0, _) => 0.0,
             (_, true) => {
-                let rest = line::<R>(costs, "exact, no edge changes", |n| [n * n / 64.0, n])?;
+                let rest =
+                    self.line::<R>(costs, "exact, no edge changes", |n| [n * n / 64.0, n])?;
                 at(rest, [before + after, n]) + self.exchanges::<R>(costs, done.pivots)?
             }
-            (_, false) => at(line::<R>(costs, PRODUCT, |n| [n * n / 128.0, n])?, [after, n]),
+            (_, false) => at(self.line::<R>(costs, PRODUCT, |n| [n * n / 128.0, n])?, [after, n]),
         };
         let sweeps = f64::from(done.sweeps) * costs.of_dense::<R>("sweep", self.order)?;
         Some(given + solve + sweeps + self.bound::<R>(costs, &done.visited[1])?)
     }
 
-    /// Two are made in one pass over the tableau.
+    /// Instructions that no tick exceeds which needs so many exchanges at most: an upper bound as far as the record's counts
+    /// are those of the image. Nothing where they depend on the operands, as those of f64 without a unit for it do.
+    pub fn worst<R: Scalar>(&self, costs: &Costs, exchanges: u32) -> Option<f64> {
+        let [smallest, ..] = ORDERS;
+        costs.counted::<R>(STAY, smallest)?;
+        let solve = match self.order {
+            0 => 0.0,
+            n => {
+                2.0 * costs.of_dense::<R>(STAY, n)?
+                    + f64::from(exchanges + 1) * self.each::<R>(costs)?
+            }
+        };
+        let columns = self.columns;
+        let all = Visited { blocks: 0, entries: columns * (columns + 1) / 2, order: columns };
+        Some(MARGIN * (self.given() + solve + self.bound::<R>(costs, &all)?))
+    }
+
+    /// Instructions of load, outputs and report.
+    fn given(&self) -> f64 {
+        A_TICK + AN_EDGE * self.order as f64 + AN_ENTRY * self.entries as f64
+    }
+
+    /// An exchange and the choice of it. Two are made in one pass over the tableau.
     fn exchanges<R: Scalar>(&self, costs: &Costs, pivots: u32) -> Option<f64> {
-        let odd = f64::from(pivots % 2);
-        Some(
-            costs.of_dense::<R>("exchange", self.order)?
-                * (f64::from(pivots) + odd * (ALONE - 1.0)),
-        )
+        let exchange = costs.of_dense::<R>("exchange", self.order)?;
+        let each = self.each::<R>(costs).unwrap_or(exchange);
+        let odd = f64::from(pivots % 2) * (ALONE - 1.0);
+        Some(f64::from(pivots) * each + odd * exchange)
+    }
+
+    /// An exchange on the way from nothing open to all, where that was counted.
+    fn each<R: Scalar>(&self, costs: &Costs) -> Option<f64> {
+        let [smallest, ..] = ORDERS;
+        costs.counted::<R>(COME, smallest)?;
+        let of = |stage| costs.of_dense::<R>(stage, self.order);
+        Some((of(COME)? - 0.5 * of(STAY)?) / self.order as f64)
     }
 
     fn bound<R: Scalar>(&self, costs: &Costs, visited: &Visited) -> Option<f64> {
@@ -80,7 +122,7 @@ impl Price {
         }
         // Counted with the first n/2 + 3 of n + 3 columns.
         let counted = |n: f64| [(n / 2.0 + 3.0) * (n / 2.0 + 4.0) / 2.0, n + 3.0];
-        let norm = line::<R>(costs, "norm of the bound, half of x zero", counted)?;
+        let norm = self.line::<R>(costs, "norm of the bound, half of x zero", counted)?;
         let [edge, vertex] = IN_THE_BOUND;
         let rest = edge * self.order as f64 + vertex * self.vertices as f64;
         let each = at(norm, [visited.entries as f64, visited.order as f64]);
@@ -89,13 +131,33 @@ impl Price {
 }
 
 const PRODUCT: &str = "product, half of x zero";
+const STAY: &str = "two phases, all edges stay open";
+const COME: &str = "two phases, all edges come in";
 
-/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at the sizes counted is
+impl Price {
+    /// The coefficients of a stage for this order.
+    fn line<R: Scalar>(
+        &self,
+        costs: &Costs,
+        stage: &str,
+        work: impl Fn(f64) -> [f64; 2],
+    ) -> Option<[f64; 3]> {
+        line::<R>(costs, around(self.order as f64), stage, work)
+    }
+}
+
+/// The coefficients of two measures of work and 1 that give the counts of a stage, whose work at three sizes counted is
 /// `work`; of the first alone where one size was counted, the largest.
-fn line<R: Scalar>(costs: &Costs, stage: &str, work: impl Fn(f64) -> [f64; 2]) -> Option<[f64; 3]> {
-    let rows = ORDERS.map(|n| costs.counted::<R>(stage, n).map(|count| (work(n), count)));
-    let [Some(a), Some(b), Some(c)] = rows else {
-        let ([blocks, _], count) = rows[2]?;
+fn line<R: Scalar>(
+    costs: &Costs,
+    orders: [f64; 3],
+    stage: &str,
+    work: impl Fn(f64) -> [f64; 2],
+) -> Option<[f64; 3]> {
+    let row = |n| costs.counted::<R>(stage, n).map(|count| (work(n), count));
+    let [Some(a), Some(b), Some(c)] = orders.map(row) else {
+        let [.., largest] = ORDERS;
+        let ([blocks, _], count) = row(largest)?;
         return Some([count / blocks, 0.0, 0.0]);
     };
     let less = |(w, count): ([f64; 2], f64)| (w[0] - a.0[0], w[1] - a.0[1], count - a.1);
@@ -120,20 +182,44 @@ mod tests {
         let costs = Costs::measured();
         for n in ORDERS {
             let work = |n: f64| [n * n / 128.0, n];
-            let line = line::<f32>(&costs, PRODUCT, work).unwrap();
+            let line = line::<f32>(&costs, around(n), PRODUCT, work).unwrap();
             let counted = costs.counted::<f32>(PRODUCT, n).unwrap();
             COSTS.check_relative(format_args!("order {n}"), at(line, work(n)), counted);
         }
         // A block of 64 multiply-adds, in at least one instruction and a load each.
-        let [block, edge, _] = line::<f32>(&costs, PRODUCT, |n| [n * n / 128.0, n]).unwrap();
+        let of_block = |n: f64| [n * n / 128.0, n];
+        let [block, edge, _] = line::<f32>(&costs, around(64.0), PRODUCT, of_block).unwrap();
         assert!((128.0..200.0).contains(&block) && (5.0..60.0).contains(&edge), "{block} {edge}");
-        assert!(line::<f64>(&costs, PRODUCT, |n| [n * n / 128.0, n]).is_some());
+        assert!(line::<f64>(&costs, around(64.0), PRODUCT, of_block).is_some());
+    }
+
+    #[test]
+    fn the_worst_tick_grows_with_its_exchanges() {
+        let costs = Costs::measured();
+        for order in [8, 32, 64] {
+            let price = Price {
+                order,
+                entries: 0,
+                vertices: order,
+                columns: 2 * order,
+                exact: true,
+                forms: 1,
+            };
+            let worst = |exchanges| price.worst::<f32>(&costs, exchanges).unwrap();
+            let [none, all] = [worst(0), worst(order as u32)];
+            // What was counted from nothing open to all, and the rest of a tick.
+            let counted = costs.counted::<f32>(COME, order as f64).unwrap();
+            assert!(all > counted && all - none < 1.3 * counted, "{order}");
+        }
+        let price = Price { order: 0, entries: 9, vertices: 0, columns: 2, exact: false, forms: 1 };
+        assert!(price.worst::<f32>(&costs, 0).unwrap() > A_TICK);
+        assert_eq!(price.worst::<f64>(&costs, 0), None);
     }
 
     #[test]
     fn an_exchange_alone_costs_less_than_two() {
         let costs = Costs::measured();
-        let price = Price { order: 64, entries: 0, vertices: 0, exact: true, forms: 0 };
+        let price = Price { order: 64, entries: 0, vertices: 0, columns: 0, exact: true, forms: 0 };
         let of = |pivots| price.of::<f32>(&costs, &Done { pivots, ..Done::default() }).unwrap();
         assert!(of(1) > of(0) && of(2) > of(1) && of(2) - of(1) < of(1) - of(0));
     }

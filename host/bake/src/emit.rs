@@ -1,12 +1,13 @@
 //! The module of the model that was chosen, and what programs are told of it.
 
-use signorini_image::chosen::Chosen;
+use signorini_image::chosen::{Chosen, WorstCase};
 
 use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::full;
 use crate::module_api::ModuleApi;
 use crate::ranges;
+use crate::worst;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -22,11 +23,12 @@ pub struct Emitted {
 /// The module of the model that was chosen.
 pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let candidate = choice.candidate();
-    let (model, features, source) = match &candidate.model {
+    let (model, features, worst_case, source) = match &candidate.model {
         Model::Condensed(baked) => {
-            ("condensed", Vec::new(), condensed::source(&ModuleApi::new(problem), baked))
+            let source = condensed::source(&ModuleApi::new(problem), baked);
+            ("condensed", Vec::new(), baked.worst_case(), source)
         }
-        Model::Full(baked) => ("full", baked.features(), full::source(baked)),
+        Model::Full(baked) => ("full", baked.features(), WorstCase::default(), full::source(baked)),
     };
     let origin = choice.condensed().map(|(_, origin)| origin);
     let chosen = Chosen {
@@ -37,7 +39,9 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         flash_bytes: candidate.needs.flash,
         instructions: candidate.needs.instructions(),
         ranges: origin.and_then(|origin| ranges::counts(&problem.scene, origin)),
+        worst_case,
     };
-    let source = source + &origin.map(ranges::constants).unwrap_or_default();
+    let source =
+        source + &worst::constants(worst_case) + &origin.map(ranges::constants).unwrap_or_default();
     Emitted { source, chosen }
 }

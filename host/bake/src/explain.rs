@@ -7,6 +7,7 @@ use super::choice::{Candidate, Choice, Model};
 use super::costs::{CYCLES, Costs};
 use super::ranges;
 use super::table::table;
+use super::worst;
 use signorini_scene::scene::Quantity;
 use signorini_solve::problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_solve::scalar::Scalar;
@@ -45,7 +46,7 @@ pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     text += &table(&rows);
     text += "\nBytes and instructions: what the general model spends on it on this mesh, RAM and flash \
              together; instructions a tick, of quads' columns a sweep (Cortex-M4F, counted parts).\n";
-    text + &ranges::section(problem, choice)
+    text + &ranges::section(problem, choice) + &worst::section(choice)
 }
 
 /// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.
@@ -53,7 +54,7 @@ pub fn warnings<R: Scalar>(choice: &Choice<R>) -> Vec<String> {
     let unbounded = choice.unbounded().map(|why| {
         format!("warning: there is no error bound: {why}; certificate = false in [setting] silences this")
     });
-    late(choice).into_iter().chain(unbounded).collect()
+    worst::warning(choice).or_else(|| late(choice)).into_iter().chain(unbounded).collect()
 }
 
 /// That the longest tick of the trial probably takes longer than declared.

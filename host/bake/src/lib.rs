@@ -31,3 +31,4 @@ mod table;
 pub mod text;
 pub mod tick;
 pub mod trial;
+mod worst;

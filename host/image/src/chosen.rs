@@ -19,6 +19,19 @@ pub struct Chosen {
     pub instructions: Option<f64>,
     /// The sides of its contact edges; none of a full model, or where inputs have no range.
     pub ranges: Option<Ranges>,
+    /// What no tick exceeds.
+    pub worst_case: WorstCase,
+}
+
+/// The most that a tick takes, whatever the inputs are within their ranges, and whatever state it begins in.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WorstCase {
+    /// Exchanges: of a method that is not proved to end, those at which it is cut off; none where it has none.
+    pub exchanges: Option<u32>,
+    /// Instructions on a Cortex-M4F, from counted stages; none where nothing is proved, or where they depend on operands.
+    pub instructions: Option<u64>,
+    /// Whether the tick ends with the solution in so many: by the signs of the matrix, and every input has a range.
+    pub proven: bool,
 }
 
 /// Contact edges by what they do for all inputs within their ranges, as far as is proved.

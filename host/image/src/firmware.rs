@@ -5,14 +5,14 @@ use std::fmt::{self, Write as _};
 use serde::Serialize;
 
 use crate::board::Board;
-use crate::chosen::Ranges;
+use crate::chosen::{Ranges, WorstCase};
 use crate::footprint::Footprint;
 use crate::module::Module;
 use crate::programs::Programs;
 use crate::room::NoImage;
 use crate::ticks::{Ticks, text};
 use crate::values::Values;
-use crate::worst::{WorstTick, without_range};
+use crate::worst::{WorstStart, WorstTick, without_range};
 
 /// Ticks that both programs play.
 const TICKS: usize = 101;
@@ -60,8 +60,12 @@ pub struct Firmware {
     pub kernel_features: Vec<String>,
     /// The sides of the contact edges, as the bake says.
     pub ranges: Option<Ranges>,
+    /// What no tick exceeds, as the bake says.
+    pub worst_case: WorstCase,
     /// The tick that took most instructions.
     pub worst_tick: Option<WorstTick>,
+    /// What was found from starts of every kind, where it was looked for.
+    pub worst_start: Option<WorstStart>,
     /// Inputs without a range: they stay within a tenth of their defaults (±0.1 where that is 0).
     pub inputs_without_range: Vec<String>,
     /// Where the bits differ.
@@ -114,7 +118,9 @@ impl Firmware {
             ticks: TICKS,
             kernel_features: module.chosen.kernel_features.clone(),
             ranges: module.chosen.ranges,
+            worst_case: module.chosen.worst_case,
             worst_tick: WorstTick::new(&said.numbers("instructions")?, &desk),
+            worst_start: None,
             inputs_without_range: without_range(&desk),
             difference,
             refused: desk.refused().map(str::to_owned),
@@ -165,6 +171,13 @@ impl Firmware {
             };
             let _ = writeln!(text, "  the most at tick {tick}{at}");
         }
+        text += &self.proved();
+        if let Some(WorstStart { starts, exchanges, instructions, .. }) = self.worst_start {
+            let _ = writeln!(
+                text,
+                "  found from {starts} starts: {instructions} instructions, {exchanges} exchanges at most"
+            );
+        }
         if let Some(Ranges { contact, always_open, always_touching, may_change }) = self.ranges {
             let _ = writeln!(
                 text,
@@ -179,6 +192,22 @@ impl Firmware {
             );
         }
         text
+    }
+
+    /// What no tick exceeds, in a line.
+    fn proved(&self) -> String {
+        let WorstCase { exchanges, instructions, proven } = self.worst_case;
+        let instructions = instructions.map(|count| format!("{count} instructions"));
+        let exchanges = exchanges.map(|count| format!("{count} exchanges"));
+        let limits = instructions.iter().chain(&exchanges).cloned().collect::<Vec<_>>().join(", ");
+        match (proven, instructions, exchanges) {
+            (true, ..) => format!("  no tick exceeds, proved: {limits}\n"),
+            (false, Some(_), _) => {
+                format!("  worst case: {limits}; not proved, since an input has no range\n")
+            }
+            (false, None, Some(_)) => format!("  no worst case is proved; cut off at {limits}\n"),
+            (false, None, None) => "  no worst case is proved\n".to_owned(),
+        }
     }
 
     /// `Ok` where every tick has an answer, with the same bits on both machines.

@@ -63,20 +63,32 @@ impl Module {
     /// # Errors
     /// No room on the board, a build that fails.
     pub fn image(&self, board: &Board, more: &[&str]) -> Result<PathBuf, NoImage> {
-        let linked = self.linked(board, more);
-        linked.map_err(|why| NoImage::of(board, why, || self.linked(&board.boundless(), more)))
+        let linked = self.linked("scene", board, more);
+        linked.map_err(|why| {
+            NoImage::of(board, why, || self.linked("scene", &board.boundless(), more))
+        })
     }
 
-    fn linked(&self, board: &Board, more: &[&str]) -> Result<PathBuf, String> {
+    /// Builds the image that looks for the worst tick of a condensed scene.
+    ///
+    /// # Errors
+    /// A build that fails.
+    pub fn worst(&self, board: &Board) -> Result<PathBuf, String> {
+        self.linked("worst", board, &["worst"])
+    }
+
+    fn linked(&self, bin: &str, board: &Board, more: &[&str]) -> Result<PathBuf, String> {
         let features = self.of_kernel();
         let features: Vec<&str> =
             features.iter().map(String::as_str).chain(more.iter().copied()).collect();
         // This package reads one scene; the folder of the exported ones is for others.
         let build =
-            Build { package: PACKAGE, bins: &["scene"], features: &features, scenes: &self.file };
+            Build { package: PACKAGE, bins: &[bin], features: &features, scenes: &self.file };
         let (mut command, folder) = board.build(build)?;
         command.env("SIGNORINI_SCENE", &self.file);
-        self.made(command, &folder.join("scene"), board.name)
+        let machine =
+            if bin == "scene" { board.name.to_owned() } else { format!("{}.{bin}", board.name) };
+        self.made(command, &folder.join(bin), &machine)
     }
 
     /// Builds the program for the desk.

@@ -1,7 +1,8 @@
-//! What the desk says of the inputs: their values at the tick that took most instructions, and which have no range.
+//! The worst ticks: the one that was played, by the inputs that the desk tells, and what was found from starts of every kind.
 
 use serde::Serialize;
 
+use crate::chosen::WorstCase;
 use crate::ticks::{Ticks, text};
 use crate::values::Values;
 
@@ -25,6 +26,63 @@ impl WorstTick {
         let values = words.iter().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite()));
         let inputs = Values::new(&names(desk), values);
         Some(Self { tick: at + 1, instructions, inputs })
+    }
+}
+
+/// The most that was found on a board from edges of every kind that were open, and inputs of every kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct WorstStart {
+    /// Ticks that were tried.
+    pub starts: u64,
+    /// The most exchanges.
+    pub exchanges: u64,
+    /// The most instructions.
+    pub instructions: u64,
+    /// Ticks that did not end with the solution.
+    pub unfinished: u64,
+}
+
+/// What is proved may be so many times what was found.
+const SLACK: f64 = 2.2;
+
+impl WorstStart {
+    /// What an image printed that looked for it.
+    ///
+    /// # Errors
+    /// A line that is missing.
+    pub fn parse(said: &str) -> Result<Self, String> {
+        let number = |name: &str| {
+            let line = said.lines().find_map(|line| line.strip_prefix(name)?.trim().parse().ok());
+            line.ok_or_else(|| format!("the board tells no {name}: `{}`", said.trim()))
+        };
+        Ok(Self {
+            starts: number("starts")?,
+            exchanges: number("exchanges")?,
+            instructions: number("instructions")?,
+            unfinished: number("unfinished")?,
+        })
+    }
+
+    /// `Ok` where every tick ended with the solution within what is proved, and not far below it.
+    ///
+    /// # Errors
+    /// What is exceeded, and what is too far.
+    pub fn verdict(&self, proved: &WorstCase) -> Result<(), String> {
+        let Self { starts, exchanges, instructions, unfinished } = *self;
+        let mut wrong = Vec::new();
+        if unfinished > 0 {
+            wrong.push(format!("{unfinished} of {starts} ticks have no solution"));
+        }
+        if proved.exchanges.is_none_or(|most| exchanges > u64::from(most)) {
+            wrong.push(format!("{exchanges} exchanges, proved: {:?}", proved.exchanges));
+        }
+        if let Some(most) = proved.instructions {
+            let is_far = most as f64 > SLACK * instructions as f64;
+            if instructions > most || is_far {
+                wrong.push(format!("{instructions} instructions, proved: {most}"));
+            }
+        }
+        if wrong.is_empty() { Ok(()) } else { Err(wrong.join("; ")) }
     }
 }
 
@@ -56,5 +114,29 @@ mod tests {
         assert_eq!(json, "{\"tick\":3,\"instructions\":9,\"inputs\":{\"rain\":5.0,\"a\":2.0}}");
         assert_eq!(WorstTick::new(&[], &desk), None);
         assert_eq!(without_range(&desk), ["a"]);
+    }
+
+    #[test]
+    fn what_was_found_is_held_against_what_is_proved() {
+        let said = "starts 10112\nexchanges 9\ninstructions 8600\nunfinished 0\n";
+        let found = WorstStart::parse(said).expect("four lines");
+        assert_eq!((found.starts, found.exchanges, found.instructions), (10112, 9, 8600));
+        let proved = |exchanges, instructions| WorstCase { exchanges, instructions, proven: true };
+        assert_eq!(found.verdict(&proved(Some(9), Some(8600))), Ok(()));
+        assert_eq!(found.verdict(&proved(Some(10), None)), Ok(()));
+        for (exchanges, instructions, part) in [
+            (Some(8), Some(9000), "9 exchanges"),
+            (None, None, "9 exchanges"),
+            (Some(9), Some(8599), "8600 instructions"),
+            (Some(9), Some(20_000), "8600 instructions"),
+        ] {
+            let why = found.verdict(&proved(exchanges, instructions)).expect_err("beyond");
+            assert!(why.contains(part), "{why}");
+        }
+        let unfinished = WorstStart { unfinished: 1, ..found };
+        assert!(
+            unfinished.verdict(&proved(Some(9), None)).is_err_and(|why| why.contains("1 of 10112"))
+        );
+        assert!(WorstStart::parse("a tick fails\n").is_err_and(|why| why.contains("a tick fails")));
     }
 }

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::honoured::Command;
 use super::{scene_at, write_beside};
+use signorini_bake::choice::reduced;
 use signorini_bake::condensed::header;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted;
@@ -14,8 +15,9 @@ use signorini_solve::problem::Problem;
 use signorini_solve::progress::warn;
 
 const EXAMPLES: &str = "\
-Example:
-  signorini condense tests/firmware/peers/contact-32.toml -o problem.h";
+Examples:
+  signorini condense tests/firmware/peers/contact-32.toml -o problem.h
+  signorini condense meshes/scenes/levee.toml --reduced -o problem.h";
 
 /// Arguments of `condense`.
 #[derive(Debug, Args)]
@@ -26,6 +28,9 @@ pub struct Arguments {
     /// The C header to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// Without the contact edges that never change sides while inputs are within their ranges
+    #[arg(long)]
+    reduced: bool,
     /// Another default of an input; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     input: Vec<String>,
@@ -37,7 +42,8 @@ impl Arguments {
         Command::Condense.check(&scene, false)?;
         let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
         warn(&problem.warnings);
-        let text = header(&scene, &condense(&problem)?);
+        let model = if self.reduced { reduced(&problem)? } else { condense(&problem)? };
+        let text = header(&scene, &model);
         write_beside(&scene, "-o", &self.output, &text)?;
         Ok(0)
     }

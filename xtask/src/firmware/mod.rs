@@ -12,11 +12,13 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-use signorini_image::board::M4F_192K;
+use signorini_image::board::{Board, M4F_192K};
 use signorini_image::cargo::target_dir;
 use signorini_image::chosen::Chosen;
 use signorini_image::firmware::Firmware;
+use signorini_image::module::Module;
 use signorini_image::tools::ensure;
+use signorini_image::worst::WorstStart;
 
 use crate::baked::{Failure, Recipe};
 use crate::steps::Steps;
@@ -36,7 +38,7 @@ pub fn run(words: &[&str]) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    match measure(&options).and_then(|(firmware, _)| firmware.verdict().map_err(Failure::from)) {
+    match measure(&options).and_then(|(firmware, _)| verdict(&firmware).map_err(Failure::from)) {
         Ok(()) => ExitCode::SUCCESS,
         // What the bake said of wrong input stands above.
         Err(failure) if failure.status == 2 => ExitCode::from(2),
@@ -74,12 +76,19 @@ pub fn check(steps: &mut Steps) {
         steps.check(&format!("{name}, baked, on the M4F-192K, bit for bit"), || {
             let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
             let is_compared = EXPLAINED.contains(&recipe.scene_name().as_str());
-            let (firmware, chosen) = measure(&Options { recipe, board: M4F_192K, out })?;
+            let worst = false;
+            let (firmware, chosen) = measure(&Options { recipe, board: M4F_192K, out, worst })?;
             firmware.verdict()?;
             within(most, firmware.instructions_per_tick.median)?;
             if is_compared { compare(&chosen, &firmware) } else { Ok(()) }
         });
     }
+}
+
+/// `Ok` where bits are equal, and no start takes more than is proved.
+fn verdict(firmware: &Firmware) -> Result<(), String> {
+    firmware.verdict()?;
+    firmware.worst_start.map_or(Ok(()), |found| found.verdict(&firmware.worst_case))
 }
 
 /// `Ok` where the median tick takes at most so many instructions. They are counted one by one: the same every time.
@@ -92,15 +101,43 @@ fn within(most: Option<u64>, median: u64) -> Result<(), String> {
     }
 }
 
+/// Scenes whose worst case is tried on the board: every start of 7 edges, and 10 000 of 28.
+const TRIED: [&str; 2] = ["meshes/scenes/levee.toml", "meshes/scenes/slab.toml"];
+
+/// No start takes more than is proved, as steps of `cargo xtask test`.
+pub fn check_worst(steps: &mut Steps) {
+    for scene in TRIED {
+        let recipe = Recipe::of(scene, "--condensed");
+        let name = recipe.scene_name();
+        steps.check(&format!("{name}, no start takes more than is proved"), || {
+            let out = target_dir("firmware").join("bills").join(format!("{name}-worst"));
+            let (firmware, _) = measure(&Options { recipe, board: M4F_192K, out, worst: true })?;
+            Ok(verdict(&firmware)?)
+        });
+    }
+}
+
 /// Bakes, builds, runs, compares; writes and prints what came of it.
 fn measure(options: &Options) -> Result<(Firmware, Chosen), Failure> {
     ensure()?;
     let module = options.recipe.bake()?;
-    let firmware = Firmware::measure(&module, &options.board)?;
+    let mut firmware = Firmware::measure(&module, &options.board)?;
+    if options.worst {
+        firmware.worst_start = Some(worst_start(&module, &options.board)?);
+    }
     let file = options.out.join("firmware.json");
     replace(&file, &firmware.json())?;
     println!("{}written to {}", firmware.table(&options.recipe.scene_name()), file.display());
     Ok((firmware, module.chosen))
+}
+
+/// What the board finds from starts of every kind.
+fn worst_start(module: &Module, board: &Board) -> Result<WorstStart, String> {
+    let Chosen { model, worst_case, .. } = &module.chosen;
+    if model != "condensed" || worst_case.instructions.is_none() && !worst_case.proven {
+        return Err("--worst: no worst case is proved of this model".to_owned());
+    }
+    WorstStart::parse(&board.run(&module.worst(board)?, true)?)
 }
 
 /// Puts a file in its place whole or not at all.

@@ -14,6 +14,8 @@ pub struct Options {
     pub board: Board,
     /// The folder of the result.
     pub out: PathBuf,
+    /// Whether the worst start is looked for.
+    pub worst: bool,
 }
 
 const BOARDS: [Board; 3] = [M4F, M4F_192K, M7];
@@ -32,6 +34,8 @@ Options:
   --full, --condensed      forces a model, whatever the scene's setting says
   --full-edges             keeps contact edges that never change sides
   --input NAME=VALUE       the default of an input; repeatable
+  --worst                  looks for the worst tick of a condensed model whose worst case is proved: from every set
+                           of open edges where there are 12 or fewer, else from 10 000
   --out DIR                where firmware.json goes [out/SCENE]
 
 Examples:
@@ -40,7 +44,8 @@ Examples:
   cargo xtask firmware meshes/scenes/slab.toml --board m7 --scalar f64 --condensed --out out/slab-m7
 
 firmware.json also has the inputs of the tick that took most instructions (worst_tick), the contact edges that
-ranges leave open, touching or free to change (ranges), and the inputs that have no range.
+ranges leave open, touching or free to change (ranges), what no tick exceeds, and whether that is proved
+(worst_case), and the inputs that have no range.
 
 Instructions are those of one call of Controller::tick over all ticks: to the instruction on m4-192k, to 40
 either way on the others, whose timer counts no finer. RAM is all statics (.data, .bss, .uninit) and the
@@ -50,7 +55,7 @@ All are of the whole image, with its start-up and console.
 The scene is baked by `signorini bake` of this checkout, or by the program that SIGNORINI names in the
 environment.
 
-The exit status is 0 where all bits are equal, 2 where the command line or the scene is wrong.
+The exit status is 0 where all bits are equal and nothing found exceeds what is proved, 2 where the command line or the scene is wrong.
 ";
 
 impl Options {
@@ -58,7 +63,7 @@ impl Options {
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let (mut scene, mut scalar, mut model) = (None, None, None);
         let (mut inputs, mut board, mut out) = (Vec::new(), BOARDS[0], None);
-        let mut full_edges = false;
+        let (mut full_edges, mut worst) = (false, false);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let mut value = || words.next().copied().ok_or(format!("{word} takes a value"));
@@ -73,6 +78,7 @@ impl Options {
                     _ => {}
                 },
                 "--full-edges" => full_edges = true,
+                "--worst" => worst = true,
                 "--input" => inputs.push(value()?.to_owned()),
                 "--out" => out = Some(PathBuf::from(value()?)),
                 option if option.starts_with('-') => return Err(format!("no option `{option}`")),
@@ -83,7 +89,7 @@ impl Options {
         let scene = scene.ok_or("no scene given")?;
         let recipe = Recipe { scene, scalar, model, inputs, full_edges };
         let out = out.unwrap_or_else(|| Path::new("out").join(recipe.scene_name()));
-        Ok(Self { recipe, board, out })
+        Ok(Self { recipe, board, out, worst })
     }
 }
 

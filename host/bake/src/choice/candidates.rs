@@ -101,21 +101,26 @@ fn condensed_as<R: Scalar>(
         order: padded(condensate.contact),
         entries: entries(condensate),
         vertices: baked.vertices(),
+        columns: baked.columns(),
         exact,
         forms: baked.forms(),
     };
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).skip(1);
     let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
-    let price = |done: &Done| price.of::<R>(&costs, done);
-    let (trial, instructions) = trial::of_condensed(&baked, &spaces, price);
+    let of_tick = |done: &Done| price.of::<R>(&costs, done);
+    let (trial, instructions) = trial::of_condensed(&baked, &spaces, of_tick);
     let fixed = fixed::<R>(&costs, condensate, exact, certified);
     let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
+    let worst = baked.worst_exchanges().and_then(|most| price.worst::<R>(&costs, most));
+    let is_late = |count: Option<f64>| {
+        count.zip(budget.instructions()).is_some_and(|(count, most)| count > most)
+    };
+    // What every tick tried has time for.
+    let tried = (!is_late(instructions[1])).then_some(trial);
     let baked = match baked.worst_exchanges() {
-        Some(_) => baked,
-        None => {
-            let work = within::<R>(&costs, condensate.contact, all, trial, time);
-            baked.with_work(work)
-        }
+        Some(_) if !is_late(worst) || tried.is_some() => baked.with_worst(worst),
+        // Cut off where time is up: no end is proved.
+        _ => baked.with_work(within::<R>(&costs, condensate.contact, all, tried, time)),
     };
     let sizes = condensed::sizes(&baked);
     let needs = Needs::with_code(baked.kind(), sizes, instructions);
@@ -131,6 +136,7 @@ fn condensed_as<R: Scalar>(
         model: Model::Condensed(Box::new(baked)),
         needs,
         trial,
+        too_long: worst.filter(|_| is_late(worst)),
         lacks_bound: false,
         unbounded: None,
     })

@@ -55,6 +55,7 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
     let bound = if baked.is_certified() { "" } else { ", no error bound" };
     Candidate {
         name: format!("full{solver}{bound}"),
+        too_long: None,
         lacks_bound: false,
         // Where the bound is left out, nobody asks for it.
         unbounded: (baked.is_certified() && !baked.has_bound())

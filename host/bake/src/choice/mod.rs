@@ -61,6 +61,8 @@ pub struct Candidate<R: Scalar> {
     pub trial: Trial,
     /// What of the device it goes beyond.
     pub shortfalls: Vec<Shortfall>,
+    /// Instructions of the worst tick that is proved of the exact method, where `[target]` has no time for it.
+    pub too_long: Option<f64>,
     /// Whether it lacks the bound that is asked for: it is no choice then, but may be one without.
     pub lacks_bound: bool,
     /// Why this model of the scene can have no bound, where one is asked for: the last choice.
@@ -153,6 +155,14 @@ impl Origin {
             None => x,
         }
     }
+}
+
+/// The condensed model of a problem without the edges that never change sides; with all of them where none may be taken out.
+///
+/// # Errors
+/// What keeps a condensed model from existing; loads that leave no solution to enclose.
+pub fn reduced(problem: &Problem) -> Result<CondensedModel> {
+    Ok(Origin::new(problem, Wanted::default())?.model().clone())
 }
 
 impl<R: Scalar> Choice<R> {

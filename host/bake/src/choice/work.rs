@@ -11,8 +11,6 @@ use signorini_solve::scalar::Scalar;
 
 /// Sweeps that follow where the exchanges of a tick do not suffice.
 const FALLBACK: u32 = 20;
-/// Fewest exchanges that a tick is allowed, whatever the estimate of its time.
-const FEWEST: u32 = 4;
 /// Most sweeps of a model without the exact method.
 const MOST_SWEEPS: u32 = 1000;
 /// Instructions an entry of a load or an output: two loads, a multiply-add, half of a loop.
@@ -51,13 +49,14 @@ pub(super) fn allowed(setting: &Setting, contact: usize, exact: bool) -> Work {
     }
 }
 
-/// What a tick may do in the time declared, and in any case what the ticks of the trial did. `time`: the
-/// instructions of a tick without changes, and those that there are.
+/// What a tick may do in the time declared: as much as the ticks of a trial did, where all of them had time; one step at
+/// least, for what fits no better comes to its end in later ticks. `time`: the instructions of a tick without changes, and
+/// those that there are.
 pub(super) fn within<R: Scalar>(
     costs: &Costs,
     contact: usize,
     all: Work,
-    trial: Trial,
+    tried: Option<Trial>,
     time: Option<(f64, f64)>,
 ) -> Work {
     let steps = costs.of_dense::<R>("exchange", contact).zip(costs.of_dense::<R>("sweep", contact));
@@ -65,11 +64,12 @@ pub(super) fn within<R: Scalar>(
         return all;
     };
     let times = |instructions: f64, each: f64| (instructions / each).clamp(0.0, 1e6) as u32;
+    let tried = tried.unwrap_or_default();
     let Some(most) = all.pivots else {
-        let sweeps = times(budget - fixed, sweep).max(trial.sweeps[1]).clamp(1, all.sweeps);
+        let sweeps = times(budget - fixed, sweep).max(tried.sweeps[1]).clamp(1, all.sweeps);
         return Work { pivots: None, sweeps };
     };
     let sweeps = times(0.25 * (budget - fixed), sweep).clamp(1, all.sweeps);
     let affordable = times(budget - fixed - f64::from(sweeps) * sweep, pivot);
-    Work { pivots: Some(affordable.max(FEWEST).max(trial.pivots[1]).min(most)), sweeps }
+    Work { pivots: Some(affordable.max(tried.pivots[1]).clamp(1, most)), sweeps }
 }

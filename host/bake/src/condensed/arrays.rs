@@ -4,6 +4,7 @@ use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::certificate::Corner;
 use signorini_kernel::device::condensed::method::Sweeps;
 use signorini_kernel::solve::dense::blocks::Block;
+use signorini_kernel::solve::dense::rule::{Phases, Rule as _};
 use signorini_kernel::{Error, error::Array};
 
 use super::bound::Bound;
@@ -12,6 +13,7 @@ use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
 use crate::inputs::ranges;
+use signorini_image::chosen::WorstCase;
 use signorini_scene::setting::{Omega, Setting, Start as From};
 use signorini_solve::condense::CondensedModel;
 use signorini_solve::ranges::split::Split;
@@ -57,6 +59,8 @@ pub struct Baked<R: Scalar> {
     /// Whether exchanges in two phases come to an end from every state, for every load: the matrix as the target has it
     /// is positive definite, with no positive entry off the diagonal.
     pub is_monotone: bool,
+    /// Instructions that no tick exceeds, where that is proved and they were counted.
+    pub worst_instructions: Option<u64>,
     pub(super) matrix: Vec<Block<R>>,
     pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
@@ -90,6 +94,7 @@ impl<R: Scalar> Baked<R> {
             cold: false,
             has_bound: condensate.certificate.is_ok(),
             is_monotone: is_monotone::<R>(condensate),
+            worst_instructions: None,
             matrix: matrix(condensate),
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
@@ -106,7 +111,7 @@ impl<R: Scalar> Baked<R> {
             _ if self.contact == 0 => Solver::Linear,
             None => Solver::Sweeps,
             // Fewer than may be needed leave something to sweeps.
-            Some(most) if self.is_monotone && most >= 2 * self.contact as u32 => Solver::TwoPhases,
+            Some(most) if self.is_monotone && most >= worst(self.contact) => Solver::TwoPhases,
             Some(most) => Solver::Exchanges(most),
         }
     }
@@ -124,8 +129,23 @@ impl<R: Scalar> Baked<R> {
     pub fn worst_exchanges(&self) -> Option<u32> {
         match self.solver() {
             Solver::Linear => Some(0),
-            Solver::TwoPhases => Some(2 * self.contact as u32),
+            Solver::TwoPhases => Some(worst(self.contact)),
             Solver::Sweeps | Solver::Exchanges(_) => None,
+        }
+    }
+
+    /// What no tick exceeds, and whether that is proved: it is not where an input has no range.
+    pub fn worst_case(&self) -> WorstCase {
+        let is_finite = |[lo, hi]: &[R; 2]| lo.finite() && hi.finite();
+        let has_ranges = self.inputs == 1 || !self.ranges.is_empty();
+        let is_bounded = has_ranges && self.ranges.iter().all(is_finite);
+        match self.worst_exchanges() {
+            Some(most) => WorstCase {
+                exchanges: Some(most),
+                instructions: self.worst_instructions,
+                proven: is_bounded,
+            },
+            None => WorstCase { exchanges: self.work.pivots, ..WorstCase::default() },
         }
     }
 
@@ -142,6 +162,11 @@ impl<R: Scalar> Baked<R> {
         Self { sweeps, cold: setting.start == From::Cold, ..self }
     }
 
+    /// The same with what no tick exceeds.
+    pub fn with_worst(self, instructions: Option<f64>) -> Self {
+        Self { worst_instructions: instructions.map(|count| count.ceil() as u64), ..self }
+    }
+
     /// The same with other limits, the exact method staying in or out.
     pub fn with_work(self, work: Work) -> Self {
         Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
@@ -153,7 +178,7 @@ impl<R: Scalar> Baked<R> {
     }
 
     /// Columns of F.
-    pub(super) fn columns(&self) -> usize {
+    pub fn columns(&self) -> usize {
         self.bound.as_ref().map_or(0, |bound| bound.factor.norms.len())
     }
 
@@ -211,6 +236,11 @@ impl<R: Scalar> Baked<R> {
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
     }
+}
+
+/// Exchanges of two phases from whatever state.
+fn worst(contact: usize) -> u32 {
+    Phases::default().most(contact) as u32
 }
 
 /// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.

@@ -22,11 +22,7 @@ impl<R: Scalar> Baked<R> {
             total(whole).saturating_sub(total(sizes(&other)))
         };
         let exact = self.work.pivots.is_some();
-        let tableau = without(&|other| {
-            other.work.pivots = None;
-            other.start.blocks.clear();
-            other.start.exchanged.clear();
-        });
+        let tableau = without(&|other| other.work.pivots = None);
         let bound = without(&|other| other.bound = Err(String::new()));
         let corners = self.bound.as_ref().map_or(0, |bound| bound.corners.len());
         let floating = self.bound.as_ref().is_ok_and(|bound| !bound.floating.is_empty());
@@ -83,6 +79,10 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         }
         _ => 0,
     };
+    let start = match baked.work.pivots {
+        Some(_) => BLOCK * baked.start.blocks.len() * scalar + baked.start.exchanged.len(),
+        None => 0,
+    };
     let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();
     let bound = baked.bound.as_ref().map_or(0, |bound| {
         let corners: usize = bound.corners.iter().map(|(_, excess)| excess.len() + 1).sum();
@@ -93,9 +93,8 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     });
     Sizes {
         ram: (4 * n + 2 * columns) * scalar + n + tableau,
-        flash: (BLOCK * (baked.matrix.len() + baked.start.blocks.len()) + n) * scalar
-            + baked.start.exchanged.len()
-            + (baked.load.len() + outputs) * scalar
+        flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + outputs) * scalar
+            + start
             + bound,
     }
 }

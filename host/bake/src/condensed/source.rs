@@ -69,17 +69,7 @@ const COLUMNS: usize = {columns};
     let blocks = format!("/// Blocks of the tableau.\nconst BLOCKS: usize = {};\n", count(contact));
     let purpose = match baked.solver() {
         Solver::Linear => return text,
-        Solver::TwoPhases => {
-            let worst = baked.worst_exchanges().unwrap_or_default();
-            let _ = write!(
-                text,
-                "{blocks}/// No tick takes more exchanges, whatever its load and the state it begins in: proved, for no entry of S off
-/// the diagonal is positive.
-pub const WORST_EXCHANGES: u32 = {worst};
-"
-            );
-            return text;
-        }
+        Solver::TwoPhases => return text + &blocks,
         Solver::Sweeps => "from the last tick's answer",
         Solver::Exchanges(most) => {
             let _ = write!(

@@ -179,13 +179,11 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
 }
 
 /// Principal pivoting in two phases, for a matrix none of whose entries off the diagonal is positive: an end after at most
-/// 2n exchanges is proved, so that nothing follows.
+/// n + n/2 exchanges is proved, so that nothing follows. Where it starts anew, it does with S itself.
 #[derive(Debug)]
 pub struct TwoPhases<'a, R> {
     /// The tableau, kept from tick to tick.
     pub tableau: Tableau<'a, R>,
-    /// Where it began.
-    pub start: InitialTableau<'a, R>,
 }
 
 impl<R: Real> Method<R> for TwoPhases<'_, R> {
@@ -204,8 +202,9 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
             pivots < most && is_in_time
         };
         let (lent, rule) = (iterate.reborrow(), &mut Phases::default());
+        let start = &InitialTableau::untouched(matrix);
         let (found, pivots) =
-            pivoting::find(matrix, load, &mut self.tableau, &self.start, rule, may_exchange, lent)?;
+            pivoting::find(matrix, load, &mut self.tableau, start, rule, may_exchange, lent)?;
         let ended = match found {
             Found::Exact => Ended::Exact,
             _ if !is_in_time => Ended::OutOfTime,

@@ -44,7 +44,7 @@ pub struct Condensed<'a, R> {
     pub matrix: &'a [Block<R>],
     /// x of the answer in which the first tick begins; zeros are assumed where it ends.
     pub x: &'a [R],
-    /// Where the exact method begins; empty for sweeps alone.
+    /// Where exchanges begin; empty where there are none.
     pub start: InitialTableau<'a, R>,
     /// B by columns: [`blocks::padded`] entries for each input, the constant first.
     pub load: &'a [R],

@@ -168,7 +168,7 @@ impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
         Flags: AsMut<[bool]>,
         Column: AsMut<[R]>,
     {
-        Ok(TwoPhases { tableau: self.tableau(model)?, start: model.start })
+        Ok(TwoPhases { tableau: self.tableau(model)? })
     }
 
     fn tableau<R: Real>(&mut self, model: &Condensed<R>) -> Result<Tableau<'_, R>, Error>

@@ -11,7 +11,7 @@
 
 use super::Iterate;
 use super::blocks::{Blocks, multiply_add};
-use super::rule::Rule;
+use super::rule::{Rule, Step};
 use super::sizes;
 use super::tableau::{InitialTableau, Tableau};
 use crate::error::Error;
@@ -63,7 +63,7 @@ pub fn find<R: Real>(
         size = sizes::norm_of_both(load, answer);
     }
     let (mut found, pivots, now) =
-        exchange_all(load, tableau, (rule, may_exchange), &mut size, answer)?;
+        exchange_all(load, (tableau, start), (rule, may_exchange), &mut size, answer)?;
     tableau.finish();
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
@@ -98,7 +98,7 @@ pub fn find<R: Real>(
 /// Exchanges with thresholds for answers of this `size`; returns the size of the last one too.
 fn exchange_all<R: Real>(
     load: &[R],
-    tableau: &mut Tableau<R>,
+    (tableau, start): (&mut Tableau<R>, &InitialTableau<R>),
     (rule, mut may_exchange): (&mut impl Rule, impl FnMut(u32) -> bool),
     size: &mut R,
     answer: &mut [R],
@@ -109,33 +109,42 @@ fn exchange_all<R: Real>(
         let allowed = |more| may_exchange(pivots + more);
         let (found, more) = search(tableau, rule, allowed, noise, answer)?;
         pivots += more;
+        if found.is_none() {
+            tableau.reset(start)?;
+            tableau.answer(load, answer)?;
+        }
         let now = sizes::norm_of_both(load, answer);
         // A first answer that was far too large hides what is wrong with the last one.
-        if found != Found::Exact || !(R::from_count(SHRUNK) * now < *size) {
-            return Ok((found, pivots, now));
+        match found {
+            Some(found) if found != Found::Exact || !(R::from_count(SHRUNK) * now < *size) => {
+                return Ok((found, pivots, now));
+            }
+            _ => *size = now,
         }
-        *size = now;
     }
 }
 
-/// Exchanges until nothing is wrong by more than `noise`, which rounding may be.
+/// Exchanges until nothing is wrong by more than `noise`, which rounding may be; nothing is found where the rule asks to
+/// start anew.
 fn search<R: Real>(
     tableau: &mut Tableau<R>,
     rule: &mut impl Rule,
     mut may_exchange: impl FnMut(u32) -> bool,
     noise: R,
     z: &mut [R],
-) -> Result<(Found, u32), Error> {
+) -> Result<(Option<Found>, u32), Error> {
     let mut pivots = 0;
     loop {
-        let Some(at) = rule.next(z, tableau.exchanged(), noise, pivots) else {
-            return Ok((Found::Exact, pivots));
+        let at = match rule.next(z, tableau.exchanged(), noise, pivots) {
+            Step::Exchange(at) => at,
+            Step::End => return Ok((Some(Found::Exact), pivots)),
+            Step::StartAnew => return Ok((None, pivots)),
         };
         if !may_exchange(pivots) {
-            return Ok((Found::OutOfPivots, pivots));
+            return Ok((Some(Found::OutOfPivots), pivots));
         }
         if !tableau.exchange(at, z)? {
-            return Ok((Found::Worn, pivots));
+            return Ok((Some(Found::Worn), pivots));
         }
         pivots += 1;
     }

@@ -7,30 +7,44 @@
 //! ```
 //! [`Largest`] takes as many exchanges as edges change sides, or hardly more, where a pass over all that are wrong takes a
 //! sixth more. How many it takes at worst nobody knows. Where no entry of S off the diagonal is positive, and S is
-//! positive definite, [`Phases`] need at most n exchanges and those that are open at the start, 2n in all, for every load:
+//! positive definite, [`Phases`] come to an end for every load:
 //! ```text
 //!   1.  S_II⁻¹ ≥ 0. As an i with x_i < 0 leaves, the other x_I fall: whoever must leave goes on having to.
 //!   2.  With x_I ≥ 0 and some w_k < 0, k comes in with x_k > 0, and x_I rise: none ever has to leave, and w_A falls.
 //! ```
+//! From m open edges of n, k of which leave, that takes at most k + n − (m − k) exchanges. Where nothing is open it takes as
+//! many as edges open, n at most. So once those that have left and those that must are more than m/2, the tableau goes back to
+//! where nothing is open: at most m/2 exchanges are lost, and n + n/2 is the worst case of all states.
 
 use super::blocks::{SIDE, groups, padded};
 use crate::real::Real;
+
+/// What to do next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// Nothing is wrong by more than rounding.
+    End,
+    /// Exchange this unknown.
+    Exchange(usize),
+    /// Go back to the first tableau: there is less to do from there.
+    StartAnew,
+}
+
+impl Step {
+    fn exchange(found: Option<usize>) -> Self {
+        found.map_or(Self::End, Self::Exchange)
+    }
+}
 
 /// Chooses exchanges.
 pub trait Rule {
     /// Exchanges, for a matrix of this order, after which there is no solution or rounding has eaten the tableau.
     fn most(&self, order: usize) -> usize;
 
-    /// The unknown to exchange after so many `pivots`; nothing where none is wrong by more than `noise`.
+    /// What to do after so many `pivots`, where nothing counts as wrong up to `noise`.
     ///
     /// z = −x where an unknown is exchanged, w elsewhere.
-    fn next<R: Real>(
-        &mut self,
-        z: &[R],
-        exchanged: &[bool],
-        noise: R,
-        pivots: u32,
-    ) -> Option<usize>;
+    fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, pivots: u32) -> Step;
 }
 
 /// The one that is wrong by most, and after n exchanges the first.
@@ -42,43 +56,66 @@ impl Rule for Largest {
         padded(order)
     }
 
-    fn next<R: Real>(
-        &mut self,
-        z: &[R],
-        exchanged: &[bool],
-        noise: R,
-        pivots: u32,
-    ) -> Option<usize> {
-        wrong(z, exchanged, noise, pivots < z.len() as u32)
+    fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, pivots: u32) -> Step {
+        Step::exchange(wrong(z, exchanged, noise, pivots < z.len() as u32))
     }
 }
 
-/// Those that must leave, then those that must come in.
+/// Those that must leave, then those that must come in. The first tableau has nothing exchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Phases {
-    comes_in: bool,
+    phase: Phase,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Phase {
+    /// Before the first step.
+    #[default]
+    Begins,
+    /// So many more may have to leave, before it is quicker to start anew.
+    Leaves(u32),
+    ComesIn,
 }
 
 impl Rule for Phases {
     fn most(&self, order: usize) -> usize {
-        2 * order
+        order + order / 2
     }
 
-    fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, _: u32) -> Option<usize> {
-        // The one that is wrong by most of those outside, and of those within.
-        let (mut found, mut most) = ([None; 2], [noise; 2]);
-        for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
-            let excess = excess(z, within);
-            let ([coming, leaving], [least, less]) = (&mut found, &mut most);
-            let (found, most) = if within { (leaving, less) } else { (coming, least) };
-            if excess > *most {
-                (*found, *most) = (Some(at), excess);
+    fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, _: u32) -> Step {
+        if self.phase != Phase::ComesIn {
+            let (worst, leaving) = wrong_on(true, z, exchanged, noise);
+            let room = match self.phase {
+                Phase::Leaves(room) => room,
+                _ => exchanged.iter().filter(|within| **within).count() as u32 / 2,
+            };
+            // One leaves in any case: often the others rise then, and may stay.
+            let is_quicker = leaving <= room || self.phase == Phase::Begins;
+            self.phase = match worst {
+                Some(_) if is_quicker => Phase::Leaves(room.saturating_sub(1)),
+                _ => Phase::ComesIn,
+            };
+            if worst.is_some() {
+                return if is_quicker { Step::exchange(worst) } else { Step::StartAnew };
             }
         }
-        let [coming, leaving] = found;
-        self.comes_in |= leaving.is_none();
-        if self.comes_in { coming } else { leaving }
+        Step::exchange(wrong_on(false, z, exchanged, noise).0)
     }
+}
+
+/// Of those within, or of those outside: the one that is wrong by most, and how many are.
+fn wrong_on<R: Real>(side: bool, z: &[R], exchanged: &[bool], noise: R) -> (Option<usize>, u32) {
+    let (mut found, mut most, mut count) = (None, noise, 0);
+    for (at, (&z, &within)) in z.iter().zip(exchanged).enumerate() {
+        let excess = excess(z, side);
+        if within == side && excess > noise {
+            count += 1;
+            if excess > most {
+                (found, most) = (Some(at), excess);
+            }
+        }
+    }
+    (found, count)
 }
 
 /// The unknown that is on the wrong side by most, or the first that is.
@@ -132,15 +169,32 @@ mod tests {
 
     #[test]
     fn who_must_leave_goes_first() {
+        use Step::{End, Exchange};
         let exchanged = [true, true, false, false, true];
         let mut phases = Phases::default();
         let mut next = |z: [f64; 5]| phases.next(&z, &exchanged, 0.5, 0);
-        assert_eq!(next([1.0, 2.0, -9.0, -3.0, -4.0]), Some(1));
-        assert_eq!(next([1.0, 0.5, -9.0, -3.0, -4.0]), Some(0));
-        assert_eq!(next([0.5, 0.5, -2.0, -3.0, -4.0]), Some(3));
+        assert_eq!(next([0.5, 2.0, -9.0, -3.0, -4.0]), Exchange(1));
+        assert_eq!(next([0.5, 0.5, -2.0, -3.0, -4.0]), Exchange(3));
         // Nothing goes back: whoever would have to is rounding, or S has another sign.
-        assert_eq!(next([9.0, 0.5, -2.0, -0.5, f64::NAN]), Some(2));
-        assert_eq!(next([9.0, 0.5, -0.5, 3.0, 0.0]), None);
+        assert_eq!(next([9.0, 0.5, -2.0, -0.5, f64::NAN]), Exchange(2));
+        assert_eq!(next([9.0, 0.5, -0.5, 3.0, 0.0]), End);
+    }
+
+    #[test]
+    fn where_most_must_leave_it_starts_anew() {
+        use Step::{Exchange, StartAnew};
+        let open = [true; 5];
+        // Two of five may leave.
+        let two = [1.0, 2.0, -3.0, -4.0, -5.0];
+        let mut phases = Phases::default();
+        let mut next = |z: [f64; 5], exchanged| phases.next(&z, exchanged, 0.5, 0);
+        assert_eq!(next(two, &open), Exchange(1));
+        let another = [1.0, -2.0, 3.0, -4.0, -5.0];
+        assert_eq!(next(another, &[true, false, true, true, true]), StartAnew);
+        // Then nothing leaves any more.
+        assert_eq!(next([-1.0, -2.0, 9.0, 9.0, 9.0], &[false; 5]), Exchange(1));
+        assert_eq!(Phases::default().next(&[1.0, 2.0, 3.0], &[true; 3], 0.5, 0), StartAnew);
+        assert_eq!(Phases::default().next(&[1.0, -2.0, -3.0], &[true; 3], 0.5, 0), Exchange(0));
     }
 
     #[test]

@@ -20,7 +20,7 @@
 
 use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
 use super::correction::{position, scaled, store, subtract_one, subtract_two};
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::real::Real;
 
 /// Memory of a tableau (borrowed): all its numbers mean something only together.
@@ -40,8 +40,15 @@ pub struct Tableau<'a, R> {
 pub struct InitialTableau<'a, R> {
     /// T, in [`count`] blocks.
     pub blocks: &'a [Block<R>],
-    /// Which unknowns are exchanged in it, `padded` entries.
+    /// Which unknowns are exchanged in it, `padded` entries; empty where none is.
     pub exchanged: &'a [bool],
+}
+
+impl<'a, R: Real> InitialTableau<'a, R> {
+    /// S itself, nothing exchanged.
+    pub fn untouched(matrix: &Blocks<'a, R>) -> Self {
+        Self { blocks: matrix.blocks(), exchanged: &[] }
+    }
 }
 
 /// An exchange of unknown k: 1/T_kk and 1/|T_kk|.
@@ -83,9 +90,10 @@ impl<'a, R: Real> Tableau<'a, R> {
     #[inline(never)]
     pub fn reset(&mut self, start: &InitialTableau<R>) -> Result<(), Error> {
         same_length(Array::MatrixValues, start.blocks.len(), self.blocks.len())?;
-        same_length(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
+        same_length_or_empty(Array::Contact, start.exchanged.len(), self.exchanged.len())?;
         self.waiting = None;
-        self.exchanged.copy_from_slice(start.exchanged);
+        self.exchanged.fill(false);
+        self.exchanged.iter_mut().zip(start.exchanged).for_each(|(own, &given)| *own = given);
         self.blocks.copy_from_slice(start.blocks);
         Ok(())
     }

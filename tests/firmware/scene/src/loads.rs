@@ -5,8 +5,8 @@
 
 use crate::scene::{INPUTS, Inputs, Scalar};
 
-/// Ticks, the first included.
-pub const TICKS: u32 = 101;
+/// Ticks that are played, the first included.
+pub const TICKS: usize = 101;
 
 /// Marsaglia's xorshift of 32 bits: never 0, a period of 2³² − 1.
 struct Xorshift(u32);
@@ -39,10 +39,10 @@ fn value(tick: u32, part: Scalar, default: Scalar, [lo, hi]: [Scalar; 2]) -> Sca
     }
 }
 
-/// The inputs, tick after tick.
+/// The inputs, tick after tick, without an end.
 pub fn loads() -> impl Iterator<Item = Inputs> {
     let mut random = Xorshift(0x5169_0e1d);
-    (0..TICKS).map(move |tick| {
+    (0..).map(move |tick| {
         if tick == 0 {
             return Inputs::DEFAULT;
         }

@@ -9,6 +9,7 @@ mod mutations;
 mod standard;
 mod ticks;
 mod unproved;
+mod worst;
 
 use signorini_solve::condense::{CondensedModel, Measure};
 use signorini_solve::ranges::reduced::Reduced;
