@@ -167,9 +167,9 @@ fn exchanges_undo_each_other() -> Result<(), Error> {
         assert!(tableau.exchange(k, &mut z)?);
     }
     // Whoever asks for an answer sees all exchanges.
-    tableau.respond(&[0.0; 16], &mut z)?;
+    tableau.answer(&[0.0; 16], &mut z)?;
     assert!(tableau.exchange(5, &mut z)?);
-    tableau.respond(&[0.0; 16], &mut z)?;
+    tableau.answer(&[0.0; 16], &mut z)?;
     assert_eq!(tableau.exchanged(), [false; 16]);
     let entries = work.blocks.as_flattened().as_flattened().iter();
     for (a, b) in entries.zip(before.as_flattened().as_flattened()) {

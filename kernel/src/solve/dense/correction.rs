@@ -11,22 +11,6 @@
 use super::blocks::{Block, SIDE};
 use crate::real::Real;
 
-/// T −= c cᵀ · `inverse`
-#[inline(always)]
-pub(super) fn subtract_one<R: Real>(
-    blocks: &mut [Block<R>],
-    order: usize,
-    column: &[[R; SIDE]],
-    inverse: R,
-) {
-    let mut rest = blocks;
-    for (row, own) in column.iter().enumerate() {
-        let Some((blocks, more)) = rest.split_at_mut_checked(row + 1) else { return };
-        add_one(blocks, column, filled(&mut scaled(own, -inverse), row, order));
-        rest = more;
-    }
-}
-
 /// T −= a aᵀ · `inverses[0]` + b bᵀ · `inverses[1]`
 #[inline(always)]
 pub(super) fn subtract_two<R: Real>(
@@ -58,20 +42,7 @@ fn filled<T>(group: &mut [T; SIDE], number: usize, order: usize) -> &mut [T] {
     group.get_mut(..SIDE.min(order.saturating_sub(number * SIDE))).unwrap_or_default()
 }
 
-/// Adds to each row of a row of blocks the column, times a factor of that row.
-#[cfg_attr(target_arch = "arm", inline(always))]
-#[cfg_attr(not(target_arch = "arm"), inline(never))]
-fn add_one<R: Real>(blocks: &mut [Block<R>], column: &[[R; SIDE]], factors: &[R]) {
-    for (block, other) in blocks.iter_mut().zip(column) {
-        // A copy, which no write to a block can change, stays in registers.
-        let other = *other;
-        for (row, &factor) in block.iter_mut().zip(factors) {
-            row.iter_mut().zip(other).for_each(|(entry, other)| *entry += factor * other);
-        }
-    }
-}
-
-/// The same with two columns, and a pair of factors a row.
+/// Adds to each row of a row of blocks two columns, times a pair of factors of that row.
 #[cfg_attr(target_arch = "arm", inline(always))]
 #[cfg_attr(not(target_arch = "arm"), inline(never))]
 fn add_two<R: Real>(blocks: &mut [Block<R>], [a, b]: [&[[R; SIDE]]; 2], factors: &[[R; 2]]) {

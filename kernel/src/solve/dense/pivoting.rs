@@ -55,20 +55,20 @@ pub fn find<R: Real>(
     let Iterate { x, residual, scratch: answer, open } = iterate;
     let own = sizes::of_load(load)?;
     tableau.answer(load, answer)?;
-    let mut size = sizes::norm_of_both(load, answer);
+    let mut size = own.or_larger(sizes::norm(answer));
     if sizes::is_absurd(size, own) {
         // No matrix that this scalar holds has such an answer: loads without a solution have led here.
         tableau.reset(start)?;
         tableau.answer(load, answer)?;
-        size = sizes::norm_of_both(load, answer);
+        size = own.or_larger(sizes::norm(answer));
     }
     let (mut found, pivots, now) =
-        exchange_all(load, (tableau, start), (rule, may_exchange), &mut size, answer)?;
+        exchange_all((load, own), (tableau, start), (rule, may_exchange), &mut size, answer)?;
     tableau.finish();
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
-        let limit = R::from_count(32) * R::EPSILON * size;
+        let limit = R::from_count(48) * R::EPSILON * size;
         let sane = own / R::from_count(SANE);
         let before = sizes::unbalanced(residual, x);
         if !(before <= limit && before <= sane) {
@@ -97,7 +97,7 @@ pub fn find<R: Real>(
 
 /// Exchanges with thresholds for answers of this `size`; returns the size of the last one too.
 fn exchange_all<R: Real>(
-    load: &[R],
+    (load, own): (&[R], R),
     (tableau, start): (&mut Tableau<R>, &InitialTableau<R>),
     (rule, mut may_exchange): (&mut impl Rule, impl FnMut(u32) -> bool),
     size: &mut R,
@@ -105,7 +105,7 @@ fn exchange_all<R: Real>(
 ) -> Result<(Found, u32, R), Error> {
     let mut pivots = 0;
     loop {
-        let noise = R::TWO * R::EPSILON * *size;
+        let noise = R::from_count(3) * R::EPSILON * *size;
         let allowed = |more| may_exchange(pivots + more);
         let (found, more) = search(tableau, rule, allowed, noise, answer)?;
         pivots += more;
@@ -113,7 +113,7 @@ fn exchange_all<R: Real>(
             tableau.reset(start)?;
             tableau.answer(load, answer)?;
         }
-        let now = sizes::norm_of_both(load, answer);
+        let now = own.or_larger(sizes::norm(answer));
         // A first answer that was far too large hides what is wrong with the last one.
         match found {
             Some(found) if found != Found::Exact || !(R::from_count(SHRUNK) * now < *size) => {
@@ -180,7 +180,8 @@ fn correct<R: Real>(
     change: &mut [R],
     x: &mut [R],
 ) -> Result<(), Error> {
-    tableau.respond(residual, change)?;
+    // What it says of the other edges is not read.
+    tableau.answer(residual, change)?;
     for ((x, &change), &within) in x.iter_mut().zip(change.iter()).zip(tableau.exchanged()) {
         let corrected = *x + change;
         *x = if within && corrected > R::ZERO { corrected } else { R::ZERO };

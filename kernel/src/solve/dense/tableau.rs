@@ -19,7 +19,7 @@
 //! against S now and then ([`super::pivoting`]).
 
 use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
-use super::correction::{position, scaled, store, subtract_one, subtract_two};
+use super::correction::{position, scaled, store, subtract_two};
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::real::Real;
 
@@ -104,28 +104,18 @@ impl<'a, R: Real> Tableau<'a, R> {
         self.blocks
     }
 
-    /// The answer z = (−x_I, w_A) for the load b.
+    /// The answer z = (−x_I, w_A) for the load b: T b_I, less b_A outside.
     ///
     /// # Errors
     /// Arrays of the wrong length.
     #[inline(never)]
     pub fn answer(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
-        self.respond(load, z)?;
-        let given = z.iter_mut().zip(load).zip(self.exchanged.iter());
-        given.filter(|(_, exchanged)| !**exchanged).for_each(|((z, &b), _)| *z -= b);
-        Ok(())
-    }
-
-    /// `z` = T b_I: −x_I, and what x_I adds to w_A.
-    ///
-    /// # Errors
-    /// Arrays of the wrong length.
-    pub fn respond(&mut self, load: &[R], z: &mut [R]) -> Result<(), Error> {
         same_length(Array::Load, load.len(), self.exchanged.len())?;
         self.finish();
-        let masked = self.next.iter_mut().zip(load).zip(self.exchanged.iter());
-        masked.for_each(|((b, &load), &exchanged)| *b = if exchanged { load } else { R::ZERO });
-        z.fill(R::ZERO);
+        let given = self.next.iter_mut().zip(&mut *z).zip(load).zip(self.exchanged.iter());
+        for (((within, z), &load), &exchanged) in given {
+            (*within, *z) = if exchanged { (load, R::ZERO) } else { (R::ZERO, -load) };
+        }
         multiply_add(&Blocks::new(self.blocks, self.order)?, self.next, self.exchanged, z)
     }
 
@@ -158,18 +148,16 @@ impl<'a, R: Real> Tableau<'a, R> {
                 core::mem::swap(&mut self.column, &mut self.next);
                 self.waiting = Some(new);
             }
-            Some(first) => self.correct_twice(first, new),
+            Some(first) => self.correct(first, Some(new)),
         }
         Ok(true)
     }
 
     /// Carries out the correction that waits.
-    #[inline(never)]
     pub(super) fn finish(&mut self) {
-        if let Some(Pivot { at, inverse, shrink }) = self.waiting.take() {
-            let column = groups(self.column);
-            subtract_one(self.blocks, self.order, column, inverse);
-            store(self.blocks, at, column, inverse, |group, _| scaled(group, shrink));
+        if let Some(first) = self.waiting.take() {
+            self.next.fill(R::ZERO);
+            self.correct(first, None);
         }
     }
 
@@ -201,13 +189,15 @@ impl<'a, R: Real> Tableau<'a, R> {
         }
     }
 
-    /// Two corrections in one pass: `first` with `column`, `second` with `next`.
-    fn correct_twice(&mut self, first: Pivot<R>, second: Pivot<R>) {
+    /// Corrections in one pass: `first` with `column`, and `second` with `next`, which is 0 where there is none.
+    #[inline(never)]
+    fn correct(&mut self, first: Pivot<R>, second: Option<Pivot<R>>) {
         let (column, next) = (groups(self.column), groups(self.next));
-        subtract_two(self.blocks, self.order, [column, next], [first.inverse, second.inverse]);
-        if first.at != second.at {
+        let of_second = second.map_or(R::ZERO, |second| second.inverse);
+        subtract_two(self.blocks, self.order, [column, next], [first.inverse, of_second]);
+        if second.is_none_or(|second| second.at != first.at) {
             // What the first leaves in its own row and column, the second still corrects.
-            let own = self.next.get(first.at).copied().unwrap_or_default() * second.inverse;
+            let own = self.next.get(first.at).copied().unwrap_or_default() * of_second;
             store(self.blocks, first.at, column, first.inverse, |group, place| {
                 let mut entries = scaled(group, first.shrink);
                 let corrections = next.get(place).into_iter().flatten();
@@ -216,8 +206,8 @@ impl<'a, R: Real> Tableau<'a, R> {
                 entries
             });
         }
-        store(self.blocks, second.at, next, second.inverse, |group, _| {
-            scaled(group, second.shrink)
-        });
+        if let Some(Pivot { at, inverse, shrink }) = second {
+            store(self.blocks, at, next, inverse, |group, _| scaled(group, shrink));
+        }
     }
 }

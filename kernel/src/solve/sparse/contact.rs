@@ -311,7 +311,8 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         }
         let Factored { factor, scale, .. } = self.factored;
         let change = &mut *self.iterate.scratch;
-        self.tableau.respond(self.load, change)?;
+        // What it says of edges that touch is not read.
+        self.tableau.answer(self.load, change)?;
         let entries = places.iter_mut().skip(factor.counts().free).zip(change.iter().zip(scale));
         for ((place, (&z, &scale)), &x) in entries.zip(self.iterate.x.iter()) {
             *place = if x > R::ZERO { -z * scale } else { R::ZERO };
