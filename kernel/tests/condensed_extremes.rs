@@ -280,7 +280,8 @@ fn a_huge_x_is_none<R: Scalar>() -> Result<(), Error> {
     let mut sweeps = Sweeps { omega: R::ONE, tolerance: R::of(20.0) * R::EPSILON, most: 50 };
     let [mut x, mut residual, mut scratch] = [(); 3].map(|()| vec![R::ZERO; size]);
     let open = &mut vec![false; size];
-    for decade in 0..30 {
+    // Next to the largest numbers a load's size is the sum of its entries: refused beyond 2e29 in f32.
+    for decade in 0..29 {
         for pull in [10f64.powi(decade), 1.0, 1e-3] {
             let iterate =
                 Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
