@@ -130,3 +130,24 @@ fn a_deadline_ends_a_tick_between_exchanges() -> Result<(), Error> {
     assert_eq!((ended[0], ended[7]), (Ended::OutOfTime, Ended::Exact));
     Ok(())
 }
+
+/// Of no matrix that is positive definite: an exchange has no pivot.
+#[test]
+fn a_matrix_that_is_none_ends_with_zeros() -> Result<(), Error> {
+    let mut block = [[0.0; SIDE]; SIDE];
+    block[0][..2].copy_from_slice(&[1.0, -2.0]);
+    block[1][..2].copy_from_slice(&[-2.0, 1.0]);
+    let load = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let [mut x, mut residual, mut scratch, mut column, mut next] = [[0.0; SIDE]; 5];
+    let [mut flags, mut exchanged] = [[false; SIDE]; 2];
+    let (mut own, blocks) = ([block], [block]);
+    let mut tableau = Tableau::new(2, &mut own, &mut exchanged, [&mut column, &mut next])?;
+    let matrix = Blocks::new(&blocks, 2)?;
+    tableau.reset(&InitialTableau::untouched(&matrix))?;
+    let iterate =
+        Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
+    let found = TwoPhases { tableau }.solve(&matrix, &load, iterate, &mut Deadline::never())?;
+    assert_eq!((found.ended, x, flags), (Ended::OutOfSweeps, [0.0; SIDE], [false; SIDE]));
+    assert_eq!(residual, load.map(|load: f64| -load));
+    Ok(())
+}

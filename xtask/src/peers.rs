@@ -41,8 +41,9 @@ const PROBLEMS: [(&str, &str, bool); 5] = [
 /// Ticks that are counted.
 const TICKS: usize = 1000;
 
-/// Relative errors that the solvers must keep: one that is exact up to rounding, and an iterative one.
-const MOST: [(&str, f64); 3] = [("kernel", 1e-5), ("DAQP", 1e-5), ("OSQP", 5e-4)];
+/// Relative errors that the solvers must keep: one that is exact up to rounding, and an iterative one. The levee's matrix, of
+/// conductivities that jump by 100, magnifies the rounding of f32.
+const MOST: [(&str, f64); 3] = [("kernel", 1e-4), ("DAQP", 1e-4), ("OSQP", 5e-3)];
 
 /// What the kernel's median and worst may be of DAQP's at most. In the record it is less.
 const SHARE: f64 = 1.0;

@@ -194,6 +194,12 @@ mod tests {
         assert_eq!(next(another, &[true, false, true, true, true]), StartAnew);
         // Then nothing leaves any more.
         assert_eq!(next([-1.0, -2.0, 9.0, 9.0, 9.0], &[false; 5]), Exchange(1));
+        // Three of six may leave.
+        let mut phases = Phases::default();
+        let mut next = |z: [f64; 6], exchanged| phases.next(&z, exchanged, 0.5, 0);
+        assert_eq!(next([1.0, 2.0, 3.0, 0.0, 0.0, 0.0], &[true; 6]), Exchange(2));
+        let others = [true, true, false, true, true, true];
+        assert_eq!(next([1.0, 2.0, 0.0, 0.0, 0.0, 0.0], &others), Exchange(1));
         // One leaves in any case.
         let mut phases = Phases::default();
         let mut next = |z: [f64; 3], exchanged| phases.next(&z, exchanged, 0.5, 0);
