@@ -52,7 +52,9 @@ fn the_levee_is_condensed_and_its_module_says_so() {
         "pub rain: Scalar,",
         "pub wet: Scalar,",
         "pub const CONTACT: usize = 7;",
-        "pub const WORST_EXCHANGES: u32 = 14;",
+        "pub const WORST_PROVEN: bool = true;",
+        "pub const WORST_EXCHANGES: u32 = 10;",
+        "pub const WORST_INSTRUCTIONS: u32 = ",
         "//! Kernel features: none.",
         "A flux is (A∇u)·n with the normal outward: positive where u rises",
         "scene hash",
@@ -257,11 +259,11 @@ fn the_explanation_tells_each_feature() {
         assert!(stdout.contains(part), "{part}: {stdout}");
     }
     let (_, ranges) = stdout.split_once("Ranges of the inputs").expect("a section");
+    let (ranges, worst) = ranges.split_once("\nWorst case").expect("a section");
     let page = include_str!("../../docs/firmware.md");
-    assert!(
-        page.contains(&format!("```text\nRanges of the inputs{}\n```", ranges.trim_end())),
-        "{ranges}"
-    );
+    for section in [format!("Ranges of the inputs{ranges}"), format!("Worst case{worst}")] {
+        assert!(page.contains(&format!("```text\n{}\n```", section.trim_end())), "{section}");
+    }
     let (_, stdout, _, _) = bake("scenes/levee.toml", &[], &["--explain", "--full-edges"]);
     assert!(stdout.contains("--full-edges keeps all of them"), "{stdout}");
     let (_, stdout, _, _) = bake("scenes/slab.toml", &[], &["--explain", "--full"]);

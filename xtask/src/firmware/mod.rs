@@ -112,7 +112,7 @@ pub fn check_worst(steps: &mut Steps) {
         steps.check(&format!("{name}, no start takes more than is proved"), || {
             let out = target_dir("firmware").join("bills").join(format!("{name}-worst"));
             let (firmware, _) = measure(&Options { recipe, board: M4F_192K, out, worst: true })?;
-            Ok(verdict(&firmware)?)
+            verdict(&firmware)
         });
     }
 }
