@@ -25,13 +25,17 @@ Examples:
 The smallest model that represents the scene exactly and fits its [target] is chosen: \
 condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one, \
 and win over the scene's [setting]. A full model is solved by sweeps or by a factor in flash, \
-a condensed one by exchanges to the exact solution or by sweeps to a tolerance: whichever \
-takes fewer instructions for inputs within a tenth of the scene's own. setting.solver asks \
-for one of them: sweeps, factor, exact.
+a condensed one by exchanges to the exact solution, where they are proved to end, else by these \
+or by sweeps to a tolerance: whichever takes fewer instructions for inputs drawn from their \
+ranges. setting.solver asks for one of them: sweeps, factor, exact.
 
 Where inputs declare range = [lo, hi], contact edges that never change sides within these ranges \
 are proved to be so, and taken out of a condensed model; --full-edges keeps them. --explain lists \
 them along the boundary, with the values that outputs can take. A tick refuses inputs outside.
+
+Where the signs of the condensed matrix allow, the worst tick is proved: exchanges and \
+instructions that none exceeds, whatever inputs and state. --explain, --json and constants of the \
+module tell it. Where [target] has less time than that there is a warning.
 
 What does not fit is an error: bytes of RAM and flash, and the cycles of the median tick \
 tried, counted instructions times 1.4, more than tick times clock. Where the longest takes \
@@ -65,7 +69,7 @@ pub struct Arguments {
     /// Keep all contact edges of a condensed model, those that never change sides too
     #[arg(long)]
     full_edges: bool,
-    /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions, ranges
+    /// Write what was chosen, for programs: model, scalar, features of the kernel, bytes, instructions, ranges, worst case
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Print which models were considered, what each feature left out saves, and what ranges of inputs prove

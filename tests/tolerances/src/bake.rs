@@ -21,7 +21,7 @@ table! {
         "f32";
     WITHOUT_UNITS: "gap of a controller in f32 without units, in numbers near 2⁻⁴⁰, relative", 1e-4,
         "ε = 1.2e-7 in sums of squares";
-    COSTS: "counted costs against curves through them, relative", 5e-12,
+    COSTS: "counted costs against curves through them, relative", 5e-15,
         "curves of as many coefficients as counts";
     LENGTH: "length of contact, condensed and full", 1e-14,
         "f32 in the condensed one";

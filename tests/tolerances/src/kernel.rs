@@ -49,6 +49,4 @@ table! {
         "sweeps end at 20 ε, and the matrix amplifies what is left";
     TABLEAU: "entries after exchanges that undo each other, and sweeps against naive ones", 1e-14,
         "a dozen operations on numbers near 1";
-    NORM_NARROW: "a norm over both halves of a pair in f32, relative", 1e-6,
-        "ε = 1.2e-7 for a sum of 16 squares";
 }
