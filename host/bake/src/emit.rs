@@ -30,7 +30,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         }
         Model::Full(baked) => ("full", baked.features(), WorstCase::default(), full::source(baked)),
     };
-    let origin = choice.condensed().map(|(_, origin)| origin);
+    let ranges = choice.condensed().map(|(baked, origin)| ranges::found(baked, origin));
     let chosen = Chosen {
         model: model.to_owned(),
         scalar: R::NAME.to_owned(),
@@ -38,10 +38,10 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         ram_bytes: candidate.needs.ram,
         flash_bytes: candidate.needs.flash,
         instructions: candidate.needs.instructions(),
-        ranges: origin.and_then(|origin| ranges::counts(&problem.scene, origin)),
+        ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
     };
     let source =
-        source + &worst::constants(worst_case) + &origin.map(ranges::constants).unwrap_or_default();
+        source + &worst::constants(worst_case) + &ranges.map(ranges::constants).unwrap_or_default();
     Emitted { source, chosen }
 }

@@ -34,8 +34,8 @@ pub struct WorstCase {
     pub proven: bool,
 }
 
-/// Contact edges by what they do for all inputs within their ranges, as far as is proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// Contact edges by what they do for all inputs within their ranges, and how large the error bound is, as far as is proved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ranges {
     /// All of the scene.
     pub contact: usize,
@@ -45,4 +45,6 @@ pub struct Ranges {
     pub always_touching: usize,
     /// The others.
     pub may_change: usize,
+    /// No exact solution has a larger error bound; none where no such limit is proved near what inputs reach.
+    pub largest_error_bound: Option<f64>,
 }

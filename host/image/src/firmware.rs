@@ -178,7 +178,8 @@ impl Firmware {
                 "  found from {starts} starts: {instructions} instructions, {exchanges} exchanges at most"
             );
         }
-        if let Some(Ranges { contact, always_open, always_touching, may_change }) = self.ranges {
+        if let Some(Ranges { contact, always_open, always_touching, may_change, .. }) = self.ranges
+        {
             let _ = writeln!(
                 text,
                 "  contact edges: {contact}; {always_open} always open, {always_touching} always touching, \

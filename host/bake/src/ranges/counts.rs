@@ -1,30 +1,43 @@
-//! How many contact edges are on which side, for programs and in the module.
+//! How many contact edges are on which side and how large the error bound is, for programs and in the module.
 
 use signorini_image::chosen::Ranges;
 
 use crate::choice::Origin;
+use crate::condensed::Baked;
 use signorini_scene::scene::Scene;
-use signorini_solve::ranges::sides::{EdgeSide, Sides};
+use signorini_solve::ranges::largest::LargestBound;
+use signorini_solve::ranges::sides::EdgeSide;
+use signorini_solve::scalar::Scalar;
 
-/// Those of `sides`.
-pub(super) fn of(sides: &Sides) -> Ranges {
+/// What is proved of a condensed model for all inputs within their ranges.
+pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {
+    let sides = &origin.sides;
     Ranges {
         contact: sides.of.len(),
         always_open: sides.count(EdgeSide::Open),
         always_touching: sides.count(EdgeSide::Touching),
         may_change: sides.count(EdgeSide::MayChange),
+        largest_error_bound: largest_bound(baked, origin).map(|bound| bound.proved),
     }
 }
 
-/// Those of a condensed model; nothing where its scene has inputs and no range.
-pub fn counts(scene: &Scene, origin: &Origin) -> Option<Ranges> {
-    let is_declared = scene.inputs.is_empty() || scene.inputs.iter().any(|of| of.range.is_some());
-    is_declared.then(|| of(&origin.sides))
+/// Where it is proved, and not much larger than what some inputs reach.
+pub(super) fn largest_bound<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Option<LargestBound> {
+    if baked.without_bound().is_some() {
+        return None;
+    }
+    // Loads were finite when the sides were found.
+    LargestBound::new(origin.model()).ok().flatten().filter(LargestBound::is_sharp)
+}
+
+/// Whether there is anything that holds for the ranges of a scene: it has no inputs, or some of them have a range.
+pub fn declared(scene: &Scene) -> bool {
+    scene.inputs.is_empty() || scene.inputs.iter().any(|of| of.range.is_some())
 }
 
 /// The same as constants of the module.
-pub fn constants(origin: &Origin) -> String {
-    let Ranges { always_open, always_touching, may_change, .. } = of(&origin.sides);
+pub fn constants(ranges: Ranges) -> String {
+    let Ranges { always_open, always_touching, may_change, largest_error_bound, .. } = ranges;
     format!(
         "
 /// Contact edges of the scene that are open for all inputs within `Inputs::RANGES`.
@@ -34,6 +47,9 @@ pub const ALWAYS_TOUCHING: usize = {always_touching};
 /// Contact edges of the scene that may do either; all of them where nothing is proved. [`CONTACT`] has these, and others
 /// that the error bound needs.
 pub const MAY_CHANGE: usize = {may_change};
+/// No exact solution has a larger error bound while inputs are within `Inputs::RANGES`; none where that is not proved. What
+/// the scalar of a tick rounds comes on top, and stands in its own bound.
+pub const LARGEST_ERROR_BOUND: Option<f64> = {largest_error_bound:?};
 "
     )
 }

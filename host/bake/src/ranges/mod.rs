@@ -3,6 +3,7 @@
 //! ```text
 //!   sides of the edges ─► counts, runs along the boundary          proved
 //!   enclosure          ─► intervals of the outputs                 proved
+//!   pieces of the box  ─► the largest error bound                 proved
 //!   random inputs      ─► what outputs and error bound reach       seen
 //! ```
 
@@ -22,11 +23,14 @@ use runs::runs;
 use signorini_solve::functional::wanted;
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::interval::Interval;
+use signorini_solve::ranges::largest::LargestBound;
 use signorini_solve::ranges::outputs::intervals;
+use signorini_solve::ranges::sides::EdgeSide;
 use signorini_solve::scalar::Scalar;
 use why::nothing_proved;
 
-pub use counts::{constants, counts};
+use counts::largest_bound;
+pub use counts::{constants, declared, found};
 
 /// The section on ranges; empty for a full model, whose ticks need none.
 pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
@@ -38,20 +42,22 @@ pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     if origin.whole.contact > 0 {
         text += &along_boundary(problem, origin);
     }
-    text + &outputs(problem, origin, &Reach::new(problem, baked, origin))
+    let reach = Reach::new(problem, baked, origin);
+    text + &outputs(problem, origin, &reach) + &bound(&reach, largest_bound(baked, origin))
 }
 
 /// How many edges are on which side, in a sentence.
 fn summary(origin: &Origin) -> String {
-    let counts = counts::of(&origin.sides);
-    if counts.contact == 0 {
+    let contact = origin.whole.contact;
+    if contact == 0 {
         return "nothing is in contact.".to_owned();
     }
+    let sides = [EdgeSide::Open, EdgeSide::Touching, EdgeSide::MayChange];
+    let [open, touching, may_change] = sides.map(|side| origin.sides.count(side));
     let kept = origin.model().contact;
-    let beside = kept - counts.may_change.min(kept);
+    let beside = kept - may_change.min(kept);
     let of_edges = format!(
-        "of {} contact edges {} are always open, {} always touch, {} may change sides.",
-        counts.contact, counts.always_open, counts.always_touching, counts.may_change
+        "of {contact} contact edges {open} are always open, {touching} always touch, {may_change} may change sides."
     );
     match (origin.has_all_edges, beside) {
         (true, _) => format!("{of_edges}\n--full-edges keeps all of them."),
@@ -81,7 +87,7 @@ fn along_boundary(problem: &Problem, origin: &Origin) -> String {
     table(&rows)
 }
 
-/// Where each output lies, what of it was reached, and the largest error bound seen.
+/// Where each output lies, and what of it was reached.
 fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
     // Loads were finite when the sides were found.
     let proved = intervals(&origin.whole, &origin.sides).ok().flatten().unwrap_or_default();
@@ -102,16 +108,28 @@ fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
          The width is the proved one over that seen.",
         reach.inputs
     );
-    let _ = match reach.bound {
-        Some(bound) => writeln!(
-            text,
-            "The largest error bound seen in {} ticks with them is {}. Other inputs may have a larger one.",
-            reach.inputs,
-            short(bound)
-        ),
-        None => writeln!(text, "No error bound was seen: {}.", reach.unbounded),
-    };
     text
+}
+
+/// The largest error bound that was seen, and the one that none exceeds.
+fn bound(reach: &Reach, proved: Option<LargestBound>) -> String {
+    let Some(seen) = reach.bound else {
+        return format!("No error bound was seen: {}.\n", reach.unbounded);
+    };
+    let seen = format!(
+        "The largest error bound seen in {} ticks with them is {}.",
+        reach.inputs,
+        short(seen)
+    );
+    match proved {
+        Some(LargestBound { proved, pieces, .. }) => format!(
+            "{seen}\nNo exact solution within the ranges has one above {}: proved with {} of the box.\n",
+            // Not below it: five digits are off by half of the last.
+            short(proved * (1.0 + 5e-5)),
+            if pieces == 1 { "a single piece".to_owned() } else { format!("{pieces} pieces") }
+        ),
+        None => format!("{seen} Other inputs may have a larger one: no limit near it is proved.\n"),
+    }
 }
 
 fn row(name: &str, proved: Interval, seen: Interval) -> [String; 7] {

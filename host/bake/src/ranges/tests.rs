@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{constants, counts, reach::Reach, runs::runs, section};
+use super::{constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
@@ -31,16 +31,16 @@ fn runs_follow_each_other_and_have_all_edges() {
         let choice = choice(&problem, false);
         let (baked, origin) = choice.condensed().expect("condensed");
         let runs = runs(&problem, origin);
-        let counts = counts(&problem.scene, origin).expect("ranges");
+        let counts = found(baked, origin);
         let of = |side| runs.iter().filter(|run| run.side == side).map(|run| run.edges).sum();
-        let found: [usize; 3] = ["open", "touching", "may change"].map(of);
+        let along: [usize; 3] = ["open", "touching", "may change"].map(of);
         assert_eq!(
-            found,
+            along,
             [counts.always_open, counts.always_touching, counts.may_change],
             "{name}"
         );
-        assert_eq!(found.iter().sum::<usize>(), counts.contact);
-        assert!(found.iter().all(|&count| count > 0), "{name}: {found:?}");
+        assert_eq!(along.iter().sum::<usize>(), counts.contact);
+        assert!(along.iter().all(|&count| count > 0), "{name}: {along:?}");
         assert_eq!(runs.iter().map(|run| run.kept).sum::<usize>(), baked.contact);
         let parted = runs.windows(2).filter(|pair| pair[0].to != pair[1].from);
         assert_eq!(parted.count(), breaks, "{name}: {runs:?}");
@@ -79,6 +79,27 @@ fn outputs_reach_no_further_than_is_proved() {
     }
 }
 
+/// Of the controller's own ticks: its bound has the rounding of f32 too, which is small next to it.
+#[test]
+fn no_tick_has_a_larger_bound_than_is_proved() {
+    for name in ["levee", "slab", "strip"] {
+        let problem = problem(name, |_| ());
+        for all_edges in [false, true] {
+            let choice = choice(&problem, all_edges);
+            let (baked, origin) = choice.condensed().expect("condensed");
+            let limit = found(baked, origin).largest_error_bound.expect("a limit");
+            let seen = Reach::new(&problem, baked, origin).bound.expect("a bound");
+            assert!(seen <= limit && limit < 1.3 * seen, "{name}: {seen} of {limit}");
+        }
+    }
+    let without = problem("levee", |scene| {
+        scene.setting.get_or_insert_default().certificate = false;
+    });
+    let choice = choice(&without, false);
+    let (baked, origin) = choice.condensed().expect("condensed");
+    assert_eq!(found(baked, origin).largest_error_bound, None);
+}
+
 #[test]
 fn what_is_not_proved_has_a_reason() {
     let text = |problem: &Problem, all| section(problem, &choice(problem, all));
@@ -114,9 +135,11 @@ fn programs_are_told_of_ranges_where_there_are_any() {
     let without = problem("levee", |scene| scene.inputs.iter_mut().for_each(|of| of.range = None));
     let chosen = choice_of(&without);
     assert_eq!(crate::emit::emit(&without, &chosen).chosen.ranges, None);
-    let all = constants(chosen.condensed().expect("condensed").1);
+    let (baked, origin) = chosen.condensed().expect("condensed");
+    let all = constants(found(baked, origin));
     assert!(
         all.contains("MAY_CHANGE: usize = 50") && all.contains("ALWAYS_OPEN: usize = 0"),
         "{all}"
     );
+    assert!(all.contains("LARGEST_ERROR_BOUND: Option<f64> = None;"), "{all}");
 }

@@ -13,6 +13,14 @@ pub(super) struct AffineOutput {
 }
 
 impl AffineOutput {
+    /// 0
+    pub fn none(model: &CondensedModel) -> Self {
+        Self {
+            of_inputs: vec![Interval::ZERO; model.inputs],
+            of_contact: vec![Interval::ZERO; model.contact],
+        }
+    }
+
     /// Where it lies for p and x within these.
     pub fn within(&self, p: &[Interval], x: &[Interval]) -> Interval {
         let of_inputs = dot(self.of_inputs.iter().copied(), p.iter().copied());

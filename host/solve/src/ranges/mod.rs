@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, may change
-//!                                                                                    └─► where every output lies
+//!                                                                                    ├─► where every output lies
+//!                                                                                    └─► the largest error bound
 //! ```
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
@@ -10,6 +11,7 @@ mod affine;
 mod columns;
 pub mod enclosure;
 pub mod interval;
+pub mod largest;
 pub mod outputs;
 pub mod reduced;
 pub mod reduction;

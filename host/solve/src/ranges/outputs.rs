@@ -99,10 +99,7 @@ impl Known<'_> {
             if weight == 0.0 || self.enclosure.is_open(at) {
                 return Interval::ZERO;
             }
-            let mut row = AffineOutput {
-                of_inputs: vec![Interval::ZERO; self.model.inputs],
-                of_contact: vec![Interval::ZERO; self.model.contact],
-            };
+            let mut row = AffineOutput::none(self.model);
             row.add(self.model, at, 1.0);
             Interval::point(weight) * row.within(&self.inputs, &x).not_negative()
         };

@@ -10,6 +10,7 @@
 //! What F M loses to rounding, and what x_O leaves of r_O, is counted with what the columns of F had lost before.
 
 use super::columns::Columns;
+use super::interval::Interval;
 use super::reduction::Reduction;
 use super::sides::{Sides, VertexSide};
 use crate::condense::{CondensedModel, Corner, Form, Measure, Vertex};
@@ -55,6 +56,12 @@ impl Reduced {
         }
         self.maps.kept.iter().zip(kept).for_each(|(&at, x)| whole[at] = x);
         whole
+    }
+
+    /// Where x′ lies, for x of the whole model within these.
+    pub(super) fn within(&self, x: &[Interval]) -> Vec<Interval> {
+        let kept = self.maps.kept.iter().zip(&self.scale);
+        kept.map(|(&at, &s)| x[at] * Interval::point(s)).collect()
     }
 }
 

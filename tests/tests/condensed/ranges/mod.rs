@@ -5,6 +5,7 @@
 
 mod agreement;
 mod bounds;
+mod largest;
 mod mutations;
 mod standard;
 mod ticks;

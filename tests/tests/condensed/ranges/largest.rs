@@ -1,0 +1,80 @@
+//! The largest error bound of a box against the bounds of solutions in it.
+
+use signorini_solve::condense::CondensedModel;
+use signorini_solve::ranges::largest::LargestBound;
+use signorini_tests::random::Random;
+use signorini_tolerances::bake::GUARANTEE;
+
+use super::standard::standard;
+use super::{drawn, limit};
+use crate::scenes::Model;
+
+fn largest(whole: &CondensedModel) -> Option<LargestBound> {
+    LargestBound::new(whole).expect("finite loads")
+}
+
+/// The bounds of solutions at inputs drawn from the box: that of the model, and the largest seen.
+fn holds(what: &str, model: &CondensedModel, found: LargestBound, samples: usize) -> f64 {
+    let (random, mut most) = (&mut Random::new(3), 0.0_f64);
+    for _ in 0..samples {
+        let p = drawn(model, random);
+        let bound = model.bound(&p, &model.solve(&p).expect("a solution")).expect("a bound");
+        GUARANTEE.check_at_most(what, bound, found.proved);
+        most = most.max(bound);
+    }
+    most
+}
+
+#[test]
+fn no_random_scene_exceeds_what_is_proved() {
+    let (mut sharp, mut wide, mut refused) = (0, 0, 0);
+    for seed in 0..120 {
+        let Some(model) = Model::random(seed, 5) else { continue };
+        let mut whole = model.condensate;
+        limit(&mut whole, &mut Random::new(seed ^ 0x5eed));
+        let Some(found) = largest(&whole) else {
+            refused += 1;
+            continue;
+        };
+        holds(&model.what, &whole, found, 40);
+        *if found.is_sharp() { &mut sharp } else { &mut wide } += 1;
+    }
+    println!("sharp {sharp}, wide {wide}, refused {refused}");
+    assert!(sharp > 40 && refused > 0, "{sharp} {wide} {refused}");
+}
+
+/// Positive entries of the strip's matrix leave its enclosure wide, however small the pieces are.
+#[test]
+fn standard_scenes_are_proved_near_what_is_reached() {
+    for (name, within) in [("levee", 1.1), ("slab", 1.1), ("strip", 1.3), ("pit", 1.1)] {
+        let whole = standard(name);
+        let found = largest(&whole).expect("a proof");
+        let seen = holds(name, &whole, found, 1000);
+        println!("{name}: {found:?}, seen {seen}");
+        assert!(found.proved <= within * found.reached && found.is_sharp(), "{name}: {found:?}");
+        assert!(found.pieces <= 256 && found.reached <= found.proved, "{name}: {found:?}");
+    }
+}
+
+/// A wide range in few pieces: the limit is there, and said not to be near.
+#[test]
+fn what_is_not_near_is_not_called_sharp() {
+    let mut whole = standard("slab");
+    whole.ranges[1] = [-200.0, 200.0];
+    let found = largest(&whole).expect("a proof");
+    let seen = holds("wide", &whole, found, 200);
+    assert!(seen <= found.proved, "{found:?}");
+    let blunt = LargestBound { proved: 2.1 * found.reached, ..found };
+    assert!(!blunt.is_sharp());
+}
+
+#[test]
+fn without_proof_there_is_none() {
+    assert_eq!(largest(&standard("membrane")), None, "contact alone holds it");
+    let mut whole = standard("levee");
+    whole.ranges[2] = [f64::NEG_INFINITY, f64::INFINITY];
+    assert_eq!(largest(&whole), None, "an input without a range");
+    let mut whole = standard("levee");
+    whole.certificate = Err("none".to_owned());
+    assert_eq!(largest(&whole), None, "no bound");
+}
