@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::costs::{CYCLES, FEWEST_CYCLES, Footprint};
+use super::costs::{CONSTANTS, CYCLES, FEWEST_CYCLES, Footprint};
 use super::full::Sizes;
 use signorini_scene::scene::Scene;
 
@@ -48,7 +48,7 @@ impl Needs {
     /// Data of these sizes with code and stack of such a model, as [`Footprint::measured`].
     pub fn with_code(model: &str, data: Sizes, ticks: [Option<f64>; 2]) -> Self {
         let Footprint { code, stack } = Footprint::measured(model);
-        Self { ram: data.ram as u64 + stack, flash: data.flash as u64 + code, ticks }
+        Self { ram: data.ram as u64 + stack, flash: data.flash as u64 + code + CONSTANTS, ticks }
     }
 
     /// Instructions of the median warm tick.

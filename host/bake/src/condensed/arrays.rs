@@ -3,7 +3,7 @@
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::certificate::Corner;
 use signorini_kernel::device::condensed::method::Sweeps;
-use signorini_kernel::solve::dense::blocks::Block;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE};
 use signorini_kernel::solve::dense::rule::{Phases, Rule as _};
 use signorini_kernel::{Error, error::Array};
 
@@ -116,12 +116,14 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
-    /// What the record of sizes calls images with this solver.
+    /// What the record of sizes calls images with this solver. A matrix of a single block leaves out the loops over others.
     pub fn kind(&self) -> &'static str {
         match self.solver() {
+            Solver::Linear => "linear, condensed",
             Solver::Sweeps => ", condensed, swept",
             _ if self.forms() > 1 => ", condensed, on quads",
-            _ => ", condensed",
+            _ if self.contact <= SIDE => "levee, condensed",
+            _ => "unknowns, condensed",
         }
     }
 
