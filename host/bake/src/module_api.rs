@@ -264,6 +264,7 @@ fn meaning(output: &Output) -> String {
             )
         }
         Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
+        Quantity::Mean => format!("Mean of u over {place}."),
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
         Quantity::Bound => {
             "Bound on the error in the energy norm; infinite where there is none.".to_owned()

@@ -133,6 +133,9 @@ kind = "probe"
 at = [0.21, 0.37]
 [output.bound]
 kind = "bound"
+[output.mean]
+kind = "mean"
+of = "contact"
 "#;
 
 /// Reads a scene from its text.

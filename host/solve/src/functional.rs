@@ -17,6 +17,8 @@ pub enum Functional {
     Force(Vec<usize>),
     /// u_h at a point of a cell (triangles first).
     Probe(usize, Point),
+    /// The mean of u_h over edges, each with its part of their length.
+    Mean(Vec<(usize, f64)>),
     /// The lengths of those of these contact edges that are active.
     Length(Vec<(usize, f64)>),
     /// The error bound.
@@ -58,6 +60,7 @@ impl Functional {
             Quantity::Flux => Self::Flux(edges.collect()),
             Quantity::Force => Self::Force(edges.filter(contact).collect()),
             Quantity::Probe { at } => probe(problem, output, at)?,
+            Quantity::Mean => Self::Mean(parts(edges.map(length).collect())),
             Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
             Quantity::Bound => Self::Bound,
         })
@@ -77,6 +80,12 @@ pub fn basis_at(problem: &Problem, cell: usize, point: &Point) -> Vec<(usize, f6
         (edge as usize, CellField::new(problem, cell, &unit, &none).sample(point).u)
     };
     sides.iter().map(weight).collect()
+}
+
+/// Lengths over their sum.
+fn parts(lengths: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    let all: f64 = lengths.iter().map(|(_, length)| length).sum();
+    lengths.into_iter().map(|(edge, length)| (edge, length / all)).collect()
 }
 
 /// The boundary edges that an output is about.

@@ -68,6 +68,9 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
         Functional::Probe(cell, point) => {
             Some(CellField::new(problem, *cell, reading.u, reading.flux).sample(point).u)
         }
+        Functional::Mean(parts) => {
+            Some(parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * reading.u[edge]))
+        }
         Functional::Length(lengths) => {
             let touches = |edge: usize| reading.law(problem, edge - free).touches(reading.u[edge]);
             let active = lengths.iter().filter(|(edge, _)| touches(*edge));

@@ -33,6 +33,9 @@ kind = "flux"
 of = "contact"
 [output.length]
 kind = "length"
+[output.mean]
+kind = "mean"
+of = "contact"
 [output.probe]
 kind = "probe"
 at = [0.3, 0.4]

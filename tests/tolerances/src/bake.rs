@@ -25,6 +25,10 @@ table! {
         "curves of as many coefficients as counts";
     LENGTH: "length of contact, condensed and full", 1e-14,
         "f32 in the condensed one";
+    MEANS: "mean of an affine u over a boundary in f64", 1e-11,
+        "the elements are exact for it: sweeps leave 1e-14 of its size 4, times the condition of a small mesh, 100";
+    MEANS_NARROW: "mean of an affine u over a boundary in f32", 2e-4,
+        "sweeps end at 4√n ε = 3e-6 of its size there";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";
     IDENTITY: "bound of a condensed model against the identity, relative, smooth", 1e-5,

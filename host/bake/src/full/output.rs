@@ -31,6 +31,7 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
         Functional::Probe(cell, point) => {
             Output::Probe(shares(&basis_at(problem, *cell, point), 0))
         }
+        Functional::Mean(parts) => Output::Probe(shares(parts, 0)),
         Functional::Length(lengths) => Output::Length(shares(lengths, free)),
         Functional::Bound => Output::Bound,
     }

@@ -66,12 +66,13 @@ fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()>
 pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
     let kind = table.require("kind")?;
     let read = kind.choice::<fn(&Table, &[Boundary]) -> Result<Measured>>(&[
-        ("flux", read_flux),
+        ("flux", |table, boundaries| read_boundary(table, boundaries, "a flux", Quantity::Flux)),
         ("force", |table, boundaries| read_contact(table, boundaries, "a force", Quantity::Force)),
         ("length", |table, boundaries| {
             read_contact(table, boundaries, "a length", Quantity::Length)
         }),
         ("probe", read_probe),
+        ("mean", |table, boundaries| read_boundary(table, boundaries, "a mean", Quantity::Mean)),
         ("bound", |table, _| table.only("a bound", &["kind"]).map(|()| (Quantity::Bound, None))),
     ])?;
     let (quantity, of) = (read.value)(table, boundaries)?;
@@ -80,11 +81,16 @@ pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Outp
 
 type Measured = (Quantity, Option<Located<String>>);
 
-fn read_flux(table: &Table, boundaries: &[Boundary]) -> Result<Measured> {
-    table.only("a flux", &["kind", "of"])?;
+fn read_boundary(
+    table: &Table,
+    boundaries: &[Boundary],
+    what: &str,
+    quantity: Quantity,
+) -> Result<Measured> {
+    table.only(what, &["kind", "of"])?;
     let of = table.require("of")?;
     find_boundary(&of, boundaries)?;
-    Ok((Quantity::Flux, Some(of.text()?)))
+    Ok((quantity, Some(of.text()?)))
 }
 
 fn read_contact(

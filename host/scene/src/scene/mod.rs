@@ -171,6 +171,8 @@ pub enum Quantity {
         /// The point.
         at: [f64; 2],
     },
+    /// The mean of u over a boundary.
+    Mean,
     /// The error bound.
     Bound,
 }

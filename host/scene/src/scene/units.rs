@@ -92,7 +92,7 @@ impl Units {
         match quantity {
             Quantity::Flux | Quantity::Force => self.flux(),
             Quantity::Length => 1.0,
-            Quantity::Probe { .. } => self.u,
+            Quantity::Probe { .. } | Quantity::Mean => self.u,
             Quantity::Bound => self.energy(),
         }
     }

@@ -30,6 +30,9 @@ pub(super) fn measures(
         },
         Functional::Probe(cell, point) => columns
             .linear(|Field { u, flux }| CellField::new(problem, *cell, u, flux).sample(point).u),
+        Functional::Mean(parts) => columns.linear(|Field { u, .. }| {
+            parts.iter().fold(0.0, |sum, &(edge, part)| sum + part * u[edge])
+        }),
         Functional::Length(lengths) => {
             Measure::Length { always: 0.0, of_contact: columns.by_unknown(lengths) }
         }

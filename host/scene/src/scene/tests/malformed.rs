@@ -40,10 +40,11 @@ const CHANGES: &[(&str, &str, &str)] = &[
         "24: boundary.air.kind: `Robin` is not one of: dirichlet, neumann, robin, contact",
     ),
     ("\"robin\"", "4", "24: boundary.air.kind: expected a text, found the number 4"),
+    ("kind = \"flux\"\nof = \"face\"", "kind = \"mean\"", "33: output.seepage.of: missing"),
     (
         "kind = \"flux\"",
         "kind = \"flow\"",
-        "34: output.seepage.kind: `flow` is not one of: flux, force, length, probe, bound",
+        "34: output.seepage.kind: `flow` is not one of: flux, force, length, probe, mean, bound",
     ),
     // Expressions and numbers
     ("\"-y\"", "\"2y\"", "20: boundary.face.gap: expected an operator before `y`"),

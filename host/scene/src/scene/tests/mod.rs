@@ -155,6 +155,7 @@ a = { kind = 'force' }
 b = { kind = 'length', of = 'face' }
 c = { kind = 'probe', at = [1, -0.5] }
 d = { kind = 'bound' }
+k = { kind = 'mean', of = 'face' }
 [input]
 e = { of = 'source', field = 'f', pattern = 'x' }
 g = { of = 'river', field = 'value', pattern = 1 }
@@ -166,7 +167,8 @@ j = { of = 'face', field = 'flux', pattern = 1 }
     let scene = scene(&(kept.to_owned() + more));
     let quantities: Vec<_> = scene.outputs.iter().map(|output| output.quantity).collect();
     let probe = Quantity::Probe { at: [1.0, -0.5] };
-    assert_eq!(quantities, [Quantity::Force, Quantity::Length, probe, Quantity::Bound]);
+    let [force, length] = [Quantity::Force, Quantity::Length];
+    assert_eq!(quantities, [force, length, probe, Quantity::Bound, Quantity::Mean]);
     let fields: Vec<_> = scene.inputs.iter().map(|input| input.field.value).collect();
     assert_eq!(fields, [Field::Source, Field::Value, Field::Gap, Field::Ambient, Field::Flux]);
     assert_eq!(scene.inputs[2].pattern.value.is_constant(), Some(16.0));
