@@ -241,6 +241,7 @@ fn effect(input: &Input) -> String {
         Field::Value => ("value", "that of u"),
         Field::Gap => ("gap", "that of u"),
         Field::Ambient => ("ambient", "that of u"),
+        Field::Coefficient => ("coefficient", "that of a flux over that of u"),
         Field::Source => ("f", "that of the load f"),
     };
     let (pattern, of) = (code(&input.pattern.value.to_string()), code(&input.of.value));

@@ -60,7 +60,7 @@ const MEAN: [f64; 4] = [-0.5, 3.5, 1.0, 2.0];
 fn check(what: &str, found: &[f64], level: f64, allowed: Tolerance) {
     assert_eq!(found.len(), NAMES.len());
     for ((name, mean), found) in NAMES.iter().zip(MEAN).zip(found) {
-        allowed.check(&format!("{what}, {name}"), found - (mean + level));
+        allowed.check(format_args!("{what}, {name}"), found - (mean + level));
     }
 }
 

@@ -117,6 +117,16 @@ impl Condition {
         }
     }
 
+    /// The `field` of this boundary that an input may add to, if its kind has it.
+    pub fn field(&self, field: Field) -> Option<&Located<Expression>> {
+        match field {
+            Field::Coefficient => self.transfer(),
+            Field::Flux | Field::Value | Field::Gap | Field::Ambient | Field::Source => {
+                self.load(field)
+            }
+        }
+    }
+
     /// The load `field` of this boundary, if its kind has it.
     pub fn load(&self, field: Field) -> Option<&Located<Expression>> {
         self.data().into_iter().find_map(|(role, data)| (role == Role::Load(field)).then_some(data))

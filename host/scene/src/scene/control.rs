@@ -7,11 +7,12 @@ use super::{Boundary, Condition, Field, Input, Located, Output, Quantity, Scene}
 use crate::error::{InputError, Result};
 use crate::expression::Variables;
 
-const FIELDS: [(&str, Field); 5] = [
+const FIELDS: [(&str, Field); 6] = [
     ("flux", Field::Flux),
     ("value", Field::Value),
     ("gap", Field::Gap),
     ("ambient", Field::Ambient),
+    ("coefficient", Field::Coefficient),
     ("f", Field::Source),
 ];
 
@@ -22,6 +23,10 @@ pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input
     let field = table.require("field")?;
     check_field(&of, &field, boundaries)?;
     let range = table.get("range");
+    if field.choice(&FIELDS)?.value == Field::Coefficient {
+        // What stands in the matrix is judged for all values.
+        table.require("range")?;
+    }
     let input = Input {
         name: table.name.clone(),
         of: of.text()?,
@@ -50,10 +55,10 @@ fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()>
         }
         _ => {
             let condition = &find_boundary(of, boundaries)?.condition;
-            if condition.load(choice).is_some() {
+            if condition.field(choice).is_some() {
                 return Ok(());
             }
-            let has = |&&(_, field): &&(&str, Field)| condition.load(field).is_some();
+            let has = |&&(_, field): &&(&str, Field)| condition.field(field).is_some();
             let names: Vec<_> = FIELDS.iter().filter(has).map(|(name, _)| *name).collect();
             (format!("a {} boundary", condition.kind()), names.join(", "))
         }
@@ -131,6 +136,11 @@ fn list<'a>(names: impl Iterator<Item = &'a Located<String>>) -> String {
 }
 
 impl Scene {
+    /// The first input that adds to a transfer coefficient.
+    pub fn transfer_input(&self) -> Option<&Input> {
+        self.inputs.iter().find(|input| input.field.value == Field::Coefficient)
+    }
+
     /// The names of its inputs, as a hint.
     pub fn known_inputs(&self) -> String {
         match list(self.inputs.iter().map(|input| &input.name)) {

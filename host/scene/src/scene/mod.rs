@@ -125,7 +125,7 @@ pub enum Condition {
     },
 }
 
-/// A load that an input may add to.
+/// What an input may add to: a load, or a coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     /// The flux of a Neumann or contact boundary.
@@ -136,11 +136,13 @@ pub enum Field {
     Gap,
     /// The ambient of a Robin boundary.
     Ambient,
+    /// The transfer coefficient of a Robin boundary: it stands in the matrix too.
+    Coefficient,
     /// The load f.
     Source,
 }
 
-/// A load that changes at run time: its value times the pattern is added to the field.
+/// A load or coefficient that changes at run time: its value times the pattern is added to the field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Its name.

@@ -27,6 +27,7 @@ impl Field {
         match self {
             Self::Value | Self::Gap | Self::Ambient => Unit::U,
             Self::Flux | Self::Source => Unit::Flux,
+            Self::Coefficient => Unit::Conductivity,
         }
     }
 }

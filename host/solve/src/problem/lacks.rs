@@ -103,6 +103,10 @@ impl Approach {
                 Condensation | FullModel => Some(no_clock),
                 Tick | Factor | Export | Baselines => None,
             },
+            Property::TransferInput => match self {
+                Condensation | FullModel | Tick | Export => Some(one_matrix),
+                Factor | Baselines => None,
+            },
         }
     }
 }
@@ -149,6 +153,17 @@ fn no_clock(problem: &Problem) -> InputError {
         None => InputError::new("a load depends on t").file(&scene.path),
     };
     refusal.hint(hint)
+}
+
+/// The matrix of a tick is that of the tick before.
+fn one_matrix(problem: &Problem) -> InputError {
+    let scene = &problem.scene;
+    let message = "it changes the matrix, which stays the same from tick to tick";
+    let refusal = match scene.transfer_input() {
+        Some(input) => scene.error(&input.field, message),
+        None => InputError::new(message).file(&scene.path),
+    };
+    refusal.hint("`signorini solve --input` takes it; for a controller, state the coefficient in the scene and bake one for each value")
 }
 
 impl fmt::Display for Lack {

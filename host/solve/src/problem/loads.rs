@@ -129,7 +129,7 @@ impl Loads {
             }
             Condition::Robin { coefficient, ambient } => {
                 let (h, outside) = (
-                    Sum::alone(&problem.scene, coefficient, time),
+                    Sum::new(&problem.scene, name, Field::Coefficient, coefficient, time),
                     Sum::new(&problem.scene, name, Field::Ambient, ambient, time),
                 );
                 nowhere_negative(&problem.scene, coefficient, segment, &h)?;

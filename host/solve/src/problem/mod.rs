@@ -24,6 +24,7 @@ mod sum;
 #[cfg(test)]
 mod tests;
 mod topology;
+mod transfer;
 mod unit_box;
 mod warnings;
 
@@ -111,6 +112,7 @@ impl Problem {
             warnings: Vec::new(),
         };
         problem.set_time(0.0)?;
+        transfer::check(&problem)?;
         problem.warnings = warnings::warnings(&problem);
         Ok(problem)
     }

@@ -24,16 +24,19 @@ pub enum Property {
     PartHeldByContact,
     /// A load depends on t.
     LoadInTime,
+    /// An input adds to a transfer coefficient, which stands in the matrix.
+    TransferInput,
 }
 
 impl Property {
     /// In the order in which they are looked for.
-    pub(super) const ALL: [Self; 5] = [
+    pub(super) const ALL: [Self; 6] = [
         Self::NoContact,
         Self::ManyContactEdges,
         Self::FloatingPart,
         Self::PartHeldByContact,
         Self::LoadInTime,
+        Self::TransferInput,
     ];
 
     /// Whether it is read off the connected parts.
@@ -49,6 +52,7 @@ impl Property {
             Self::FloatingPart => parts.floating > 0,
             Self::PartHeldByContact => parts.contact > 0,
             Self::LoadInTime => first_in_time(&problem.scene).is_some(),
+            Self::TransferInput => problem.scene.transfer_input().is_some(),
         }
     }
 }
@@ -61,6 +65,7 @@ impl fmt::Display for Property {
             Self::FloatingPart => "a domain with a part that nothing holds",
             Self::PartHeldByContact => "a domain that contact alone holds",
             Self::LoadInTime => "a load that depends on t",
+            Self::TransferInput => "a transfer coefficient that an input changes",
         })
     }
 }

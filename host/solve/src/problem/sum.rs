@@ -55,7 +55,8 @@ impl<'s> Sum<'s> {
     /// The transfer coefficient of the boundary that an edge lies on, where its condition has one.
     pub fn transfer(problem: &'s Problem, edge: usize, time: f64) -> Option<Self> {
         let boundary = &problem.scene.boundaries[problem.binding.boundary(problem.ends[edge])?];
-        Some(Self::alone(&problem.scene, boundary.condition.transfer()?, time))
+        let (name, base) = (&boundary.name.value, boundary.condition.transfer()?);
+        Some(Self::new(&problem.scene, name, Field::Coefficient, base, time))
     }
 
     /// Where the field stands in the scene file.

@@ -90,7 +90,7 @@ const CHANGES: &[(&str, &str, &str)] = &[
     (
         "field = \"flux\"",
         "field = \"rain\"",
-        "30: input.rain.field: `rain` is not one of: flux, value, gap, ambient, f",
+        "30: input.rain.field: `rain` is not one of: flux, value, gap, ambient, coefficient, f",
     ),
     ("pattern = \"1\"", "pattern = \"t\"", "31: input.rain.pattern: unknown name `t`"),
     (

@@ -1,0 +1,165 @@
+//! Transfer coefficients that inputs change: not negative anywhere, for all inputs within their ranges.
+//!
+//! ```text
+//!   h(x) = h_0(x) + Σ_j p_j π_j(x) ≥ h_0(x) + Σ_j min(lo_j π_j(x), hi_j π_j(x)) ≥ 0
+//! ```
+//! at the points of the rule for edge data and at the ends of every edge.
+
+use signorini_kernel::Real;
+
+use super::Problem;
+use crate::quadrature::DATA_POINTS;
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Input};
+
+/// Refuses ranges within which a coefficient is negative.
+///
+/// # Errors
+/// The first input that can make one negative, with the place and the least value.
+pub(super) fn check(problem: &Problem) -> Result<()> {
+    if problem.scene.transfer_input().is_none() {
+        return Ok(());
+    }
+    let records = problem.loads.robin.iter();
+    records.map(|record| record.edge as usize).try_for_each(|edge| check_edge(problem, edge))
+}
+
+fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
+    let scene = &problem.scene;
+    let Some(at) = problem.binding.boundary(problem.ends[edge]) else { return Ok(()) };
+    let boundary = &scene.boundaries[at];
+    let Some(base) = boundary.condition.transfer() else { return Ok(()) };
+    let acts = |input: &&Input| {
+        input.field.value == Field::Coefficient && input.of.value == boundary.name.value
+    };
+    let inputs: Vec<&Input> = scene.inputs.iter().filter(acts).collect();
+    let [a, b] = problem.segment(edge);
+    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
+    for t in inside.chain([0.0, 1.0]) {
+        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let parts = inputs.iter().map(|input| (input, least(input, x, y)));
+        let parts: Vec<_> = parts.collect();
+        let total = parts.iter().fold(base.value.eval(x, y, 0.0), |sum, (_, part)| sum + part);
+        // A NaN is told with the loads, at the inputs that make it.
+        if total < 0.0
+            && let Some((input, _)) = parts.iter().min_by(|a, b| a.1.total_cmp(&b.1))
+            && let Some(range) = &input.range
+        {
+            let message =
+                format!("{} falls to {total} at ({x}, {y}) within it, expected ≥ 0", base.key);
+            let hint = "narrow the range, or state a larger coefficient";
+            return Err(scene.error(range, message).hint(hint).into());
+        }
+    }
+    Ok(())
+}
+
+/// The least that an input adds.
+fn least(input: &Input, x: f64, y: f64) -> f64 {
+    let pattern = input.pattern.value.eval(x, y, 0.0);
+    let ends = input.interval().map(|end| end * pattern);
+    ends[0].min(ends[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixtures::on_grid;
+    use crate::outputs::outputs;
+    use crate::problem::{Approach, Problem};
+    use crate::solve::{Options, SolverKind, solve};
+    use signorini_scene::error::Result;
+    use signorini_scene::mesh::structured::{Cells, grid};
+    use signorini_tolerances::solve::TRANSFER;
+
+    /// A wall of conductivity 2 between u = 1 above and air at −1 below, which y = 0 meets in part.
+    fn text(coefficient: &str, input: &str) -> String {
+        format!(
+            "
+mesh = \"grid\"
+[material.default]
+conductivity = \"2\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"1\"
+[boundary.left]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.right]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.contact]
+kind = \"robin\"
+coefficient = \"{coefficient}\"
+ambient = \"-1\"
+[input.h]
+of = \"contact\"
+field = \"coefficient\"
+{input}
+[output.heat]
+kind = \"flux\"
+of = \"contact\"
+[output.skin]
+kind = \"mean\"
+of = \"contact\"
+"
+        )
+    }
+
+    fn problem(coefficient: &str, input: &str) -> Result<Problem> {
+        Ok(on_grid(&text(coefficient, input), grid(4, Cells::Mixed))?.1)
+    }
+
+    /// In series: 1/R = 1/(1/h + 1/2) over a width of 2 and a drop of 2.
+    #[test]
+    fn a_wall_passes_what_its_resistances_let_through() -> Result<()> {
+        let wall = problem("0", "pattern = \"1\"\ndefault = 4.0\nrange = [0.0, 100.0]")?;
+        for h in [4.0, 0.0, 1e-3, 1.0, 100.0] {
+            let now = wall.with_inputs(&[h])?;
+            for solver in [SolverKind::Kernel, SolverKind::Direct] {
+                let solution = solve(&now, &Options { solver, ..Options::default() })?;
+                let values = outputs(&now, &solution)?;
+                let per_length = h * 2.0 / (h + 2.0);
+                let [heat, skin] = ["heat", "skin"].map(|name| values[name].expect("a value"));
+                TRANSFER.check(format_args!("h = {h}, {solver:?}"), heat + 2.0 * 2.0 * per_length);
+                TRANSFER.check(format_args!("h = {h}, {solver:?}"), skin - (1.0 - per_length));
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_coefficient_is_negative_nowhere_in_its_range() {
+        let said = |coefficient: &str, input: &str| match problem(coefficient, input) {
+            Ok(_) => "sound".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        let input = |pattern: &str, range: &str| {
+            format!("pattern = \"{pattern}\"\ndefault = 0.5\nrange = {range}")
+        };
+        assert_eq!(said("3", &input("1", "[-3, 1]")), "sound");
+        assert_eq!(said("3", &input("x", "[-3, 3]")), "sound");
+        let message = said("3", &input("1", "[-3.5, 1]"));
+        let expected = "input.h.range: boundary.contact.coefficient falls to -0.5 at (";
+        assert!(message.contains(expected), "{message}");
+        let message = said("3", &input("x", "[-1, 4]"));
+        assert!(
+            message.contains("coefficient falls to -0.9") && message.contains("within it"),
+            "{message}"
+        );
+        let message = said("3", "pattern = \"1\"\ndefault = 0.5");
+        assert!(message.contains("input.h.range: missing"), "{message}");
+    }
+
+    #[test]
+    fn what_keeps_its_matrix_refuses_it() -> Result<()> {
+        let wall = problem("1", "pattern = \"1\"\nrange = [0.0, 1.0]")?;
+        let approaches =
+            [Approach::Condensation, Approach::FullModel, Approach::Tick, Approach::Export];
+        for approach in approaches {
+            let error = approach.check(&wall).expect_err("a coefficient that changes").to_string();
+            assert!(error.contains("input.h.field: it changes the matrix"), "{error}");
+        }
+        assert!(Approach::Factor.check(&wall).is_ok());
+        Ok(())
+    }
+}
