@@ -93,6 +93,32 @@ fn every_state_leads_to_the_solution_within_the_bound() -> Result<(), Error> {
     Ok(())
 }
 
+/// Every edge pulls at every other, and the ground hardly holds them: openings of b/κ.
+#[test]
+fn openings_may_be_much_larger_than_loads() -> Result<(), Error> {
+    let mut draw = Draw(5);
+    for n in [2, 7, 12, 30] {
+        for held in [1e-2, 1e-4, 1e-6, 1e-9] {
+            let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(n)];
+            let pull = -(1.0 - held) / (n as f64 - 1.0);
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let (row, column) = (i / SIDE, j / SIDE);
+                if column <= row {
+                    let entry = if i == j { 1.0 } else { pull };
+                    blocks[row * (row + 1) / 2 + column][i % SIDE][j % SIDE] = entry;
+                }
+            }
+            let mut load = vec![0.0; padded(n)];
+            load[..n].fill_with(|| 0.8 + 0.2 * draw.part());
+            let taken = exchanges(n, &blocks, &load, &vec![false; n])?;
+            assert_eq!(taken as usize, n, "{held:e}");
+            let taken = exchanges(n, &blocks, &load, &vec![true; n])?;
+            assert_eq!(taken, 0, "{held:e}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn the_bound_is_that_of_the_order() {
     assert_eq!([0, 1, 7].map(|n| Phases::default().most(n)), [0, 1, 10]);

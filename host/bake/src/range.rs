@@ -7,9 +7,11 @@
 //! ```
 //! 1e±32 and 1e±12 in f32.
 
+use signorini_kernel::solve::dense::blocks::padded;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -59,8 +61,16 @@ pub fn refuse_lengths<R: Scalar>(problem: &Problem) -> Result<()> {
     Err(InputError::new(message).file(&problem.scene.path).hint(hint).into())
 }
 
-/// Refuses defaults of inputs that would not be what the scene says.
+/// Refuses defaults and ranges of inputs that would not be what the scene says.
 pub fn refuse_inputs<R: Scalar>(scene: &Scene) -> Result<()> {
+    let ranges = scene.inputs.iter().filter_map(|input| input.range.as_ref());
+    let is_held = |end: f64| R::narrow(end).finite();
+    for range in ranges {
+        if ![range.value.lo, range.value.hi].into_iter().all(is_held) {
+            let message = format!("{} cannot hold its ends", R::NAME);
+            return Err(scene.error(range, message).hint(narrower::<R>()).into());
+        }
+    }
     let is_lost = |x: R, given: f64| !x.finite() || (given != 0.0 && x.magnitude() < R::TINY);
     match scene.inputs.iter().find(|input| is_lost(R::narrow(input.default), input.default)) {
         None => Ok(()),
@@ -73,6 +83,31 @@ pub fn refuse_inputs<R: Scalar>(scene: &Scene) -> Result<()> {
             Err(scene.error(&input.name, message).hint(hint).into())
         }
     }
+}
+
+/// Refuses ranges of inputs whose loads `R` could not solve for: what the kernel asks of ‖b‖ in every tick, asked of Σ|b|.
+pub fn refuse_loads<R: Scalar>(scene: &Scene, condensate: &CondensedModel) -> Result<()> {
+    let size = |(range, column): (&[f64; 2], &Vec<f64>)| {
+        let most = range[0].abs().max(range[1].abs());
+        most * column.iter().map(|b| b.abs()).sum::<f64>()
+    };
+    let loads: Vec<f64> = condensate.ranges.iter().zip(&condensate.load).map(size).collect();
+    let inputs = scene.inputs.iter().zip(loads.iter().skip(1));
+    let declared = inputs.filter_map(|(input, load)| Some((input.range.as_ref()?, *load)));
+    let total: f64 = declared.clone().map(|(_, load)| load).sum();
+    let largest = declared.max_by(|a, b| a.1.total_cmp(&b.1));
+    let terms = padded(condensate.contact).max(1) as f64;
+    match largest {
+        Some((range, _)) if !R::narrow(total * terms / R::EPSILON.wide()).finite() => {
+            let message = format!("its loads are too large for {} to solve for", R::NAME);
+            Err(scene.error(range, message).hint(narrower::<R>()).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn narrower<R: Scalar>() -> String {
+    format!("narrow it to what the input can be{}", wider::<R>())
 }
 
 /// What a hint ends in where there is a wider scalar type.

@@ -136,7 +136,9 @@ fn row(name: &str, proved: Interval, seen: Interval) -> [String; 7] {
     let Interval { lo, hi } = proved;
     // What is proved of a single number is off by its rounding.
     let is_wider = proved.width() > 1e-9 * lo.abs().max(hi.abs());
-    let width = match (is_wider, seen.width() > 0.0) {
+    // So is what is seen of it.
+    let moves = seen.width() > 1e-9 * lo.abs().max(hi.abs());
+    let width = match (is_wider, moves) {
         (false, _) => "1".to_owned(),
         (true, true) => format!("{:.3}", proved.width() / seen.width()),
         (true, false) => "-".to_owned(),

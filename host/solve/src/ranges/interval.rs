@@ -30,6 +30,16 @@ impl Interval {
         self.hi - self.lo
     }
 
+    /// max |x|
+    pub fn size(&self) -> f64 {
+        self.hi.max(-self.lo)
+    }
+
+    /// With so much more on either side.
+    pub fn widened(self, by: f64) -> Self {
+        Self::outwards(self.lo - by, self.hi + by)
+    }
+
     /// What lies in both, of two intervals that hold the same number.
     pub fn and(self, other: Self) -> Self {
         Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }

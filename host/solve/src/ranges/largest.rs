@@ -144,7 +144,7 @@ fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
     let (mut square, mut moved) = (form.largest(&z).powi(2), 0.0);
     for corner in &form.corners {
         let excess = dot(corner.excess.iter().copied().map(Interval::point), p.iter().copied());
-        let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| a.abs() * size(p)).sum();
+        let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| a.abs() * p.size()).sum();
         if excess.lo < -ROUNDING * size {
             return None;
         }
@@ -155,7 +155,7 @@ fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
         }
         moved += (-excess.lo).max(0.0) * corner.energy;
     }
-    let oscillation: f64 = form.oscillation.iter().zip(p).map(|(osc, p)| osc * size(p)).sum();
+    let oscillation: f64 = form.oscillation.iter().zip(p).map(|(osc, p)| osc * p.size()).sum();
     let oscillation = oscillation + moved;
     // A few roundings of sums of positive numbers.
     let total = (oscillation + (square + oscillation * oscillation).sqrt()) * (1.0 + 1e-14);
@@ -186,7 +186,7 @@ impl Form {
             middle.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * center);
             let norm = norm(column);
             apart += (z.hi - center).max(center - z.lo).next_up() * norm;
-            hidden += size(z) * (self.lost[j] + share * norm);
+            hidden += z.size() * (self.lost[j] + share * norm);
             start += j + 1;
         }
         norm(&middle) + apart + hidden
@@ -195,9 +195,4 @@ impl Form {
 
 fn norm(numbers: &[f64]) -> f64 {
     numbers.iter().map(|number| number * number).sum::<f64>().sqrt()
-}
-
-/// max |z|
-fn size(z: &Interval) -> f64 {
-    z.hi.max(-z.lo)
 }

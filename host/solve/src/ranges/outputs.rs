@@ -10,7 +10,8 @@
 //!   y = (a − μB) p + (c + μS) x                          whatever μ is, to the last bit.
 //! ```
 //! Each form has an interval for p in its box and lo ≤ x ≤ hi, and one by its slopes (`slopes.rs`); the sum with its
-//! reactions r ≥ 0 has another. An output lies in all of them. Sums are of intervals, rounded outwards.
+//! reactions r ≥ 0 has another. An output lies in all of them. Sums are of intervals, rounded outwards. What the elimination
+//! of the mesh has rounded in Y, S and B is not known to a bound: [`ELIMINATION`] of all terms is added for it.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -22,6 +23,10 @@ use super::sides::Sides;
 use super::slopes::Slopes;
 use crate::condense::{CondensedModel, Measure};
 use crate::reference::ReferenceError;
+
+/// Part of an output's terms that the elimination of the mesh may have rounded: seen up to 1e-13, but for contrasts of 1e10
+/// and more in one mesh, where it may be larger.
+const ELIMINATION: f64 = 1e-12;
 
 /// An interval for each output of `model` that holds its value at the solution for all inputs of the box: `sides` are
 /// those of `model`. None for the error bound, and nothing at all where no enclosure is proved.
@@ -89,7 +94,26 @@ impl Known<'_> {
                 range = range.and(slopes.range(form)?);
             }
         }
+        range = range.widened(ELIMINATION * self.terms(of_inputs, of_contact, of_reaction));
+        // A force is a sum of reactions, none of which is negative.
+        if of_inputs.is_empty() && of_contact.is_empty() && of_reaction.iter().all(|&r| r >= 0.0) {
+            range = range.not_negative();
+        }
         Ok(range)
+    }
+
+    /// The sizes of all that an output is summed from.
+    fn terms(&self, of_inputs: &[f64], of_contact: &[f64], of_reaction: &[f64]) -> f64 {
+        let p: Vec<f64> = self.inputs.iter().map(Interval::size).collect();
+        let x = &self.enclosure.hi;
+        let sizes = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum::<f64>();
+        let row = |(at, weight): (usize, &f64)| {
+            let own = &self.model.matrix[at * self.model.contact..][..self.model.contact];
+            let load: f64 = self.model.load.iter().zip(&p).map(|(b, p)| (b[at] * p).abs()).sum();
+            weight.abs() * (sizes(own, x) + load)
+        };
+        let reactions: f64 = of_reaction.iter().enumerate().map(row).sum();
+        sizes(of_inputs, &p) + sizes(of_contact, x) + reactions
     }
 
     /// Y_p p + Y_x x + Y_r r with r ≥ 0, and 0 where the edge is always open.

@@ -74,9 +74,11 @@ pub fn find<R: Real>(
         if !(before <= limit && before <= sane) {
             correct(tableau, residual, answer, x)?;
             settle(matrix, load, x, residual, open)?;
-            // What is left now may be the floor of this matrix; much more is a tableau gone wrong.
+            // What is left now may be the floor of this matrix, where openings are much larger than loads; more is a tableau
+            // gone wrong.
             let after = sizes::unbalanced(residual, x);
-            let is_floor = after <= R::from_count(WORN) * limit || after <= R::QUARTER * before;
+            let floor = R::from_count(48 * WORN) * R::EPSILON * size.or_larger(now);
+            let is_floor = after <= floor || after <= R::QUARTER * before;
             if !(is_floor && after <= sane) {
                 found = Found::Worn;
             }
