@@ -47,8 +47,9 @@ pub const ALWAYS_TOUCHING: usize = {always_touching};
 /// Contact edges of the scene that may do either; all of them where nothing is proved. [`CONTACT`] has these, and others
 /// that the error bound needs.
 pub const MAY_CHANGE: usize = {may_change};
-/// No exact solution has a larger error bound while inputs are within `Inputs::RANGES`; none where that is not proved. What
-/// the scalar of a tick rounds comes on top, and stands in its own bound.
+/// No exact solution of this model has a larger error bound while inputs are within `Inputs::RANGES`; none where that is not
+/// proved. What a tick rounds in its scalar comes on top, and stands in the bound that it reports: where the domain is weakly
+/// held, it may be most of it.
 pub const LARGEST_ERROR_BOUND: Option<f64> = {largest_error_bound:?};
 "
     )

@@ -7,6 +7,7 @@
 //!   random inputs      ─► what outputs and error bound reach       seen
 //! ```
 
+mod conflict;
 mod counts;
 mod reach;
 mod runs;
@@ -29,6 +30,7 @@ use signorini_solve::ranges::sides::EdgeSide;
 use signorini_solve::scalar::Scalar;
 use why::nothing_proved;
 
+pub use conflict::conflict;
 use counts::largest_bound;
 pub use counts::{constants, declared, found};
 
@@ -116,20 +118,22 @@ fn bound(reach: &Reach, proved: Option<LargestBound>) -> String {
     let Some(seen) = reach.bound else {
         return format!("No error bound was seen: {}.\n", reach.unbounded);
     };
-    let seen = format!(
+    let said = format!(
         "The largest error bound seen in {} ticks with them is {}.",
         reach.inputs,
         short(seen)
     );
-    match proved {
-        Some(LargestBound { proved, pieces, .. }) => format!(
-            "{seen}\nNo exact solution within the ranges has one above {}: proved with {} of the box.\n",
-            // Not below it: five digits are off by half of the last.
-            short(proved * (1.0 + 5e-5)),
-            if pieces == 1 { "a single piece".to_owned() } else { format!("{pieces} pieces") }
-        ),
-        None => format!("{seen} Other inputs may have a larger one: no limit near it is proved.\n"),
-    }
+    let Some(LargestBound { proved, pieces, .. }) = proved else {
+        return format!("{said} Other inputs may have a larger one: no limit near it is proved.\n");
+    };
+    // Not below it: five digits are off by half of the last.
+    let limit = short(proved * (1.0 + 5e-5));
+    let pieces = if pieces == 1 { "a single piece".to_owned() } else { format!("{pieces} pieces") };
+    let rounding =
+        if seen > proved { "\nWhat a tick rounds in its scalar comes on top." } else { "" };
+    format!(
+        "{said}\nNo exact solution of this model has one above {limit}: proved with {pieces} of the box.{rounding}\n"
+    )
 }
 
 fn row(name: &str, proved: Interval, seen: Interval) -> [String; 7] {

@@ -2,13 +2,18 @@
 
 use std::path::Path;
 
-use super::{constants, found, reach::Reach, runs::runs, section};
+use super::{conflict, constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
+use crate::condensed::Controller;
+use signorini_kernel::device::report::Ended;
 use signorini_scene::mesh::adapted;
+use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
+use signorini_solve::fixtures::on_grid;
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::outputs::intervals;
+use signorini_solve::scalar::Scalar;
 
 /// A standard scene, changed by `change`.
 fn problem(name: &str, change: impl Fn(&mut Scene)) -> Problem {
@@ -142,4 +147,121 @@ fn programs_are_told_of_ranges_where_there_are_any() {
         "{all}"
     );
     assert!(all.contains("LARGEST_ERROR_BOUND: Option<f64> = None;"), "{all}");
+}
+
+/// Held by a weak transfer law beside contact: openings are hundreds of times as large as their loads.
+fn weakly_held(coefficient: f64, most: f64) -> Problem {
+    let text = format!(
+        "
+mesh = \"grid\"
+[material.default]
+conductivity = \"60\"
+[boundary.dirichlet]
+kind = \"robin\"
+coefficient = \"{coefficient}\"
+ambient = \"-1\"
+[boundary.left]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.right]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.contact]
+kind = \"contact\"
+gap = \"-0.8\"
+[input.load]
+of = \"left\"
+field = \"flux\"
+pattern = \"1\"
+range = [-{most}, {most}]
+"
+    );
+    on_grid(&text, grid(6, Cells::Triangles)).expect("a sound scene").1
+}
+
+fn solves_every_tick<R: Scalar>(coefficient: f64, most: f64) {
+    let problem = weakly_held(coefficient, most);
+    let choice = Choice::<R>::new(&problem, Wanted::model(ModelKind::Condensed)).expect("a model");
+    let (baked, origin) = choice.condensed().expect("condensed");
+    let worst = baked.worst_case();
+    assert!(worst.proven, "{worst:?}");
+    let mut controller = Controller::new(baked);
+    let mut changed = 0;
+    for part in [-1.0, 1.0, 0.0, -1.0, 0.5, -0.3, 1.0, -1.0, 0.01] {
+        let input = part * most;
+        let (_, report) = controller.tick(&[R::narrow(input)]).expect("a tick");
+        let exchanges: u32 = report.exchanges;
+        assert_eq!(report.ended, Ended::Exact, "{coefficient}, load {input}");
+        assert!(Some(exchanges) <= worst.exchanges, "{exchanges}");
+        let p = [1.0, input];
+        let x = origin.model().solve(&p).expect("a solution");
+        let size = x.iter().fold(1e-9, |most: f64, x| most.max(*x));
+        let off = controller.x().iter().zip(&x).map(|(own, x)| (own.wide() - x).abs());
+        let off = off.fold(0.0, f64::max) / size;
+        // Rounding times the condition of the matrix.
+        assert!(off < 1e4 * R::EPSILON.wide() * 60.0 / coefficient, "load {input}: {off:e}");
+        changed += exchanges;
+    }
+    assert!(changed > 0);
+}
+
+#[test]
+fn weakly_held_domains_are_solved_in_every_tick() {
+    solves_every_tick::<f64>(0.15, 0.1);
+    solves_every_tick::<f32>(5.0, 5.0);
+}
+
+#[test]
+fn ranges_that_a_scalar_cannot_hold_or_solve_for_are_refused() {
+    let refused = |most: f64| {
+        let problem = problem("levee", |scene| {
+            scene.target = None;
+            let range = scene.inputs[0].range.as_mut().expect("a range");
+            range.value.hi = most;
+        });
+        let wanted = || Wanted::model(ModelKind::Condensed);
+        let narrow = Choice::<f32>::new(&problem, wanted()).err().map(|error| error.to_string());
+        let wide = Choice::<f64>::new(&problem, wanted()).err().map(|error| error.to_string());
+        (narrow.unwrap_or_default(), wide.unwrap_or_default())
+    };
+    let (narrow, wide) = refused(1e39);
+    assert!(narrow.contains("input.rain.range: f32 cannot hold its ends"), "{narrow}");
+    assert_eq!(wide, "");
+    let (narrow, wide) = refused(1e36);
+    assert!(narrow.contains("input.rain.range: its loads are too large for f32"), "{narrow}");
+    assert_eq!(wide, "");
+    assert!(refused(1e306).1.contains("its loads are too large for f64"));
+    assert_eq!(refused(1e20), (String::new(), String::new()));
+}
+
+/// u_D = 0 beside a gap of −0.1 that an input lifts by up to so much.
+#[test]
+fn a_gap_that_rises_above_a_value_beside_it_is_told() {
+    for (most, conflicts) in [(0.05, None), (0.1, None), (0.3, Some("by up to 2.0000e-1"))] {
+        let text = format!(
+            "
+mesh = \"grid\"
+[material.default]
+conductivity = \"1\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"0\"
+[boundary.contact]
+kind = \"contact\"
+gap = \"-0.1\"
+[input.lift]
+of = \"contact\"
+field = \"gap\"
+pattern = \"1\"
+range = [0.0, {most}]
+"
+        );
+        let (_, problem) = on_grid(&text, grid(4, Cells::Triangles)).expect("a sound scene");
+        let choice = choice(&problem, false);
+        let said = conflict(choice.condensed().expect("condensed").1);
+        match conflicts {
+            None => assert_eq!(said, None, "{most}"),
+            Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{most}"),
+        }
+    }
 }
