@@ -293,6 +293,35 @@ fn wrong_arguments_are_refused() {
     }
 }
 
+/// Ticks keep one matrix; a solve has its own.
+#[test]
+fn a_coefficient_that_changes_is_for_solves() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (folder.path().join("slab.toml"), folder.path().join("out"));
+    std::fs::copy(meshes("scenes/slab.msh"), folder.path().join("slab.msh")).expect("a mesh");
+    let text = std::fs::read_to_string(meshes("scenes/slab.toml")).expect("a scene");
+    let input = "[input.h]\nof = \"air\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 15\nrange = [5, 80]\n";
+    let text = text.replace("coefficient = \"15\"", "coefficient = \"0\"") + input;
+    std::fs::write(&scene, text).expect("a scene");
+    let message = refused(&scene, &out, &["--ticks", "2"]);
+    assert!(message.contains("input.h.field: it changes the matrix"), "{message}");
+    let [own, stated] =
+        [(scene, "own"), (meshes("scenes/slab.toml"), "stated")].map(|(of, name)| {
+            let out = folder.path().join(name);
+            let arguments = ["solve", &of.to_string_lossy(), "--out", &out.to_string_lossy()]
+                .map(str::to_owned);
+            let status = std::process::Command::new(env!("CARGO_BIN_EXE_signorini"))
+                .args(arguments)
+                .status()
+                .expect("the program");
+            assert!(status.success(), "{name}");
+            let summary = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
+            let json: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+            json["outputs"]["power"].as_f64().expect("a power")
+        });
+    assert!((own / stated - 1.0).abs() < 1e-9, "{own} {stated}");
+}
+
 #[test]
 fn errors_are_measured_at_the_time_of_the_problem() {
     let scene = Scene::read(&meshes(MOVING)).expect("a scene");

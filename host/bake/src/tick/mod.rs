@@ -30,7 +30,7 @@ use signorini_scene::scene::units::Units;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::problem::{Approach, Parts, Problem};
+use signorini_solve::problem::{Approach, Parts, Problem, Property};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Options, ScalarKind, choose_units};
 
@@ -167,6 +167,10 @@ fn play_in<R: Scalar>(
         done(tick);
     };
     let parts = Parts::examine(problem)?;
+    // The others are solved tick by tick, with one matrix too.
+    if let Some(lack) = Approach::Tick.lack_of(Property::TransferInput, problem, parts.counts) {
+        return Err(lack.into());
+    }
     let mut all =
         |engine: &mut held::Engine| through(problem, moments, budget.scalar, engine, &mut done);
     if Approach::Tick.lack_with(problem, parts.counts).is_some() {

@@ -57,11 +57,14 @@ impl Approach {
 
     /// The same for who has examined the `parts` of `problem`.
     pub fn lack_with(self, problem: &Problem, parts: PartCounts) -> Option<Lack> {
-        Property::ALL.into_iter().find_map(|property| {
-            let refusal = self.refusal(property)?;
-            let is_there = property.is_in(problem, parts);
-            is_there.then(|| Lack { property, refusal: refusal(problem) })
-        })
+        Property::ALL.into_iter().find_map(|property| self.lack_of(property, problem, parts))
+    }
+
+    /// This property of `problem`, where it has it and this approach cannot treat it.
+    pub fn lack_of(self, property: Property, problem: &Problem, parts: PartCounts) -> Option<Lack> {
+        let refusal = self.refusal(property)?;
+        let is_there = property.is_in(problem, parts);
+        is_there.then(|| Lack { property, refusal: refusal(problem) })
     }
 
     /// Refuses a problem with a property that this approach cannot treat.
