@@ -310,7 +310,7 @@ fn a_coefficient_that_changes_is_for_solves() {
             let out = folder.path().join(name);
             let arguments = ["solve", &of.to_string_lossy(), "--out", &out.to_string_lossy()]
                 .map(str::to_owned);
-            let status = std::process::Command::new(env!("CARGO_BIN_EXE_signorini"))
+            let status = Command::new(env!("CARGO_BIN_EXE_signorini"))
                 .args(arguments)
                 .status()
                 .expect("the program");
