@@ -67,15 +67,16 @@ pub(super) fn of_condensed<R: Scalar>(
 fn refuse_singular<R: Scalar>(scene: &Scene, condensate: &CondensedModel) -> Result<()> {
     /// Part of an answer that rounding of the matrix may take.
     const MOST: f64 = 1e-2;
-    let Ok(form) = &condensate.certificate else { return Ok(()) };
-    // reach² is 1/λ_min of the scaled matrix, or near to it.
-    let lost = form.stability.powi(2) * R::EPSILON.wide();
-    if lost <= MOST {
+    // The square of the bound's stability is 1/λ_min of the scaled matrix, or near to it.
+    let reach = match &condensate.certificate {
+        Ok(form) => form.stability.powi(2),
+        Err(_) => condensate.inverse_norm(),
+    };
+    if reach * R::EPSILON.wide() <= MOST {
         return Ok(());
     }
     let message = format!(
-        "the condensed problem is nearly singular (1/λ_min = {:.0e}): in {} it would be another one",
-        form.stability.powi(2),
+        "the condensed problem is nearly singular (1/λ_min = {reach:.0e}): in {} it would be another one",
         R::NAME
     );
     let hint = "bake it with --scalar f64, or hold the domain more firmly: a larger transfer coefficient, a \

@@ -9,7 +9,7 @@ use signorini_kernel::device::report::Ended;
 use signorini_scene::mesh::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_scene::setting::ModelKind;
+use signorini_scene::setting::{ModelKind, Setting};
 use signorini_solve::fixtures::on_grid;
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::outputs::intervals;
@@ -263,5 +263,20 @@ range = [0.0, {most}]
             None => assert_eq!(said, None, "{most}"),
             Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{most}"),
         }
+    }
+}
+
+/// Without a bound, too: rounding of f32 would move the solution by percents.
+#[test]
+fn what_a_scalar_cannot_tell_from_singular_is_refused() {
+    for certificate in [true, false] {
+        let problem = weakly_held(0.002, 0.002);
+        let setting = Setting { certificate, ..Setting::default() };
+        let problem = problem.with_setting(Some(setting));
+        let wanted = || Wanted::model(ModelKind::Condensed);
+        let refused = Choice::<f32>::new(&problem, wanted()).map(|_| ()).map_err(|e| e.to_string());
+        let refusal = refused.expect_err("nearly singular");
+        assert!(refusal.contains("nearly singular"), "{refusal}");
+        assert!(Choice::<f64>::new(&problem, wanted()).is_ok());
     }
 }

@@ -1,6 +1,6 @@
 //! The condensed model in f64: what the target does, without its haste.
 
-use faer::MatRef;
+use faer::{MatRef, Side};
 
 use super::{CondensedModel, Form, Measure};
 use crate::reference::{self, ReferenceError};
@@ -20,6 +20,18 @@ impl CondensedModel {
         let n = self.contact;
         let matrix = MatRef::from_row_major_slice(&self.matrix, n, n);
         reference::minimise(matrix, &self.held_by_contact, &self.load_of(p))
+    }
+
+    /// 1/λ_min(Ŝ); 0 where contact alone holds a part, whose matrix is singular and solved so, and where there is no contact.
+    pub fn inverse_norm(&self) -> f64 {
+        if self.contact == 0 || !self.held_by_contact.is_empty() {
+            return 0.0;
+        }
+        let matrix = MatRef::from_row_major_slice(&self.matrix, self.contact, self.contact);
+        let values = matrix.self_adjoint_eigenvalues(Side::Lower).unwrap_or_default();
+        let least = values.into_iter().fold(f64::INFINITY, f64::min);
+        // Rounding may leave it negative; a failure tells nothing good either.
+        if least.is_finite() { 1.0 / least.max(0.0) } else { f64::INFINITY }
     }
 
     /// B̂p
