@@ -8,7 +8,6 @@ use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::dense::{Done, Price};
 use crate::inputs::InputSpace;
-use crate::range::refuse_loads;
 use crate::setting::checked;
 use crate::{condensed, trial};
 use signorini_scene::error::{InputError, Result};
@@ -27,7 +26,6 @@ pub(super) fn of_condensed<R: Scalar>(
 ) -> Result<Vec<Candidate<R>>> {
     let setting = checked::<R>(scene)?;
     refuse_singular::<R>(scene, condensate)?;
-    refuse_loads::<R>(scene, condensate)?;
     let has_bound = condensate.certificate.is_ok();
     let variants = match (setting.certificate, has_bound) {
         (false, _) => &[false][..],

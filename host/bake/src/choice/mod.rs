@@ -16,7 +16,7 @@ mod meshes;
 mod work;
 
 use super::budget::{Budget, Needs, Shortfall};
-use super::range::{refuse_answers, refuse_lengths, refuse_squares};
+use super::range::{refuse_answers, refuse_inputs, refuse_lengths, refuse_loads, refuse_squares};
 use super::trial::Trial;
 use super::{condensed, full};
 use advice::too_large;
@@ -194,6 +194,8 @@ impl<R: Scalar> Choice<R> {
         } else if forced != Some(ModelKind::Full) {
             refuse_squares::<f64>(&problem.scene, &units)?;
             let own = Origin::new(problem, wanted)?;
+            refuse_inputs::<R>(&problem.scene)?;
+            refuse_loads::<R>(&problem.scene, own.model())?;
             match of_condensed(&problem.scene, own.model(), &budget) {
                 Ok(found) => (candidates, origin) = (found, Some(own)),
                 Err(error) if forced.is_some() => return Err(error),
