@@ -27,7 +27,7 @@ table! {
         "f32 in the condensed one";
     MEANS: "mean of an affine u over a boundary in f64", 1e-11,
         "the elements are exact for it: sweeps leave 1e-14 of its size 4, times the condition of a small mesh, 100";
-    MEANS_NARROW: "mean of an affine u over a boundary in f32", 2e-4,
+    MEANS_NARROW: "mean of an affine u over a boundary in f32", 2e-5,
         "sweeps end at 4√n ε = 3e-6 of its size there";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";

@@ -69,8 +69,8 @@ table! {
         "sums of at most 20 weights";
     CATALOGUE: "errors on other meshes against the catalogue, relative", 5e-4,
         "quadrature of the norms";
-    TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 1e-8,
-        "u is affine, and exact in the elements: sweeps leave 1e-10 of its size 2, times the condition of a small mesh";
+    TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
+        "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
 }

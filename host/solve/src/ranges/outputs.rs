@@ -11,7 +11,7 @@
 //! ```
 //! Each form has an interval for p in its box and lo ≤ x ≤ hi, and one by its slopes (`slopes.rs`); the sum with its
 //! reactions r ≥ 0 has another. An output lies in all of them. Sums are of intervals, rounded outwards. What the elimination
-//! of the mesh has rounded in Y, S and B is not known to a bound: [`ELIMINATION`] of all terms is added for it.
+//! of the mesh has rounded in Y, S and B is not known to a bound: 1e-12 of all terms is added for it.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
