@@ -17,8 +17,11 @@ use super::tableau::{InitialTableau, Tableau};
 use crate::error::Error;
 use crate::real::Real;
 
-/// How many times the limit may be left after a correction.
-const WORN: u32 = 32;
+/// What rounding may leave unbalanced, in ε of the first answer, without a correction.
+const LIMIT: u32 = 48;
+
+/// The same after one, in ε of the larger of the first and the last answer: 32 times as much.
+const FLOOR: u32 = 1536;
 
 /// Thresholds are drawn anew where the answer has shrunk by more than this since they were.
 const SHRUNK: u32 = 64;
@@ -68,7 +71,7 @@ pub fn find<R: Real>(
     take_over(answer, tableau.exchanged(), x);
     settle(matrix, load, x, residual, open)?;
     if found == Found::Exact {
-        let limit = R::from_count(48) * R::EPSILON * size;
+        let limit = R::from_count(LIMIT) * R::EPSILON * size;
         let sane = own / R::from_count(SANE);
         let before = sizes::unbalanced(residual, x);
         if !(before <= limit && before <= sane) {
@@ -77,7 +80,7 @@ pub fn find<R: Real>(
             // What is left now may be the floor of this matrix, where openings are much larger than loads; more is a tableau
             // gone wrong.
             let after = sizes::unbalanced(residual, x);
-            let floor = R::from_count(48 * WORN) * R::EPSILON * size.or_larger(now);
+            let floor = R::from_count(FLOOR) * R::EPSILON * size.or_larger(now);
             let is_floor = after <= floor || after <= R::QUARTER * before;
             if !(is_floor && after <= sane) {
                 found = Found::Worn;
