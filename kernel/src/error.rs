@@ -131,6 +131,7 @@ pub enum Array {
     Scratch,
     Inputs,
     Outputs,
+    ContactSpans,
 }
 
 impl fmt::Display for Error {

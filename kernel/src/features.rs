@@ -13,6 +13,8 @@ pub const VARYING: bool = cfg!(feature = "varying");
 pub const DISTORTED: bool = cfg!(feature = "distorted");
 /// Contact edges.
 pub const CONTACT: bool = cfg!(feature = "contact");
+/// Contact edges whose flux has another range than "from ∫q on".
+pub const LIMITED: bool = cfg!(feature = "limited");
 /// Transfer laws.
 pub const ROBIN: bool = cfg!(feature = "robin");
 /// Gaps and Dirichlet values that are not affine along an edge.

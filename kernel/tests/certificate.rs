@@ -142,7 +142,7 @@ fn on_boundary(
     };
     let contact = (0..counts.contact).map(|at| {
         let edge = counts.free + at;
-        2.0 * (tau[edge] - given.boundary.contact_flux(at).least()) * along(edge, &|s| s - GAP)
+        2.0 * (tau[edge] - given.boundary.contact_flux(at).base()) * along(edge, &|s| s - GAP)
     });
     let transfer = given.boundary.robin().iter().map(|law| {
         let edge = usize::from(law.edge);

@@ -215,7 +215,7 @@ fn a_matrix_that_changes_between_warm_ticks_is_noticed() -> Result<(), Error> {
             let robin: Vec<_> = given.robin().iter().map(law).collect();
             let edges = foundation.plate.edges()?;
             let flux: Vec<_> =
-                (0..edges.counts().contact).map(|at| given.contact_flux(at).least()).collect();
+                (0..edges.counts().contact).map(|at| given.contact_flux(at).base()).collect();
             let boundary = Boundary::new(&edges, given.neumann(), &robin, &flux)?;
             let data = second.data(&foundation)?;
             let data = Data { given: LoadCase { boundary, ..data.given }, ..data };
@@ -306,7 +306,7 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
         .lower
         .iter()
         .enumerate()
-        .map(|(at, _)| boundary.contact_flux(at).least())
+        .map(|(at, _)| boundary.contact_flux(at).base())
         .collect();
     let VertexData { gap, given: on_dirichlet } = given.ends;
     let touching: Vec<u16> = (0..foundation.lower.len() as u16).collect();

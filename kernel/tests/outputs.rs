@@ -25,7 +25,7 @@ fn tick<const N: usize>(
     let (discretization, given) = (foundation.discretization()?, foundation.given()?);
     let boundary = &given.boundary;
     let contact_flux: Vec<f64> =
-        (0..foundation.lower.len()).map(|at| boundary.contact_flux(at).least()).collect();
+        (0..foundation.lower.len()).map(|at| boundary.contact_flux(at).base()).collect();
     let counts = discretization.edges.counts();
     let full = Full {
         discretization,

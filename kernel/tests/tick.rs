@@ -278,7 +278,7 @@ fn multipliers(foundation: &Foundation, u: &[f64], flux: &[f64]) -> Result<Vec<f
     let law = |at: usize| {
         let edge = counts.free + at;
         let touches = u[edge] == foundation.lower[at];
-        if touches { (flux[edge] - boundary.contact_flux(at).least()).max(0.0) } else { 0.0 }
+        if touches { (flux[edge] - boundary.contact_flux(at).base()).max(0.0) } else { 0.0 }
     };
     Ok((0..counts.contact).map(law).collect())
 }
@@ -310,7 +310,7 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
                 .check(format_args!("{sweeps}: {by_law} {report:?}"), report.force - by_law);
         }
         let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
-        let given = foundation.boundary()?.contact_flux(0).least();
+        let given = foundation.boundary()?.contact_flux(0).base();
         pulled += usize::from(on_contact.map(|flux| flux - given).sum::<f64>() < 0.0);
     }
     assert!(pulled > 0, "the flux (15) never pulled: this test tests nothing");

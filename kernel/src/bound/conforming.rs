@@ -7,6 +7,9 @@
 //!   s = max(ψ, mean)   at the other vertices of contact edges,
 //!   s = u_D            on D, which wins where both meet.
 //! ```
+//! Where the flux of a contact edge has two finite ends, s may be on either side of ψ, and pays for the side that u is not
+//! on: [`ease`].
+//!
 //! With the chord of ψ for the gap and that of u_D for the boundary value, s is admissible; what lies
 //! between a curved gap and its chord is another term of the bound.
 //!
@@ -20,6 +23,7 @@
 
 use crate::discrete::contact::is_active;
 use crate::discrete::law::Law;
+use crate::discrete::stiffness::Stiffness;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::features;
 use crate::index::{Index, read, write};
@@ -72,10 +76,9 @@ pub fn impose<R: Real, I: Index>(
             each_end(mesh, edges, edge, gap, |vertex, psi| write(values, vertex, psi));
         }
     }
-    for (_, edge, gap) in on_contact() {
+    for (at, edge, gap) in on_contact() {
         each_end(mesh, edges, edge, gap, |vertex, psi| {
-            let lifted = read(values, vertex).or_larger(psi);
-            write(values, vertex, lifted);
+            write(values, vertex, law.on(at).nearest_at(read(values, vertex), psi));
         });
     }
     for (at, given) in data.given.iter().enumerate() {
@@ -83,12 +86,45 @@ pub fn impose<R: Real, I: Index>(
         each_end(mesh, edges, edge, given, |vertex, value| write(values, vertex, value));
     }
     let mut below = R::ZERO;
-    for (_, edge, gap) in on_contact() {
+    for (at, edge, gap) in on_contact() {
         each_end(mesh, edges, edge, gap, |vertex, psi| {
-            below = below.or_larger(psi - read(values, vertex));
+            below = below.or_larger(law.on(at).depth_at(read(values, vertex), psi));
         });
     }
     Ok(below)
+}
+
+/// Where both ends of an edge's flux are finite, s with values on the other side of ψ than u pays (hi − lo) for each unit of
+/// them, and ½K for its square: `values`, the means at the vertices, become those that pay least of both.
+/// ```text
+///   u > ψ:  s ← min(ψ, s + (hi − lo)/K)  where s < ψ        u < ψ:  s ← max(ψ, s − (hi − lo)/K)  where s > ψ
+/// ```
+/// To be called before [`impose`]. For huge limits that is the law without one, for lo = hi nothing is changed.
+pub(crate) fn ease<R: Real, I: Index>(
+    mesh: &Mesh<R, I>,
+    edges: &Edges<I>,
+    stiffness: Stiffness<R>,
+    u: &[R],
+    law: Law<R>,
+    gap: &[[R; 2]],
+    values: &mut [R],
+) {
+    let free = edges.counts().free;
+    for (at, (gap, law)) in gap.iter().zip(law.edges()).enumerate() {
+        let opening = law.opening(read(u, free + at));
+        if !law.has_both_sides() || opening == R::ZERO {
+            continue;
+        }
+        let reach = law.reach(stiffness.of_boundary_edge(edges, free + at));
+        each_end(mesh, edges, free + at, gap, |vertex, psi| {
+            let excess = read(values, vertex) - psi;
+            if opening > R::ZERO && excess < R::ZERO {
+                write(values, vertex, psi + (excess + reach).or_smaller(R::ZERO));
+            } else if opening < R::ZERO && excess > R::ZERO {
+                write(values, vertex, psi + (excess - reach).or_larger(R::ZERO));
+            }
+        });
+    }
 }
 
 /// Fills in d for every edge, 0 where a cell of the edge is a triangle; `values` as from [`impose`].
@@ -124,7 +160,12 @@ pub fn bubbles<R: Real, I: Index>(
                 let contact = at - counts.free;
                 let [gap_a, gap_b] = read(data.gap, contact);
                 let opening = law.on(contact).opening(read(u, at));
-                lift(opening, [ends[0] - gap_a, ends[1] - gap_b])
+                let excess = [ends[0] - gap_a, ends[1] - gap_b];
+                if features::LIMITED && opening < R::ZERO {
+                    -lift(-opening, excess.map(|e| -e))
+                } else {
+                    lift(opening, excess)
+                }
             }
             _ => R::ZERO,
         };
@@ -137,9 +178,10 @@ fn missing<R: Real>(mean: R, [a, b]: [R; 2]) -> R {
     (R::ONE + R::HALF) * (mean - R::HALF * (a + b))
 }
 
-/// The same for an excess that must stay ≥ 0; `opening` is 0 on active edges.
+/// The same for an excess that must stay ≥ 0; `opening` is 0 on active edges. Nothing where s crosses the gap.
 fn lift<R: Real>(opening: R, excess: [R; 2]) -> R {
-    if !(opening > R::ZERO) {
+    let crosses = features::LIMITED && !(excess[0] >= R::ZERO && excess[1] >= R::ZERO);
+    if !(opening > R::ZERO) || crosses {
         return R::ZERO;
     }
     let [a, b] = excess.map(|e| e.or_larger(R::ZERO));

@@ -16,7 +16,8 @@ use crate::discrete::element::{adjacent, copy_row};
 use crate::discrete::signorini::System;
 use crate::discrete::stiffness::Stiffness;
 use crate::error::{Array, Error, same_length};
-use crate::index::{Index, read};
+use crate::features;
+use crate::index::{Index, read, write};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{EdgeCounts, Edges, Side};
 use crate::real::Real;
@@ -60,6 +61,16 @@ impl<R: Real, I: Index, const WIDTH: usize> Row<R, I, WIDTH> {
     #[inline(always)]
     pub(crate) fn offsets(&self) -> &[I; WIDTH] {
         &self.offsets
+    }
+
+    /// ω / K_ii of a contact edge, 0 in a build without limits. It stands behind the entries that such an edge has.
+    #[inline(always)]
+    pub(crate) fn softness(&self) -> R {
+        if features::LIMITED { read(&self.entries, WIDTH / 2) } else { R::ZERO }
+    }
+
+    fn soften(&mut self, softness: R) {
+        write(&mut self.entries, WIDTH / 2, softness);
     }
 
     /// Takes b_i and K_ij times `scale` = ω / K_ii; what has no entry stays.
@@ -158,12 +169,15 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
     pub fn set(&mut self, system: &System<R, I>, omega: R) -> Result<(), Error> {
         same_length(Array::Rows, self.rows.len(), system.counts().unknowns())?;
         self.omega = omega;
-        let given = system.matrix().iter().zip(system.load());
-        for (row, (of_matrix, &load)) in self.rows.iter_mut().zip(given) {
+        let given = system.matrix().iter().zip(system.load()).enumerate();
+        for (row, (i, (of_matrix, &load))) in self.rows.iter_mut().zip(given) {
             let mut entries = [R::ZERO; WIDTH];
             let others = of_matrix.entries().skip(1);
             entries.iter_mut().zip(others).for_each(|(place, (_, value))| *place = value);
             row.put(entries, load, omega / of_matrix.diagonal());
+            if features::LIMITED && i >= self.counts.free {
+                row.soften(omega / of_matrix.diagonal());
+            }
         }
         Ok(())
     }
@@ -209,7 +223,17 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
                 fill(row, half_edges, load, term);
             }
         }
+        if features::LIMITED {
+            self.soften(edges, stiffness, omega);
+        }
         Ok(())
+    }
+
+    /// ω / K_ii of the contact edges.
+    fn soften(&mut self, edges: &Edges<I>, stiffness: Stiffness<R>, omega: R) {
+        for (edge, row) in self.rows.iter_mut().enumerate().skip(self.counts.free) {
+            row.soften(omega / stiffness.of_boundary_edge(edges, edge));
+        }
     }
 
     /// The factor ω that the rows hold.

@@ -10,8 +10,9 @@
 //! the same whatever the units of K, divided by the size of u (see [`Residual::scaled`]).
 
 use crate::discrete::csr::Csr;
-use crate::discrete::law::{EdgeLaw, Law};
+use crate::discrete::law::{EdgeLaw, Law, Move};
 use crate::error::{Array, Error, all_finite, same_length};
+use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::EdgeCounts;
@@ -111,7 +112,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         self.counts
     }
 
-    /// Lifts u onto the gap wherever it is below (or not a number): any iterate becomes feasible.
+    /// Puts u onto the gap wherever it may not be where it is (or is not a number): any iterate becomes feasible.
     pub fn make_feasible(&self, u: &mut [R]) {
         self.law.lift(u.iter_mut().skip(self.counts.free));
     }
@@ -142,9 +143,16 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
             if i >= free {
                 let (law, own) = (law.on(i - free), read(u, i));
                 measure.active += u32::from(law.touches(own));
-                if let Some(opening) = law.blocks(own, step) {
-                    step = opening;
-                    terms = own.magnitude() + law.gap().magnitude();
+                match law.movement(law.opening(own), step, per_diagonal) {
+                    Move::Row(moved) if features::LIMITED => {
+                        terms += (moved - step).magnitude();
+                        step = moved;
+                    }
+                    Move::Row(_) => {}
+                    Move::Gap(opening) => {
+                        step = opening;
+                        terms = own.magnitude() + law.gap().magnitude();
+                    }
                 }
             }
             measure.include(step.magnitude(), load.magnitude() * per_diagonal, terms);

@@ -1,10 +1,11 @@
 //! The element matrices of all cells, stored once: assembly, flux and certificate read them.
 
-use crate::discrete::element::{QuadElement, crouzeix_raviart};
+use crate::discrete::element::{QuadElement, copy_row, crouzeix_raviart};
 use crate::discrete::tensor::Tensor;
 use crate::error::{Array, CellId, Error, same_length};
 use crate::index::{Index, read};
 use crate::mesh::Mesh;
+use crate::mesh::edges::{Edges, Side};
 use crate::real::Real;
 
 /// A as the kernel needs it: means over triangles, values at the quadrature points of quads.
@@ -57,6 +58,17 @@ pub struct Stiffness<'a, R> {
     pub triangles: &'a [[R; 3]],
     /// \[01, 02, 03, 12, 13, 23\] of each quad.
     pub quads: &'a [[R; 6]],
+}
+
+impl<R: Real> Stiffness<'_, R> {
+    /// K_ii of a boundary edge, which has one cell, without what stands on the diagonal besides.
+    pub(crate) fn of_boundary_edge<I: Index>(&self, edges: &Edges<I>, edge: usize) -> R {
+        let mut others = [].iter_mut();
+        match edges.first_side(edge) {
+            Side::Triangle(at, side) => copy_row(&read(self.triangles, at), 3, side, &mut others),
+            Side::Quad(at, side) => copy_row(&read(self.quads, at), 4, side, &mut others),
+        }
+    }
 }
 
 /// Fills the element matrices of `mesh`; quads are parametric and integrated with `points`² Gauss

@@ -5,7 +5,7 @@
 //!   Neumann     A∇u·n = g                   b_E += ∫g
 //!   Robin       A∇u·n = h (u_ext − u)       K_EE += ∫h,  b_E += ∫h u_ext
 //!   contact     u ≥ ψ, A∇u·n ≥ q, and       b_E += ∫q,  u_E ≥ mean of ψ
-//!               (u − ψ)(A∇u·n − q) = 0
+//!               (u − ψ)(A∇u·n − q) = 0      or any other range of fluxes: `flux_range` beside it
 //! ```
 //! n points out of the domain, and flux is A∇u·n without a minus sign: heat that flows *in* when u
 //! is a temperature. A new kind of condition is a record here with what it adds to the load;
@@ -13,8 +13,9 @@
 
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
-use crate::index::Index;
+use crate::index::{Index, read};
 use crate::mesh::edges::{Edges, known};
+use crate::mesh::flux_range::{FluxRange, Spans};
 use crate::real::Real;
 
 /// A given flux on a free boundary edge. An edge without a record has flux 0.
@@ -37,49 +38,13 @@ pub struct Robin<R, I> {
     pub ambient: R,
 }
 
-/// What ∫_E A∇u·n may be on a contact edge: ∫_E q at least.
-#[derive(Debug, Clone, Copy)]
-pub struct FluxRange<R> {
-    least: R,
-}
-
-impl<R: Real> FluxRange<R> {
-    /// All fluxes from ∫_E q on.
-    pub const fn from(least: R) -> Self {
-        Self { least }
-    }
-
-    /// ∫_E q, the flux of an edge that does not touch.
-    #[inline(always)]
-    pub fn least(self) -> R {
-        self.least
-    }
-
-    /// Whether ∫_E τ·n may be so. NaN may not.
-    #[inline(always)]
-    pub fn admits(self, flux: R) -> bool {
-        flux >= self.least
-    }
-
-    /// The admissible flux that is nearest.
-    #[inline(always)]
-    pub fn nearest(self, flux: R) -> R {
-        flux.or_larger(self.least)
-    }
-
-    /// λ = ∫_E (τ·n − q) ≥ 0 of an admissible flux.
-    #[inline(always)]
-    pub fn multiplier(self, flux: R) -> R {
-        flux - self.least
-    }
-}
-
 /// The conditions on all boundary edges (borrowed, validated).
 #[derive(Debug, Clone, Copy)]
 pub struct Boundary<'a, R, I> {
     neumann: &'a [Neumann<R, I>],
     robin: &'a [Robin<R, I>],
     contact_flux: &'a [R],
+    spans: Spans<'a, R>,
 }
 
 impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
@@ -127,7 +92,16 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
             same_length(Array::Contact, contact_flux.len(), edges.counts().contact)?;
         }
         all_finite(Array::Contact, contact_flux)?;
-        Ok(Self { neumann, robin, contact_flux })
+        Ok(Self { neumann, robin, contact_flux, spans: Spans::UNLIMITED })
+    }
+
+    /// The same with other ranges than "from ∫q on": `contact_flux` holds their bases then.
+    ///
+    /// # Errors
+    /// Another number of spans than there are contact edges.
+    pub fn with_spans(self, edges: &Edges<I>, spans: Spans<'a, R>) -> Result<Self, Error> {
+        spans.check_length(edges.counts().contact)?;
+        Ok(Self { spans, ..self })
     }
 
     /// Given fluxes.
@@ -143,7 +117,7 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
     /// What ∫_E A∇u·n may be on a contact edge, counted from the first contact edge.
     #[inline(always)]
     pub fn contact_flux(&self, contact: usize) -> FluxRange<R> {
-        FluxRange::from(crate::index::read(self.contact_flux, contact))
+        FluxRange::new(read(self.contact_flux, contact), self.spans.on(contact))
     }
 
     /// Adds what the conditions contribute to the load b (one entry an unknown).

@@ -5,8 +5,8 @@
 //! touch now, K is a plain positive definite matrix, so
 //! ```text
 //!   1. sweep once with ω = 1: edges that are pulled off the gap leave it
-//!   2. hold the edges with u = ψ; minimise over the others by conjugate gradients,
-//!      preconditioned with D; a step that would cross the gap ends on it, and 1. follows
+//!   2. hold the edges with u = ψ; minimise over the others, each with the load of its side of the gap, by conjugate
+//!      gradients, preconditioned with D; a step that would cross the gap ends on it, and 1. follows
 //!   3. back to 1. until nothing leaves the face and its residual is small
 //! ```
 //! Every step lowers the energy. Two vectors of scratch; K p is computed twice instead of stored.
@@ -14,6 +14,7 @@
 use crate::discrete::rows::Rows;
 use crate::discrete::signorini::System;
 use crate::error::{Array, Error, same_length};
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 use crate::solve::psor;
@@ -76,6 +77,11 @@ fn start<R: Real, I: Index>(
     let rows = system.matrix().iter().zip(system.load()).enumerate();
     for ((i, (row, &load)), residual) in rows.zip(buffers.residual.iter_mut()) {
         *residual = if is_held(system, u, i) { R::ZERO } else { load - row.dot(u) };
+        if features::LIMITED
+            && let Some(law) = system.law_on(i)
+        {
+            *residual += law.missing(read(u, i));
+        }
         let step = *residual / row.diagonal();
         small &= step.magnitude() <= goal;
         if let Some(entry) = buffers.direction.get_mut(i) {
@@ -132,7 +138,7 @@ fn land<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], direction: &[R], 
     let entries = u.iter_mut().zip(direction).skip(system.counts().free);
     for ((u, &p), law) in entries.zip(system.law().edges()) {
         let rounding = R::EPSILON * (u.magnitude() + room * p.magnitude());
-        if p < R::ZERO && law.opening(*u) <= rounding {
+        if law.lands(*u, p, rounding) {
             *u = law.gap();
         }
     }

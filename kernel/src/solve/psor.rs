@@ -5,6 +5,8 @@
 //!                                                                  on free edges,
 //!   u_i ← max(ψ_i, the same)                                       on contact edges.
 //! ```
+//! Where the flux of a contact edge has two ends, the same with the load of each is what u_i lies between, and ψ_i if it may:
+//! a proximal step, which lowers the energy for any ω in (0, 2) too ([`crate::discrete::law::EdgeLaw::project`]).
 //! It converges for any ω in (0, 2) and any start, since K is symmetric positive definite. It knows
 //! rows and bounds, and nothing of elements. A NaN becomes the gap on a contact edge, and spreads
 //! elsewhere: the residual tells.
@@ -13,7 +15,7 @@
 //! u without a test of the position saves half of the instructions of plain safe code, and a fifth of those
 //! of the best that was found (`tests/firmware/cost.txt`, `docs/decisions/packed-rows.md`).
 
-use crate::discrete::law::Law;
+use crate::discrete::law::{EdgeLaw, Law, Move};
 use crate::discrete::rows::{Row, Rows};
 use crate::error::{Array, Error, same_length};
 use crate::features;
@@ -38,7 +40,11 @@ pub fn sweep<R: Real, I: Index, const WIDTH: usize>(
     unsafe {
         relax_free(rows, u);
         if features::CONTACT {
-            relax_contact(rows, law, u);
+            // Whoever has no limits pays for none.
+            match law.is_limited() {
+                true => relax_contact(rows, u, law.edges().zip(rows.contact()).map(soft)),
+                false => relax_contact(rows, u, law.edges().map(|law| (law, R::ZERO))),
+            }
         }
     }
     Ok(())
@@ -83,6 +89,7 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     same_length(Array::Unknowns, u.len(), rows.counts().edges())?;
     law.check_length(rows.counts())?;
     let (keep, per_omega) = (R::ONE - rows.omega(), R::ONE / rows.omega());
+    let softness = |row: &Row<R, I, WIDTH>| row.softness() * per_omega;
     let step = |row: &Row<R, I, WIDTH>, neighbours: usize, own: R| {
         // SAFETY: u has an entry for each edge of the rows' mesh.
         (unsafe { relaxed(row, neighbours, keep, own, u.as_ptr()) } - own) * per_omega
@@ -105,7 +112,9 @@ pub fn defect<R: Real, I: Index, const WIDTH: usize>(
     let on_contact = u.iter().skip(rows.free().len());
     for ((row, &own), law) in rows.contact().iter().zip(on_contact).zip(law.edges()) {
         let step = step(row, WIDTH / 2, own);
-        include(law.blocks(own, step).unwrap_or(step).magnitude());
+        let (Move::Row(size) | Move::Gap(size)) =
+            law.movement(law.opening(own), step, softness(row));
+        include(size.magnitude());
     }
     Ok(defect)
 }
@@ -131,11 +140,18 @@ pub(crate) fn is_rounding<R: Real, I: Index, const WIDTH: usize>(
             let product = entry * read(u, offset.at() / size_of::<R>());
             (step - product, size + product.magnitude())
         });
-        match i.checked_sub(rows.counts().free).map(|at| law.on(at)) {
-            Some(law) if omega * law.opening(own) < -step => {
-                law.opening(own) <= slack * (own.magnitude() + law.gap().magnitude())
+        let Some(at) = i.checked_sub(rows.counts().free) else {
+            return step.magnitude() <= slack * size;
+        };
+        let law = law.on(at);
+        match law.movement(omega * law.opening(own), step, row.softness()) {
+            Move::Gap(_) => {
+                law.opening(own).magnitude() <= slack * (own.magnitude() + law.gap().magnitude())
             }
-            _ => step.magnitude() <= slack * size,
+            Move::Row(moved) if features::LIMITED => {
+                moved.magnitude() <= slack * (size + (moved - step).magnitude())
+            }
+            Move::Row(_) => step.magnitude() <= slack * size,
         }
     })
 }
@@ -165,21 +181,29 @@ unsafe fn relax_free<R: Real, I: Index, const WIDTH: usize>(rows: &Rows<R, I, WI
 #[allow(unsafe_code)]
 unsafe fn relax_contact<R: Real, I: Index, const WIDTH: usize>(
     rows: &Rows<R, I, WIDTH>,
-    law: Law<R>,
     u: &mut [R],
+    laws: impl Iterator<Item = (EdgeLaw<R>, R)>,
 ) {
     let keep = R::ONE - rows.omega();
     let u = u.as_mut_ptr();
     // SAFETY: as the caller has promised, and the contact edges follow the free ones in u.
     let mut own = unsafe { u.add(rows.free().len()) };
-    for (row, law) in rows.contact().iter().zip(law.edges()) {
+    for (row, (law, softness)) in rows.contact().iter().zip(laws) {
         // SAFETY: as above, and there is a row for each contact edge.
         unsafe {
             let relaxed = relaxed(row, WIDTH / 2, keep, *own, u);
-            own.write(law.project(relaxed));
+            own.write(law.project(relaxed, softness));
             own = own.add(1);
         }
     }
+}
+
+/// A law with what its row is moved by, by a unit of load.
+#[inline(always)]
+fn soft<R: Real, I: Index, const WIDTH: usize>(
+    (law, row): (EdgeLaw<R>, &Row<R, I, WIDTH>),
+) -> (EdgeLaw<R>, R) {
+    (law, row.softness())
 }
 
 /// The new value of an unknown before projection, from the first `neighbours` of its row.

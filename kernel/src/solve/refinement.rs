@@ -124,6 +124,8 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
             low.fill(R::ZERO);
             break;
         }
+        let on_contact = u.iter_mut().skip(system.counts().free);
+        law.close(on_contact.zip(low.iter_mut().skip(system.counts().free)), system.law());
         let change = low.iter().fold(R::ZERO, |most, v| most.or_larger(v.magnitude()));
         renormalise(u, low);
         // u + (ψ − u) may round to less than ψ.

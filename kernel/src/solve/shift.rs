@@ -7,10 +7,12 @@
 //!   t = dᵀr / dᵀKd,    dᵀKd = −Σ K_ij + Σ c_i,    dᵀr = Σ b_i − Σ K_ij (u_j − u_i) − Σ c_i u_i,
 //! ```
 //! with i in P, j outside of it, and c_i what K_ii has beyond the element matrices ([`crate::mesh::diagonal`]). What flows
-//! inside of P cancels, and left out it leaves no rounding errors behind. t < 0 ends where the first edge touches. Each
+//! inside of P cancels, and left out it leaves no rounding errors behind. t < 0 ends where the first open edge touches, and
+//! t > 0 where the first one below its gap does; there b contains what its flux has beyond the base. Each
 //! shift lowers the energy, as every sweep does.
 
 use crate::discrete::signorini::{Shifts, System};
+use crate::features;
 use crate::index::{Index, read};
 use crate::real::Real;
 
@@ -55,7 +57,7 @@ fn best<R: Real, I: Index>(
     u: &[R],
 ) -> R {
     let (mut force, mut stiffness) = (R::ZERO, R::ZERO);
-    let mut room = R::ONE / R::ZERO;
+    let [mut down, mut up] = [R::INFINITY; 2];
     for (i, (row, &load)) in system.matrix().iter().zip(system.load()).enumerate() {
         if !moves(system, shifts, part, u, i) {
             continue;
@@ -69,7 +71,13 @@ fn best<R: Real, I: Index>(
             }
         }
         if let Some(law) = system.law_on(i) {
-            room = room.or_smaller(law.opening(own));
+            let opening = law.opening(own);
+            if features::LIMITED && opening < R::ZERO {
+                up = up.or_smaller(-opening);
+                force += law.missing(own);
+            } else {
+                down = down.or_smaller(opening);
+            }
         }
     }
     for (i, term) in shifts.diagonal.entries() {
@@ -81,9 +89,12 @@ fn best<R: Real, I: Index>(
     let shift = if stiffness > R::ZERO {
         force / stiffness
     } else if force < R::ZERO {
-        -room
+        -down
+    } else if features::LIMITED && force > R::ZERO && up.finite() {
+        up
     } else {
         R::ZERO
     };
-    shift.or_larger(-room)
+    let shift = shift.or_larger(-down);
+    if features::LIMITED { shift.or_smaller(up) } else { shift }
 }

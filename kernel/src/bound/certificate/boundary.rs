@@ -3,6 +3,8 @@
 use super::extension::{extension, jump, of_means, of_s};
 use super::parts::Parts;
 use super::{Continuous, Discretization, LoadCase};
+use crate::bound::equilibrium::Iterate;
+use crate::discrete::law::Law;
 use crate::features;
 use crate::index::{Index, read};
 use crate::mesh::edges::Side;
@@ -12,7 +14,7 @@ use crate::real::Real;
 pub(super) fn add<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
-    u: &[R],
+    Iterate { u, law: contact }: Iterate<R>,
     s: Continuous<R>,
     tau: &[R],
     indicators: &mut [R],
@@ -32,9 +34,21 @@ pub(super) fn add<R: Real, I: Index>(
     for (at, gap) in gap.iter().enumerate() {
         let edge = counts.free + at;
         let (tau, range) = (read(tau, edge), given.boundary.contact_flux(at));
-        let excess = R::TWO * excess(discretization, s, edge, gap);
-        let terms = tau.magnitude() + range.least().magnitude();
-        take(parts, edge, range.multiplier(tau) * excess, terms * excess);
+        let [a, b] = ends(discretization, s, edge);
+        let excess = Excess { ends: [a - gap[0], b - gap[1]], bubble: read(s.bubbles, edge) };
+        if !contact.is_limited() {
+            let excess = R::TWO * excess.mean();
+            let terms = tau.magnitude() + range.base().magnitude();
+            take(parts, edge, range.multiplier(tau) * excess, terms * excess);
+            continue;
+        }
+        for (end, excess) in range.ends().into_iter().zip(excess.sides()) {
+            // On a side that there is not, s is but for rounding, which stands elsewhere.
+            if end.finite() {
+                let (excess, terms) = (R::TWO * excess, tau.magnitude() + end.magnitude());
+                take(parts, edge, (tau - end).magnitude() * excess, terms * excess);
+            }
+        }
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
@@ -57,7 +71,7 @@ pub(super) fn add<R: Real, I: Index>(
             parts.algebraic += off * off / law.coefficient;
         }
     }
-    parts.perturbation += moved + perturbation(discretization, given, s);
+    parts.perturbation += moved + perturbation(discretization, given, contact, s);
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
         let edge = curved.edge.at();
@@ -76,17 +90,33 @@ fn ends<R: Real, I: Index>(
     s.at(&discretization.edges.endpoints(&discretization.mesh, edge))
 }
 
-/// Mean of s − ψ over a contact edge: (e_a + e_b)/2 + 2d/3.
-fn excess<R: Real, I: Index>(
-    discretization: &Discretization<R, I>,
-    s: Continuous<R>,
-    edge: usize,
-    gap: &[R; 2],
-) -> R {
-    let [a, b] = ends(discretization, s, edge);
-    let (a, b) = ((a - gap[0]).or_larger(R::ZERO), (b - gap[1]).or_larger(R::ZERO));
-    let mean = R::HALF * (a + b) + R::TWO * R::THIRD * read(s.bubbles, edge);
-    mean.or_larger(R::ZERO)
+/// s − ψ along a contact edge: e_a (1 − t) + e_b t + 4t(1 − t) d, with d = 0 where the ends have different signs.
+struct Excess<R> {
+    ends: [R; 2],
+    bubble: R,
+}
+
+impl<R: Real> Excess<R> {
+    /// The mean where it is nowhere negative but for rounding: (e_a + e_b)/2 + 2d/3.
+    fn mean(&self) -> R {
+        let [a, b] = self.ends.map(|e| e.or_larger(R::ZERO));
+        let mean = R::HALF * (a + b) + R::TWO * R::THIRD * self.bubble;
+        mean.or_larger(R::ZERO)
+    }
+
+    /// The means of its positive and of its negative part; e_a²/(e_a − e_b)/2 of what crosses 0.
+    fn sides(&self) -> [R; 2] {
+        let ([a, b], zero) = (self.ends, R::ZERO);
+        if a < zero && b > zero || a > zero && b < zero {
+            let (a, b) = (a.magnitude(), b.magnitude());
+            let part = |e: R| R::HALF * e * (e / (a + b));
+            let parts = [part(a), part(b)];
+            return if self.ends[0] > zero { parts } else { [parts[1], parts[0]] };
+        }
+        let is_below = a + b < zero || a + b == zero && self.bubble < zero;
+        let flipped = Self { ends: [-a, -b], bubble: -self.bubble };
+        if is_below { [zero, flipped.mean()] } else { [self.mean(), zero] }
+    }
 }
 
 /// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
@@ -146,6 +176,7 @@ impl<R: Real> Transfer<R> {
 fn perturbation<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
     given: &LoadCase<R, I>,
+    contact: Law<R>,
     s: Continuous<R>,
 ) -> R {
     let (edges, k) = (&discretization.edges, discretization.stiffness);
@@ -158,7 +189,8 @@ fn perturbation<R: Real, I: Index>(
         let (edge, mut moved) = (edges.counts().free + at, R::TWO * R::EPSILON * value);
         if features::CONTACT && at < given.ends.gap.len() {
             let [a, b] = ends(discretization, s, edge);
-            let missing = (pair[0] - a).or_larger(pair[1] - b).or_larger(R::ZERO);
+            let depth = |value, psi| contact.on(at).depth_at(value, psi);
+            let missing = depth(a, pair[0]).or_larger(depth(b, pair[1])).or_larger(R::ZERO);
             moved += if missing <= slack { missing } else { R::ZERO };
         }
         let of_cell = match edges.first_side(edge) {

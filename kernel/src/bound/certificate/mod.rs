@@ -7,7 +7,9 @@
 //!        = ‖A^½∇(u − s)‖² + ‖A^{−½}(σ − τ)‖² + ∫_R h(u − s)² + ∫_R ((σ − τ)·n)²/h
 //!          + 2∫_C [(σ·n − q)(s − ψ) + (τ·n − q)(u − ψ)],          every term ≥ 0:
 //! ```
-//! an identity without an unknown constant. s comes from [`crate::bound::conforming`], τ from
+//! an identity without an unknown constant. Where the flux on C has two ends, lo ≤ τ·n ≤ hi, s may be below ψ where hi is
+//! finite, the contact term is 2∫_C (τ·n − lo)(s − ψ)⁺ + (hi − τ·n)(ψ − s)⁺, and each of the last two terms is the same of
+//! (σ, s) and (τ, u). s comes from [`crate::bound::conforming`], τ from
 //! [`crate::bound::equilibrium`]; f, g and q are there means over cells and edges, and what they leave out,
 //! the oscillation, is a number of the caller's: total = osc + √(gap² + osc²) + rounding.
 //!
@@ -151,6 +153,10 @@ pub fn certify<R: Real, I: Index>(
     same_length_or_empty(Array::Scratch, indicators.len(), edges.cells())?;
     same_length_or_empty(Array::Robin, given.transfer.len(), given.boundary.robin().len())?;
     averages::fill(cells, given.loads, discretization.metric.distortions, u, vertices, tau)?;
+    if law.is_limited() {
+        let gap = given.ends.gap;
+        conforming::ease(mesh, edges, discretization.stiffness, u, law, gap, vertices);
+    }
     conforming::impose(mesh, edges, u, law, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, law, given.ends, vertices, bubbles)?;
     equilibrium::impose(edges, &given.boundary, iterate, tau);
@@ -159,7 +165,7 @@ pub fn certify<R: Real, I: Index>(
     if let Some(edge) = equilibrium::pulled(edges, &given.boundary, tau) {
         return Ok(Verdict::Pulled { edge });
     }
-    boundary::add(discretization, given, u, s, tau, indicators, &mut parts);
+    boundary::add(discretization, given, iterate, s, tau, indicators, &mut parts);
     Ok(parts.conclude(cells.len(), discretization.stability, given.oscillation))
 }
 

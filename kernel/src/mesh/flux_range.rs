@@ -1,0 +1,187 @@
+//! What the flux through a contact edge may be: from one end to another, either of which may be infinite.
+//!
+//! ```text
+//!   ∫lo ≤ ∫_E A∇u·n ≤ ∫hi        base = ∫lo,  span = ∫(hi − lo), 0 at least or ∞      [base, base + span]
+//!                                 base = ∫hi,  span = −∞  where lo = −∞                (−∞, base]
+//! ```
+//! The base is the end that the load b contains. A span of ∞ is unilateral contact, u ≥ ψ; −∞ is u ≤ ψ; 0 is a given
+//! flux. In a build without the feature `limited` all spans are ∞, and nothing is stored or asked.
+
+use core::marker::PhantomData;
+
+use crate::error::{Array, Error, same_length};
+use crate::features;
+use crate::real::Real;
+
+/// From the base of a range to its other end.
+#[derive(Debug, Clone, Copy)]
+pub struct Span<R> {
+    #[cfg(feature = "limited")]
+    length: R,
+    scalar: PhantomData<R>,
+}
+
+impl<R: Real> Span<R> {
+    /// ∞
+    pub const UNLIMITED: Self = Self {
+        #[cfg(feature = "limited")]
+        length: R::INFINITY,
+        scalar: PhantomData,
+    };
+
+    /// A span of this length: at least 0, ∞, or −∞.
+    #[cfg(feature = "limited")]
+    pub const fn new(length: R) -> Self {
+        Self { length, scalar: PhantomData }
+    }
+
+    /// ∫(hi − lo), ∞, or −∞.
+    #[inline(always)]
+    pub fn length(self) -> R {
+        #[cfg(feature = "limited")]
+        return self.length;
+        #[cfg(not(feature = "limited"))]
+        R::INFINITY
+    }
+
+    /// Both ends from the base on.
+    #[inline(always)]
+    pub(crate) fn ends(self) -> [R; 2] {
+        let length = self.length();
+        if length < R::ZERO { [length, R::ZERO] } else { [R::ZERO, length] }
+    }
+
+    /// Whether the flux goes up without an end: u ≥ ψ then.
+    #[inline(always)]
+    pub(crate) fn is_above(self) -> bool {
+        !features::LIMITED || self.length() == R::INFINITY
+    }
+
+    /// Whether it goes down without an end: u ≤ ψ then.
+    #[inline(always)]
+    pub(crate) fn is_below(self) -> bool {
+        features::LIMITED && self.length() < R::ZERO
+    }
+}
+
+/// The spans of all contact edges in their order (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Spans<'a, R> {
+    #[cfg(feature = "limited")]
+    lengths: &'a [R],
+    lent: PhantomData<&'a R>,
+}
+
+impl<'a, R: Real> Spans<'a, R> {
+    /// ∞ on every edge.
+    pub const UNLIMITED: Self = Self {
+        #[cfg(feature = "limited")]
+        lengths: &[],
+        lent: PhantomData,
+    };
+
+    /// ∫(hi − lo) of each contact edge, ∞, or −∞; none at all where every one is ∞.
+    ///
+    /// # Errors
+    /// A negative one, or NaN.
+    #[cfg(feature = "limited")]
+    pub fn new(lengths: &'a [R]) -> Result<Self, Error> {
+        let is_none = |length: &R| !(*length >= R::ZERO || *length == -R::INFINITY);
+        match lengths.iter().position(is_none) {
+            Some(at) => Err(Error::OutOfRange { of: Array::ContactSpans, at }),
+            None => Ok(Self { lengths, lent: PhantomData }),
+        }
+    }
+
+    /// ∫(hi − lo) of each contact edge, or nothing.
+    pub fn lengths(&self) -> &'a [R] {
+        #[cfg(feature = "limited")]
+        return self.lengths;
+        #[cfg(not(feature = "limited"))]
+        &[]
+    }
+
+    /// Whether any may be other than ∞.
+    #[inline(always)]
+    pub(crate) fn are_limited(&self) -> bool {
+        features::LIMITED && !self.lengths().is_empty()
+    }
+
+    /// The span of contact edge `contact`.
+    #[inline(always)]
+    pub fn on(&self, contact: usize) -> Span<R> {
+        #[cfg(feature = "limited")]
+        return self.lengths.get(contact).map_or(Span::UNLIMITED, |&length| Span::new(length));
+        #[cfg(not(feature = "limited"))]
+        {
+            let _ = contact;
+            Span::UNLIMITED
+        }
+    }
+
+    pub(crate) fn check_length(&self, contact: usize) -> Result<(), Error> {
+        if !self.are_limited() {
+            return Ok(());
+        }
+        same_length(Array::ContactSpans, self.lengths().len(), contact)
+    }
+}
+
+/// What ∫_E A∇u·n may be on a contact edge.
+#[derive(Debug, Clone, Copy)]
+pub struct FluxRange<R> {
+    base: R,
+    span: Span<R>,
+}
+
+impl<R: Real> FluxRange<R> {
+    /// All fluxes from ∫_E q on.
+    pub const fn from(least: R) -> Self {
+        Self { base: least, span: Span::UNLIMITED }
+    }
+
+    /// The range from this base on.
+    #[inline(always)]
+    pub const fn new(base: R, span: Span<R>) -> Self {
+        Self { base, span }
+    }
+
+    /// The end that the load contains: the flux of an edge with u > ψ, of one with u < ψ where lo = −∞.
+    #[inline(always)]
+    pub fn base(self) -> R {
+        self.base
+    }
+
+    /// ∫lo and ∫hi.
+    #[inline(always)]
+    pub fn ends(self) -> [R; 2] {
+        let [least, most] = self.span.ends();
+        [self.base + least, self.base + most]
+    }
+
+    /// Whether ∫_E τ·n may be so. NaN may not.
+    #[inline(always)]
+    pub fn admits(self, flux: R) -> bool {
+        if self.span.is_above() {
+            return flux >= self.base;
+        }
+        let [least, most] = self.ends();
+        flux >= least && flux <= most
+    }
+
+    /// The admissible flux that is nearest.
+    #[inline(always)]
+    pub fn nearest(self, flux: R) -> R {
+        if self.span.is_above() {
+            return flux.or_larger(self.base);
+        }
+        let [least, most] = self.ends();
+        flux.or_larger(least).or_smaller(most)
+    }
+
+    /// λ ≥ 0 of an admissible flux: ∫_E (τ·n − lo), or ∫_E (hi − τ·n) where lo = −∞.
+    #[inline(always)]
+    pub fn multiplier(self, flux: R) -> R {
+        if self.span.is_below() { self.base - flux } else { flux - self.base }
+    }
+}
