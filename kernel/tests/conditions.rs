@@ -9,6 +9,7 @@ use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
     Error, Libm, Math, Mesh, Micromath, Real, Tensor, Workspace, solve::Relaxation, workspace,
@@ -145,7 +146,13 @@ fn a_part_floats_where_nothing_passes_its_boundary() -> Result<(), Error> {
     let found = |coefficient: f64, load: [f64; 3], slack: f64| {
         let laws = [Robin { edge: 0, coefficient, ambient: 0.0 }];
         let boundary = Boundary::new(&edges, &[], &laws, &[])?;
-        examine(&edges, DiagonalTerms::new(&boundary), &load, slack, &mut [Part::default()])
+        examine(
+            &edges,
+            DiagonalTerms::new(&boundary),
+            (&load, Spans::UNLIMITED),
+            slack,
+            &mut [Part::default()],
+        )
     };
     let counts = |held, floating| Ok(PartCounts { held, contact: 0, floating });
     assert_eq!(found(1.0, [1.0; 3], 1e-9), counts(1, 0));

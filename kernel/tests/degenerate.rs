@@ -11,6 +11,7 @@ use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
     Error, Libm, Mesh, Micromath, Tensor, solve::Relaxation, solve::psor, workspace,
@@ -92,7 +93,13 @@ fn parts_are_told_apart() {
         let boundary = Boundary::new(&edges, &[], &[], &[])?;
         let unknowns = edges.counts().unknowns();
         let loads = vec![load; unknowns];
-        examine(&edges, DiagonalTerms::new(&boundary), &loads, 1e-9, &mut [Part::default(); 2])
+        examine(
+            &edges,
+            DiagonalTerms::new(&boundary),
+            (&loads, Spans::UNLIMITED),
+            1e-9,
+            &mut [Part::default(); 2],
+        )
     };
     let contact = Condition::Contact { gap: 0.0, flux: 0.0 };
     let counts = |held, contact, floating| Ok(PartCounts { held, contact, floating });

@@ -238,6 +238,7 @@ const VERSION: &str = concat!(
 fn effect(input: &Input) -> String {
     let (field, unit) = match input.field.value {
         Field::Flux => ("flux", "that of a flux (A∇u)·n, n outward"),
+        Field::Limit => ("limit", "that of a flux (A∇u)·n, n outward"),
         Field::Value => ("value", "that of u"),
         Field::Gap => ("gap", "that of u"),
         Field::Ambient => ("ambient", "that of u"),
@@ -265,6 +266,9 @@ fn meaning(output: &Output) -> String {
             )
         }
         Quantity::Length => format!("Length of {place} where u = ψ; unit of the mesh."),
+        Quantity::Saturated => {
+            format!("Length of {place} where the flux is at its limit, u < ψ; unit of the mesh.")
+        }
         Quantity::Mean => format!("Mean of u over {place}."),
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})."),
         Quantity::Bound => {

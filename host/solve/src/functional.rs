@@ -21,6 +21,8 @@ pub enum Functional {
     Mean(Vec<(usize, f64)>),
     /// The lengths of those of these contact edges that are active.
     Length(Vec<(usize, f64)>),
+    /// The lengths of those of these contact edges whose flux is at its limit.
+    Saturated(Vec<(usize, f64)>),
     /// The error bound.
     Bound,
 }
@@ -62,6 +64,7 @@ impl Functional {
             Quantity::Probe { at } => probe(problem, output, at)?,
             Quantity::Mean => Self::Mean(parts(edges.map(length).collect())),
             Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
+            Quantity::Saturated => Self::Saturated(edges.filter(contact).map(length).collect()),
             Quantity::Bound => Self::Bound,
         })
     }

@@ -73,18 +73,27 @@ fn evaluate(problem: &Problem, reading: Reading, functional: &Functional) -> Opt
         }
         Functional::Length(lengths) => {
             let touches = |edge: usize| reading.law(problem, edge - free).touches(reading.u[edge]);
-            let active = lengths.iter().filter(|(edge, _)| touches(*edge));
-            Some(active.fold(0.0, |sum, (_, length)| sum + length))
+            Some(length_where(lengths, touches))
+        }
+        Functional::Saturated(lengths) => {
+            let at_limit =
+                |edge: usize| reading.law(problem, edge - free).is_saturated(reading.u[edge]);
+            Some(length_where(lengths, at_limit))
         }
         Functional::Bound => reading.bound,
     }
+}
+
+fn length_where(lengths: &[(usize, f64)], is_counted: impl Fn(usize) -> bool) -> f64 {
+    let counted = lengths.iter().filter(|(edge, _)| is_counted(*edge));
+    counted.fold(0.0, |sum, (_, length)| sum + length)
 }
 
 impl Reading<'_> {
     /// The law on a contact edge with ψ as the scalar holds it, so that u_E = ψ_E can be asked.
     fn law(&self, problem: &Problem, contact: usize) -> EdgeLaw<f64> {
         let gap = self.scalar.round(problem.loads.gap[contact] / self.units.u) * self.units.u;
-        EdgeLaw::above(gap)
+        EdgeLaw::above(gap).with_span(problem.loads.flux_range(contact).span())
     }
 
     /// ∫_E τ·n, within the law of contact on a contact edge.

@@ -99,7 +99,8 @@ pub fn impose<R: Real, I: Index>(
 /// ```text
 ///   u > ψ:  s ← min(ψ, s + (hi − lo)/K)  where s < ψ        u < ψ:  s ← max(ψ, s − (hi − lo)/K)  where s > ψ
 /// ```
-/// To be called before [`impose`]. For huge limits that is the law without one, for lo = hi nothing is changed.
+/// To be called before [`impose`]. For huge limits that is the law without one, for lo = hi nothing is changed. Where hi − lo
+/// varies along edges, s is put on the side of u: its price is known in the mean alone.
 pub(crate) fn ease<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
@@ -110,12 +111,16 @@ pub(crate) fn ease<R: Real, I: Index>(
     values: &mut [R],
 ) {
     let free = edges.counts().free;
+    let varies = law.spans().excess() > R::ZERO;
     for (at, (gap, law)) in gap.iter().zip(law.edges()).enumerate() {
         let opening = law.opening(read(u, free + at));
         if !law.has_both_sides() || opening == R::ZERO {
             continue;
         }
-        let reach = law.reach(stiffness.of_boundary_edge(edges, free + at));
+        let reach = match varies {
+            true => R::INFINITY,
+            false => law.reach(stiffness.of_boundary_edge(edges, free + at)),
+        };
         each_end(mesh, edges, free + at, gap, |vertex, psi| {
             let excess = read(values, vertex) - psi;
             if opening > R::ZERO && excess < R::ZERO {

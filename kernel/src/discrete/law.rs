@@ -160,6 +160,12 @@ impl<R: Real> EdgeLaw<R> {
         Self { lower, span: Span::UNLIMITED }
     }
 
+    /// The same with this range of fluxes.
+    #[must_use]
+    pub const fn with_span(self, span: Span<R>) -> Self {
+        Self { span, ..self }
+    }
+
     /// The mean of ψ, where u touches.
     #[inline(always)]
     pub fn gap(self) -> R {

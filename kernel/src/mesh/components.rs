@@ -4,11 +4,15 @@
 //! ([`crate::mesh::diagonal`]): one with a Robin edge. A part held by contact alone needs loads that push it on:
 //! ∫f + ∫g + ∫q < 0 (= 0: not unique, > 0: none). A part held by nothing needs loads in balance, and its solution is
 //! determined up to a constant.
+//!
+//! Where the fluxes of a part's contact edges have two ends, those of all of them together must be able to balance the loads:
+//! the sum of b at one end < 0 < that at the other.
 
 use crate::error::{Array, Error, same_length};
 use crate::index::{Index, read};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Block, Edges};
+use crate::mesh::flux_range::Spans;
 use crate::real::Real;
 
 /// What holds a connected part.
@@ -47,7 +51,7 @@ pub struct PartCounts {
 
 /// Finds the connected parts and checks that each has a solution.
 ///
-/// `diagonal` is what K has on its diagonal beyond the element matrices, `load` is the assembled b, `parts` has one entry a
+/// `diagonal` is what K has on its diagonal beyond the element matrices, `load` is the assembled b with the `spans` of contact that go with it, `parts` has one entry a
 /// cell. Loads count as balanced when their sum is below `slack` times the sum of their sizes: what quadrature and rounding
 /// left in them.
 ///
@@ -57,7 +61,7 @@ pub struct PartCounts {
 pub fn examine<R: Real, I: Index>(
     edges: &Edges<I>,
     diagonal: DiagonalTerms<R, I>,
-    load: &[R],
+    (load, spans): (&[R], Spans<R>),
     slack: R,
     parts: &mut [Part<R, I>],
 ) -> Result<PartCounts, Error> {
@@ -74,7 +78,46 @@ pub fn examine<R: Real, I: Index>(
         hold(edges, parts, edge, support, read(load, edge));
     }
     diagonal.holding().for_each(|edge| hold(edges, parts, edge, Support::Held, R::ZERO));
+    if spans.are_limited() {
+        limit(edges, spans, slack, parts)?;
+    }
     judge(parts, slack)
+}
+
+/// Puts the balance of parts that contact alone holds at the lower end of their fluxes, and refuses what exceeds the upper one.
+fn limit<R: Real, I: Index>(
+    edges: &Edges<I>,
+    spans: Spans<R>,
+    slack: R,
+    parts: &mut [Part<R, I>],
+) -> Result<(), Error> {
+    spans.check_length(edges.counts().contact)?;
+    let root_of = |parts: &[Part<R, I>], at: usize| {
+        let edge = edges.counts().free + at;
+        read(parts, cell(edges, read(edges.half_edges(), edge)[0]).at()).root.at()
+    };
+    for of in 0..parts.len() {
+        let Some(part) = parts.get(of).copied() else { break };
+        if part.root.at() != of || part.support != Support::Contact {
+            continue;
+        }
+        let (mut least, mut most, mut size) = (part.balance, part.balance, part.magnitude);
+        let own = (0..edges.counts().contact).filter(|&at| root_of(parts, at) == of);
+        for [down, up] in own.map(|at| spans.on(at).ends()) {
+            (least, most) = (least + down, most + up);
+            size += if up.finite() { up } else { R::ZERO };
+        }
+        if most.magnitude() <= slack * size {
+            return Err(Error::NotUnique { cell: of });
+        }
+        if !(most > R::ZERO) {
+            return Err(Error::NoSolution { cell: of });
+        }
+        if let Some(part) = parts.get_mut(of) {
+            (part.balance, part.magnitude) = (least, size);
+        }
+    }
+    Ok(())
 }
 
 /// Union–find over interior edges, with the path to the root halved on the way.

@@ -69,6 +69,8 @@ impl<R: Real> Span<R> {
 pub struct Spans<'a, R> {
     #[cfg(feature = "limited")]
     lengths: &'a [R],
+    #[cfg(feature = "limited")]
+    excess: R,
     lent: PhantomData<&'a R>,
 }
 
@@ -77,6 +79,8 @@ impl<'a, R: Real> Spans<'a, R> {
     pub const UNLIMITED: Self = Self {
         #[cfg(feature = "limited")]
         lengths: &[],
+        #[cfg(feature = "limited")]
+        excess: R::ZERO,
         lent: PhantomData,
     };
 
@@ -89,8 +93,23 @@ impl<'a, R: Real> Spans<'a, R> {
         let is_none = |length: &R| !(*length >= R::ZERO || *length == -R::INFINITY);
         match lengths.iter().position(is_none) {
             Some(at) => Err(Error::OutOfRange { of: Array::ContactSpans, at }),
-            None => Ok(Self { lengths, lent: PhantomData }),
+            None => Ok(Self { lengths, excess: R::ZERO, lent: PhantomData }),
         }
+    }
+
+    /// The same where hi − lo varies along edges: |E| (hi − lo) is at most `excess` more than its integral anywhere.
+    #[cfg(feature = "limited")]
+    #[must_use]
+    pub fn varying(self, excess: R) -> Self {
+        Self { excess, ..self }
+    }
+
+    /// By how much |E| (hi − lo) may exceed its integral; 0 where it is constant along every edge.
+    pub(crate) fn excess(&self) -> R {
+        #[cfg(feature = "limited")]
+        return self.excess;
+        #[cfg(not(feature = "limited"))]
+        R::ZERO
     }
 
     /// ∫(hi − lo) of each contact edge, or nothing.
@@ -152,6 +171,11 @@ impl<R: Real> FluxRange<R> {
         self.base
     }
 
+    /// From the base to the other end.
+    pub fn span(self) -> Span<R> {
+        self.span
+    }
+
     /// ∫lo and ∫hi.
     #[inline(always)]
     pub fn ends(self) -> [R; 2] {
@@ -177,6 +201,12 @@ impl<R: Real> FluxRange<R> {
         }
         let [least, most] = self.ends();
         flux.or_larger(least).or_smaller(most)
+    }
+
+    /// The end that is nearest to a flux.
+    pub(crate) fn nearest_end(self, flux: R) -> R {
+        let [least, most] = self.ends();
+        if (flux - least).magnitude() <= (most - flux).magnitude() { least } else { most }
     }
 
     /// λ ≥ 0 of an admissible flux: ∫_E (τ·n − lo), or ∫_E (hi − τ·n) where lo = −∞.

@@ -5,6 +5,7 @@ use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::mesh::components::{Part, examine};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::{
     Error, Libm, discrete::assembly, discrete::contact, discrete::flux, solve::psor,
 };
@@ -44,7 +45,13 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         journal.digest("load of triangles", &load);
     }
     let mut parts = vec![Part::default(); edges.cells()];
-    let found = examine(&edges, arrays.diagonal()?, &arrays.load, R::of(1e-4), &mut parts);
+    let found = examine(
+        &edges,
+        arrays.diagonal()?,
+        (&arrays.load, Spans::UNLIMITED),
+        R::of(1e-4),
+        &mut parts,
+    );
     journal.line("parts", found);
     journal.digest("parts", &parts);
     ways(arrays, journal)

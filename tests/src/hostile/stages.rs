@@ -11,6 +11,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::components::{Part, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
 use signorini_kernel::solve::solver::{Outcome, Settings, Status};
@@ -90,8 +91,13 @@ fn solved<R: Bits>(
     let (triangles, quads) = (bytes.reals(k.triangles.len()), bytes.reals(k.quads.len()));
     let cells = CellLoads { triangles: &triangles, quads: &quads };
     assembly::load(edges, cells, &boundary, &mut load)?;
-    let _ =
-        examine(edges, diagonal, &load, bytes.real(), &mut vec![Part::default(); edges.cells()]);
+    let _ = examine(
+        edges,
+        diagonal,
+        (&load, Spans::UNLIMITED),
+        bytes.real(),
+        &mut vec![Part::default(); edges.cells()],
+    );
     let matrix = Csr::new(&row_ptr, &col_idx, &values, counts.edges())?;
     let mut memory = vec![Row::EMPTY; counts.unknowns()];
     let rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;

@@ -71,6 +71,10 @@ table! {
         "quadrature of the norms";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
+    DUVAUT: "a wall above a heater with a limit, against its closed form", 1e-11,
+        "u is affine, and exact in the elements";
+    LIMITED: "contact with a limit by sweeps against the reference, relative to the range of u", 1e-10,
+        "sweeps end at a scaled residual of 1e-13";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
 }

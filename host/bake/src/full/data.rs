@@ -63,6 +63,8 @@ impl<R: Scalar> Data<R> {
                 Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
                 Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
                 Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
+                // Scenes with limits were refused.
+                Field::Limit => Pattern::ContactFlux(Vec::new()),
                 // Coefficients that change were refused: they are no part of a sum of loads.
                 Field::Ambient | Field::Coefficient => ambient(part, is_uniform),
             }

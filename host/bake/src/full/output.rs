@@ -33,6 +33,8 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
         }
         Functional::Mean(parts) => Output::Probe(shares(parts, 0)),
         Functional::Length(lengths) => Output::Length(shares(lengths, free)),
+        // Only problems without limits are baked: nothing is at its limit.
+        Functional::Saturated(_) => Output::Probe(Vec::new()),
         Functional::Bound => Output::Bound,
     }
 }

@@ -117,6 +117,7 @@ impl Quadratic {
             col_idx: &self.matrix.col_idx,
             values: &self.matrix.values,
             load: &self.ticks[tick].load,
+            spans: &[],
             lower: &self.ticks[tick].lower,
             floating: &self.floating,
         }

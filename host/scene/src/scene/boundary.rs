@@ -45,11 +45,39 @@ fn read_robin(table: &Table) -> Result<Condition> {
 }
 
 fn read_contact(table: &Table) -> Result<Condition> {
-    table.only("a contact boundary", &["kind", "gap", "flux"])?;
-    Ok(Condition::Contact {
-        gap: table.expression_or_zero("gap", Variables::SpaceTime)?,
-        flux: table.expression_or_zero("flux", Variables::SpaceTime)?,
-    })
+    table.only("a contact boundary", &["kind", "gap", "flux", "limit"])?;
+    let gap = table.expression_or_zero("gap", Variables::SpaceTime)?;
+    let flux = table.end_of_range("flux", 0.0, Variables::SpaceTime)?;
+    let limit = table.end_of_range("limit", f64::INFINITY, Variables::SpaceTime)?;
+    check_range(table, [&flux, &limit])?;
+    Ok(Condition::Contact { gap, flux, limit })
+}
+
+/// Refuses ends of a flux that leave nothing between them, and such that leave everything. What varies is checked on the mesh.
+fn check_range(table: &Table, ends: [&Located<Expression>; 2]) -> Result<()> {
+    let [least, most] = ends.map(|end| end.value.is_constant());
+    let error = |at: &Located<Expression>, message: String, hint: &str| {
+        Err(table.document.error(at, message).hint(hint.to_owned()).into())
+    };
+    if least == Some(f64::INFINITY) {
+        return error(ends[0], "inf leaves no flux".to_owned(), "an infinite `flux` is \"-inf\"");
+    }
+    if most == Some(f64::NEG_INFINITY) {
+        return error(ends[1], "-inf leaves no flux".to_owned(), "an infinite `limit` is \"inf\"");
+    }
+    match (least, most) {
+        (Some(f64::NEG_INFINITY), Some(f64::INFINITY)) => error(
+            ends[0],
+            "-inf, where limit is inf, leaves every flux: u = gap".to_owned(),
+            "write kind = \"dirichlet\" with the gap as its value, or give one of the two a finite end",
+        ),
+        (Some(least), Some(most)) if least > most => error(
+            ends[1],
+            format!("{most} is less than flux = {least}"),
+            "the flux of a contact boundary lies between `flux` and `limit`",
+        ),
+        _ => Ok(()),
+    }
 }
 
 /// What a datum of a condition is.
@@ -81,9 +109,11 @@ macro_rules! data_of {
                 (Role::Coefficient(Unit::Conductivity), coefficient),
                 (Role::Load(Field::Ambient), ambient),
             ],
-            Condition::Contact { gap, flux } => {
-                vec![(Role::Load(Field::Gap), gap), (Role::Load(Field::Flux), flux)]
-            }
+            Condition::Contact { gap, flux, limit } => vec![
+                (Role::Load(Field::Gap), gap),
+                (Role::Load(Field::Flux), flux),
+                (Role::Load(Field::Limit), limit),
+            ],
         }
     };
 }
@@ -117,13 +147,23 @@ impl Condition {
         }
     }
 
+    /// Whether its flux has another range than "from `flux` on".
+    pub fn is_limited(&self) -> bool {
+        let Self::Contact { flux, limit, .. } = self else { return false };
+        limit.value.is_constant() != Some(f64::INFINITY)
+            || flux.value.is_constant() == Some(f64::NEG_INFINITY)
+    }
+
     /// The `field` of this boundary that an input may add to, if its kind has it.
     pub fn field(&self, field: Field) -> Option<&Located<Expression>> {
         match field {
             Field::Coefficient => self.transfer(),
-            Field::Flux | Field::Value | Field::Gap | Field::Ambient | Field::Source => {
-                self.load(field)
-            }
+            Field::Flux
+            | Field::Limit
+            | Field::Value
+            | Field::Gap
+            | Field::Ambient
+            | Field::Source => self.load(field),
         }
     }
 

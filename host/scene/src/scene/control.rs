@@ -7,8 +7,9 @@ use super::{Boundary, Condition, Field, Input, Located, Output, Quantity, Scene}
 use crate::error::{InputError, Result};
 use crate::expression::Variables;
 
-const FIELDS: [(&str, Field); 6] = [
+const FIELDS: [(&str, Field); 7] = [
     ("flux", Field::Flux),
+    ("limit", Field::Limit),
     ("value", Field::Value),
     ("gap", Field::Gap),
     ("ambient", Field::Ambient),
@@ -22,6 +23,7 @@ pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input
     let of = table.require("of")?;
     let field = table.require("field")?;
     check_field(&of, &field, boundaries)?;
+    check_finite(&of, &field, boundaries)?;
     let range = table.get("range");
     if field.choice(&FIELDS)?.value == Field::Coefficient {
         // What stands in the matrix is judged for all values.
@@ -67,6 +69,24 @@ fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()>
     Err(field.error(message).hint(format!("an input may act on its {fields}")).into())
 }
 
+/// Refuses to add to an infinite end of a flux.
+fn check_finite(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()> {
+    let choice = field.choice(&FIELDS)?.value;
+    if choice == Field::Source {
+        return Ok(());
+    }
+    let base = find_boundary(of, boundaries)?.condition.field(choice);
+    match base.and_then(|base| Some((base, base.value.is_constant()?))) {
+        Some((base, value)) if value.is_infinite() => {
+            let message = format!("{} is {value}, to which nothing can be added", base.key);
+            let hint =
+                format!("give [boundary.{}] a finite `{}`", of.text()?.value, field.text()?.value);
+            Err(field.error(message).hint(hint).into())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Reads `[output.NAME]`.
 pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Output> {
     let kind = table.require("kind")?;
@@ -75,6 +95,9 @@ pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Outp
         ("force", |table, boundaries| read_contact(table, boundaries, "a force", Quantity::Force)),
         ("length", |table, boundaries| {
             read_contact(table, boundaries, "a length", Quantity::Length)
+        }),
+        ("saturated", |table, boundaries| {
+            read_contact(table, boundaries, "a saturated length", Quantity::Saturated)
         }),
         ("probe", read_probe),
         ("mean", |table, boundaries| read_boundary(table, boundaries, "a mean", Quantity::Mean)),
@@ -139,6 +162,11 @@ impl Scene {
     /// The first input that adds to a transfer coefficient.
     pub fn transfer_input(&self) -> Option<&Input> {
         self.inputs.iter().find(|input| input.field.value == Field::Coefficient)
+    }
+
+    /// The first contact boundary whose flux has another range than "from `flux` on".
+    pub fn limited(&self) -> Option<&Boundary> {
+        self.boundaries.iter().find(|boundary| boundary.condition.is_limited())
     }
 
     /// The names of its inputs, as a hint.

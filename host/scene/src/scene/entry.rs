@@ -121,6 +121,20 @@ impl<'a> Entry<'a> {
         }
     }
 
+    /// The same, or "inf" or "-inf", with quotes or without.
+    pub fn end_of_range(&self, variables: Variables) -> Result<Located<Expression>> {
+        let word = match self.at.value {
+            DeValue::String(text) => text.trim(),
+            DeValue::Float(float) => float.as_str(),
+            _ => "",
+        };
+        match word {
+            "inf" | "+inf" => Ok(self.at.with(Expression::constant(f64::INFINITY))),
+            "-inf" => Ok(self.at.with(Expression::constant(f64::NEG_INFINITY))),
+            _ => self.expression(variables),
+        }
+    }
+
     /// An array of entries.
     pub fn array(&self) -> Option<Vec<Self>> {
         let DeValue::Array(items) = self.at.value else { return None };

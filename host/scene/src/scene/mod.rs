@@ -7,7 +7,7 @@
 //! | dirichlet | u = value |
 //! | neumann | σ·n = flux |
 //! | robin | σ·n = coefficient (ambient − u) |
-//! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0 |
+//! | contact | u ≥ gap, σ·n ≥ flux, (u − gap)(σ·n − flux) = 0; with a limit, u may fall below the gap where σ·n = limit |
 //!
 //! text ─► `table`, `entry` (TOML with places) ─► `read`, `boundary`, `material`, `control`, `setting` (sections
 //! into the model below); a `fragment` gives a scene another setting. Every part of the model knows where it stands, so that whoever finds it wrong
@@ -116,12 +116,14 @@ pub enum Condition {
         /// What u relaxes to.
         ambient: Located<Expression>,
     },
-    /// u ≥ gap, σ·n ≥ flux, one of them with equality.
+    /// flux ≤ σ·n ≤ limit; σ·n = flux where u > gap, σ·n = limit where u < gap.
     Contact {
         /// The gap function ψ; 0 by default.
         gap: Located<Expression>,
-        /// The flux q without contact; 0 by default.
+        /// The flux q without contact; 0 by default. −∞ where u ≤ gap.
         flux: Located<Expression>,
+        /// The most that the flux can be; ∞ by default, where u ≥ gap.
+        limit: Located<Expression>,
     },
 }
 
@@ -130,6 +132,8 @@ pub enum Condition {
 pub enum Field {
     /// The flux of a Neumann or contact boundary.
     Flux,
+    /// The limit of a contact boundary's flux.
+    Limit,
     /// The value of a Dirichlet boundary.
     Value,
     /// The gap of a contact boundary.
@@ -168,6 +172,8 @@ pub enum Quantity {
     Force,
     /// The length of the active edges of a contact boundary, or of all of them.
     Length,
+    /// The length of the edges whose flux is at its limit, u < gap, of a contact boundary, or of all of them.
+    Saturated,
     /// u at a point.
     Probe {
         /// The point.

@@ -85,6 +85,19 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// An end of a range: an expression in `variables` or an infinity, `default` if the key is absent.
+    pub fn end_of_range(
+        &self,
+        key: &str,
+        default: f64,
+        variables: Variables,
+    ) -> Result<Located<Expression>> {
+        match self.get(key) {
+            Some(entry) => entry.end_of_range(variables),
+            None => Ok(self.missing(key, Expression::constant(default))),
+        }
+    }
+
     /// The table under `key`, if there is one.
     pub fn table(&self, key: &str) -> Result<Option<Self>> {
         let Some((name, value)) = self.entries.get_key_value(key) else { return Ok(None) };

@@ -13,7 +13,13 @@ pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
         input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
     }
     if !terms.contains(&0) {
-        each_load(&mut scene, |load| load.value = Expression::constant(0.0));
+        let infinite = |load: &Expression| load.is_constant().is_some_and(f64::is_infinite);
+        each_load(&mut scene, |load| {
+            // An infinite end of a flux is no term.
+            if !infinite(&load.value) {
+                load.value = Expression::constant(0.0);
+            }
+        });
     }
     scene
 }

@@ -26,7 +26,7 @@ impl Field {
     pub fn unit(self) -> Unit {
         match self {
             Self::Value | Self::Gap | Self::Ambient => Unit::U,
-            Self::Flux | Self::Source => Unit::Flux,
+            Self::Flux | Self::Limit | Self::Source => Unit::Flux,
             Self::Coefficient => Unit::Conductivity,
         }
     }
@@ -92,7 +92,7 @@ impl Units {
     pub fn of_output(&self, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::Flux | Quantity::Force => self.flux(),
-            Quantity::Length => 1.0,
+            Quantity::Length | Quantity::Saturated => 1.0,
             Quantity::Probe { .. } | Quantity::Mean => self.u,
             Quantity::Bound => self.energy(),
         }

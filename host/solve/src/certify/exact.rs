@@ -194,6 +194,9 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
         else {
             return Ok([0.0; 2]);
         };
+        if !self.problem.loads.spans.is_empty() {
+            return self.two_sided(edge);
+        }
         let mean = q.mean(self.problem.segment(edge))?;
         let term = |point: EdgePoint| {
             let [x, y] = point.x;
@@ -202,6 +205,38 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
             let contact =
                 plus(twice(weight, [sigma, q], [s, psi]), twice(weight, [tau, mean], [u, psi]));
             Ok(plus(contact, twice(weight, [s, u], [q, mean])))
+        };
+        self.on_edge(edge, term)
+    }
+
+    /// The same where the flux has the ends lo and hi, of which one, and the other with it, is moved by c to its mean:
+    /// ```text
+    ///   2∫[(σ·n − lo)(S − ψ)⁺ + (hi − σ·n)(ψ − S)⁺ + (τ·n − lo − c)(u − ψ)⁺ + (hi + c − τ·n)(ψ − u)⁺ − c (S − u)]
+    /// ```
+    fn two_sided(&self, edge: usize) -> Result<Weighed> {
+        let ends = [Field::Flux, Field::Limit].map(|field| self.data(edge, field));
+        let ([Some(least), Some(most)], Some(gap)) = (ends, self.data(edge, Field::Gap)) else {
+            return Ok([0.0; 2]);
+        };
+        let (problem, length) = (self.problem, self.problem.lengths[edge]);
+        let range = problem.loads.flux_range(edge - problem.topology.counts.free);
+        let means = range.ends().map(|end| end / length);
+        let tau = self.admissible.tau[edge] / length;
+        let is_least = (tau - means[0]).abs() <= (means[1] - tau).abs();
+        let term = |point: EdgePoint| {
+            let [x, y] = point.x;
+            let (ends, psi) = ([least.at(x, y), most.at(x, y)], gap.at(x, y));
+            let EdgePoint { weight, u, s, sigma, tau, .. } = point;
+            let c = if is_least { means[0] - ends[0] } else { means[1] - ends[1] };
+            let mut sum = twice(weight, [s, u], [0.0, c]);
+            for (flux, end, value) in [(sigma, ends, s), (tau, ends.map(|end| end + c), u)] {
+                if end[0].is_finite() && (value > psi || !end[1].is_finite()) {
+                    sum = plus(sum, twice(weight, [flux, end[0]], [value, psi]));
+                } else if end[1].is_finite() {
+                    sum = plus(sum, twice(weight, [flux, end[1]], [value, psi]));
+                }
+            }
+            Ok(sum)
         };
         self.on_edge(edge, term)
     }

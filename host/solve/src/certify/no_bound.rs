@@ -7,7 +7,7 @@ use signorini_kernel::bound::certificate::Verdict;
 use super::curved::{Curved, Rough};
 use super::ends::Ends;
 use super::robin::RobinPoints;
-use crate::problem::Problem;
+use crate::problem::{Problem, spread};
 use crate::scalar::Scalar;
 use signorini_scene::scene::Field;
 
@@ -38,6 +38,13 @@ pub enum NoBound {
     /// A transfer coefficient nearly vanishes on a part of an edge, where it divides the square of a flux.
     TransferVanishes {
         /// The Robin boundary.
+        boundary: String,
+        /// The middle of the edge.
+        at: [f64; 2],
+    },
+    /// The ends of a contact edge's flux come so near to each other on a part of it that means of them say too little.
+    LimitVaries {
+        /// The contact boundary.
         boundary: String,
         /// The middle of the edge.
         at: [f64; 2],
@@ -101,7 +108,7 @@ impl Spot {
 
 impl NoBound {
     /// What [`NoBound::of_data`] may find, for whoever has not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, or a transfer coefficient nearly vanishes";
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, or the range of a contact flux does";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(
@@ -112,7 +119,18 @@ impl NoBound {
     ) -> Option<Self> {
         let rough = || curved.iter().find_map(|edge| Self::rough(problem, edge));
         let jump = || ends.jump(problem).map(|(at, values)| Self::ValuesDiffer { at, values });
-        rough().or_else(jump).or_else(|| Self::transfer_vanishes(problem, transfer))
+        let vanishes = || Self::transfer_vanishes(problem, transfer);
+        rough().or_else(jump).or_else(vanishes).or_else(|| Self::limit_varies(problem))
+    }
+
+    /// The first contact edge on which hi − lo falls below half of its mean: only above that are all fluxes between the
+    /// means of both ends between the ends themselves, once one of these is moved to its mean.
+    fn limit_varies(problem: &Problem) -> Option<Self> {
+        let (free, time) = (problem.topology.counts.free, problem.time);
+        let falls =
+            |edge: &usize| spread(problem, *edge, time).is_some_and(|spread| spread.least < 0.5);
+        let edge = (free..free + problem.loads.spans.len()).find(falls)?;
+        Some(Self::LimitVaries { boundary: boundary(problem, edge), at: middle(problem, edge) })
     }
 
     fn rough(problem: &Problem, curved: &Curved) -> Option<Self> {
@@ -205,6 +223,12 @@ impl fmt::Display for NoBound {
                 f,
                 "the transfer coefficient of boundary.{boundary} varies by more than a factor of {VARYING} along the edge \
                  around {}: the bound divides by it where it nearly vanishes",
+                place(at)
+            ),
+            Self::LimitVaries { boundary, at } => write!(
+                f,
+                "limit − flux of boundary.{boundary} falls below half of its mean along the edge around {}: a finer mesh \
+                 there gives a bound",
                 place(at)
             ),
             Self::BelowGap { at } => write!(

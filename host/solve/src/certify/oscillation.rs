@@ -88,9 +88,14 @@ fn of_bend(cell: &Cell, f: f64) -> f64 {
     diameter / PI * difference * area.sqrt()
 }
 
-/// osc_E; g and q are both the `flux` of their boundary.
+/// osc_E; g and q are both the `flux` of their boundary. Where hi − lo varies too, either may be what is moved to its mean.
 fn of_flux(problem: &Problem, edge: usize, time: f64) -> Result<f64> {
-    let Some(g) = Sum::on_edge(problem, edge, Field::Flux, time) else { return Ok(0.0) };
+    let least = of_end(problem, edge, Field::Flux, time)?;
+    Ok(least.max(of_end(problem, edge, Field::Limit, time)?))
+}
+
+fn of_end(problem: &Problem, edge: usize, field: Field, time: f64) -> Result<f64> {
+    let Some(g) = Sum::on_edge(problem, edge, field, time) else { return Ok(0.0) };
     if g.constant().is_some() {
         return Ok(0.0);
     }

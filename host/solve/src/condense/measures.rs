@@ -36,6 +36,8 @@ pub(super) fn measures(
         Functional::Length(lengths) => {
             Measure::Length { always: 0.0, of_contact: columns.by_unknown(lengths) }
         }
+        // Only problems without limits are condensed.
+        Functional::Saturated(_) => columns.linear(|_| 0.0),
         Functional::Bound => Measure::Bound,
     };
     Ok(functionals(problem)?.iter().map(measure).collect())

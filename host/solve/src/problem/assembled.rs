@@ -206,7 +206,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
 
     /// The law on the contact edges.
     pub fn law(&self) -> Law<'_, R> {
-        Law::above(&self.loads.gap)
+        self.loads.law()
     }
 
     /// u_D on the Dirichlet edges.
@@ -221,7 +221,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     pub fn system(&self) -> Result<System<'_, R, u32>, Error> {
         let counts = self.edges.counts();
         let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
-        let system = System::new(matrix, &self.load, Law::above(&self.loads.gap), counts)?;
+        let system = System::new(matrix, &self.load, self.law(), counts)?;
         let diagonal = self.diagonal()?;
         system.with_shifts(Shifts { part: &self.part, parts: self.parts, diagonal })
     }

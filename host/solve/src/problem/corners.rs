@@ -30,7 +30,22 @@ pub(super) fn check(problem: &Problem) -> Result<()> {
             let gap = Sum::on_edge(problem, neighbour, Field::Gap, problem.time);
             let (Some(given), Some(gap)) = (given, gap) else { continue };
             let (value, gap) = (given.at(x, y), gap.at(x, y));
-            if gap - value > ROUNDING * (high - low) {
+            let span = problem.loads.spans.get(neighbour - counts.free);
+            let below = match span.copied().unwrap_or(f64::INFINITY) {
+                f64::INFINITY => gap - value,
+                f64::NEG_INFINITY => {
+                    if value - gap > ROUNDING * (high - low) {
+                        let message =
+                            format!("u_D = {value} at ({x}, {y}) lies above the gap ψ = {gap}");
+                        let hint = "where u ≤ gap (flux = \"-inf\") meets a Dirichlet boundary, value ≤ gap is needed";
+                        return Err(problem.scene.error(given.key(), message).hint(hint).into());
+                    }
+                    0.0
+                }
+                // On either side there is a flux.
+                _ => 0.0,
+            };
+            if below > ROUNDING * (high - low) {
                 let message = format!("u_D = {value} at ({x}, {y}) lies below the gap ψ = {gap}");
                 let hint = "where Dirichlet and contact boundary meet, value ≥ gap is needed";
                 return Err(problem.scene.error(given.key(), message).hint(hint).into());

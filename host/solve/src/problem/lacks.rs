@@ -110,6 +110,9 @@ impl Approach {
                 Condensation | FullModel | Tick | Export => Some(one_matrix),
                 Factor | Baselines => None,
             },
+            Property::Limit => match self {
+                Condensation | FullModel | Tick | Factor | Export | Baselines => Some(two_sides),
+            },
         }
     }
 }
@@ -167,6 +170,17 @@ fn one_matrix(problem: &Problem) -> InputError {
         None => InputError::new(message).file(&scene.path),
     };
     refusal.hint("`signorini solve --input` takes it; for a controller, state the coefficient in the scene and bake one for each value")
+}
+
+/// Contact with two sides.
+fn two_sides(problem: &Problem) -> InputError {
+    let scene = &problem.scene;
+    let message = "the flux of contact has a limit, which only `signorini solve` can treat so far";
+    let refusal = match scene.limited() {
+        Some(boundary) => scene.error(&boundary.name, message),
+        None => InputError::new(message).file(&scene.path),
+    };
+    refusal.hint("`signorini solve --input` takes it; without `limit`, u ≥ gap holds everywhere")
 }
 
 impl fmt::Display for Lack {

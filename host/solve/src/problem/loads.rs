@@ -1,11 +1,13 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
 use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::mesh::boundary::{Boundary, FluxRange, Neumann, Robin};
+use signorini_kernel::discrete::law::Law;
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::mesh::flux_range::{FluxRange, Span, Spans};
 use signorini_kernel::{Error as KernelError, Real};
 
-use super::{EdgeKind, Problem, Sum};
+use super::{EdgeKind, Problem, Sum, limits};
 use crate::quadrature::{DATA_POINTS, mean_on_edge};
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -23,8 +25,12 @@ pub struct Loads<R = f64> {
     pub neumann: Vec<Neumann<R, u32>>,
     /// Edges with a transfer law.
     pub robin: Vec<Robin<R, u32>>,
-    /// ∫_E q of each contact edge.
+    /// The base of the flux's range on each contact edge: ∫_E q, say.
     pub contact_flux: Vec<R>,
+    /// The spans of these ranges; none where all are ∞.
+    pub spans: Vec<R>,
+    /// By how much |E| (hi − lo) may exceed its span; 0 where it is constant along every edge.
+    pub span_excess: R,
     /// Mean of ψ on each contact edge.
     pub gap: Vec<R>,
     /// Mean of u_D on each Dirichlet edge.
@@ -34,7 +40,15 @@ pub struct Loads<R = f64> {
 impl<R: Scalar> Loads<R> {
     /// What ∫_E A∇u·n may be on a contact edge, counted from the first one.
     pub fn flux_range(&self, contact: usize) -> FluxRange<R> {
-        FluxRange::from(self.contact_flux[contact])
+        let span = self.spans.get(contact).map_or(Span::UNLIMITED, |&span| Span::new(span));
+        FluxRange::new(self.contact_flux[contact], span)
+    }
+
+    /// The law on the contact edges.
+    pub fn law(&self) -> Law<'_, R> {
+        // Those of a scene that is refused, or of a part of the loads, are none.
+        let spans = Spans::new(&self.spans).unwrap_or(Spans::UNLIMITED);
+        Law::above(&self.gap).with_spans(spans.varying(self.span_excess))
     }
 
     /// ∫f over the cells.
@@ -50,7 +64,8 @@ impl<R: Scalar> Loads<R> {
         &'a self,
         edges: &Edges<u32>,
     ) -> std::result::Result<Boundary<'a, R, u32>, KernelError> {
-        Boundary::new(edges, &self.neumann, &self.robin, &self.contact_flux)
+        Boundary::new(edges, &self.neumann, &self.robin, &self.contact_flux)?
+            .with_spans(edges, Spans::new(&self.spans)?.varying(self.span_excess))
     }
 }
 
@@ -70,6 +85,13 @@ impl Loads {
                 loads.add_edge(problem, edge, time)?;
             }
         }
+        if loads.spans.iter().all(|&span| span == f64::INFINITY) {
+            loads.spans.clear();
+        }
+        let spread = |edge| limits::spread(problem, edge, time).map_or(0.0, |spread| spread.excess);
+        let contact = 0..loads.spans.len();
+        let free = problem.topology.counts.free;
+        loads.span_excess = contact.map(|at| spread(free + at)).fold(0.0, f64::max);
         Ok(loads)
     }
 
@@ -88,6 +110,8 @@ impl Loads {
             neumann: neumann.map(|n| Neumann { edge: n.edge, flux: R::narrow(n.flux) }).collect(),
             robin: robin.collect(),
             contact_flux: all(&self.contact_flux),
+            spans: all(&self.spans),
+            span_excess: R::narrow(self.span_excess),
             gap: all(&self.gap),
             dirichlet: all(&self.dirichlet),
         }
@@ -141,13 +165,24 @@ impl Loads {
                 };
                 self.robin.push(robin);
             }
-            Condition::Contact { gap, flux } => {
+            Condition::Contact { gap, flux, limit } => {
                 self.gap.push(mean(Field::Gap, gap)?);
-                self.contact_flux.push(length * mean(Field::Flux, flux)?);
+                let [least, most] = [flux, limit].map(infinite);
+                let least = least.map_or_else(|| mean(Field::Flux, flux), Ok)?;
+                let most = most.map_or_else(|| mean(Field::Limit, limit), Ok)?;
+                let ends = [least, most];
+                let [base, span] = limits::base_and_span(ends, length);
+                self.contact_flux.push(base);
+                self.spans.push(span);
             }
         }
         Ok(())
     }
+}
+
+/// An infinite end of a flux.
+fn infinite(end: &Located<Expression>) -> Option<f64> {
+    end.value.is_constant().filter(|end| end.is_infinite())
 }
 
 fn nowhere_negative(

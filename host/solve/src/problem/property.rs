@@ -26,17 +26,20 @@ pub enum Property {
     LoadInTime,
     /// An input adds to a transfer coefficient, which stands in the matrix.
     TransferInput,
+    /// The flux of a contact boundary has a limit, or no least value.
+    Limit,
 }
 
 impl Property {
     /// In the order in which they are looked for.
-    pub(super) const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 7] = [
         Self::NoContact,
         Self::ManyContactEdges,
         Self::FloatingPart,
         Self::PartHeldByContact,
         Self::LoadInTime,
         Self::TransferInput,
+        Self::Limit,
     ];
 
     /// Whether it is read off the connected parts.
@@ -53,6 +56,7 @@ impl Property {
             Self::PartHeldByContact => parts.contact > 0,
             Self::LoadInTime => first_in_time(&problem.scene).is_some(),
             Self::TransferInput => problem.scene.transfer_input().is_some(),
+            Self::Limit => problem.scene.limited().is_some(),
         }
     }
 }
@@ -66,6 +70,7 @@ impl fmt::Display for Property {
             Self::PartHeldByContact => "a domain that contact alone holds",
             Self::LoadInTime => "a load that depends on t",
             Self::TransferInput => "a transfer coefficient that an input changes",
+            Self::Limit => "a contact boundary whose flux has a limit",
         })
     }
 }

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::{Loads, Problem, corners, integrals};
+use super::{Loads, Problem, corners, integrals, limits};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::{Term, left_with};
@@ -19,6 +19,7 @@ impl Problem {
     pub fn set_time(&mut self, time: f64) -> Result<()> {
         self.loads = Loads::at_time(self, time)?;
         self.time = time;
+        limits::check(self)?;
         corners::check(self)
     }
 

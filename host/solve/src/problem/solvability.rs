@@ -40,7 +40,13 @@ impl Parts {
         let boundary = loads.boundary(&edges)?;
         let mut load = vec![0.0; edges.counts().unknowns()];
         assembly::load(&edges, loads.cells(), &boundary, &mut load)?;
-        examine(&edges, problem.diagonal_terms(&edges)?, &load, BALANCE, cells)
+        examine(
+            &edges,
+            problem.diagonal_terms(&edges)?,
+            (&load, loads.law().spans()),
+            BALANCE,
+            cells,
+        )
     }
 
     /// The part that an edge belongs to, by the number of a cell in it.

@@ -31,7 +31,7 @@ impl<'s> Sum<'s> {
         };
         let inputs = scene.inputs.iter().filter(refers);
         let inputs = inputs.map(|input| (input.default, &input.pattern)).collect();
-        let is_load = matches!(field, Field::Flux | Field::Source);
+        let is_load = matches!(field, Field::Flux | Field::Limit | Field::Source);
         Self { scene, is_load, base, inputs, time }
     }
 

@@ -10,6 +10,9 @@
 //! pivoting of Júdice and Pires makes it finite: when the number of wrong unknowns has not fallen
 //! for some steps, only the last of them changes (Murty) until it has.
 //!
+//! Where λ_i ≤ s_i is asked too, an unknown with λ_i > s_i goes to a third side, λ_i = s_i with d_i ≤ ψ_i, and comes back
+//! where d_i > ψ_i: the problem with bounds on both sides of Júdice and Pires. For s_i = −∞ that side has λ_i = 0.
+//!
 //! A component that only contact holds has Σλ = −Σr > 0 whatever A is, so some active unknown of it
 //! has λ_i > 0 and stays: if all leave, the load points away from the obstacle and there is no
 //! minimum.
@@ -32,11 +35,22 @@ const PATIENCE: usize = 10;
 /// Rounding of one step, in multiples of the largest |d_i|.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 
+/// Where an unknown that leaves ψ goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Above,
+    Below,
+}
+
 /// S, the present guess of the contact set, and the factor of S_II that belongs to it.
 pub(super) struct ActiveSet<'a> {
     schur: MatRef<'a, f64>,
     floating: &'a [Vec<usize>],
     free: usize,
+    /// The most that λ may be; empty where all are ∞.
+    spans: &'a [f64],
+    /// Of the unknowns that are not active, those below ψ.
+    below: Vec<bool>,
     pub active: Vec<bool>,
     pub steps: usize,
     inactive: Vec<usize>,
@@ -50,6 +64,7 @@ impl<'a> ActiveSet<'a> {
         schur: MatRef<'a, f64>,
         floating: &'a [Vec<usize>],
         free: usize,
+        spans: &'a [f64],
         mut active: Vec<bool>,
     ) -> Self {
         for component in floating {
@@ -57,7 +72,18 @@ impl<'a> ActiveSet<'a> {
                 component.iter().for_each(|&i| active[i] = true);
             }
         }
-        Self { schur, floating, free, active, steps: 0, inactive: Vec::new(), factor: None }
+        let below = vec![false; active.len()];
+        let (inactive, factor) = (Vec::new(), None);
+        Self { schur, floating, free, spans, below, active, steps: 0, inactive, factor }
+    }
+
+    fn span(&self, i: usize) -> f64 {
+        self.spans.get(i).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// λ of an unknown that is not active.
+    pub fn excess(&self, i: usize) -> f64 {
+        if self.below[i] && self.span(i).is_finite() { self.span(i) } else { 0.0 }
     }
 
     /// The minimiser d. Violations below `noise` or the rounding of d are none.
@@ -101,7 +127,8 @@ impl<'a> ActiveSet<'a> {
         if self.factor.is_none() {
             self.factor = Some(self.factorise_inactive()?);
         }
-        let mut rhs: Vec<f64> = self.inactive.iter().map(|&i| load[i] - held[i]).collect();
+        let mut rhs: Vec<f64> =
+            self.inactive.iter().map(|&i| load[i] + self.excess(i) - held[i]).collect();
         if let Some(factor) = &self.factor {
             solve_dense(factor, &mut rhs);
         }
@@ -109,26 +136,57 @@ impl<'a> ActiveSet<'a> {
         Ok(d)
     }
 
-    /// The unknowns on the wrong side, in ascending order.
-    fn violations(&self, d: &[f64], load: &[f64], lower: &[f64], noise: f64) -> Vec<usize> {
+    /// The unknowns on the wrong side, in ascending order, and whether each belongs below ψ.
+    fn violations(&self, d: &[f64], load: &[f64], lower: &[f64], noise: f64) -> Vec<(usize, bool)> {
         let mut multiplier: Vec<f64> = load.iter().map(|r| -r).collect();
         multiply_add(self.schur, d, &mut multiplier);
         let largest = d.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let noise = noise.max(NOISE * largest);
         (0..d.len())
-            .filter(|&i| match self.active[i] {
-                true => multiplier[i] < -noise * self.schur[(i, i)].abs(),
-                false => d[i] < lower[i] - noise,
+            .filter(|&i| match (self.active[i], self.below[i]) {
+                (true, _) => self.is_torn(i, multiplier[i], noise).is_some(),
+                (false, false) => d[i] < lower[i] - noise,
+                (false, true) => d[i] > lower[i] + noise,
             })
+            .map(|i| (i, self.is_torn(i, multiplier[i], noise) == Some(Side::Below)))
             .collect()
     }
 
-    fn change_sides(&mut self, wrong: &[usize]) -> Result<(), ReferenceError> {
-        wrong.iter().for_each(|&i| self.active[i] = !self.active[i]);
+    /// The side that an active unknown with this λ goes to, if it leaves.
+    fn is_torn(&self, i: usize, multiplier: f64, noise: f64) -> Option<Side> {
+        let noise = noise * self.schur[(i, i)].abs();
+        let (span, is_above) = (self.span(i), self.span(i) >= 0.0);
+        if is_above && multiplier < -noise {
+            return Some(Side::Above);
+        }
+        let most = if is_above { span } else { 0.0 };
+        (multiplier > most + noise).then_some(Side::Below)
+    }
+
+    /// Each of `wrong`, with whether it is to be below ψ if it leaves, goes to another side.
+    fn change_sides(&mut self, wrong: &[(usize, bool)]) -> Result<(), ReferenceError> {
+        for &(i, to_below) in wrong {
+            self.active[i] = !self.active[i];
+            self.below[i] = !self.active[i] && to_below;
+        }
         self.factor = None;
+        self.hold(wrong);
         match self.floating.iter().find(|component| !component.iter().any(|&i| self.active[i])) {
             Some(component) => Err(ReferenceError::Unbounded { unknown: self.free + component[0] }),
             None => Ok(()),
+        }
+    }
+
+    /// Where λ has two ends loads may be in balance with no unknown active: one stays, to keep S_II regular.
+    fn hold(&mut self, wrong: &[(usize, bool)]) {
+        for component in self.floating {
+            let has_limit = component.iter().any(|&i| self.span(i).is_finite());
+            if has_limit && !component.iter().any(|&i| self.active[i]) {
+                let left = wrong.iter().map(|&(i, _)| i).find(|i| component.contains(i));
+                if let Some(i) = left {
+                    (self.active[i], self.below[i]) = (true, false);
+                }
+            }
         }
     }
 

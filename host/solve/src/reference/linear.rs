@@ -29,7 +29,8 @@ impl Linear<'_> {
         let Self { row_ptr, col_idx, values } = *self;
         let n = row_ptr.len().saturating_sub(1);
         let load = &vec![0.0; n];
-        let problem = Problem { row_ptr, col_idx, values, load, lower: &[], floating: &[] };
+        let problem =
+            Problem { row_ptr, col_idx, values, load, lower: &[], spans: &[], floating: &[] };
         problem.check()?;
         check_finite("load", loads)?;
         if n == 0 || loads.is_empty() {

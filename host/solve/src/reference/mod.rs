@@ -11,6 +11,8 @@
 //! λ_F = 0,   u_C ≥ ψ,   λ_C ≥ 0,   λ_i (u_i − ψ_i) = 0.
 //! ```
 //!
+//! Where λ_i may be at most s_i ≥ 0, u_i may fall below ψ_i where it is that; where s_i = −∞, u_i ≤ ψ_i and λ_i ≤ 0.
+//!
 //! The way there, a file each: `ordering` keeps C last and the fill low; `condensation` factors
 //! once (`sparse_cholesky`) and reads the Schur complement S on C from the trailing block of L;
 //! `active_set` solves the small dense problem on S exactly; `refinement` repeats the two with
@@ -86,7 +88,7 @@ pub fn minimise(
     }
     check_finite("load", load)?;
     let lower = vec![0.0; n];
-    let mut set = ActiveSet::new(matrix, floating, 0, vec![true; n]);
+    let mut set = ActiveSet::new(matrix, floating, 0, &[], vec![true; n]);
     let mut x = set.minimise(load, &lower, 0.0)?;
     // What is not in contact may lie below 0 by rounding.
     x.iter_mut().for_each(|x| *x = x.max(0.0));

@@ -28,7 +28,7 @@ pub struct Solution {
     pub u: Vec<f64>,
     /// For each contact unknown: u_i = ψ_i is imposed.
     pub active: Vec<bool>,
-    /// λ = Ku − b on the active unknowns, 0 on the other contact unknowns; length n_c.
+    /// λ = Ku − b on the active unknowns, 0 or the most it may be on the other contact unknowns; length n_c.
     pub multiplier: Vec<f64>,
     /// Active sets tried.
     pub steps: usize,
@@ -48,21 +48,37 @@ impl Factor {
         lower: &[f64],
         guess: Option<&[bool]>,
     ) -> Result<Solution, ReferenceError> {
+        self.solve_between(load, lower, &[], guess)
+    }
+
+    /// The same with the most that λ may be, `spans` as in [`super::Problem`].
+    pub fn solve_between(
+        &self,
+        load: &[f64],
+        lower: &[f64],
+        spans: &[f64],
+        guess: Option<&[bool]>,
+    ) -> Result<Solution, ReferenceError> {
         let matrix = &self.matrix;
         let (n, contact) = (matrix.unknowns(), matrix.contact());
-        if load.len() != n || lower.len() != contact || guess.is_some_and(|g| g.len() != contact) {
+        if load.len() != n
+            || lower.len() != contact
+            || guess.is_some_and(|g| g.len() != contact)
+            || !(spans.is_empty() || spans.len() == contact)
+        {
             return Err(ReferenceError::Malformed("load, lower or guess do not match the factor"));
         }
         check_finite("load", load)?;
         check_finite("lower", lower)?;
 
         let guess = guess.map_or_else(|| vec![true; contact], <[bool]>::to_vec);
-        let mut set = ActiveSet::new(self.schur(), &self.floating, matrix.free, guess);
+        let mut set = ActiveSet::new(self.schur(), &self.floating, matrix.free, spans, guess);
         let mut u = vec![0.0; n];
         let (residual, passes) = self.refine(&mut u, load, lower, &mut set)?;
-        let multiplier = residual[matrix.free..].iter().zip(&set.active);
-        let multiplier = multiplier.map(|(r, &active)| if active { -r } else { 0.0 }).collect();
-        let residual = matrix.complementarity(&u, &residual, lower)?;
+        let multiplier = residual[matrix.free..].iter().enumerate();
+        let multiplier = multiplier.map(|(i, r)| if set.active[i] { -r } else { set.excess(i) });
+        let multiplier = multiplier.collect();
+        let residual = matrix.complementarity(&u, &residual, lower, spans)?;
         Ok(Solution { u, multiplier, steps: set.steps, active: set.active, passes, residual })
     }
 
@@ -140,13 +156,23 @@ impl Matrix {
         u: &[f64],
         residual: &[f64],
         lower: &[f64],
+        spans: &[f64],
     ) -> Result<f64, ReferenceError> {
         let mut worst = 0.0_f64;
         for (row, r) in residual.iter().enumerate() {
             let scaled = -r / self.values[self.diagonal(row)?];
             let violation = match row.checked_sub(self.free) {
                 None => scaled,
-                Some(contact) => scaled.min(u[row] - lower[contact]),
+                Some(contact) => {
+                    let (opening, stiffness) =
+                        (u[row] - lower[contact], self.values[self.diagonal(row)?]);
+                    match spans.get(contact) {
+                        None | Some(&f64::INFINITY) => scaled.min(opening),
+                        Some(&f64::NEG_INFINITY) => scaled.max(opening),
+                        // 0 ≤ λ ≤ span is what λ/K − opening is cut to.
+                        Some(&span) => scaled - (scaled - opening).clamp(0.0, span / stiffness),
+                    }
+                }
             };
             worst = worst.max(violation.abs());
         }

@@ -25,8 +25,9 @@ pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> R
     let mut u = assembled.start();
     let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
     stage("a sparse Cholesky factor");
-    let factor = Factor::new(&reduced.problem(system.law().lower())).map_err(failed)?;
-    let found = factor.solve(&reduced.load, system.law().lower(), None).map_err(failed)?;
+    let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
+    let factor = Factor::new(&reduced.problem(lower, spans)).map_err(failed)?;
+    let found = factor.solve_between(&reduced.load, lower, spans, None).map_err(failed)?;
     u[..found.u.len()].copy_from_slice(&found.u);
     system.make_feasible(&mut u);
     let residual = system.residual(&u);
@@ -96,13 +97,14 @@ impl Reduced {
         Ok(reduced)
     }
 
-    fn problem<'a>(&'a self, lower: &'a [f64]) -> reference::Problem<'a> {
+    fn problem<'a>(&'a self, lower: &'a [f64], spans: &'a [f64]) -> reference::Problem<'a> {
         reference::Problem {
             row_ptr: &self.row_ptr,
             col_idx: &self.col_idx,
             values: &self.values,
             load: &self.load,
             lower,
+            spans,
             floating: &self.floating,
         }
     }

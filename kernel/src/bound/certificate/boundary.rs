@@ -42,11 +42,14 @@ pub(super) fn add<R: Real, I: Index>(
             take(parts, edge, range.multiplier(tau) * excess, terms * excess);
             continue;
         }
+        let nearest = range.nearest_end(tau);
         for (end, excess) in range.ends().into_iter().zip(excess.sides()) {
             // On a side that there is not, s is but for rounding, which stands elsewhere.
             if end.finite() {
                 let (excess, terms) = (R::TWO * excess, tau.magnitude() + end.magnitude());
-                take(parts, edge, (tau - end).magnitude() * excess, terms * excess);
+                // The nearest end is the one that counts in the mean where hi − lo varies.
+                let unseen = if end == nearest { R::ZERO } else { contact.spans().excess() };
+                take(parts, edge, ((tau - end).magnitude() + unseen) * excess, terms * excess);
             }
         }
     }

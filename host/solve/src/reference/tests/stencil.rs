@@ -28,6 +28,7 @@ impl Stencil {
             values: &self.values,
             load: &self.load,
             lower: &self.lower,
+            spans: &[],
             floating: &self.floating,
         }
     }

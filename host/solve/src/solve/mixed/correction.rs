@@ -1,13 +1,17 @@
 //! What is left of u, as a contact problem in f32.
 
+use signorini_kernel::Error;
+use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::mesh::flux_range::Spans;
 
 /// A contact problem for the rest of u, in f32 and in the unit s.
 #[derive(Debug)]
 pub(super) struct Correction {
     pub load: Vec<f32>,
     pub lower: Vec<f32>,
+    spans: Vec<f32>,
     /// One entry an edge, 0 on Dirichlet edges.
     pub v: Vec<f32>,
 }
@@ -17,6 +21,7 @@ impl Correction {
         Self {
             load: vec![0.0; counts.unknowns()],
             lower: vec![0.0; counts.contact],
+            spans: Vec::new(),
             v: vec![0.0; counts.edges()],
         }
     }
@@ -32,7 +37,16 @@ impl Correction {
         {
             *lower = ((law.gap() - own) / unit) as f32;
         }
+        let spans = system.law().spans().lengths().iter();
+        self.spans.clear();
+        self.spans.extend(spans.map(|&span| (span / unit) as f32));
         self.v.fill(0.0);
+    }
+
+    /// Its load, its law, and v.
+    pub fn parts(&mut self) -> Result<(&[f32], Law<'_, f32>, &mut [f32]), Error> {
+        let Self { load, lower, spans, v } = self;
+        Ok((load, Law::above(lower).with_spans(Spans::new(spans)?), v))
     }
 
     /// Adds it to u.
@@ -43,7 +57,7 @@ impl Correction {
         let free = system.counts().free;
         let bounds = self.v.iter().skip(free).zip(&self.lower).zip(system.law().edges());
         for (u, ((v, lower), law)) in u.iter_mut().skip(free).zip(bounds) {
-            if v == lower || law.opening(*u) < 0.0 {
+            if v == lower || !law.admits(*u) {
                 *u = law.gap();
             }
         }

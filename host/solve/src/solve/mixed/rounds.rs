@@ -1,6 +1,5 @@
 //! Rounds of sweeps in f32, each followed by a correction in f64, until the residual in f64 is small.
 
-use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::Rows;
 use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::solve::Relaxation;
@@ -58,9 +57,10 @@ impl Rounds<'_> {
                 return Ok(now);
             }
             correction.pose(&wide, unit, u);
-            let system = narrow.with_data(&correction.load, Law::above(&correction.lower))?;
+            let (load, law, v) = correction.parts()?;
+            let system = narrow.with_data(load, law)?;
             if now.corrections == 0 {
-                solver.start(&system, &mut rows, &mut correction.v)?;
+                solver.start(&system, &mut rows, v)?;
             } else {
                 let omega = rows.omega();
                 rows.set(&system, omega)?;
@@ -70,7 +70,7 @@ impl Rounds<'_> {
             while done < length.min(most) {
                 done += 1;
                 // Only the residual in f64 can tell the end.
-                solver.step(&system, &mut rows, &mut correction.v)?;
+                solver.step(&system, &mut rows, v)?;
             }
             correction.add_to(&wide, unit, u);
             let before = now.outcome.residual;

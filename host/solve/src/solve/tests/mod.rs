@@ -2,6 +2,7 @@
 
 mod auto;
 mod hard;
+mod limits;
 
 use signorini_tolerances::solve::AGREEMENT;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,90 @@
+//! The ends of a contact edge's flux: nowhere the wrong way round.
+//!
+//! ```text
+//!   lo(x) = flux + Σ_j p_j π_j ≤ hi(x) = limit + Σ_j p_j π_j
+//! ```
+//! at the points of the rule for edge data and at the ends of every edge. Means of them are what the kernel has:
+//! ∫lo or, where lo = −∞, ∫hi as the base of the range, and ∫(hi − lo) as its span.
+
+use signorini_kernel::Real;
+
+use super::{Problem, Sum};
+use crate::quadrature::{DATA_POINTS, gauss, on_panels};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Field;
+
+/// Gauss points a panel, and panels on an edge, at which the least and the largest span are looked for.
+const POINTS: usize = 8;
+const PANELS: u32 = 4;
+/// What rounding leaves of a difference that is constant, as a part of it.
+const CONSTANT: f64 = 1e-12;
+
+/// Base and span of a contact edge from the means of its ends over a length of `length`.
+pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
+    match least == f64::NEG_INFINITY {
+        true => [length * most, f64::NEG_INFINITY],
+        false => [length * least, length * (most - least)],
+    }
+}
+
+/// hi − lo along an edge on which it varies, times the length of the edge.
+pub struct Spread {
+    /// By how much its largest value exceeds the mean.
+    pub excess: f64,
+    /// Its least value, as a part of the mean.
+    pub least: f64,
+}
+
+/// That of a contact edge; nothing where both ends are finite on no side, or hi − lo is constant along the edge.
+pub fn spread(problem: &Problem, edge: usize, time: f64) -> Option<Spread> {
+    let least = Sum::on_edge(problem, edge, Field::Flux, time)?;
+    let most = Sum::on_edge(problem, edge, Field::Limit, time)?;
+    let is_infinite = |sum: &Sum| sum.constant().is_some_and(f64::is_infinite);
+    let are_constant = least.constant().is_some() && most.constant().is_some();
+    if are_constant || is_infinite(&least) || is_infinite(&most) {
+        return None;
+    }
+    let [a, b] = problem.segment(edge);
+    let inside = on_panels(PANELS, &gauss(POINTS));
+    let along = inside.iter().map(|&[t, weight]| (t, weight)).chain([(0.0, 0.0), (1.0, 0.0)]);
+    let (mut low, mut high, mut mean) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+    for (t, weight) in along {
+        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let span = most.at(x, y) - least.at(x, y);
+        (low, high, mean) = (low.min(span), high.max(span), mean + weight * span);
+    }
+    let varies = high - low > CONSTANT * mean;
+    varies.then(|| Spread { excess: problem.lengths[edge] * (high - mean), least: low / mean })
+}
+
+/// Refuses a lower end above the upper one.
+///
+/// # Errors
+/// The first edge with such a point, with both values.
+pub(super) fn check(problem: &Problem) -> Result<()> {
+    let scene = &problem.scene;
+    if !scene.boundaries.iter().any(|boundary| boundary.condition.is_limited()) {
+        return Ok(());
+    }
+    let counts = problem.topology.counts;
+    (counts.free..counts.unknowns()).try_for_each(|edge| check_edge(problem, edge))
+}
+
+fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
+    let end = |field| Sum::on_edge(problem, edge, field, problem.time);
+    let (Some(least), Some(most)) = (end(Field::Flux), end(Field::Limit)) else { return Ok(()) };
+    let [a, b] = problem.segment(edge);
+    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
+    for t in inside.chain([0.0, 1.0]) {
+        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+        let (low, high) = (least.at(x, y), most.at(x, y));
+        if low > high {
+            let message =
+                format!("the limit is {high} at ({x}, {y}), less than flux = {low} there");
+            let hint =
+                "the flux of a contact boundary lies between `flux` and `limit`, inputs included";
+            return Err(problem.scene.error(most.key(), message).hint(hint).into());
+        }
+    }
+    Ok(())
+}

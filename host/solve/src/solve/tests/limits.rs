@@ -1,0 +1,144 @@
+//! Contact whose flux has two ends: closed forms with all three states, degenerate limits, and the reference.
+
+use signorini_tolerances::solve::{DUVAUT, LIMITED};
+
+use super::{Options, SolverKind, distance, solve};
+use crate::certify::exact::distance as distance_to_exact;
+use crate::fixtures::{distorted, on_grid};
+use crate::outputs::outputs;
+use crate::problem::Problem;
+use crate::solve::{ScalarKind, Solution};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::structured::{Cells, grid};
+
+/// A wall of conductivity 2 between u = `above` on top and a heater below that keeps 1 with a power of at most 3.
+fn wall(above: &str, ends: &str) -> String {
+    format!(
+        "
+mesh = \"grid\"
+[material.default]
+conductivity = \"2\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"{above}\"
+[boundary.left]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.right]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.contact]
+kind = \"contact\"
+gap = \"1\"
+{ends}
+[output.power]
+kind = \"flux\"
+of = \"contact\"
+[output.short]
+kind = \"saturated\"
+of = \"contact\"
+[output.kept]
+kind = \"length\"
+of = \"contact\"
+[output.skin]
+kind = \"mean\"
+of = \"contact\"
+"
+    )
+}
+
+fn solved(problem: &Problem, solver: SolverKind, scalar: ScalarKind) -> Result<Solution> {
+    solve(problem, &Options { solver, scalar, ..Options::default() })
+}
+
+const WAYS: [(SolverKind, ScalarKind); 3] = [
+    (SolverKind::Kernel, ScalarKind::F64),
+    (SolverKind::Kernel, ScalarKind::F32),
+    (SolverKind::Direct, ScalarKind::F64),
+];
+
+/// Duvaut and Lions in one dimension: the skin is above + σ/2 over a height of 1, and σ is what the law allows.
+#[test]
+fn a_thermostat_heats_as_much_as_it_needs_and_can() -> Result<()> {
+    // (above, lo, hi) and then σ and u below.
+    let heater = "flux = \"0\"\nlimit = \"3\"";
+    let both = "flux = \"-2\"\nlimit = \"3\"";
+    let below = "flux = \"-inf\"\nlimit = \"0\"";
+    let given = "flux = \"1.5\"\nlimit = \"1.5\"";
+    let cases = [
+        ("2", heater, 0.0, 2.0),
+        ("0.25", heater, 1.5, 1.0),
+        ("-1", heater, 3.0, 0.5),
+        ("3", both, -2.0, 2.0),
+        ("1.5", both, -1.0, 1.0),
+        ("0.25", both, 1.5, 1.0),
+        ("-1", both, 3.0, 0.5),
+        ("0.5", below, 0.0, 0.5),
+        ("2.5", below, -3.0, 1.0),
+        ("0", given, 1.5, 0.75),
+        ("2", given, 1.5, 2.75),
+    ];
+    for cells in [Cells::Triangles, Cells::Mixed] {
+        for (above, ends, sigma, skin) in cases {
+            let (_, problem) = on_grid(&wall(above, ends), grid(4, cells))?;
+            for (solver, scalar) in WAYS {
+                let found = solved(&problem, solver, scalar)?;
+                let values = outputs(&problem, &found)?;
+                let value = |name: &str| values[name].expect("a value");
+                let name = format!("{above}, {ends:?}, {solver:?} {scalar:?}");
+                let unit = if scalar == ScalarKind::F32 { 1e-9 } else { 1.0 };
+                DUVAUT.check(format_args!("{name}: skin"), unit * (value("skin") - skin));
+                DUVAUT.check(format_args!("{name}: power"), unit * (value("power") - 2.0 * sigma));
+                let is_given = ends == given;
+                let expected = [skin == 1.0, skin < 1.0 && !ends.contains("inf")];
+                let lengths = [value("kept"), value("short")];
+                let all = expected.map(|is| if is { 2.0 } else { 0.0 });
+                assert!(is_given || lengths == all, "{name}: {lengths:?}, expected {all:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// u = x²y + y² + x³ with σ·n = −2.5x² on y = 0: open for x > 0.3, at the limit for x < −0.3, in contact between.
+fn three_states() -> String {
+    crate::fixtures::SMOOTH
+        .replace("gap = \"x^3\"", "gap = \"x^3 - 2*max(0, x - 0.3) + 1.5*max(0, -0.3 - x)\"")
+        .replace(
+            "flux = \"-3.5*x^2 - 1\"",
+            "flux = \"-2.5*x^2 - max(0, 0.3 - x)\"\nlimit = \"-2.5*x^2 + max(0, x + 0.3)\"",
+        )
+}
+
+fn meshes(n: u32) -> [(&'static str, Mesh); 4] {
+    [
+        ("triangles", grid(n, Cells::Triangles)),
+        ("quads", grid(n, Cells::Quads)),
+        ("mixed", grid(n, Cells::Mixed)),
+        ("distorted", distorted(grid(6, Cells::Mixed))),
+    ]
+}
+
+#[test]
+fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
+    for (name, mesh) in meshes(20) {
+        let (scene, problem) = on_grid(&three_states(), mesh)?;
+        let exact = scene.exact.as_ref().expect("an exact solution");
+        let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+        for (solver, scalar) in WAYS {
+            let found = solved(&problem, solver, scalar)?;
+            let far = distance(&found.u, &reference.u);
+            if scalar == ScalarKind::F64 {
+                LIMITED.check(format_args!("{name} {solver:?}"), far);
+            }
+            let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
+            let bound = found.bound.expect("a bound").total;
+            let gap = found.bound.expect("a bound").duality_gap;
+            println!("{name} {solver:?} {scalar:?}: {far:.1e} {of:?} gap {gap} bound {bound}");
+            assert!(bound >= of.combined && bound >= of.identity, "{name}: {bound} {of:?}");
+            assert!(gap < 1.02 * of.combined, "{name}: {gap} {of:?}");
+        }
+    }
+    Ok(())
+}
