@@ -53,7 +53,7 @@ impl Ends {
     }
 
     /// ‖A^½∇·‖ of what s misses of these data at vertices where they differ by rounding: u_D between two Dirichlet edges,
-    /// or u_D below ψ. s takes one value there, which moves it by the difference in all cells around.
+    /// or u_D on a side of ψ that there is not. s takes one value there, which moves it by the difference in all cells around.
     pub fn moved(&self, problem: &Problem) -> f64 {
         let counts = problem.topology.counts;
         let mut values = BTreeMap::<u32, [f64; 2]>::new();
@@ -64,9 +64,15 @@ impl Ends {
             }
         }
         for (edge, pair) in (counts.free..).zip(&self.gap) {
+            let span = problem.loads.flux_range(edge - counts.free).span().length();
             for (vertex, &psi) in problem.ends[edge].into_iter().zip(pair) {
-                let above = |[_, high]: &mut [f64; 2]| *high = high.max(psi);
-                values.get_mut(&vertex).into_iter().for_each(above);
+                let Some([low, high]) = values.get_mut(&vertex) else { continue };
+                // Where both ends of the flux are finite, u_D may be on either side.
+                match span {
+                    f64::INFINITY => *high = high.max(psi),
+                    f64::NEG_INFINITY => *low = low.min(psi),
+                    _ => {}
+                }
             }
         }
         let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));

@@ -111,6 +111,121 @@ fn three_states() -> String {
         )
 }
 
+/// All three sides of the law with the r^{3/2} of both transitions, at ±a on y = 0 with lo = 0 and hi = 1.5:
+/// ```text
+///   z = a sin(ξ + iη),  β = (lo − hi)/π,  c = (lo + hi)/2
+///   u = −(c y + β (x η + y ξ − a sin ξ sinh η)),    ∇u = (−β η, −(c + β ξ))
+/// ```
+/// so that η > 0 = y beyond ±a, where ξ = ±π/2 and σ·n = c + β ξ is lo or hi, and u = η = 0 between.
+fn two_transitions(unit: f64) -> String {
+    let [least, most] = [0.0, 1.5].map(|end| end * unit);
+    let (beta, c) = (format!("({least} - {most})/pi"), format!("({least} + {most})/2"));
+    // s = √(z − a) √(z + a) = i a cos(ξ + iη), and ξ + iη = π/2 + i ln((z + s)/a).
+    let size = "((x-0.55)^2+y^2)^0.25*((x+0.55)^2+y^2)^0.25";
+    let angle = "(0.5*atan2(y,x-0.55) + 0.5*atan2(y,x+0.55))";
+    let [re, im] = ["cos", "sin"].map(|of| format!("{size}*{of}{angle}"));
+    let xi = format!("(pi/2 - atan2(y + {im}, x + {re}))");
+    let eta = format!("(0.5*ln(((x + {re})^2 + (y + {im})^2)/0.55^2))");
+    let u = format!("-({c}*y + {beta}*(x*{eta} + y*{xi} - {re}))");
+    format!(
+        "
+mesh = \"grid\"
+[material.default]
+conductivity = \"1\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"{u}\"
+[boundary.contact]
+kind = \"contact\"
+gap = \"0\"
+flux = \"{least}\"
+limit = \"{most}\"
+[exact]
+u = \"{u}\"
+gradient = [\"-{beta}*{eta}\", \"-({c} + {beta}*{xi})\"]
+"
+    )
+}
+
+/// Errors of s and τ halve with the mesh, and the bound is them, but for the flux through the edges of the transitions.
+#[test]
+fn both_transitions_converge_and_are_bounded() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let mut before: Option<f64> = None;
+        for n in [8, 16, 32, 64] {
+            let (scene, problem) = on_grid(&two_transitions(1.0), grid(n, cells))?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let found = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
+            let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+            LIMITED.check(format_args!("{cells:?} {n}"), distance(&found.u, &reference.u));
+            let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
+            let ratio = found.bound.expect("a bound").total / of.combined;
+            let counts = states(&problem, &found);
+            println!(
+                "{cells:?} {n}: combined {:.4e} bound/combined {ratio:.4} {counts:?}",
+                of.combined
+            );
+            assert!((1.0..1.02).contains(&ratio), "{cells:?} {n}: {ratio}");
+            assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+            if let Some(before) = before {
+                let rate = (before / of.combined).log2();
+                assert!((0.9..1.5).contains(&rate), "{cells:?} {n}: {rate}");
+            }
+            before = Some(of.combined);
+        }
+    }
+    Ok(())
+}
+
+/// How many contact edges are open, touch, and are at their limit.
+fn states(problem: &Problem, solution: &Solution) -> [usize; 3] {
+    let mut counts = [0; 3];
+    let law = problem.loads.law();
+    for (law, &u) in law.edges().zip(&solution.u[problem.topology.counts.free..]) {
+        let at = match (law.touches(u), law.is_saturated(u)) {
+            (true, _) => 1,
+            (_, true) => 2,
+            _ => 0,
+        };
+        counts[at] += 1;
+    }
+    counts
+}
+
+/// Wherever sweeps end, the bound holds; so it does for limits that hardly let anything through, and for huge ones.
+#[test]
+fn the_bound_holds_at_any_stop() -> Result<()> {
+    let units = [1.0, 1e-12, 1e12];
+    for (name, mesh) in meshes(8) {
+        for text in [three_states()].into_iter().chain(units.map(two_transitions)) {
+            let (scene, problem) = on_grid(&text, mesh.clone())?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            for scalar in [ScalarKind::F64, ScalarKind::F32] {
+                for max_sweeps in [0, 1, 2, 5, 20, 80, 1_000_000] {
+                    let options = Options {
+                        solver: SolverKind::Kernel,
+                        scalar,
+                        max_sweeps,
+                        ..Options::default()
+                    };
+                    let found = solve(&problem, &options)?;
+                    let of = distance_to_exact(exact, &problem, &found.certified.admissible())?;
+                    let bound = found.bound.expect("a bound");
+                    let ratio = bound.total / of.combined;
+                    assert!(ratio >= 1.0, "{name} {scalar:?} {max_sweeps}: {ratio}");
+                    let identity = bound.duality_gap / of.identity;
+                    let (least, most) = (1.0 - 1e-3, 1.0 + 1e-3);
+                    assert!(
+                        (least..most).contains(&identity),
+                        "{name} {scalar:?} {max_sweeps}: gap/identity = {identity}"
+                    );
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 fn meshes(n: u32) -> [(&'static str, Mesh); 4] {
     [
         ("triangles", grid(n, Cells::Triangles)),
