@@ -89,6 +89,26 @@ def case_h(x, y, a="0.55"):
     }
 
 
+def case_l(x, y, a="0.55", least="0", most="1.5"):
+    """A flux between two ends: in contact for |x| < a, at its least beyond a, at its most beyond -a.
+
+    With s as in case H, z = a sin(xi + i eta), beta = (least - most)/pi and c = (least + most)/2,
+    u = -Im[c z + beta (z (xi + i eta) + s/i)]; its gradient is (-beta eta, -(c + beta xi)).
+    """
+    size = f"((({x})-{a})^2+({y})^2)^0.25*((({x})+{a})^2+({y})^2)^0.25"
+    angle = f"(0.5*atan2({y},({x})-{a}) + 0.5*atan2({y},({x})+{a}))"
+    re, im = f"{size}*cos{angle}", f"{size}*sin{angle}"
+    xi = f"(pi/2 - atan2(({y})+{im}, ({x})+{re}))"
+    eta = f"(0.5*ln(((({x})+{re})^2 + (({y})+{im})^2)/{a}^2))"
+    beta, c = f"({least}-{most})/pi", f"({least}+{most})/2"
+    return {
+        "u": f"-({c}*({y}) + {beta}*(({x})*{eta} + ({y})*{xi} - {re}))",
+        "gradient": (f"-{beta}*{eta}", f"-({c} + {beta}*{xi})"),
+        "f": "0",
+        "range": (least, most),
+    }
+
+
 def plus(case, g, gradient, minus_laplacian):
     """U + G with the gap G: any G with dG/dy = 0 on y = 0."""
     gx, gy = case["gradient"]
@@ -144,7 +164,11 @@ def scene(title, mesh, case):
         text += [f"[material.{name}]", f"conductivity = {shown}", ""]
     text += ["[source]", f'f = "{case["f"]}"', ""]
     text += ["[boundary.dirichlet]", 'kind = "dirichlet"', f'value = "{case["u"]}"', ""]
-    text += ["[boundary.contact]", 'kind = "contact"', f'gap = "{case.get("gap", "0")}"', ""]
+    text += ["[boundary.contact]", 'kind = "contact"', f'gap = "{case.get("gap", "0")}"']
+    if "range" in case:
+        least, most = case["range"]
+        text += [f'flux = "{least}"', f'limit = "{most}"']
+    text += [""]
     if "time" in case:
         step, end = case["time"]
         text += ["[time]", f"step = {step}", f"end = {end}", ""]
@@ -198,6 +222,8 @@ def main():
         ("moving-tri", "H(a(t)): punch, two free points that move", "tri", moving),
         ("hg-tri", "H_g(0.55): concave gap", "tri", hg),
         ("hg-quad", "H_g(0.55): concave gap", "quad", hg),
+        ("l-tri", "L(0.55): a flux between two ends, all three states", "tri", case_l("x", "y")),
+        ("l-quad", "L(0.55): a flux between two ends, all three states", "quad", case_l("x", "y")),
         ("ag-mixed", "A + G: arbitrary gap and source", "mixed", ag),
         ("j100-tri", "J(100): conductivity 100 beside 1", "tri", jump("100")),
         ("j001-tri", "J(0.01): conductivity 0.01 beside 1", "tri", jump("0.01")),

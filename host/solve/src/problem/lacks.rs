@@ -111,7 +111,8 @@ impl Approach {
                 Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Condensation | FullModel | Tick | Factor | Export | Baselines => Some(two_sides),
+                Condensation | FullModel | Tick | Export | Baselines => Some(two_sides),
+                Factor => None,
             },
         }
     }

@@ -50,7 +50,7 @@ pub(super) struct ActiveSet<'a> {
     /// The most that λ may be; empty where all are ∞.
     spans: &'a [f64],
     /// Of the unknowns that are not active, those below ψ.
-    below: Vec<bool>,
+    pub below: Vec<bool>,
     pub active: Vec<bool>,
     pub steps: usize,
     inactive: Vec<usize>,

@@ -82,16 +82,35 @@ pub fn minimise(
     floating: &[Vec<usize>],
     load: &[f64],
 ) -> Result<Vec<f64>, ReferenceError> {
+    minimise_between(matrix, floating, load, &[])
+}
+
+/// The same where Sx − b may be at most `spans`, as in [`Problem`]: x of any sign then.
+///
+/// # Errors
+/// As for [`minimise`].
+pub fn minimise_between(
+    matrix: MatRef<'_, f64>,
+    floating: &[Vec<usize>],
+    load: &[f64],
+    spans: &[f64],
+) -> Result<Vec<f64>, ReferenceError> {
     let n = matrix.nrows();
     if load.len() != n || matrix.ncols() != n || floating.iter().flatten().any(|&i| i >= n) {
         return Err(ReferenceError::Malformed("load or floating does not match the matrix"));
     }
     check_finite("load", load)?;
     let lower = vec![0.0; n];
-    let mut set = ActiveSet::new(matrix, floating, 0, &[], vec![true; n]);
+    let mut set = ActiveSet::new(matrix, floating, 0, spans, vec![true; n]);
     let mut x = set.minimise(load, &lower, 0.0)?;
-    // What is not in contact may lie below 0 by rounding.
-    x.iter_mut().for_each(|x| *x = x.max(0.0));
+    // What is not in contact may lie on the wrong side of 0 by rounding.
+    for ((x, &active), &below) in x.iter_mut().zip(&set.active).zip(&set.below) {
+        *x = match (active, below) {
+            (true, _) => 0.0,
+            (_, true) => x.min(0.0),
+            _ => x.max(0.0),
+        };
+    }
     Ok(x)
 }
 

@@ -13,6 +13,7 @@ use crate::real::Real;
 use crate::solve::dense::Iterate;
 use crate::solve::dense::blocks::Blocks;
 use crate::solve::dense::pivoting::{self, Found, settle};
+use crate::solve::dense::ranges::Given;
 use crate::solve::dense::rule::{Largest, Phases, Rule as _};
 use crate::solve::dense::sizes;
 use crate::solve::dense::sor;
@@ -92,7 +93,7 @@ impl<R: Real> Method<R> for Sweeps<R> {
             iterate.x.fill(R::ZERO);
         }
         let progress = self.sweep_on(matrix, load, own, iterate.x, deadline)?;
-        settle(matrix, load, iterate.x, iterate.residual, iterate.open)?;
+        settle(matrix, Given::above(load), iterate.x, iterate.residual, iterate.open)?;
         if let Err(error) = all_finite(Array::Unknowns, iterate.x) {
             copy(iterate.scratch, iterate.x);
             return Err(error);
@@ -161,8 +162,15 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         let most = self.most;
         let may_exchange = |pivots| pivots < most && deadline.allows_a_sweep();
         let rule = &mut Largest;
-        let (found, pivots) =
-            pivoting::find(matrix, load, &mut self.tableau, &self.start, rule, may_exchange, lent)?;
+        let (found, pivots) = pivoting::find(
+            matrix,
+            Given::above(load),
+            &mut self.tableau,
+            &self.start,
+            rule,
+            may_exchange,
+            lent,
+        )?;
         if found == Found::Exact {
             return Ok(SolveSummary { ended: Ended::Exact, pivots, sweeps: 0 });
         }
@@ -203,8 +211,15 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
         };
         let (lent, rule) = (iterate.reborrow(), &mut Phases::default());
         let start = &InitialTableau::untouched(matrix);
-        let (found, pivots) =
-            pivoting::find(matrix, load, &mut self.tableau, start, rule, may_exchange, lent)?;
+        let (found, pivots) = pivoting::find(
+            matrix,
+            Given::above(load),
+            &mut self.tableau,
+            start,
+            rule,
+            may_exchange,
+            lent,
+        )?;
         let ended = match found {
             Found::Exact => Ended::Exact,
             _ if !is_in_time => Ended::OutOfTime,
@@ -213,7 +228,7 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
         };
         if found == Found::Worn {
             let Iterate { x, residual, open, .. } = iterate;
-            settle(matrix, load, x, residual, open)?;
+            settle(matrix, Given::above(load), x, residual, open)?;
         }
         Ok(SolveSummary { ended, pivots, sweeps: 0 })
     }

@@ -29,6 +29,7 @@ use crate::error::{Array, Error, all_finite, same_length};
 use crate::real::Real;
 use crate::solve::dense::blocks::{self, Block, Blocks};
 use crate::solve::dense::pivoting::settle;
+use crate::solve::dense::ranges::Given;
 use crate::solve::dense::tableau::InitialTableau;
 use crate::solve::dense::{Iterate, sizes};
 use certificate::{Candidate, Form};
@@ -144,7 +145,11 @@ impl<R: Real> Condensed<'_, R> {
                 (*x, is_beyond) = (if *x > most { most } else { least }, true);
             }
         }
-        if is_beyond { settle(matrix, memory.load, x, residual, open) } else { Ok(()) }
+        if is_beyond {
+            settle(matrix, Given::above(memory.load), x, residual, open)
+        } else {
+            Ok(())
+        }
     }
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {

@@ -8,6 +8,7 @@
 pub mod blocks;
 mod correction;
 pub mod pivoting;
+pub mod ranges;
 pub mod rule;
 pub(crate) mod sizes;
 pub mod sor;
@@ -16,13 +17,13 @@ pub mod tableau;
 /// Arrays that a solve works on, with [`blocks::padded`] entries each (borrowed).
 #[derive(Debug)]
 pub struct Iterate<'a, R> {
-    /// Where it starts; becomes x ≥ 0, whatever ends the solve.
+    /// Where it starts; becomes x ≥ 0, or of any sign that its range allows, whatever ends the solve.
     pub x: &'a mut [R],
-    /// Becomes Sx − b.
+    /// Becomes Sx − b, less what the load of its side has beyond b ([`ranges`]).
     pub residual: &'a mut [R],
     /// Scratch.
     pub scratch: &'a mut [R],
-    /// Becomes true where x > 0.
+    /// Becomes true where x is not 0.
     pub open: &'a mut [bool],
 }
 

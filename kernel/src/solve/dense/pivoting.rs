@@ -3,7 +3,7 @@
 //!
 //! With the touching edges x_A = 0 and the rest in balance, w_I = 0, the tableau knows the answer
 //! z = (−x_I, w_A) for any load. Where a z has the wrong sign, x_i < 0 or w_i < 0, the unknown is on the
-//! wrong side. Which of them is exchanged next is up to a [`Rule`]; one after the other, until none is wrong.
+//! wrong side; so it is where w_i is outside of a range with two ends ([`super::ranges`]). Which of them is exchanged next is up to a [`Rule`]; one after the other, until none is wrong.
 //!
 //! Every exchange leaves its rounding errors in the tableau. The answer is therefore checked against S
 //! itself, Sx − b on the edges in balance, and corrected with the tableau as an approximate inverse; a
@@ -11,10 +11,13 @@
 
 use super::Iterate;
 use super::blocks::{Blocks, multiply_add};
+use super::ranges::{Given, Ranges};
 use super::rule::{Rule, Step};
 use super::sizes;
 use super::tableau::{InitialTableau, Tableau};
 use crate::error::Error;
+use crate::features;
+use crate::index::read;
 use crate::real::Real;
 
 /// What rounding may leave unbalanced, in ε of the first answer, without a correction.
@@ -48,7 +51,7 @@ pub enum Found {
 /// Arrays of the wrong length, loads whose answer may overflow: nothing is changed then.
 pub fn find<R: Real>(
     matrix: &Blocks<R>,
-    load: &[R],
+    given: Given<R>,
     tableau: &mut Tableau<R>,
     start: &InitialTableau<R>,
     rule: &mut impl Rule,
@@ -56,30 +59,35 @@ pub fn find<R: Real>(
     iterate: Iterate<R>,
 ) -> Result<(Found, u32), Error> {
     let Iterate { x, residual, scratch: answer, open } = iterate;
-    let own = sizes::of_load(load)?;
-    tableau.answer(load, answer)?;
+    let own = sizes::of_load(given.load)?;
+    given.answer(tableau, x, residual, answer)?;
     let mut size = own.or_larger(sizes::norm(answer));
     if sizes::is_absurd(size, own) {
         // No matrix that this scalar holds has such an answer: loads without a solution have led here.
         tableau.reset(start)?;
-        tableau.answer(load, answer)?;
+        given.answer(tableau, x, residual, answer)?;
         size = own.or_larger(sizes::norm(answer));
     }
-    let (mut found, pivots, now) =
-        exchange_all((load, own), (tableau, start), (rule, may_exchange), &mut size, answer)?;
+    let (mut found, pivots, now) = exchange_all(
+        (given, own),
+        (tableau, start),
+        (rule, may_exchange),
+        &mut size,
+        [answer, x, residual],
+    )?;
     tableau.finish();
-    take_over(answer, tableau.exchanged(), x);
-    settle(matrix, load, x, residual, open)?;
+    take_over(answer, tableau.exchanged(), given.ranges, x);
+    settle(matrix, given, x, residual, open)?;
     if found == Found::Exact {
         let limit = R::from_count(LIMIT) * R::EPSILON * size;
         let sane = own / R::from_count(SANE);
-        let before = sizes::unbalanced(residual, x);
+        let before = given.ranges.unbalanced(residual, x);
         if !(before <= limit && before <= sane) {
-            correct(tableau, residual, answer, x)?;
-            settle(matrix, load, x, residual, open)?;
+            correct(tableau, given.ranges, residual, answer, x)?;
+            settle(matrix, given, x, residual, open)?;
             // What is left now may be the floor of this matrix, where openings are much larger than loads; more is a tableau
             // gone wrong.
-            let after = sizes::unbalanced(residual, x);
+            let after = given.ranges.unbalanced(residual, x);
             let floor = R::from_count(FLOOR) * R::EPSILON * size.or_larger(now);
             let is_floor = after <= floor || after <= R::QUARTER * before;
             if !(is_floor && after <= sane) {
@@ -102,21 +110,21 @@ pub fn find<R: Real>(
 
 /// Exchanges with thresholds for answers of this `size`; returns the size of the last one too.
 fn exchange_all<R: Real>(
-    (load, own): (&[R], R),
+    (given, own): (Given<R>, R),
     (tableau, start): (&mut Tableau<R>, &InitialTableau<R>),
     (rule, mut may_exchange): (&mut impl Rule, impl FnMut(u32) -> bool),
     size: &mut R,
-    answer: &mut [R],
+    [answer, x, scratch]: [&mut [R]; 3],
 ) -> Result<(Found, u32, R), Error> {
     let mut pivots = 0;
     loop {
         let noise = R::from_count(3) * R::EPSILON * *size;
         let allowed = |more| may_exchange(pivots + more);
-        let (found, more) = search(tableau, rule, allowed, noise, answer)?;
+        let (found, more) = search(tableau, rule, allowed, (given.ranges, noise), answer, x)?;
         pivots += more;
         if found.is_none() {
             tableau.reset(start)?;
-            tableau.answer(load, answer)?;
+            given.answer(tableau, x, scratch, answer)?;
         }
         let now = own.or_larger(sizes::norm(answer));
         // A first answer that was far too large hides what is wrong with the last one.
@@ -135,12 +143,20 @@ fn search<R: Real>(
     tableau: &mut Tableau<R>,
     rule: &mut impl Rule,
     mut may_exchange: impl FnMut(u32) -> bool,
-    noise: R,
+    (ranges, noise): (Ranges<R>, R),
     z: &mut [R],
+    x: &mut [R],
 ) -> Result<(Option<Found>, u32), Error> {
     let mut pivots = 0;
     loop {
-        let at = match rule.next(z, tableau.exchanged(), noise, pivots) {
+        let step = match ranges.are_limited() {
+            true => {
+                let (z, exchanged) = tableau.viewed(&ranges, z, x);
+                rule.next(z, exchanged, noise, pivots)
+            }
+            false => rule.next(z, tableau.exchanged(), noise, pivots),
+        };
+        let at = match step {
             Step::Exchange(at) => at,
             Step::End => return Ok((Some(Found::Exact), pivots)),
             Step::StartAnew => return Ok((None, pivots)),
@@ -148,39 +164,58 @@ fn search<R: Real>(
         if !may_exchange(pivots) {
             return Ok((Some(Found::OutOfPivots), pivots));
         }
+        let was_within = features::LIMITED && read(tableau.exchanged(), at);
+        ranges.comes_in(at, was_within, z, x);
         if !tableau.exchange(at, z)? {
             return Ok((Some(Found::Worn), pivots));
         }
+        ranges.has_left(at, was_within, z, x);
         pivots += 1;
     }
 }
 
-/// x of the answer (−x_I, w_A), not below 0.
-fn take_over<R: Real>(answer: &[R], exchanged: &[bool], x: &mut [R]) {
+/// x of the answer (−x_I, w_A), not below 0 where it is not to be.
+fn take_over<R: Real>(answer: &[R], exchanged: &[bool], ranges: Ranges<R>, x: &mut [R]) {
     for ((x, &z), &within) in x.iter_mut().zip(answer).zip(exchanged) {
-        *x = if within && z < R::ZERO { -z } else { R::ZERO };
+        *x = on_side(ranges, *x, if within { -z } else { R::ZERO });
     }
 }
 
-/// `residual` = Sx − b, and `open` where x > 0.
+/// `value` where it has the sign that x has had, 0 elsewhere.
+#[inline(always)]
+fn on_side<R: Real>(ranges: Ranges<R>, x: R, value: R) -> R {
+    let is_below = ranges.are_limited() && x < R::ZERO;
+    let stays = if is_below { value < R::ZERO } else { value > R::ZERO };
+    if stays { value } else { R::ZERO }
+}
+
+/// `residual` = Sx − b, less what the sides of x have beyond b, and `open` where x is not 0.
 #[inline(never)]
 pub(crate) fn settle<R: Real>(
     matrix: &Blocks<R>,
-    load: &[R],
+    given: Given<R>,
     x: &[R],
     residual: &mut [R],
     open: &mut [bool],
 ) -> Result<(), Error> {
-    for (((residual, open), &load), &x) in residual.iter_mut().zip(&mut *open).zip(load).zip(x) {
+    let sides = residual.iter_mut().zip(&mut *open).zip(given.load).zip(x);
+    if given.ranges.are_limited() {
+        for (at, (((residual, open), &load), &x)) in sides.enumerate() {
+            (*residual, *open) = (-given.on(at, load, x), x != R::ZERO);
+        }
+        return multiply_add(matrix, x, open, residual);
+    }
+    for (((residual, open), &load), &x) in sides {
         (*residual, *open) = (-load, x > R::ZERO);
     }
     multiply_add(matrix, x, open, residual)
 }
 
-/// x_I −= S_II⁻¹ r_I, not below 0.
+/// x_I −= S_II⁻¹ r_I, not below 0 where it is not to be.
 #[inline(never)]
 fn correct<R: Real>(
     tableau: &mut Tableau<R>,
+    ranges: Ranges<R>,
     residual: &[R],
     change: &mut [R],
     x: &mut [R],
@@ -188,8 +223,7 @@ fn correct<R: Real>(
     // What it says of the other edges is not read.
     tableau.answer(residual, change)?;
     for ((x, &change), &within) in x.iter_mut().zip(change.iter()).zip(tableau.exchanged()) {
-        let corrected = *x + change;
-        *x = if within && corrected > R::ZERO { corrected } else { R::ZERO };
+        *x = on_side(ranges, *x, if within { *x + change } else { R::ZERO });
     }
     Ok(())
 }

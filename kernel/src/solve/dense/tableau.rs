@@ -20,6 +20,7 @@
 
 use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
 use super::correction::{position, scaled, store, subtract_two};
+use super::ranges::Ranges;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::real::Real;
 
@@ -81,6 +82,15 @@ impl<'a, R: Real> Tableau<'a, R> {
     /// Which unknowns are exchanged; padding never is.
     pub fn exchanged(&self) -> &[bool] {
         self.exchanged
+    }
+
+    /// An answer as the ranges of w see it, in scratch; and which unknowns are exchanged.
+    pub(super) fn viewed(&mut self, ranges: &Ranges<R>, z: &[R], x: &[R]) -> (&[R], &[bool]) {
+        let given = z.iter().zip(x).zip(self.exchanged.iter()).enumerate();
+        for (place, (at, ((&z, &x), &within))) in self.next.iter_mut().zip(given) {
+            *place = ranges.viewed(at, z, x, within);
+        }
+        (self.next, self.exchanged)
     }
 
     /// Begins with `start`.

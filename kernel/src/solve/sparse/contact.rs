@@ -20,6 +20,7 @@ use crate::real::Real;
 use crate::solve::dense::Iterate;
 use crate::solve::dense::blocks::{Block, Blocks, multiply_add, padded};
 use crate::solve::dense::pivoting::{self, Found};
+use crate::solve::dense::ranges::Given;
 use crate::solve::dense::rule::Largest;
 use crate::solve::dense::sizes;
 use crate::solve::dense::tableau::{InitialTableau, Tableau};
@@ -191,7 +192,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
             rounds += 1;
             defect.measure(&factor, u, places);
             self.reduce(places);
-            if last.is_none() || !settled && self.is_wrong() {
+            if last.is_none() || !settled && self.is_wrong(law) {
                 let Some(exchanges) = self.exchange(law, places, u)? else { return Ok(None) };
                 settled = exchanges == 0 && last.is_some();
                 pivots += exchanges;
@@ -209,7 +210,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
                 last = Some(R::ONE / R::ZERO);
                 continue;
             }
-            self.correct(places)?;
+            self.correct(law, places)?;
             factor.substitute(places);
             let change = largest(places) / largest(u);
             if last.is_some_and(|last| !(change < R::HALF * last)) {
@@ -251,10 +252,15 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     }
 
     /// Whether an edge that touches is pulled off the gap, by more than rounding.
-    fn is_wrong(&self) -> bool {
+    fn is_wrong(&self, law: Law<R>) -> bool {
         let size = sizes::norm(self.iterate.x);
         let noise = R::from_count(64) * R::EPSILON * size;
         let edges = self.load.iter().zip(self.iterate.x.iter());
+        if law.is_limited() {
+            let ranges = Given::between(self.load, law.spans(), self.factored.scale).ranges;
+            let is_torn = |at: usize, b: R| ranges.outside(at, -b).magnitude() > noise;
+            return edges.enumerate().any(|(at, (&b, &x))| x == R::ZERO && is_torn(at, b));
+        }
         edges.into_iter().any(|(&b, &x)| x == R::ZERO && b > noise)
     }
 
@@ -273,7 +279,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         let counts = factor.counts();
         let matrix = Blocks::new(schur, counts.contact)?;
         for (open, &x) in self.iterate.open.iter_mut().zip(self.iterate.x.iter()) {
-            *open = x > R::ZERO;
+            *open = x != R::ZERO;
         }
         let Iterate { x, residual, scratch, open } = &mut self.iterate;
         multiply_add(&matrix, x, open, self.load)?;
@@ -281,7 +287,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         let iterate = Iterate { x, residual, scratch, open };
         let search = pivoting::find(
             &matrix,
-            self.load,
+            Given::between(self.load, law.spans(), scale),
             &mut self.tableau,
             &start,
             &mut Largest,
@@ -305,17 +311,23 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
     }
 
     /// The change of v with the edges that touch held, behind y.
-    fn correct(&mut self, places: &mut [R]) -> Result<(), Error> {
+    fn correct(&mut self, law: Law<R>, places: &mut [R]) -> Result<(), Error> {
         if !features::CONTACT {
             return Ok(());
         }
         let Factored { factor, scale, .. } = self.factored;
+        if law.is_limited() {
+            let ranges = Given::between(&[], law.spans(), scale).ranges;
+            for (at, (load, &x)) in self.load.iter_mut().zip(self.iterate.x.iter()).enumerate() {
+                *load += ranges.excess(at, x);
+            }
+        }
         let change = &mut *self.iterate.scratch;
         // What it says of edges that touch is not read.
         self.tableau.answer(self.load, change)?;
         let entries = places.iter_mut().skip(factor.counts().free).zip(change.iter().zip(scale));
         for ((place, (&z, &scale)), &x) in entries.zip(self.iterate.x.iter()) {
-            *place = if x > R::ZERO { -z * scale } else { R::ZERO };
+            *place = if x != R::ZERO { -z * scale } else { R::ZERO };
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 mod brute_force;
 mod known_solutions;
+mod limited;
 mod optimality;
 mod rejected;
 mod stencil;

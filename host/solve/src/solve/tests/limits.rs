@@ -1,12 +1,13 @@
 //! Contact whose flux has two ends: closed forms with all three states, degenerate limits, and the reference.
 
-use signorini_tolerances::solve::{DUVAUT, LIMITED};
+use signorini_tolerances::solve::{DUVAUT, LIMITED, LIMITED_NARROW, LIMITED_RANDOM};
 
 use super::{Options, SolverKind, distance, solve};
 use crate::certify::exact::distance as distance_to_exact;
 use crate::fixtures::{distorted, on_grid};
 use crate::outputs::outputs;
-use crate::problem::Problem;
+use crate::problem::{Parts, Problem};
+use crate::solve::auto::by_factor;
 use crate::solve::{ScalarKind, Solution};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
@@ -152,7 +153,7 @@ gradient = [\"-{beta}*{eta}\", \"-({c} + {beta}*{xi})\"]
 fn both_transitions_converge_and_are_bounded() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut before: Option<f64> = None;
-        for n in [8, 16, 32, 64] {
+        for n in [8, 16, 32] {
             let (scene, problem) = on_grid(&two_transitions(1.0), grid(n, cells))?;
             let exact = scene.exact.as_ref().expect("an exact solution");
             let found = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
@@ -196,12 +197,12 @@ fn states(problem: &Problem, solution: &Solution) -> [usize; 3] {
 #[test]
 fn the_bound_holds_at_any_stop() -> Result<()> {
     let units = [1.0, 1e-12, 1e12];
-    for (name, mesh) in meshes(8) {
+    for (name, mesh) in meshes(6) {
         for text in [three_states()].into_iter().chain(units.map(two_transitions)) {
             let (scene, problem) = on_grid(&text, mesh.clone())?;
             let exact = scene.exact.as_ref().expect("an exact solution");
             for scalar in [ScalarKind::F64, ScalarKind::F32] {
-                for max_sweeps in [0, 1, 2, 5, 20, 80, 1_000_000] {
+                for max_sweeps in [0, 2, 30] {
                     let options = Options {
                         solver: SolverKind::Kernel,
                         scalar,
@@ -255,5 +256,112 @@ fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
             assert!(gap < 1.02 * of.combined, "{name}: {gap} {of:?}");
         }
     }
+    Ok(())
+}
+
+/// As many of them are solved, four times each; 10 000 took seven minutes, and agreed as well.
+const PROBLEMS: u64 = 400;
+
+/// Random numbers (an xorshift), drawn by the number of the problem.
+struct Draw(u64);
+
+impl Draw {
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.number()
+    }
+
+    fn of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[(self.number() * all.len() as f64) as usize]
+    }
+}
+
+/// Contact below, and on the left with ends of its own; on the right transfer or nothing, u given above.
+fn drawn(seed: u64) -> (String, Mesh) {
+    let mut draw = Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut wave = |size: f64| {
+        let (a, b, c) = (draw.between(-1.0, 1.0), draw.between(1.0, 6.0), draw.between(0.0, 6.0));
+        format!("{:.6}*sin({b:.6}*(x + 1.7*y) + {c:.6})", size * a)
+    };
+    let (above, source, gaps) = (wave(1.0), wave(4.0), [wave(1.0), wave(1.0)]);
+    let (flux, tilt) = ([wave(2.0), wave(2.0)], wave(1.0));
+    // Ends that are equal, nearly equal, near, far, and infinite on either side.
+    let ends = flux.map(|flux| {
+        let span = draw.of(&[0.0, 1e-9, 0.1, 1.0, 3.0, 3.0, 3.0, 1e9]);
+        let own = draw.of(&["both", "both", "both", "both", "above", "below"]);
+        match own {
+            "above" => format!("flux = \"{flux}\""),
+            "below" => format!("flux = \"-inf\"\nlimit = \"{flux}\""),
+            _ => format!("flux = \"{flux}\"\nlimit = \"{flux} + {span:e}*(1.2 + sin(9*x))\""),
+        }
+    });
+    let right = match draw.of(&[0, 1]) {
+        0 => format!("kind = \"neumann\"\nflux = \"{tilt}\""),
+        _ => format!("kind = \"robin\"\ncoefficient = \"1\"\nambient = \"{tilt}\""),
+    };
+    let text = format!(
+        "
+mesh = \"grid\"
+[material.default]
+conductivity = [\"2\", \"{:.6}\", \"1\"]
+[source]
+f = \"{source}\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"{above}\"
+[boundary.left]
+kind = \"contact\"
+gap = \"min({above}, {}) - 1e-3\"
+{}
+[boundary.right]
+{right}
+[boundary.contact]
+kind = \"contact\"
+gap = \"{}\"
+{}
+",
+        draw.between(-1.0, 1.0),
+        gaps[0],
+        ends[0].replace("flux = \"-inf\"", "flux = \"-1\""),
+        gaps[1],
+        ends[1]
+    );
+    let cells = draw.of(&[Cells::Triangles, Cells::Quads, Cells::Mixed]);
+    (text, grid(draw.of(&[2, 3, 5]), cells))
+}
+
+/// Sweeps and the factor end where the reference does, on problems most of which have all three states.
+#[test]
+fn random_problems_agree_with_the_reference() -> Result<()> {
+    let (mut counted, mut all_three) = (0_u64, 0_u64);
+    for seed in 1..=PROBLEMS {
+        let (text, mesh) = drawn(seed);
+        let (_, problem) = match on_grid(&text, mesh) {
+            Ok(posed) => posed,
+            // The lower end of the left side may lie above its limit.
+            Err(error) if error.to_string().contains("less than flux") => continue,
+            Err(error) => return Err(error),
+        };
+        counted += 1;
+        let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
+        all_three += u64::from(states(&problem, &reference).iter().all(|&count| count > 0));
+        let kernel = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
+        LIMITED_RANDOM.check(format_args!("{seed}: sweeps"), distance(&kernel.u, &reference.u));
+        let parts = Parts::examine(&problem)?;
+        let auto = Options { solver: SolverKind::Auto, ..Options::default() };
+        let factored = by_factor::<f64>(&problem, &parts, &auto)?.expect("a factor");
+        LIMITED_RANDOM.check(format_args!("{seed}: factor"), distance(&factored.u, &reference.u));
+        let single = Options { scalar: ScalarKind::F32, ..auto };
+        if let Some(found) = by_factor::<f32>(&problem, &parts, &single)? {
+            LIMITED_NARROW.check(format_args!("{seed}: f32"), distance(&found.u, &reference.u));
+        }
+    }
+    assert!(counted > PROBLEMS / 2 && all_three > PROBLEMS / 4, "{counted}, {all_three}");
     Ok(())
 }

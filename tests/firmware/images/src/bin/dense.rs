@@ -17,6 +17,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::rule::{Largest, Phases};
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::solve::dense::{Iterate, pivoting, sor};
@@ -83,7 +84,7 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
             scratch: &mut *scratch,
             open: &mut *open,
         };
-        pivoting::find(&matrix, load, &mut tableau, &start, &mut Largest, |_| true, iterate)
+        pivoting::find(&matrix, Given::above(load), &mut tableau, &start, &mut Largest, |_| true, iterate)
             .map(|_| ())
     };
     meter.count("exact, no edge changes", "n²", n * n, || solve(load))?;
@@ -132,7 +133,7 @@ fn all_open<R: Bits>(
             open: &mut *open,
         };
         let rule = &mut Phases::default();
-        pivoting::find(matrix, load, tableau, &start, rule, |_| true, iterate).map(|_| ())
+        pivoting::find(matrix, Given::above(load), tableau, &start, rule, |_| true, iterate).map(|_| ())
     };
     meter.count("two phases, all edges come in", "n²", n * n, || {
         tableau.reset(&start)?;

@@ -1,0 +1,148 @@
+//! What w = Sx − b may be on each contact edge, where that is not just w ≥ 0: three sides instead of two.
+//!
+//! ```text
+//!   x > 0:  w = 0        x = 0:  0 ≤ w ≤ m        x < 0:  w = m          m ≥ 0, or ∞: no third side
+//!   x < 0:  w = 0        x = 0:  w ≤ 0                                   m = −∞
+//! ```
+//! An unknown with x < 0 is exchanged like one with x > 0, but with m more of a load. Which of both it is stands in the
+//! sign of x while a search goes on, and from one search to the next.
+
+use super::sizes;
+use super::tableau::Tableau;
+use crate::features;
+use crate::index::{read, write};
+use crate::mesh::flux_range::Spans;
+use crate::real::Real;
+
+/// A load with the ranges that belong to it (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Given<'a, R> {
+    /// b
+    pub load: &'a [R],
+    /// What w may be.
+    pub ranges: Ranges<'a, R>,
+}
+
+impl<'a, R: Real> Given<'a, R> {
+    /// w ≥ 0.
+    pub const fn above(load: &'a [R]) -> Self {
+        Self { load, ranges: Ranges { spans: Spans::UNLIMITED, scale: &[] } }
+    }
+
+    /// m in `spans`, each times its entry in `scale`.
+    pub const fn between(load: &'a [R], spans: Spans<'a, R>, scale: &'a [R]) -> Self {
+        Self { load, ranges: Ranges { spans, scale } }
+    }
+
+    /// b of edge `at` and what its side has beyond: m where x < 0.
+    #[inline(always)]
+    pub(super) fn on(&self, at: usize, load: R, x: R) -> R {
+        if self.ranges.are_limited() { load + self.ranges.excess(at, x) } else { load }
+    }
+
+    /// The answer of a tableau to this load, each exchanged unknown being on its side; `scratch` is as long as the load.
+    pub(super) fn answer(
+        &self,
+        tableau: &mut Tableau<R>,
+        x: &[R],
+        scratch: &mut [R],
+        answer: &mut [R],
+    ) -> Result<(), crate::Error> {
+        if !self.ranges.are_limited() {
+            return tableau.answer(self.load, answer);
+        }
+        let sides = x.iter().zip(tableau.exchanged()).zip(self.load).enumerate();
+        for (scratch, (at, ((&x, &within), &load))) in scratch.iter_mut().zip(sides) {
+            *scratch = self.on(at, load, if within { x } else { R::ZERO });
+        }
+        tableau.answer(scratch, answer)
+    }
+}
+
+/// What w may be on each contact edge (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Ranges<'a, R> {
+    spans: Spans<'a, R>,
+    scale: &'a [R],
+}
+
+impl<R: Real> Ranges<'_, R> {
+    /// Whether any edge may have a third side, or another second one.
+    #[inline(always)]
+    pub(crate) fn are_limited(&self) -> bool {
+        features::LIMITED && self.spans.are_limited()
+    }
+
+    /// The least and the largest w of an edge.
+    #[inline(always)]
+    fn ends(&self, at: usize) -> [R; 2] {
+        let scaled = |end: R| match end.finite() {
+            true if !self.scale.is_empty() => end * read(self.scale, at),
+            _ => end,
+        };
+        self.spans.on(at).ends().map(scaled)
+    }
+
+    /// What the load of an exchanged edge has beyond b.
+    #[inline(always)]
+    pub(crate) fn excess(&self, at: usize, x: R) -> R {
+        let [_, most] = self.ends(at);
+        if x < R::ZERO && most.finite() { most } else { R::ZERO }
+    }
+
+    /// By how much a w is outside of its range, with its sign.
+    pub(crate) fn outside(&self, at: usize, w: R) -> R {
+        let [least, most] = self.ends(at);
+        if w < least {
+            w - least
+        } else if w > most {
+            w - most
+        } else {
+            R::ZERO
+        }
+    }
+
+    /// z as it would be were all ranges w ≥ 0: more than 0 outside, and less within, where nothing is wrong.
+    pub(super) fn viewed(&self, at: usize, z: R, x: R, within: bool) -> R {
+        if within {
+            return if x < R::ZERO { -z } else { z };
+        }
+        let [least, most] = self.ends(at);
+        (z - least).or_smaller(most - z)
+    }
+
+    /// To be called before unknown `at` is exchanged: if it comes in, the sign of x says to which side, and the answer is
+    /// that to the load of this side.
+    pub(super) fn comes_in(&self, at: usize, within: bool, z: &mut [R], x: &mut [R]) {
+        if !self.are_limited() || within {
+            return;
+        }
+        let (w, [_, most]) = (read(z, at), self.ends(at));
+        let is_below = w > most;
+        write(x, at, if is_below { -R::ONE } else { R::ONE });
+        if is_below {
+            write(z, at, w - most);
+        }
+    }
+
+    /// The same after it was: if it has left, what its side had beyond b is gone.
+    pub(super) fn has_left(&self, at: usize, was_within: bool, z: &mut [R], x: &mut [R]) {
+        if !self.are_limited() || !was_within {
+            return;
+        }
+        write(z, at, read(z, at) + self.excess(at, read(x, at)));
+        write(x, at, R::ZERO);
+    }
+
+    /// The root of the sum of r_i² over the edges that are open, or should be; `residual` as `settle` leaves it.
+    pub(super) fn unbalanced(&self, residual: &[R], x: &[R]) -> R {
+        if !self.are_limited() {
+            return sizes::unbalanced(residual, x);
+        }
+        let wrong = |at: usize| {
+            let r = read(residual, at);
+            if read(x, at) == R::ZERO { self.outside(at, r) } else { r }
+        };
+        sizes::norm_of(residual.len().min(x.len()), &wrong)
+    }
+}
