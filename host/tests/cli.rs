@@ -38,7 +38,8 @@ fn solve_writes_its_three_files() {
     let (status, folder, summary) = solve("catalogue/h-mixed.toml", &[]);
     assert_eq!(status, 0);
     let edges = text(&folder.path().join("edges.csv"));
-    assert_eq!(edges.lines().next(), Some("x0,y0,x1,y1,kind,u_mean,flux_normal"));
+    let header = "x0,y0,x1,y1,kind,u_mean,flux_normal,boundary,psi,q,limit,lambda,state,left,right";
+    assert_eq!(edges.lines().next(), Some(header));
     let kinds = |kind: &str| edges.lines().filter(|line| line.contains(kind)).count();
     assert_eq!((kinds("contact"), kinds("dirichlet")), (32, 64));
     for key in [
@@ -128,6 +129,31 @@ fn what_ran_is_said() {
         let factored = matches!(used, "kernel factor" | "direct");
         assert_eq!(summary["factor"]["entries"].as_u64() > Some(2000), factored, "{setting}");
     }
+}
+
+/// Three states, each with the flux that belongs to it.
+#[test]
+fn edges_tell_the_side_of_the_gap() {
+    let (status, folder, summary) = solve("catalogue/l-tri.toml", &[]);
+    assert_eq!((status, summary["converged"].as_bool()), (0, Some(true)));
+    let mut counts = [0; 3];
+    let edges = text(&folder.path().join("edges.csv"));
+    for line in edges.lines().filter(|line| line.split(',').nth(4) == Some("contact")) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |at: usize| fields[at].parse::<f64>().expect("a number");
+        let [u, flux, psi, q, limit, lambda] = [5, 6, 8, 9, 10, 11].map(number);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(fields[7] == "contact" && (q, limit) == (0.0, 1.5) && fields[14].is_empty());
+        assert!(near(lambda, flux - q), "{line}");
+        let at = ["open", "touching", "saturated"].iter().position(|state| *state == fields[12]);
+        match at.expect("a state") {
+            0 => assert!(u > psi && near(flux, q), "{line}"),
+            1 => assert!(u == psi && flux > q && flux < limit, "{line}"),
+            _ => assert!(u < psi && near(flux, limit), "{line}"),
+        }
+        counts[at.expect("a state")] += 1;
+    }
+    assert_eq!(counts, [7, 18, 7]);
 }
 
 #[test]

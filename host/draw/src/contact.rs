@@ -1,10 +1,11 @@
 //! What happens along the contact boundary C: the multiplier λ against the exact one, and below it,
-//! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0.
+//! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0; below the gap λ is at
+//! its limit.
 
 use super::scale::{Scale, extent};
 use super::strip::{across, frame, heading, vertical};
 use super::svg::{Path, Svg};
-use super::{ContactEdge, ScenePanel};
+use super::{ContactEdge, ContactState, ScenePanel};
 
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = 538.0;
@@ -15,6 +16,9 @@ const OPENING: [f64; 2] = [196.0, 250.0];
 const HEIGHT: f64 = 290.0;
 /// An exact λ may be infinite at a corner; the axis ends at this multiple of the discrete one.
 const TALLEST: f64 = 1.6;
+/// States with a ground of their own.
+const ZONES: [(ContactState, &str); 2] =
+    [(ContactState::Touching, "contact-zone"), (ContactState::Saturated, "saturated-zone")];
 
 /// The two diagrams; `None` without a finite edge of contact.
 pub fn contact(panel: &ScenePanel) -> Option<String> {
@@ -26,8 +30,10 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     let mut svg = Svg::new(WIDTH, HEIGHT, &format!("{}: λ and u − ψ along C", panel.title));
 
     for [top, bottom] in [MULTIPLIER, OPENING] {
-        for [from, to] in active_runs(&edges) {
-            svg.rectangle("contact-zone", [along.at(from), top], [along.at(to), bottom]);
+        for (state, zone) in ZONES {
+            for [from, to] in runs(&edges, state) {
+                svg.rectangle(zone, [along.at(from), top], [along.at(to), bottom]);
+            }
         }
     }
     let multiplier = |edge: &ContactEdge| edge.multiplier;
@@ -48,10 +54,10 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     Some(svg.finish())
 }
 
-/// The arc lengths between which contact is active, neighbouring edges joined.
-fn active_runs(edges: &[&ContactEdge]) -> Vec<[f64; 2]> {
+/// The arc lengths between which edges are in this state, neighbouring edges joined.
+fn runs(edges: &[&ContactEdge], state: ContactState) -> Vec<[f64; 2]> {
     let mut runs: Vec<[f64; 2]> = Vec::new();
-    for edge in edges.iter().filter(|edge| edge.active) {
+    for edge in edges.iter().filter(|edge| edge.state == state) {
         match runs.last_mut() {
             Some(run) if touches(run[1], edge) => run[1] = edge.arc_length[1],
             _ => runs.push(edge.arc_length),
@@ -132,17 +138,20 @@ fn exact_points(edge: &ContactEdge) -> Vec<[f64; 2]> {
 mod tests {
     use super::*;
 
-    fn edge(start: f64, active: bool, multiplier: f64) -> ContactEdge {
+    fn edge(start: f64, touches: bool, multiplier: f64) -> ContactEdge {
         let arc_length = [start, start + 1.0];
-        ContactEdge { arc_length, active, multiplier, ..ContactEdge::default() }
+        let state = if touches { ContactState::Touching } else { ContactState::Open };
+        ContactEdge { arc_length, state, multiplier, ..ContactEdge::default() }
     }
 
     #[test]
-    fn active_edges_join_unless_something_is_between() {
+    fn edges_of_a_state_join_unless_something_is_between() {
         let edges = [edge(0.0, true, 1.0), edge(1.0, true, 1.0), edge(2.0, false, 0.0)];
         let apart = [edge(3.0, true, 1.0), edge(5.0, true, 1.0)];
         let all: Vec<&ContactEdge> = edges.iter().chain(&apart).collect();
-        assert_eq!(active_runs(&all), [[0.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+        assert_eq!(runs(&all, ContactState::Touching), [[0.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+        assert_eq!(runs(&all, ContactState::Open), [[2.0, 3.0]]);
+        assert!(runs(&all, ContactState::Saturated).is_empty());
     }
 
     #[test]

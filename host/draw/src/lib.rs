@@ -239,8 +239,8 @@ pub struct ContactEdge {
     pub ends: [[f64; 2]; 2],
     /// The arc length along C at both ends, the smaller first.
     pub arc_length: [f64; 2],
-    /// Whether u touches the gap here.
-    pub active: bool,
+    /// On which side of the gap u is here.
+    pub state: ContactState,
     /// The multiplier λ = σ·n − q, constant on the edge.
     pub multiplier: f64,
     /// The exact λ at equally spaced points from the first to the second arc length (with both
@@ -248,6 +248,41 @@ pub struct ContactEdge {
     pub exact_multiplier: Vec<f64>,
     /// The mean of u − ψ over the edge.
     pub opening: f64,
+}
+
+/// Where u is on a contact edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ContactState {
+    /// Above the gap.
+    #[default]
+    Open,
+    /// On it.
+    Touching,
+    /// Below it, with the flux at its limit.
+    Saturated,
+}
+
+impl ContactState {
+    /// All of them, in the order in which they are drawn.
+    pub const ALL: [Self; 3] = [Self::Open, Self::Saturated, Self::Touching];
+
+    /// The class of its line.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Touching => "active",
+            Self::Saturated => "saturated",
+        }
+    }
+
+    /// What a legend says.
+    fn label(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Touching => "in contact",
+            Self::Saturated => "at the limit",
+        }
+    }
 }
 
 /// An edge of the boundary outside C.

@@ -9,7 +9,7 @@ use super::frame::mark;
 use super::mosaic::mosaic;
 use super::plane::class;
 use super::svg::escape;
-use super::{BoundaryKind, ScenePanel};
+use super::{BoundaryKind, ContactState, ScenePanel};
 
 /// The panel, numbered for links to it.
 pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
@@ -66,11 +66,10 @@ fn facts(scene: &ScenePanel) -> String {
 /// The kinds of boundary that the scene has.
 fn legend(scene: &ScenePanel) -> String {
     let mut html = String::new();
-    if scene.contact.iter().any(|edge| edge.active) {
-        html += &entry("active-key", "in contact");
-    }
-    if scene.contact.iter().any(|edge| !edge.active) {
-        html += &entry("open-key", "open");
+    for state in [ContactState::Touching, ContactState::Open, ContactState::Saturated] {
+        if scene.contact.iter().any(|edge| edge.state == state) {
+            html += &entry(&format!("{}-key", state.class()), state.label());
+        }
     }
     for (kind, text) in [
         (BoundaryKind::Dirichlet, "Dirichlet"),

@@ -5,7 +5,7 @@ use super::colormap::color;
 use super::scale::{Scale, plain};
 use super::svg::{Anchor, Path, Svg};
 use super::view::View;
-use super::{BoundaryKind, ScenePanel};
+use super::{BoundaryKind, ContactState, ScenePanel};
 
 /// Finer meshes would cover the colours.
 const MOST_CELLS_WITH_LINES: usize = 1200;
@@ -93,10 +93,10 @@ impl Plane {
             let edges = panel.boundary.iter().filter(|edge| edge.kind == kind);
             self.svg.path(class(kind), &draw(&mut edges.map(|edge| edge.ends)));
         }
-        for (active, classes) in [(false, ["halo", "open"]), (true, ["halo", "active"])] {
-            let edges = panel.contact.iter().filter(|edge| edge.active == active);
+        for state in ContactState::ALL {
+            let edges = panel.contact.iter().filter(|edge| edge.state == state);
             let path = draw(&mut edges.map(|edge| edge.ends));
-            classes.iter().for_each(|class| self.svg.path(class, &path));
+            ["halo", state.class()].iter().for_each(|class| self.svg.path(class, &path));
         }
     }
 

@@ -40,7 +40,7 @@ pub fn panel(n: u32, mixed: bool) -> ScenePanel {
         ContactEdge {
             ends: [from, to],
             arc_length: [from[0] + 1.0, to[0] + 1.0],
-            active: middle < 0.0,
+            state: if middle < 0.0 { ContactState::Touching } else { ContactState::Open },
             multiplier: exact(middle),
             exact_multiplier: (0..9)
                 .map(|k| exact(from[0] + f64::from(k) / f64::from(8 * n)))

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use signorini_kernel::Real;
+use signorini_kernel::discrete::law::EdgeLaw;
 
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{ScalarKind, Solution, status_name};
@@ -130,13 +131,21 @@ fn neumann(problem: &Problem, solution: &Solution) -> f64 {
     edges.fold(0.0_f64, |most, edge| most.or_larger((solution.flux[edge] - given[edge]).abs()))
 }
 
-/// The largest violation of u ≥ ψ, λ ≥ 0, (u − ψ) λ = 0, each relative to its own size.
+/// The largest violation of u ≥ ψ, λ ≥ 0, (u − ψ) λ = 0, each relative to its own size; of a flux with two ends, how far it is
+/// from what the law asks of this u, where u is not next to the gap.
 fn contact(problem: &Problem, solution: &Solution, terms: f64) -> f64 {
     let free = problem.topology.counts.free;
     let size = solution.u.iter().fold(f64::TINY, |most, u| most.max(u.abs()));
     (0..problem.topology.counts.contact).fold(0.0_f64, |most, at| {
         let opening = (solution.u[free + at] - solution.gap(problem, at)) / size;
-        let force = problem.loads.flux_range(at).multiplier(solution.flux[free + at]) / terms;
+        let (flux, range) = (solution.flux[free + at], problem.loads.flux_range(at));
+        if range.span().length() != f64::INFINITY {
+            let law = EdgeLaw::above(0.0).with_span(range.span());
+            let missing = (law.flux(opening, flux, range) - flux).abs() / terms;
+            let own = if opening == 0.0 { f64::INFINITY } else { opening.abs() };
+            return most.or_larger(own.min(missing));
+        }
+        let force = range.multiplier(flux) / terms;
         most.or_larger(-opening).or_larger(-force).or_larger(opening.min(force))
     })
 }

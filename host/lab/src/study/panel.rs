@@ -3,7 +3,9 @@
 use super::contact_line::{LineEdge, walk};
 use super::known::KnownScene;
 use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
-use signorini_draw::{BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ScenePanel};
+use signorini_draw::{
+    BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ContactState, ScenePanel,
+};
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::field::CellField;
 use signorini_solve::problem::{EdgeKind, Problem};
@@ -53,10 +55,19 @@ fn contact_edge(problem: &Problem, solution: &Solution, place: &LineEdge) -> Con
     ContactEdge {
         ends,
         arc_length: [place.start, place.start + problem.lengths[edge]],
-        active: opening == 0.0,
+        state: state(opening),
         multiplier: solution.multiplier(problem, place.contact),
         exact_multiplier: exact_multiplier(problem, edge, ends).unwrap_or_default(),
         opening,
+    }
+}
+
+/// Where u is; below the gap the flux is at its limit.
+fn state(opening: f64) -> ContactState {
+    match opening {
+        0.0 => ContactState::Touching,
+        _ if opening < 0.0 => ContactState::Saturated,
+        _ => ContactState::Open,
     }
 }
 
