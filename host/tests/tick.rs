@@ -1,6 +1,6 @@
 //! `signorini tick` as users and scripts meet it: its table, its logs, its messages.
 
-use signorini_tolerances::command::{BAKED, COARSE_START, MOVING_FORCE, REPLAYED};
+use signorini_tolerances::command::{BAKED, COARSE_START, LIMIT_OF_TICKS, MOVING_FORCE, REPLAYED};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -10,6 +10,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
+use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, solve};
 
@@ -291,6 +292,44 @@ fn wrong_arguments_are_refused() {
         let message = refused(&meshes(LEVEE), &out, arguments);
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
+}
+
+/// A heater whose supply sags: each tick ends where a solve with this limit does, within its bound.
+#[test]
+fn a_limit_may_change_from_tick_to_tick() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(meshes("catalogue/l-tri.toml")).expect("a scene");
+    let mesh = meshes("catalogue/square-tri-16.msh");
+    let text = text.replace("square-tri-16.msh", mesh.to_str().expect("UTF-8"));
+    let (text, _) = text.split_once("[exact]").expect("an exact solution");
+    let outputs = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\n\
+                   [output.power]\nkind = \"flux\"\nof = \"contact\"\n\
+                   [output.short]\nkind = \"saturated\"\n[output.kept]\nkind = \"length\"\n";
+    let (scene, log) = (folder.path().join("sags.toml"), folder.path().join("log.csv"));
+    std::fs::write(&scene, format!("{text}{outputs}")).expect("a scene");
+    let supply = [0.0, -0.5, -1.2, -1.5, 3.0, 1e6, 0.0];
+    let lines = supply.iter().enumerate().map(|(t, supply)| format!("{t},{supply}\n"));
+    std::fs::write(&log, format!("t,supply\n{}", lines.collect::<String>())).expect("a log");
+    let out = folder.path().join("out");
+    let found = tick(&scene, &out, &["--log", log.to_str().expect("UTF-8")]);
+    assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
+    let table = Table::read(&out.join("ticks.csv"));
+    let posed = Scene::read(&scene).expect("a scene");
+    let posed = Problem::new(&posed, gmsh::read(&mesh).expect("a mesh")).expect("a problem");
+    for (at, &supply) in supply.iter().enumerate() {
+        let now = posed.with_inputs(&[supply]).expect("loads");
+        let solved = solve(&now, &Options::default()).expect("a solution");
+        let values = outputs_of(&now, &solved).expect("outputs");
+        for name in ["power", "short", "kept"] {
+            let (ticked, exact) = (table.numbers(name)[at], values[name].expect("a value"));
+            LIMIT_OF_TICKS
+                .check(format_args!("{name} at {supply}: {ticked} {exact}"), ticked - exact);
+        }
+        assert!(table.numbers("error_bound")[at] >= solved.bound.expect("a bound").total * 0.99);
+    }
+    let refusal = tick(&scene, &out, &["--ticks", "1", "--input", "supply=-2"]);
+    let said = String::from_utf8_lossy(&refusal.stderr).into_owned();
+    assert!(said.contains("the limit is -0.5") && said.contains("less than flux = 0"), "{said}");
 }
 
 /// Ticks keep one matrix; a solve has its own.

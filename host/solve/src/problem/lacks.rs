@@ -111,8 +111,8 @@ impl Approach {
                 Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Condensation | FullModel | Tick | Export | Baselines => Some(two_sides),
-                Factor => None,
+                Condensation | FullModel | Export | Baselines => Some(two_sides),
+                Tick | Factor => None,
             },
         }
     }
@@ -176,12 +176,13 @@ fn one_matrix(problem: &Problem) -> InputError {
 /// Contact with two sides.
 fn two_sides(problem: &Problem) -> InputError {
     let scene = &problem.scene;
-    let message = "the flux of contact has a limit, which only `signorini solve` can treat so far";
+    let message =
+        "the flux of contact has a limit, which `solve` and `tick` alone can treat so far";
     let refusal = match scene.limited() {
         Some(boundary) => scene.error(&boundary.name, message),
         None => InputError::new(message).file(&scene.path),
     };
-    refusal.hint("`signorini solve --input` takes it; without `limit`, u ≥ gap holds everywhere")
+    refusal.hint("without `limit` and with a finite `flux`, u ≥ gap holds everywhere")
 }
 
 impl fmt::Display for Lack {
