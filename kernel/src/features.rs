@@ -15,6 +15,8 @@ pub const DISTORTED: bool = cfg!(feature = "distorted");
 pub const CONTACT: bool = cfg!(feature = "contact");
 /// Transfer laws.
 pub const ROBIN: bool = cfg!(feature = "robin");
+/// Transfer coefficients that inputs of a full model change.
+pub const TRANSFER: bool = cfg!(feature = "transfer");
 /// Gaps and Dirichlet values that are not affine along an edge.
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.

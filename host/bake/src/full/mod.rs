@@ -31,6 +31,7 @@ mod source;
 mod statics;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod underflow;
 
 pub use arrays::Baked;

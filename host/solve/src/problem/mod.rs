@@ -16,6 +16,7 @@ mod diagonal;
 mod element_matrices;
 mod integrals;
 mod lacks;
+mod least_transfer;
 mod loads;
 mod property;
 mod restated;
@@ -25,6 +26,7 @@ mod sum;
 mod tests;
 mod topology;
 mod transfer;
+mod transfer_pattern;
 mod unit_box;
 mod warnings;
 
@@ -37,6 +39,7 @@ pub use property::Property;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
+pub use transfer_pattern::TransferPattern;
 
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::{Loads, Problem, corners, integrals};
+use super::{Loads, Problem, corners, integrals, transfer};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::{Term, left_with};
@@ -19,6 +19,7 @@ impl Problem {
     pub fn set_time(&mut self, time: f64) -> Result<()> {
         self.loads = Loads::at_time(self, time)?;
         self.time = time;
+        transfer::check_now(self)?;
         corners::check(self)
     }
 
@@ -56,7 +57,7 @@ impl Problem {
     }
 
     /// One unit of each of these terms of the loads, and nothing else. What the whole sum has to meet, a term alone may
-    /// break: nothing is checked where boundaries meet.
+    /// break: nothing is checked where boundaries meet, nor whether a coefficient is negative.
     ///
     /// # Errors
     /// Data that are not finite.

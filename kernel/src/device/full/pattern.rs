@@ -1,5 +1,6 @@
 //! What one input adds to the data for each unit of its value, and the memory that it is added in.
 
+use super::transfer::TransferPattern;
 use crate::bound::certificate::Curved;
 use crate::features;
 use crate::index::Index;
@@ -26,13 +27,13 @@ pub struct EdgeTrace<R, I> {
     pub ends: [R; 2],
 }
 
-/// What one unit of an input adds to u_ext at the 8 Gauss points of an edge.
+/// What one unit of an input adds to u_ext, or to ∫h, at the 8 Gauss points of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Points<R, I> {
     /// The place of the transfer law.
     pub at: I,
     /// The additions.
-    pub ambient: [R; 8],
+    pub values: [R; 8],
 }
 
 /// A pattern by the field that it acts on: nothing elsewhere.
@@ -60,6 +61,8 @@ pub enum Pattern<'a, R, I> {
         /// At points, where that is not constant along every edge.
         points: &'a [Points<R, I>],
     },
+    /// h
+    Coefficient(&'a TransferPattern<'a, R, I>),
 }
 
 /// Memory for the data: each array is as long as its base where an input changes it, and else empty.
@@ -105,17 +108,21 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
                         law.ambient += p * weight;
                     }
                 });
-                for Points { at, ambient } in points {
+                for Points { at, values } in points {
                     let Some(edge) = data.transfer.get_mut(at.at()) else { break };
-                    edge.iter_mut().zip(ambient).for_each(|(point, &add)| point[1] += p * add);
+                    edge.iter_mut().zip(values).for_each(|(point, &add)| point[1] += p * add);
                 }
             }
-            Self::ContactFlux(_) | Self::Gap(_) | Self::Ambient { .. } => {}
+            // Coefficients need all inputs at once: see `super::transfer`.
+            Self::ContactFlux(_) | Self::Gap(_) | Self::Ambient { .. } | Self::Coefficient(_) => {}
         }
     }
 }
 
-fn each<R: Real, I: Index>(shares: &[Contribution<R, I>], mut each: impl FnMut(usize, R)) {
+pub(super) fn each<R: Real, I: Index>(
+    shares: &[Contribution<R, I>],
+    mut each: impl FnMut(usize, R),
+) {
     shares.iter().for_each(|share| each(share.at.at(), share.weight));
 }
 
