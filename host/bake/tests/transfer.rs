@@ -15,10 +15,11 @@ use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
-    GUARANTEE, TRANSFER, TRANSFER_NARROW, TRANSFER_TICK, TRANSFER_TICK_NARROW, TRANSFER_WARM,
+    GUARANTEE, OSCILLATION, TRANSFER, TRANSFER_NARROW, TRANSFER_TICK, TRANSFER_TICK_NARROW,
+    TRANSFER_WARM,
 };
 
-/// Inputs of both factors of h u_ext, with patterns that vary along the edges, and contact that opens and closes.
+/// Inputs of both factors of h u_ext, with patterns that vary along the edges, one with a kink, and contact that opens and closes.
 const PRODUCTS: &str = r#"
 mesh = "grid"
 [material.default]
@@ -54,7 +55,7 @@ range = [-1.0, 1.0]
 [input.air]
 of = "left"
 field = "ambient"
-pattern = "1 - y"
+pattern = "1 - abs(y - 0.37)"
 default = 0.5
 [input.other]
 of = "right"
@@ -103,7 +104,7 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     ];
     for values in steps {
         let (found, report) = warm.tick_within(&narrowed(&values), to_the_end()).expect("a tick");
-        assert!(report.verdict.certificate().is_some(), "{values:?}: {report:?}");
+        let of_tick = report.verdict.certificate().expect("a bound");
         let now = problem.with_inputs(&values)?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
         let solution = solve(&now, &options)?;
@@ -115,6 +116,11 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
             let size = expected.abs().max(largest);
             allowed.check_over(format_args!("{name} {values:?}"), found.wide() - expected, size);
         }
+        // What a tick leaves out is at least what this coefficient does.
+        let bound = solution.bound.expect("a bound");
+        let gap = of_tick.duality_gap.wide();
+        allowed.check_relative(format_args!("gap {values:?}"), gap, bound.duality_gap);
+        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
     }
     Ok(())
 }
@@ -262,6 +268,11 @@ fn resistances<R: Scalar>(base: f64, text: &str, allowed: Tolerance) -> Result<(
         allowed.check(format_args!("h = {h}"), found[0].wide() - expected);
         let bound = report.verdict.certificate().expect("a bound").total.wide();
         allowed.check(format_args!("bound, h = {h}"), bound);
+    }
+    let steps: Vec<_> = [1.0, 0.0, 97.0].map(|h| vec![h - base]).into();
+    for tick in played(&problem, &steps)? {
+        allowed
+            .check(format_args!("bound at t = {}", tick.time), tick.bound.expect("a bound").total);
     }
     let outside = controller.tick(&narrowed(&[97.5 - base]));
     assert!(outside.is_err_and(|error| error.to_string().contains("input 0")));
