@@ -47,7 +47,7 @@ impl Part {
     fn new(problem: &Problem, term: Term) -> Result<Self> {
         let input = term.checked_sub(1).filter(|&at| changes_transfer(&problem.scene.inputs[at]));
         let coefficient = input.map(|at| problem.transfer_pattern(at)).transpose()?;
-        let alone = problem.left_with(&[term])?;
+        let alone = problem.restated(as_stated(&problem.scene)).left_with(&[term])?;
         let mut corners = corners(&alone.scene).map(|scene| Evaluated::new(&alone.restated(scene)));
         // Without such inputs there is one corner, the scene itself.
         let first = corners.next().unwrap_or_else(|| Evaluated::new(&alone))?;
@@ -78,6 +78,14 @@ impl Part {
 
 fn changes_transfer(input: &Input) -> bool {
     input.field.value == Field::Coefficient
+}
+
+/// `scene` with the coefficients that no input changes.
+fn as_stated(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let inputs = scene.inputs.iter_mut().filter(|input| changes_transfer(input));
+    inputs.for_each(|input| input.default = 0.0);
+    scene
 }
 
 /// `scene` with the inputs of coefficients at all corners of their ranges.

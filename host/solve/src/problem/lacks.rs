@@ -21,6 +21,8 @@ use signorini_scene::scene::term::first_in_time;
 pub enum Approach {
     /// The elimination of all but the contact edges: [`crate::condense`].
     Condensation,
+    /// The same for every value of one transfer coefficient: [`crate::condense::modal`].
+    Modes,
     /// The kernel's tick on the mesh.
     Tick,
     /// The full model that `bake` writes: that tick, with loads linear in inputs.
@@ -84,34 +86,38 @@ impl Approach {
 
     /// How it refuses a problem with this property, if it does.
     const fn refusal(self, property: Property) -> Option<fn(&Problem) -> InputError> {
-        use Approach::{Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Tick};
+        use Approach::{
+            Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Modes, Tick,
+        };
         match property {
             Property::NoContact => match self {
                 Baselines => Some(nothing_to_compare),
-                Condensation | Tick | FullModel | Factor | FactoredTicks | Export => None,
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Export => None,
             },
             Property::ManyContactEdges => match self {
-                Condensation => Some(too_many),
+                Condensation | Modes => Some(too_many),
                 Tick | FullModel | Factor | FactoredTicks | Export | Baselines => None,
             },
             // Where that leaves a matrix singular, the factor finds it out.
             Property::FloatingPart => match self {
-                Condensation => Some(no_level),
+                Condensation | Modes => Some(no_level),
                 Tick | FullModel => Some(|problem| no_tick(problem, "nothing holds")),
                 Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::PartHeldByContact => match self {
                 Tick | FullModel => Some(|problem| no_tick(problem, "contact alone holds")),
+                // Where h is what may fail to hold it, its matrix is singular for some h alone.
+                Modes => Some(|problem| no_tick(problem, "contact alone holds")),
                 Condensation | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::LoadInTime => match self {
-                Condensation | FullModel => Some(no_clock),
+                Condensation | Modes | FullModel => Some(no_clock),
                 Tick | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::TransferInput => match self {
                 Condensation | Export => Some(one_matrix),
                 FactoredTicks => Some(one_factor),
-                FullModel | Tick | Factor | Baselines => None,
+                FullModel | Modes | Tick | Factor | Baselines => None,
             },
         }
     }
