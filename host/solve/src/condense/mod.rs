@@ -57,6 +57,7 @@ pub use modes::{ModalModel, modal};
 pub use order::along_boundary;
 use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
+use residual::Laws;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
 
@@ -86,6 +87,8 @@ struct Pieces<'p> {
     held_by_contact: Vec<Vec<usize>>,
     /// The cells of the one part that contact alone holds.
     alone: Option<Vec<bool>>,
+    /// Transfer laws whose coefficient changes, where their fluxes are read off means of u.
+    laws: Option<Laws>,
 }
 
 impl<'p> Pieces<'p> {
@@ -98,7 +101,7 @@ impl<'p> Pieces<'p> {
             return Err(held_by_one(&problem.scene));
         }
         let alone = held_alone(problem, &parts, &edges);
-        Ok(Self { problem, parts, patterns, edges, held_by_contact, alone })
+        Ok(Self { problem, parts, patterns, edges, held_by_contact, alone, laws: None })
     }
 
     /// Those of the patterns, of unit openings, of the source where there is one, and of `more` loads.
@@ -173,6 +176,7 @@ impl<'p> Pieces<'p> {
             matrix,
             source: source.map(|field| (field, load(field))),
             floating: floating.cloned().unwrap_or_default(),
+            laws: self.laws.as_ref(),
         };
         data.form()
     }

@@ -11,14 +11,26 @@
 //!   Ŝ(δ) = Ŝ + Σ_k δ/(1 + δν_k) α_k α_kᵀ,    B̂(δ) = B̂ − Σ_k δ/(1 + δν_k) α_k β_kᵀ,    a_k = (β_k, U α_k).
 //! ```
 //! Exact to rounding, however many modes there are. Two coefficients are not diagonalised together.
+//!
+//! The flux through R is that of its law, ∫τ·n = ∫h(u_ext − u_E). Where h is constant along every edge, the residual of the bound is
+//! h(s − u_E − u_ext + ū_ext) there, whatever h, and
+//! ```text
+//!   |A^½∇s − A^{−½}τ|² + ∫_R …/h = |F(z)|² + δ |F_π(z)|²,    z = (p, y, x, d),   δ = 0 at the least h.
+//! ```
+//! What mends r costs most there too.
 
 use faer::{Mat, Side};
 
 use super::columns::silent;
 use super::elimination::{Field, FieldLoads};
+use super::factor::triangular;
+use super::form::packed;
 use super::patterns::Pattern;
-use super::{CondensedModel, Measure, Pieces};
+use super::residual::Laws;
+use super::{CondensedModel, Measure, Pieces, Recovery};
+use crate::certify::robin::{RobinPoints, robin};
 use crate::problem::{Approach, Problem, TransferPattern};
+use crate::quadrature::DATA_POINTS;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Field as SceneField;
 
@@ -39,15 +51,19 @@ pub struct ModalModel {
     pub of_inputs: Vec<Vec<f64>>,
     /// U α_k, n numbers a mode.
     pub of_contact: Vec<Vec<f64>>,
+    /// F_π by columns; nothing where there is no bound.
+    pub of_laws: Option<Vec<f64>>,
 }
 
 /// Condenses `problem`, one input of which changes a coefficient, for all values of its inputs.
 ///
 /// # Errors
 /// Several inputs of coefficients, a pattern that is negative on an edge; as for [`super::condense`].
-pub fn modal(problem: &Problem) -> Result<ModalModel> {
+pub fn modal(problem: &Problem) -> Result<(ModalModel, Recovery)> {
     let input = only_input(problem)?;
     Approach::Modes.check(problem)?;
+    let [origin, most] = problem.scene.inputs[input].interval();
+    let problem = &at_least(problem, input, origin)?;
     let pattern = problem.transfer_pattern(input)?;
     let range = Passing::new(problem, &pattern, input)?;
     let mut pieces = Pieces::new(problem)?;
@@ -66,20 +82,68 @@ pub fn modal(problem: &Problem) -> Result<ModalModel> {
     fields.inputs.extend(modes.iter().map(|mode| combined(&mode.weights, &fields.more)));
     let silent = Pattern::silent(problem)?;
     pieces.patterns.resize(m + modes.len(), silent);
-    let (model, _) = pieces.model(fields)?;
+    pieces.laws = laws(problem, &pattern, most - origin)?;
+    let (mut model, recovery) = pieces.model(fields)?;
+    if pieces.laws.is_none() {
+        model.certificate =
+            Err("a transfer coefficient that changes varies along an edge".to_owned());
+    }
+    let of_laws = of_laws(problem, &pieces, &recovery, &model)?;
     let transposed = |columns: &[Vec<f64>], units: &[f64]| -> Vec<Vec<f64>> {
         let row = |k: usize| columns.iter().zip(units).map(|(of, unit)| unit * of[k]).collect();
         (0..modes.len()).map(row).collect()
     };
-    Ok(ModalModel {
+    let modal = ModalModel {
         of_inputs: transposed(&of_inputs, &vec![1.0; m]),
         of_contact: transposed(&of_openings, &model.opening),
         model,
         inputs: m,
         input: input + 1,
-        origin: problem.scene.inputs[input].default,
+        origin,
         compliance: modes.iter().map(|mode| mode.compliance).collect(),
-    })
+        of_laws,
+    };
+    Ok((modal, recovery))
+}
+
+/// `problem` with the input of the coefficient at the lower end of its range.
+fn at_least(problem: &Problem, input: usize, origin: f64) -> Result<Problem> {
+    let values = problem.scene.inputs.iter().map(|input| input.default);
+    let mut values: Vec<f64> = values.collect();
+    values[input] = origin;
+    problem.with_inputs(&values)
+}
+
+/// The part of the range for which s is the best function.
+const MIDDLE: f64 = 0.1;
+
+/// The laws of R, where h is constant along each of its edges.
+fn laws(problem: &Problem, pattern: &TransferPattern, range: f64) -> Result<Option<Laws>> {
+    let is_constant = |(points, added): (&RobinPoints, &[f64; DATA_POINTS])| {
+        added[0] == 0.0 || {
+            points.iter().all(|point| point[0] == points[0][0])
+                && added.iter().all(|h| *h == added[0])
+        }
+    };
+    let points = robin(problem, problem.time)?;
+    let all = points.iter().zip(&pattern.points).all(is_constant);
+    let shares = pattern.integrals.clone();
+    Ok(all.then_some(Laws { shares, change: MIDDLE * range }))
+}
+
+/// F_π in the units of the model.
+fn of_laws(
+    problem: &Problem,
+    pieces: &Pieces,
+    recovery: &Recovery,
+    model: &CondensedModel,
+) -> Result<Option<Vec<f64>>> {
+    let (Some(laws), Some(of)) = (&pieces.laws, &recovery.admissibles) else { return Ok(None) };
+    let blocks = laws.blocks(problem, &pieces.patterns, &of.functions)?;
+    let mut factor = packed(&triangular(&blocks, &of.s, &of.fluxes));
+    let of_inputs = model.inputs * (model.inputs + 1) / 2;
+    factor.iter_mut().take(of_inputs).for_each(|entry| *entry /= model.energy_unit);
+    Ok(Some(factor))
 }
 
 fn only_input(problem: &Problem) -> Result<usize> {
@@ -181,11 +245,34 @@ fn combined(weights: &[f64], fields: &[Field]) -> Field {
 }
 
 impl ModalModel {
+    /// p and y where the input of the coefficient is `value`, of any x ≥ 0 of [`ModalModel::model`].
+    pub fn amplitudes(&self, value: f64, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let rows = self.of_inputs.iter().zip(&self.of_contact);
+        let sums = rows.map(|(beta, alpha)| dot(beta, p) + dot(alpha, x));
+        let y = self.gains(value).into_iter().zip(sums).map(|(gain, sum)| gain * sum);
+        p.iter().copied().chain(y.collect::<Vec<_>>()).collect()
+    }
+
+    /// The guaranteed bound of (p, x), x ≥ 0 of [`ModalModel::model`], in the unit of ‖A^½∇u‖; `None` where there is none.
+    pub fn bound(&self, value: f64, p: &[f64], x: &[f64]) -> Option<f64> {
+        let (form, of_laws) = (self.model.certificate.as_ref().ok()?, self.of_laws.as_ref()?);
+        let p = self.amplitudes(value, p, x);
+        let [own, laws] = [&form.factor, of_laws].map(|factor| form.norm(factor, &p, x));
+        let delta = (value - self.origin).max(0.0);
+        self.model.bound_with((own * own + delta * laws * laws).sqrt(), &p, x)
+    }
+
+    /// δ/(1 + δν_k)
+    fn gains(&self, value: f64) -> Vec<f64> {
+        let delta = value - self.origin;
+        self.compliance.iter().map(|nu| delta / (1.0 + delta * nu)).collect()
+    }
+
     /// The model where the input of the coefficient is `value`; without an error bound, which is that of another coefficient.
     pub fn at(&self, value: f64) -> CondensedModel {
         let (n, m, unit) = (self.model.contact, self.inputs, self.model.energy_unit);
-        let delta = value - self.origin;
-        let gains: Vec<f64> = self.compliance.iter().map(|nu| delta / (1.0 + delta * nu)).collect();
+        let gains = self.gains(value);
         let mut model = self.model.clone();
         for ((gain, alpha), beta) in gains.iter().zip(&self.of_contact).zip(&self.of_inputs) {
             let alpha: Vec<f64> = alpha.iter().map(|alpha| alpha / unit).collect();

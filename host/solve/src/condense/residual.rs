@@ -6,6 +6,7 @@
 //! row for each of its functions: three on triangles where A is constant, whatever the rule. With A^½∇u_h of means in the
 //! place of A^{−½}τ the same rows give ‖A^½∇_h(s − u_h)‖.
 
+use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::{Real, Tensor};
 
 use super::functions::Functions;
@@ -44,18 +45,57 @@ pub(super) fn blocks(
     problem: &Problem,
     patterns: &[Pattern],
     functions: &Functions,
+    laws: Option<&Laws>,
 ) -> Result<Vec<Block>> {
     let deviations = deviations(problem, patterns)?;
     let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
     let cells = (0..problem.cells()).map(of_fluxes);
     let mut blocks = cells.collect::<Result<Vec<_>>>()?;
-    let transfer = patterns.iter().map(|pattern| robin(&pattern.problem, 0.0));
-    let transfer = transfer.collect::<Result<Vec<_>>>()?;
+    let transfer = transfer(patterns)?;
     for (at, record) in problem.loads.robin.iter().enumerate() {
         let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-        blocks.push(of_robin(problem, record.edge as usize, functions, &ambient));
+        let edge = record.edge as usize;
+        blocks.push(match laws.is_some_and(|laws| laws.shares[at] > 0.0) {
+            true => of_law(problem, edge, functions, &ambient, record.coefficient),
+            false => of_robin(problem, edge, functions, &ambient),
+        });
     }
     Ok(blocks)
+}
+
+/// Transfer laws whose coefficient changes, constant along each edge.
+#[derive(Debug, Clone)]
+pub(super) struct Laws {
+    /// ∫π of every law, 0 where none changes.
+    pub shares: Vec<f64>,
+    /// The change of the input for which s is the best one.
+    pub change: f64,
+}
+
+impl Laws {
+    /// The rows that weigh a unit of the input.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn blocks(
+        &self,
+        problem: &Problem,
+        patterns: &[Pattern],
+        functions: &Functions,
+    ) -> Result<Vec<Block>> {
+        let transfer = transfer(patterns)?;
+        let laws = problem.loads.robin.iter().zip(&self.shares).enumerate();
+        let changing = laws.filter(|(_, (_, share))| **share > 0.0);
+        let block = |(at, (record, share)): (usize, (&Robin<f64, u32>, &f64))| {
+            let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
+            of_law(problem, record.edge as usize, functions, &ambient, *share)
+        };
+        Ok(changing.map(block).collect())
+    }
+}
+
+fn transfer(patterns: &[Pattern]) -> Result<Vec<Vec<RobinPoints>>> {
+    patterns.iter().map(|pattern| robin(&pattern.problem, 0.0)).collect()
 }
 
 /// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
@@ -246,6 +286,34 @@ fn of_robin(
         columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
     }
     Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
+}
+
+/// The rows of a transfer edge whose flux is its law's, h(ū_ext − u_E), where h is constant: τ·n + h(s − u_ext) is
+/// h(s − u_E − u_ext + ū_ext) then, whatever h. `weight` is ∫h, or what a part of h adds to it. Means of u stand behind all
+/// fluxes.
+fn of_law(
+    problem: &Problem,
+    edge: usize,
+    functions: &Functions,
+    ambient: &[RobinPoints],
+    weight: f64,
+) -> Block {
+    let rule = f64::GAUSS[DATA_POINTS - 1];
+    let bubble = functions.bubble(edge);
+    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
+    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
+    let mean = |points: &RobinPoints| -> f64 {
+        points.iter().zip(rule).map(|(point, gauss)| gauss[1] * point[1]).sum()
+    };
+    for (at, &[t, part]) in rule.iter().enumerate() {
+        let root = (part * weight).sqrt();
+        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
+        let own = own.into_iter().take(of_s.len()).chain([-root]);
+        let given = ambient.iter().map(|points| -root * (points[at][1] - mean(points)));
+        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
+    }
+    let edges = vec![(problem.ends.len() + edge) as u32];
+    Block { functions: of_s, edges, rows: triangular(columns) }
 }
 
 /// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a

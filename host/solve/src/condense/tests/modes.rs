@@ -1,11 +1,12 @@
 //! A model of modes at a coefficient is the model that a scene with this coefficient condenses to.
 
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::solve::{MODES, MODES_OUTPUTS};
+use signorini_tolerances::solve::{GUARANTEE, MODES, MODES_OUTPUTS};
 
 use super::*;
+use crate::certify::exact::distance;
 use crate::condense::{CondensedModel, Measure, condense, modal};
-use crate::fixtures::distorted;
+use crate::fixtures::{SMOOTH, distorted};
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// The fixture with an input of its coefficient beside what the scene states.
@@ -42,7 +43,7 @@ fn physical(model: &CondensedModel) -> Vec<Vec<f64>> {
 fn compare(cells: Cells, pattern: &str) -> Result<()> {
     let mesh = || distorted(grid(5, cells));
     let (_, problem) = on_grid(&with_input(pattern), mesh())?;
-    let modes = modal(&problem)?;
+    let (modes, _) = modal(&problem)?;
     assert!(!modes.compliance.is_empty() && modes.compliance.iter().all(|nu| *nu > 0.0));
     for value in [1.5, -1.0, 0.0, 1.4, 30.0, 1000.0] {
         let found = modes.at(value);
@@ -92,11 +93,70 @@ fn a_coefficient_by_modes_is_the_one_that_a_scene_states() -> Result<()> {
     compare(Cells::Mixed, "1")
 }
 
+/// u = SMOOTH's for every h: u_ext = u + σ·n/h, and σ·n is an input that is set to 1/h.
+fn smooth() -> String {
+    let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
+    text.replace(" + (3*y - 6.5)/(2+y)\"", "\"")
+        + "
+[input.h]
+of = \"left\"
+field = \"coefficient\"
+pattern = \"1\"
+default = 1.0
+range = [0.01, 100.0]
+[input.push]
+of = \"left\"
+field = \"ambient\"
+pattern = \"3*y - 6.5\"
+default = 1.0
+"
+}
+
+/// The bound of the model whose s is the best one for this h.
+fn best(cells: Cells, h: f64) -> Result<f64> {
+    let text = SMOOTH
+        .replace("coefficient = \"2+y\"", &format!("coefficient = \"{h}\""))
+        .replace("/(2+y)\"", &format!("/{h}\""));
+    let (_, problem) = on_grid(&text, grid(4, cells))?;
+    let model = condense(&problem)?;
+    let x = model.solve(&[1.0]).expect("a solution");
+    Ok(model.bound(&[1.0], &x).expect("a bound"))
+}
+
+#[test]
+fn the_bound_holds_for_every_coefficient() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let (_, problem) = on_grid(&smooth(), grid(4, cells))?;
+        let (modes, recovery) = modal(&problem)?;
+        for h in [0.01, 0.1, 1.0, 10.0, 100.0] {
+            let (p, now) = ([1.0, h, 1.0 / h], modes.at(h));
+            let solution = now.solve(&p).expect("a solution");
+            let openings = solution.iter().zip(&now.opening).map(|(x, d)| x * d);
+            let exact: Vec<f64> = openings.zip(&modes.model.opening).map(|(v, d)| v / d).collect();
+            // Bounds hold of any openings, and of others than the solution's they are larger.
+            let moved: Vec<f64> = exact.iter().map(|x| x + 0.01).collect();
+            let best = best(cells, h)?;
+            for (x, most) in [(exact, 1.01 * best), (moved, f64::INFINITY)] {
+                let bound = modes.bound(h, &p, &x).expect("a bound");
+                let all = modes.amplitudes(h, &p, &x);
+                let fields =
+                    recovery.admissible(&modes.model, &problem, &all, &x).expect("s and τ");
+                let now = problem.with_inputs(&p[1..])?;
+                let exact = now.scene.exact.as_ref().expect("an exact solution");
+                let error = distance(exact, &now, &fields.admissible())?.combined;
+                GUARANTEE.check_at_most(format_args!("{cells:?}, h = {h}"), error, bound);
+                assert!(bound < most, "{cells:?}, h = {h}: {bound} for {error}, {best} at best");
+            }
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn edges_without_a_pattern_are_no_part_of_the_modes() -> Result<()> {
     let pattern = "max(0, y - 0.5)";
     let (_, problem) = on_grid(&with_input(pattern), grid(6, Cells::Quads))?;
-    assert_eq!(modal(&problem)?.compliance.len(), 3);
+    assert_eq!(modal(&problem)?.0.compliance.len(), 3);
     compare(Cells::Triangles, pattern)
 }
 
