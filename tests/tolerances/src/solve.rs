@@ -71,6 +71,8 @@ table! {
         "quadrature of the norms";
     MODES: "matrix and loads by modes against a fresh condensation, over the largest", 1e-13,
         "rounding times the condition of the mesh";
+    IDENTITY_OF_MODES: "the residual in the bound of a model of modes against the identity, relative", 2e-5,
+        "quadrature of lifts in triangles";
     MODES_OUTPUTS: "outputs of a model of modes against the direct solver, over the largest flux", 1e-13,
         "rounding times the condition of the mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,

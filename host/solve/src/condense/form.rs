@@ -6,12 +6,14 @@ use faer::Mat;
 
 use super::Form;
 use super::best::{Table, complete};
+use super::block::Block;
 use super::chain::Chain;
 use super::elimination::{Field, failed};
 use super::factor::{energies, triangular};
 use super::functions::Functions;
+use super::laws::Laws;
 use super::patterns::Pattern;
-use super::residual::{Block, Laws, blocks, jumps};
+use super::residual::{blocks, jumps};
 use super::stability::{Source, stability};
 use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};

@@ -22,6 +22,7 @@
 //! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
 
 mod best;
+mod block;
 mod chain;
 mod columns;
 mod elimination;
@@ -30,6 +31,7 @@ mod factor;
 mod form;
 mod functions;
 mod held;
+mod laws;
 mod measures;
 mod model;
 mod modes;
@@ -51,13 +53,13 @@ use columns::columns;
 use elimination::{Field, FieldLoads, fields};
 use form::{FormData, Found};
 use held::{held_alone, held_by_contact, held_by_one};
+use laws::Laws;
 use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{ModalModel, modal};
 pub use order::along_boundary;
 use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
-use residual::Laws;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
 

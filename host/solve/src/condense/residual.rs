@@ -6,36 +6,22 @@
 //! row for each of its functions: three on triangles where A is constant, whatever the rule. With A^½∇u_h of means in the
 //! place of A^{−½}τ the same rows give ‖A^½∇_h(s − u_h)‖.
 
-use signorini_kernel::mesh::boundary::Robin;
 use signorini_kernel::{Real, Tensor};
 
+use super::block::{Block, triangular};
 use super::functions::Functions;
+use super::laws::{Laws, of_law, transfer};
 use super::patterns::Pattern;
 use super::points::{points, points_for};
 use crate::certify::cell::{Cell, Local};
 use crate::certify::conductivity::Conductivity;
 use crate::certify::curved::{POINTS, of_rough_sides};
 use crate::certify::deviation::Deviations;
-use crate::certify::robin::{RobinPoints, robin};
+use crate::certify::robin::RobinPoints;
 use crate::field::CellField;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, Point, gauss};
 use signorini_scene::error::Result;
-
-/// A remainder below this part of its column is the rounding of a dependent one. A row more than needed does no harm: at
-/// each step |c|² = (q·c)² + |c − (q·c)q|² for any unit vector q.
-const DEPENDENT: f64 = 16.0 * f64::EPSILON;
-
-/// Rows of one cell or Robin edge: coefficients of the functions of s, then of the fluxes, then of p.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Block {
-    /// Which functions of s, see [`Functions`].
-    pub functions: Vec<u32>,
-    /// Which edges' fluxes, in the edges' directions, or means.
-    pub edges: Vec<u32>,
-    /// Row after row.
-    pub rows: Vec<Vec<f64>>,
-}
 
 /// The rows of all cells and Robin edges.
 ///
@@ -61,41 +47,6 @@ pub(super) fn blocks(
         });
     }
     Ok(blocks)
-}
-
-/// Transfer laws whose coefficient changes, constant along each edge.
-#[derive(Debug, Clone)]
-pub(super) struct Laws {
-    /// ∫π of every law, 0 where none changes.
-    pub shares: Vec<f64>,
-    /// The change of the input for which s is the best one.
-    pub change: f64,
-}
-
-impl Laws {
-    /// The rows that weigh a unit of the input.
-    ///
-    /// # Errors
-    /// Data that are not finite.
-    pub fn blocks(
-        &self,
-        problem: &Problem,
-        patterns: &[Pattern],
-        functions: &Functions,
-    ) -> Result<Vec<Block>> {
-        let transfer = transfer(patterns)?;
-        let laws = problem.loads.robin.iter().zip(&self.shares).enumerate();
-        let changing = laws.filter(|(_, (_, share))| **share > 0.0);
-        let block = |(at, (record, share)): (usize, (&Robin<f64, u32>, &f64))| {
-            let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-            of_law(problem, record.edge as usize, functions, &ambient, *share)
-        };
-        Ok(changing.map(block).collect())
-    }
-}
-
-fn transfer(patterns: &[Pattern]) -> Result<Vec<Vec<RobinPoints>>> {
-    patterns.iter().map(|pattern| robin(&pattern.problem, 0.0)).collect()
 }
 
 /// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
@@ -286,55 +237,4 @@ fn of_robin(
         columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
     }
     Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
-}
-
-/// The rows of a transfer edge whose flux is its law's, h(ū_ext − u_E), where h is constant: τ·n + h(s − u_ext) is
-/// h(s − u_E − u_ext + ū_ext) then, whatever h. `weight` is ∫h, or what a part of h adds to it. Means of u stand behind all
-/// fluxes.
-fn of_law(
-    problem: &Problem,
-    edge: usize,
-    functions: &Functions,
-    ambient: &[RobinPoints],
-    weight: f64,
-) -> Block {
-    let rule = f64::GAUSS[DATA_POINTS - 1];
-    let bubble = functions.bubble(edge);
-    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
-    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
-    let mean = |points: &RobinPoints| -> f64 {
-        points.iter().zip(rule).map(|(point, gauss)| gauss[1] * point[1]).sum()
-    };
-    for (at, &[t, part]) in rule.iter().enumerate() {
-        let root = (part * weight).sqrt();
-        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
-        let own = own.into_iter().take(of_s.len()).chain([-root]);
-        let given = ambient.iter().map(|points| -root * (points[at][1] - mean(points)));
-        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
-    }
-    let edges = vec![(problem.ends.len() + edge) as u32];
-    Block { functions: of_s, edges, rows: triangular(columns) }
-}
-
-/// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a
-/// column that depends on those before it adds no row.
-fn triangular(mut columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let norm = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-    let sizes: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    let mut rows = Vec::new();
-    for at in 0..columns.len() {
-        let remainder = norm(&columns[at]);
-        if remainder <= DEPENDENT * sizes[at] {
-            continue;
-        }
-        let unit: Vec<f64> = columns[at].iter().map(|entry| entry / remainder).collect();
-        let mut row = vec![0.0; columns.len()];
-        row[at] = remainder;
-        for (entry, column) in row.iter_mut().zip(&mut columns).skip(at + 1) {
-            *entry = unit.iter().zip(&*column).map(|(q, c)| q * c).sum();
-            column.iter_mut().zip(&unit).for_each(|(c, q)| *c -= *entry * q);
-        }
-        rows.push(row);
-    }
-    rows
 }

@@ -1,7 +1,7 @@
 //! A model of modes at a coefficient is the model that a scene with this coefficient condenses to.
 
 use signorini_tolerances::Tolerance;
-use signorini_tolerances::solve::{GUARANTEE, MODES, MODES_OUTPUTS};
+use signorini_tolerances::solve::{GUARANTEE, IDENTITY_OF_MODES, MODES, MODES_OUTPUTS};
 
 use super::*;
 use crate::certify::exact::distance;
@@ -143,8 +143,17 @@ fn the_bound_holds_for_every_coefficient() -> Result<()> {
                     recovery.admissible(&modes.model, &problem, &all, &x).expect("s and τ");
                 let now = problem.with_inputs(&p[1..])?;
                 let exact = now.scene.exact.as_ref().expect("an exact solution");
-                let error = distance(exact, &now, &fields.admissible())?.combined;
+                let found = distance(exact, &now, &fields.admissible())?;
+                let error = found.combined;
                 GUARANTEE.check_at_most(format_args!("{cells:?}, h = {h}"), error, bound);
+                if most.is_finite() {
+                    let norm = modes.norm(h, &all, &x).expect("a norm") * modes.model.energy_unit;
+                    IDENTITY_OF_MODES.check_relative(
+                        format_args!("{cells:?}, h = {h}"),
+                        norm,
+                        found.identity,
+                    );
+                }
                 assert!(bound < most, "{cells:?}, h = {h}: {bound} for {error}, {best} at best");
             }
         }
