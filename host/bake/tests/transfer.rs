@@ -287,6 +287,25 @@ fn a_wall_passes_what_its_resistances_let_through_tick_after_tick() -> Result<()
     resistances::<f32>(3.1, &wall("3.1", "[-3.1, 93.9]"), TRANSFER_NARROW)
 }
 
+/// A wall of another material, in units of which f32 cannot square the numbers: a controller answers in the scene's.
+#[test]
+fn a_wall_in_other_units_passes_as_much() -> Result<()> {
+    let text = wall("0", "[0.0, 97.0]")
+        .replace("conductivity = \"2\"", "conductivity = \"2e-20\"")
+        .replace("pattern = \"1\"", "pattern = \"1e-20\"");
+    let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<f32>::new(&problem)?;
+    let mut controller = Controller::<f32, TRIANGLES>::new(&baked);
+    for h in [1.0, 0.0, 97.0, 0.5] {
+        let (found, report) =
+            controller.tick_within(&narrowed(&[h]), to_the_end()).expect("a tick");
+        let expected = -4.0 * h * 2.0 / (h + 2.0);
+        TRANSFER_NARROW.check(format_args!("h = {h}"), found[0].wide() * 1e20 - expected);
+        assert!(report.verdict.certificate().is_some(), "h = {h}: {report:?}");
+    }
+    Ok(())
+}
+
 #[test]
 fn a_part_that_a_vanishing_coefficient_holds_is_refused_by_its_range() -> Result<()> {
     let alone = |range: &str| {
