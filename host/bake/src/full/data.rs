@@ -7,6 +7,7 @@ use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::{Error as KernelError, error::Array};
 
 use super::bent::{Bent, bent};
+use super::shares::{chords, shares};
 use super::transfer::Transfer;
 use crate::superposition::Part;
 use signorini_scene::error::Result;
@@ -64,10 +65,12 @@ impl<R: Scalar> Data<R> {
                 Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
                 Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
                 Field::Ambient => ambient(part, is_uniform),
-                Field::Coefficient => Pattern::Coefficient(match &part.coefficient {
-                    Some(pattern) => Transfer::new(pattern, is_uniform),
-                    None => Transfer::default(),
-                }),
+                Field::Coefficient => {
+                    let of = part.coefficient.as_ref();
+                    Pattern::Coefficient(
+                        of.map(|of| Transfer::new(of, is_uniform)).unwrap_or_default(),
+                    )
+                }
             }
         });
         let (curved, curved_sums) = bent(problem, parts)?;
@@ -183,22 +186,6 @@ fn pairs<R: Scalar>(all: &[[f64; 2]]) -> Vec<[R; 2]> {
 fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     let (coefficient, ambient) = (R::narrow(law.coefficient), R::narrow(law.ambient));
     Robin { edge: law.edge, coefficient, ambient }
-}
-
-pub(super) fn shares<R: Scalar>(weights: &[f64]) -> Vec<Contribution<R, u32>> {
-    let entries = weights.iter().zip(0..).filter(|(weight, _)| **weight != 0.0);
-    entries.map(|(&weight, at)| Contribution { at, weight: R::narrow(weight) }).collect()
-}
-
-fn chords<R: Scalar>(means: &[f64], ends: &[[f64; 2]]) -> Vec<EdgeTrace<R, u32>> {
-    let edges = means.iter().zip(ends).zip(0..);
-    let acts = edges.filter(|((mean, ends), _)| **mean != 0.0 || **ends != [0.0; 2]);
-    acts.map(|((&mean, ends), at)| EdgeTrace {
-        at,
-        mean: R::narrow(mean),
-        ends: ends.map(R::narrow),
-    })
-    .collect()
 }
 
 fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {

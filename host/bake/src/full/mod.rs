@@ -26,6 +26,7 @@ mod listing;
 mod output;
 mod rescaling;
 mod scale;
+mod shares;
 mod sizes;
 mod source;
 mod statics;

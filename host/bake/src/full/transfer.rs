@@ -2,7 +2,7 @@
 
 use signorini_kernel::device::full::{AmbientShare, Contribution, Points, TransferPattern};
 
-use super::data::shares;
+use super::shares::shares;
 use signorini_solve::problem;
 use signorini_solve::scalar::Scalar;
 

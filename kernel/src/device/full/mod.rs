@@ -21,9 +21,10 @@ pub use curved::{CurvedPart, CurvedSum, Product};
 pub use data::Base;
 pub use functional::Functional;
 pub use lengths::{Lengths, Numbers};
-pub use pattern::{Contribution, DataMemory, EdgeTrace, Pattern, Points};
+pub use pattern::{
+    AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
+};
 pub use storage::{ArrayStorage, Storage};
-pub use transfer::{AmbientShare, TransferPattern};
 
 use crate::bound::certificate::{Discretization, Verdict};
 use crate::bound::conforming::VertexData;

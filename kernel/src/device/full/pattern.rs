@@ -1,6 +1,5 @@
 //! What one input adds to the data for each unit of its value, and the memory that it is added in.
 
-use super::transfer::TransferPattern;
 use crate::bound::certificate::Curved;
 use crate::features;
 use crate::index::Index;
@@ -34,6 +33,26 @@ pub struct Points<R, I> {
     pub at: I,
     /// The additions.
     pub values: [R; 8],
+}
+
+/// What one unit of an input adds to h and, with it, to ∫h u_ext.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransferPattern<'a, R, I> {
+    /// ∫π, by number of the transfer law.
+    pub integrals: &'a [Contribution<R, I>],
+    /// ∫π u_ext, in parts.
+    pub ambient: &'a [AmbientShare<'a, R, I>],
+    /// |E|π at points, where h and u_ext are not constant along every edge.
+    pub points: &'a [Points<R, I>],
+}
+
+/// The part of ∫π u_ext that the base, or one unit of an input, makes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AmbientShare<'a, R, I> {
+    /// 0 for the base, else 1 more than the number of the input.
+    pub input: u16,
+    /// ∫π u₀ or ∫π w, by number of the transfer law.
+    pub integrals: &'a [Contribution<R, I>],
 }
 
 /// A pattern by the field that it acts on: nothing elsewhere.

@@ -7,29 +7,9 @@
 //! with w_a what input a adds to u_ext. The integrals of products stand here: patterns of any shape are as exact as with
 //! one number for h. A tick lays its rows out anew in any case, and the new diagonal comes with them.
 
-use super::pattern::{Contribution, DataMemory, Pattern, Points, each};
+use super::pattern::{DataMemory, Pattern, Points, TransferPattern, each};
 use crate::index::{Index, read};
 use crate::real::Real;
-
-/// What one unit of an input adds to h and, with it, to ∫h u_ext.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TransferPattern<'a, R, I> {
-    /// ∫π, by number of the transfer law.
-    pub integrals: &'a [Contribution<R, I>],
-    /// ∫π u_ext, in parts.
-    pub ambient: &'a [AmbientShare<'a, R, I>],
-    /// |E|π at points, where h and u_ext are not constant along every edge.
-    pub points: &'a [Points<R, I>],
-}
-
-/// The part of ∫π u_ext that the base, or one unit of an input, makes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AmbientShare<'a, R, I> {
-    /// 0 for the base, else 1 more than the number of the input.
-    pub input: u16,
-    /// ∫π u₀ or ∫π w, by number of the transfer law.
-    pub integrals: &'a [Contribution<R, I>],
-}
 
 impl<R: Real, I: Index> DataMemory<'_, R, I> {
     /// Adds what coefficients change, once u_ext has its own inputs.
@@ -81,7 +61,7 @@ impl<R: Real, I: Index> TransferPattern<'_, R, I> {
 mod tests {
     use super::*;
     use crate::bound::conforming::VertexData;
-    use crate::device::full::Base;
+    use crate::device::full::{AmbientShare, Base, Contribution};
     use crate::discrete::assembly::CellLoads;
     use crate::mesh::boundary::Robin;
 
