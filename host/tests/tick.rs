@@ -1,6 +1,8 @@
 //! `signorini tick` as users and scripts meet it: its table, its logs, its messages.
 
-use signorini_tolerances::command::{BAKED, COARSE_START, LIMIT_OF_TICKS, MOVING_FORCE, REPLAYED};
+use signorini_tolerances::command::{
+    BAKED, COARSE_START, LIMIT_OF_TICKS, MOVING_FORCE, REPLAYED, STATED,
+};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -332,33 +334,31 @@ fn a_limit_may_change_from_tick_to_tick() {
     assert!(said.contains("the limit is -0.5") && said.contains("less than flux = 0"), "{said}");
 }
 
-/// Ticks keep one matrix; a solve has its own.
+/// The slab with its coefficient as an input, at the value that it had: each tick is the scene's own, and its own baked
+/// module's.
 #[test]
-fn a_coefficient_that_changes_is_for_solves() {
+fn a_coefficient_that_an_input_sets_is_the_one_that_the_scene_states() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (scene, out) = (folder.path().join("slab.toml"), folder.path().join("out"));
+    let scene = folder.path().join("slab.toml");
     std::fs::copy(meshes("scenes/slab.msh"), folder.path().join("slab.msh")).expect("a mesh");
     let text = std::fs::read_to_string(meshes("scenes/slab.toml")).expect("a scene");
     let input = "[input.h]\nof = \"air\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 15\nrange = [5, 80]\n";
-    let text = text.replace("coefficient = \"15\"", "coefficient = \"0\"") + input;
-    std::fs::write(&scene, text).expect("a scene");
-    let message = refused(&scene, &out, &["--ticks", "2"]);
-    assert!(message.contains("input.h.field: it changes the matrix"), "{message}");
-    let [own, stated] =
-        [(scene, "own"), (meshes("scenes/slab.toml"), "stated")].map(|(of, name)| {
-            let out = folder.path().join(name);
-            let arguments = ["solve", &of.to_string_lossy(), "--out", &out.to_string_lossy()]
-                .map(str::to_owned);
-            let status = Command::new(env!("CARGO_BIN_EXE_signorini"))
-                .args(arguments)
-                .status()
-                .expect("the program");
-            assert!(status.success(), "{name}");
-            let summary = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
-            let json: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
-            json["outputs"]["power"].as_f64().expect("a power")
-        });
-    assert!((own / stated - 1.0).abs() < 1e-9, "{own} {stated}");
+    let own = text.replace("coefficient = \"15\"", "coefficient = \"0\"") + input;
+    std::fs::write(&scene, own).expect("a scene");
+    let power = |scene: &Path, name: &str, more: &[&str]| {
+        let out = folder.path().join(name);
+        let output = tick(scene, &out, &[&["--ticks", "2"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        Table::read(&out.join("ticks.csv")).numbers("power")
+    };
+    let stated = power(&meshes("scenes/slab.toml"), "stated", &[]);
+    for (name, more) in [("own", &[][..]), ("module", &["--baked", "--scalar", "f64"])] {
+        for (own, stated) in power(&scene, name, more).iter().zip(&stated) {
+            STATED.check_relative(name, *own, *stated);
+        }
+    }
+    let message = refused(&scene, &folder.path().join("out"), &["--input", "h=81"]);
+    assert!(message.contains("--input h=81"), "{message}");
 }
 
 #[test]

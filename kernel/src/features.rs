@@ -17,6 +17,8 @@ pub const CONTACT: bool = cfg!(feature = "contact");
 pub const LIMITED: bool = cfg!(feature = "limited");
 /// Transfer laws.
 pub const ROBIN: bool = cfg!(feature = "robin");
+/// Transfer coefficients that inputs of a full model change.
+pub const TRANSFER: bool = cfg!(feature = "transfer");
 /// Gaps and Dirichlet values that are not affine along an edge.
 pub const CURVED: bool = cfg!(feature = "curved");
 /// Each cell's share in the error bound.

@@ -1,15 +1,20 @@
 //! Loads and boundary data as a sum over inputs: base + Σ value · pattern, each part by itself.
 //!
-//! All data are linear in the inputs, so each part is what the rest of the host computes for a scene in
-//! which only that part is left.
+//! All data but h u_ext are linear in the inputs, so each part is what the rest of the host computes for a scene in which
+//! only that part is left. Where inputs change h, all parts have the h that the scene states, and what inputs add to it is a
+//! pattern with products ([`TransferPattern`]).
+//!
+//! What 8 points miss of u_ext weighs √h, and whether h allows for a bound is a comparison of h at two points of an edge,
+//! linear in the inputs: both are judged at all corners of the ranges of such inputs.
 
-use signorini_scene::error::Result;
+use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::{Term, left_with};
+use signorini_scene::scene::{Field, Input, Scene};
 use signorini_solve::certify::Evaluated;
 use signorini_solve::certify::curved::{Curved, curved};
 use signorini_solve::certify::ends::Ends;
-use signorini_solve::certify::robin::RobinPoints;
-use signorini_solve::problem::{Loads, Problem};
+use signorini_solve::certify::robin::{RobinPoints, robin};
+use signorini_solve::problem::{Loads, Problem, TransferPattern};
 
 /// The data of one part.
 #[derive(Debug, Clone)]
@@ -26,6 +31,8 @@ pub struct Part {
     pub oscillation: f64,
     /// Whether these data allow for a bound.
     pub has_bound: bool,
+    /// What the part adds to h, where it is an input that does.
+    pub coefficient: Option<TransferPattern>,
 }
 
 /// The base and every input's part, in the order of the terms.
@@ -38,11 +45,60 @@ pub fn parts(problem: &Problem) -> Result<Vec<Part>> {
 
 impl Part {
     fn new(problem: &Problem, term: Term) -> Result<Self> {
-        let problem = problem.left_with(&[term])?;
-        let Evaluated { ends, curved, transfer, oscillation, no_bound } = Evaluated::new(&problem)?;
-        let has_bound = no_bound.is_none();
-        Ok(Self { ends, curved, transfer, oscillation, has_bound, loads: problem.loads })
+        let input = term.checked_sub(1).filter(|&at| changes_transfer(&problem.scene.inputs[at]));
+        let coefficient = input.map(|at| problem.transfer_pattern(at)).transpose()?;
+        let alone = problem.restated(as_stated(&problem.scene)).left_with(&[term])?;
+        let mut corners = corners(&alone.scene).map(|scene| Evaluated::new(&alone.restated(scene)));
+        // Without such inputs there is one corner, the scene itself.
+        let first = corners.next().unwrap_or_else(|| Evaluated::new(&alone))?;
+        let data = corners.try_fold(first, |worst, there| {
+            let there = there?;
+            let oscillation = worst.oscillation.max(there.oscillation);
+            let no_bound = worst.no_bound.or(there.no_bound);
+            Ok::<_, Error>(Evaluated { oscillation, no_bound, ..there })
+        })?;
+        Ok(Self {
+            ends: data.ends,
+            curved: data.curved,
+            transfer: robin(&alone, alone.time)?,
+            oscillation: data.oscillation,
+            has_bound: data.no_bound.is_none(),
+            coefficient,
+            loads: alone.loads,
+        })
     }
+
+    /// Whether h and u_ext are constant along every edge.
+    pub fn is_uniform(&self) -> bool {
+        let mut added = self.coefficient.iter().flat_map(|of| &of.points);
+        self.transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0]))
+            && added.all(|edge| edge.iter().all(|h| *h == edge[0]))
+    }
+}
+
+fn changes_transfer(input: &Input) -> bool {
+    input.field.value == Field::Coefficient
+}
+
+/// `scene` with the coefficients that no input changes.
+fn as_stated(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let inputs = scene.inputs.iter_mut().filter(|input| changes_transfer(input));
+    inputs.for_each(|input| input.default = 0.0);
+    scene
+}
+
+/// `scene` with the inputs of coefficients at all corners of their ranges.
+fn corners(scene: &Scene) -> impl Iterator<Item = Scene> {
+    let inputs = scene.inputs.iter().filter(|input| changes_transfer(input)).count();
+    (0..1_usize << inputs).map(|corner| {
+        let mut scene = scene.clone();
+        let inputs = scene.inputs.iter_mut().filter(|input| changes_transfer(input));
+        for (at, input) in inputs.enumerate() {
+            input.default = input.interval()[(corner >> at) & 1];
+        }
+        scene
+    })
 }
 
 /// The curved edges where both terms act together, one unit of each.

@@ -40,7 +40,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
         .map(|count| shares(count, &mut draw));
     let (gap, value) = (chords(counts.contact, &mut draw), chords(counts.dirichlet, &mut draw));
     let points: Vec<_> = (0..arrays.robin.len() as u16)
-        .map(|at| Points { at, ambient: std::array::from_fn(|_| R::of(0.5 * draw.signed())) })
+        .map(|at| Points { at, values: std::array::from_fn(|_| R::of(0.5 * draw.signed())) })
         .collect();
     let patterns = [
         Pattern::Source { triangles: &sources[0], quads: &sources[1] },

@@ -29,6 +29,16 @@ table! {
         "the elements are exact for it: sweeps leave 1e-14 of its size 4, times the condition of a small mesh, 100";
     MEANS_NARROW: "mean of an affine u over a boundary in f32", 2e-5,
         "sweeps end at 4√n ε = 3e-6 of its size there";
+    TRANSFER: "heat through a wall and its bound in ticks with another coefficient, against resistances", 1e-11,
+        "u is affine: sweeps end in rounding, times a condition of 100";
+    TRANSFER_NARROW: "heat through such a wall and its bound in f32", 2e-3,
+        "ε = 1.2e-7 times u = 1 and a condition of 100";
+    TRANSFER_TICK: "outputs of ticks with other coefficients against the direct solver, over the largest flux", 1e-8,
+        "sweeps end at 1e-9 of the bound";
+    TRANSFER_TICK_NARROW: "outputs of such ticks in f32, over the largest flux", 1e-3,
+        "ε = 1.2e-7 times the condition";
+    TRANSFER_WARM: "outputs of warm solves with other coefficients against the direct solver", 1e-10,
+        "the tolerance of a solve, 1e-13, times the condition";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";
     IDENTITY: "bound of a condensed model against the identity, relative, smooth", 1e-5,

@@ -5,10 +5,12 @@ table! {
         "the error of the mesh";
     REPLAYED: "force of a second tick with the same inputs, relative", 1e-3,
         "ticks end at a share of the bound";
-    LIMIT_OF_TICKS: "power and lengths of ticks with a limit that changes against solves, of 1 to 2", 1e-3,
+    LIMIT_OF_TICKS: "power and lengths of ticks with a limit that changes against solves, of 1 to 2", 2e-2,
         "ticks end at a share of the bound";
     BAKED: "outputs of the baked controller against the full model, relative", 1e-2,
         "ticks of the full model end at a share of the bound";
+    STATED: "power of ticks where an input sets a coefficient, against the scene that states it, relative", 1e-3,
+        "ticks end at a share of the bound";
     COARSE_START: "bound of a tick from a coarse mesh against one without, relative", 0.05,
         "both end at a share of the bound";
     PROMISED: "error of a fragment that is solved again, relative", 1e-14,

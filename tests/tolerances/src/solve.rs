@@ -69,6 +69,12 @@ table! {
         "sums of at most 20 weights";
     CATALOGUE: "errors on other meshes against the catalogue, relative", 5e-4,
         "quadrature of the norms";
+    MODES: "matrix and loads by modes against a fresh condensation, over the largest", 1e-13,
+        "rounding times the condition of the mesh";
+    IDENTITY_OF_MODES: "the residual in the bound of a model of modes against the identity, relative", 2e-5,
+        "quadrature of lifts in triangles";
+    MODES_OUTPUTS: "outputs of a model of modes against the direct solver, over the largest flux", 1e-13,
+        "rounding times the condition of the mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
     DUVAUT: "a wall above a heater with a limit, against its closed form", 1e-11,

@@ -10,7 +10,7 @@ use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
 use signorini_kernel::{Tensor, solve::Relaxation};
 
-use super::data::Data;
+use super::data::{Data, Pattern};
 use super::factored::Factored;
 use super::limits;
 use super::output::{Output, output};
@@ -117,11 +117,14 @@ impl<R: Scalar> Baked<R> {
     pub(super) fn in_its_units(problem: &Problem, face: ModuleApi) -> Result<Self> {
         let setting = checked::<R>(&problem.scene)?;
         Approach::FullModel.check(problem)?;
-        let held = Parts::examine(problem)?;
+        Parts::examine(problem)?;
+        let held = Parts::whatever_inputs(problem)?;
         let unfit = unfit::<R>(&problem.scene);
-        let assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+        // The ways out lead where something passes whatever the inputs.
+        let least = problem.at_least_transfer()?;
+        let assembled = Assembled::<R>::new(&least).map_err(&unfit)?;
         assembled.system().map_err(&unfit)?;
-        let certifier = Certifier::new(problem, &held, &assembled).map_err(&unfit)?;
+        let certifier = Certifier::new(&least, &held, &assembled).map_err(&unfit)?;
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let functionals = functionals(problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
@@ -235,6 +238,7 @@ impl<R: Scalar> Baked<R> {
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
             ("robin", !self.data.robin.is_empty()),
+            ("transfer", self.data.varies(|pattern| matches!(pattern, Pattern::Coefficient(_)))),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
             ("micromath", self.how.fast),
         ];

@@ -45,14 +45,14 @@ impl<R: Scalar> Baked<R> {
     /// The same with ticks that a factor solves; `problem` is what it was baked from, in its units.
     ///
     /// # Errors
-    /// What [`Approach::Factor`] cannot treat; a matrix that this scalar cannot tell from a singular one, a factor beyond
+    /// What [`Approach::FactoredTicks`] cannot treat; a matrix that this scalar cannot tell from a singular one, a factor beyond
     /// all memory.
     pub fn with_factor(self, problem: &Problem) -> Result<Self> {
         let refused = |message: String| {
             let hint = "take solver = \"sweeps\", or the scalar f64";
             InputError::new(message).file(&problem.scene.path).hint(hint)
         };
-        Approach::Factor.check(problem)?;
+        Approach::FactoredTicks.check(problem)?;
         let Some(factored) = Factored::new(problem)? else {
             return Err(refused("setting.solver: this mesh has no factor in f64".to_owned()).into());
         };

@@ -7,6 +7,8 @@ use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::{Error as KernelError, error::Array};
 
 use super::bent::{Bent, bent};
+use super::shares::{chords, shares};
+use super::transfer::Transfer;
 use crate::superposition::Part;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
@@ -42,6 +44,7 @@ pub(super) enum Pattern<R> {
     Gap(Vec<EdgeTrace<R, u32>>),
     Value(Vec<EdgeTrace<R, u32>>),
     Ambient { integrals: Vec<Contribution<R, u32>>, points: Vec<Points<R, u32>> },
+    Coefficient(Transfer<R>),
 }
 
 impl<R: Scalar> Data<R> {
@@ -49,9 +52,7 @@ impl<R: Scalar> Data<R> {
     pub fn new(problem: &Problem, parts: &[Part], stiffness: Stiffness<R>) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
-        let is_uniform = parts.iter().all(|part| {
-            part.transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0]))
-        });
+        let is_uniform = parts.iter().all(Part::is_uniform);
         let patterns = problem.scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
             let contact = !part.loads.contact_flux.iter().all(|&flux| flux == 0.0);
             match input.field.value {
@@ -65,8 +66,13 @@ impl<R: Scalar> Data<R> {
                 Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
                 // Scenes with limits were refused.
                 Field::Limit => Pattern::ContactFlux(Vec::new()),
-                // Coefficients that change were refused: they are no part of a sum of loads.
-                Field::Ambient | Field::Coefficient => ambient(part, is_uniform),
+                Field::Ambient => ambient(part, is_uniform),
+                Field::Coefficient => {
+                    let of = part.coefficient.as_ref();
+                    Pattern::Coefficient(
+                        of.map(|of| Transfer::new(of, is_uniform)).unwrap_or_default(),
+                    )
+                }
             }
         });
         let (curved, curved_sums) = bent(problem, parts)?;
@@ -101,8 +107,10 @@ impl<R: Scalar> Data<R> {
     /// Without everything that only the certificate reads.
     pub fn without_bound(mut self) -> Self {
         for pattern in &mut self.patterns {
-            if let Pattern::Ambient { points, .. } = pattern {
-                points.clear();
+            match pattern {
+                Pattern::Ambient { points, .. } => points.clear(),
+                Pattern::Coefficient(of) => of.points.clear(),
+                _ => {}
             }
         }
         Self {
@@ -161,9 +169,10 @@ impl<R: Scalar> Pattern<R> {
                 all.collect()
             }
             Self::Ambient { integrals, points } => {
-                let points = points.iter().flat_map(|point| point.ambient);
+                let points = points.iter().flat_map(|point| point.values);
                 of(integrals).into_iter().chain(points).collect()
             }
+            Self::Coefficient(of) => of.weights(),
         }
     }
 }
@@ -181,27 +190,11 @@ fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     Robin { edge: law.edge, coefficient, ambient }
 }
 
-fn shares<R: Scalar>(weights: &[f64]) -> Vec<Contribution<R, u32>> {
-    let entries = weights.iter().zip(0..).filter(|(weight, _)| **weight != 0.0);
-    entries.map(|(&weight, at)| Contribution { at, weight: R::narrow(weight) }).collect()
-}
-
-fn chords<R: Scalar>(means: &[f64], ends: &[[f64; 2]]) -> Vec<EdgeTrace<R, u32>> {
-    let edges = means.iter().zip(ends).zip(0..);
-    let acts = edges.filter(|((mean, ends), _)| **mean != 0.0 || **ends != [0.0; 2]);
-    acts.map(|((&mean, ends), at)| EdgeTrace {
-        at,
-        mean: R::narrow(mean),
-        ends: ends.map(R::narrow),
-    })
-    .collect()
-}
-
 fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
     let integrals: Vec<f64> = part.loads.robin.iter().map(|law| law.ambient).collect();
     let edges = part.transfer.iter().zip(0..).filter(|_| !is_uniform);
-    let points = edges.map(|(edge, at)| Points { at, ambient: edge.map(|[_, u]| R::narrow(u)) });
-    let acts = |points: &Points<R, u32>| points.ambient.iter().any(|&u| u != R::ZERO);
+    let points = edges.map(|(edge, at)| Points { at, values: edge.map(|[_, u]| R::narrow(u)) });
+    let acts = |points: &Points<R, u32>| points.values.iter().any(|&u| u != R::ZERO);
     Pattern::Ambient { integrals: shares(&integrals), points: points.filter(acts).collect() }
 }
 

@@ -1,7 +1,9 @@
 //! The statics of inputs and outputs: what each adds, and what each is read off.
 
 use signorini_kernel::Index;
-use signorini_kernel::device::full::{Contribution, EdgeTrace, Functional, Pattern, Points};
+use signorini_kernel::device::full::{
+    AmbientShare, Contribution, EdgeTrace, Functional, Pattern, Points, TransferPattern,
+};
 
 use super::statics::{Statics, lines, named};
 use crate::module_api::ModuleApi;
@@ -41,7 +43,32 @@ fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Stat
             let points = to.array::<Points<R, I>>(&name, &doc, "Points<Scalar, Index>", points);
             format!("Pattern::Ambient {{ integrals: {integrals}, points: {points} }}")
         }
+        Pattern::Coefficient(of) => {
+            let pattern = transfer::<R, I>(of, input, to);
+            format!("Pattern::Coefficient(&{pattern})")
+        }
     }
+}
+
+fn transfer<R: Scalar, I: Index>(
+    of: &TransferPattern<R, u32>,
+    input: &str,
+    to: &mut Statics,
+) -> String {
+    let adds = format!("that a unit of `{input}` adds");
+    let name = named(input, "PATTERN");
+    let integrals = contributions::<R, I>(&name, &format!("∫h {adds}."), of.integrals, to);
+    let ambient = of.ambient.iter().map(|AmbientShare { input: at, integrals }| {
+        let name = named(input, &format!("TIMES_AMBIENT_{at}"));
+        let part = "0 is what the scene states, 1 its first input";
+        let doc = format!("∫h u_ext {adds}, of part {at} of u_ext: {part}.");
+        let integrals = contributions::<R, I>(&name, &doc, integrals, to);
+        format!("AmbientShare {{ input: {at}, integrals: {integrals} }}")
+    });
+    let ambient = lines(&ambient.collect::<Vec<_>>());
+    let (name, doc) = (named(input, "AT_POINTS"), format!("∫h {adds}, at points."));
+    let points = to.array::<Points<R, I>>(&name, &doc, "Points<Scalar, Index>", of.points);
+    format!("TransferPattern {{ integrals: {integrals}, ambient: {ambient}, points: {points} }}")
 }
 
 fn contributions<R: Scalar, I: Index>(

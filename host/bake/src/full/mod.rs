@@ -26,11 +26,13 @@ mod listing;
 mod output;
 mod rescaling;
 mod scale;
+mod shares;
 mod sizes;
 mod source;
 mod statics;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod underflow;
 
 pub use arrays::Baked;

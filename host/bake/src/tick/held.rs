@@ -30,8 +30,10 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
     play: impl FnOnce(&mut Engine) -> T,
 ) -> Result<T> {
     let unfit = unfit::<R>(&problem.scene);
-    let fixed = Assembled::<R>::new(problem).map_err(&unfit)?;
-    let certifier = Certifier::new(problem, parts, &fixed).map_err(&unfit)?;
+    // The ways out lead where something passes in every tick.
+    let least = problem.at_least_transfer()?;
+    let fixed = Assembled::<R>::new(&least).map_err(&unfit)?;
+    let certifier = Certifier::new(&least, parts, &fixed).map_err(&unfit)?;
     let mut store = Store::<R, WIDTH>::new(problem, &fixed);
     if let Some(coarse) = coarse {
         let means: Vec<R> = coarse::solved(coarse)?.into_iter().map(R::narrow).collect();

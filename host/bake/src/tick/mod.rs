@@ -3,7 +3,7 @@
 //! ```text
 //!   schedule or log ─► moments (t, inputs) ─► loads at t ─► player ─► Tick ─► ticks.csv, ticks.svg
 //! ```
-//! Mesh, numbering and A are set up once; between ticks only loads, gaps and boundary values change,
+//! Mesh, numbering and A are set up once; between ticks only loads, gaps, boundary values and transfer coefficients change,
 //! which is what happens on a device. The player is the kernel's own tick ([`held`]) wherever D or R holds
 //! every part, and otherwise a warm solve ([`player`]). Where the numbers of the first moment are far from 1 they play
 //! in other units, and all answers are in the scene's.
@@ -30,7 +30,7 @@ use signorini_scene::scene::units::Units;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::problem::{Approach, Parts, Problem, Property};
+use signorini_solve::problem::{Approach, Parts, Problem};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Options, ScalarKind, choose_units};
 
@@ -166,11 +166,7 @@ fn play_in<R: Scalar>(
         tick.rescale(&problem.scene, &units);
         done(tick);
     };
-    let parts = Parts::examine(problem)?;
-    // The others are solved tick by tick, with one matrix too.
-    if let Some(lack) = Approach::Tick.lack_of(Property::TransferInput, problem, parts.counts) {
-        return Err(lack.into());
-    }
+    let parts = Parts::whatever_inputs(problem)?;
     let mut all =
         |engine: &mut held::Engine| through(problem, moments, budget.scalar, engine, &mut done);
     if Approach::Tick.lack_with(problem, parts.counts).is_some() {

@@ -1,15 +1,17 @@
 //! A scene's loads as a sum: base + Σ input · pattern, and the scene that only some of these terms leave.
 
-use super::{Located, Role, Scene};
+use super::{Field, Located, Role, Scene};
 use crate::expression::Expression;
 
 /// A term of the sum: 0 is the base, 1 + j what one unit of input j adds.
 pub type Term = usize;
 
-/// `scene` with one unit of each of these terms and nothing else.
+/// `scene` with one unit of each of these terms and nothing else. Coefficients are no loads: inputs keep what they add to them,
+/// and add no term.
 pub fn left_with(scene: &Scene, terms: &[Term]) -> Scene {
     let mut scene = scene.clone();
-    for (at, input) in scene.inputs.iter_mut().enumerate() {
+    let inputs = scene.inputs.iter_mut().enumerate();
+    for (at, input) in inputs.filter(|(_, input)| input.field.value != Field::Coefficient) {
         input.default = if terms.contains(&(at + 1)) { 1.0 } else { 0.0 };
     }
     if !terms.contains(&0) {

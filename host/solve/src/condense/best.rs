@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::residual::Block;
+use super::block::Block;
 use crate::reference::{Linear, ReferenceError};
 
 /// Numbers for each column, those of one place together.

@@ -20,14 +20,7 @@ pub(super) fn columns(
         loads: pattern.loads().clone(),
     });
     let mut columns: Vec<_> = of_patterns.collect();
-    let mut silent = Loads {
-        robin: problem.loads.robin.clone(),
-        contact_flux: vec![0.0; counts.contact],
-        gap: vec![0.0; counts.contact],
-        dirichlet: vec![0.0; counts.dirichlet],
-        ..Loads::default()
-    };
-    silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
+    let silent = silent(problem);
     for &opened in edges {
         let mut contact = vec![0.0; counts.contact];
         contact[opened] = 1.0;
@@ -38,6 +31,20 @@ pub(super) fn columns(
         columns.push(FieldLoads { loads: uniform_source(problem, cells, silent), contact });
     }
     columns
+}
+
+/// No load at all.
+pub(super) fn silent(problem: &Problem) -> Loads {
+    let counts = problem.topology.counts;
+    let mut silent = Loads {
+        robin: problem.loads.robin.clone(),
+        contact_flux: vec![0.0; counts.contact],
+        gap: vec![0.0; counts.contact],
+        dirichlet: vec![0.0; counts.dirichlet],
+        ..Loads::default()
+    };
+    silent.robin.iter_mut().for_each(|record| record.ambient = 0.0);
+    silent
 }
 
 /// `silent` with a source that adds up to 1, the same all over `cells`.

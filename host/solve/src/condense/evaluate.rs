@@ -91,9 +91,15 @@ impl CondensedModel {
     /// The guaranteed bound of (p, x) for any x ≥ 0, in the unit of ‖A^½∇u‖; `None` where there is none.
     pub fn bound(&self, p: &[f64], x: &[f64]) -> Option<f64> {
         let form = self.certificate.as_ref().ok()?;
+        self.bound_with(form.norm(&form.factor, p, x), p, x)
+    }
+
+    /// The same, `norm` being that of the residual A^½∇s − A^{−½}τ.
+    pub(super) fn bound_with(&self, norm: f64, p: &[f64], x: &[f64]) -> Option<f64> {
+        let form = self.certificate.as_ref().ok()?;
         let mut residual = self.residual(p, x);
         let slack = form.stability * form.mend(&self.opening, &mut residual, x)?;
-        let gap = form.norm(&form.factor, p, x) + slack;
+        let gap = norm + slack;
         let (mut square, mut moved) = (gap.powi(2), 0.0);
         for corner in &form.corners {
             let excess = dot(&corner.excess, p);
@@ -125,7 +131,7 @@ impl Form {
     }
 
     /// |F(p, x, d)| for one of the forms.
-    fn norm(&self, factor: &[f64], p: &[f64], x: &[f64]) -> f64 {
+    pub(super) fn norm(&self, factor: &[f64], p: &[f64], x: &[f64]) -> f64 {
         let z: Vec<f64> = p.iter().chain(x).copied().chain(self.correction(x)).collect();
         let mut rows = vec![0.0; z.len()];
         let mut start = 0;

@@ -7,7 +7,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 
 use super::best::Table;
-use super::residual::Block;
+use super::block::Block;
 
 /// Rows a chunk, on top of one for each column.
 const CHUNK: usize = 1024;

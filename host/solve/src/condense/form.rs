@@ -6,12 +6,14 @@ use faer::Mat;
 
 use super::Form;
 use super::best::{Table, complete};
+use super::block::Block;
 use super::chain::Chain;
 use super::elimination::{Field, failed};
 use super::factor::{energies, triangular};
 use super::functions::Functions;
+use super::laws::Laws;
 use super::patterns::Pattern;
-use super::residual::{Block, blocks, jumps};
+use super::residual::{blocks, jumps};
 use super::stability::{Source, stability};
 use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};
@@ -35,6 +37,8 @@ pub(super) struct FormData<'g> {
     pub source: Option<(&'g Field, Vec<f64>)>,
     /// The unknowns of that part.
     pub floating: Vec<usize>,
+    /// Transfer laws whose coefficient changes.
+    pub laws: Option<&'g Laws>,
 }
 
 /// s and τ in every column.
@@ -63,14 +67,19 @@ impl FormData<'_> {
             Err(reason) => return Ok(Err(reason)),
         };
         let functions = Functions::of(problem);
-        let blocks = blocks(problem, patterns, &functions)?;
-        let fluxes = table(problem.ends.len(), self.fields, |field| &field.flux);
+        let blocks = blocks(problem, patterns, &functions, self.laws)?;
+        let fluxes = self.fluxes(self.fields);
         let mut s = self.boundary_values(&chain, &functions);
         let at_boundary = chain.fixed();
         let mut fixed = vec![false; functions.count()];
         at_boundary.iter().for_each(|&vertex| fixed[vertex as usize] = true);
         fix_unused(&blocks, &mut fixed);
-        complete(&blocks, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
+        let judged = match self.laws {
+            Some(laws) => [&blocks[..], &self.weighed(laws, &functions)?].concat(),
+            None => Vec::new(),
+        };
+        let judged = if judged.is_empty() { &blocks } else { &judged };
+        complete(judged, &fixed, &fluxes, &mut s).map_err(failed(&problem.scene))?;
         let Some(stability) = self.stability(&blocks) else {
             return Ok(Err("the condensed matrix is singular to working precision".to_owned()));
         };
@@ -98,6 +107,24 @@ impl FormData<'_> {
             floating: self.floating.clone(),
         };
         Ok(Ok((form, Admissibles { s, fluxes, functions })))
+    }
+
+    /// Fluxes of columns; and means of u behind them, where laws are read off these.
+    fn fluxes(&self, fields: &[Field]) -> Table {
+        let edges = self.problem.ends.len();
+        let mut fluxes = table(edges, fields, |field| &field.flux);
+        if self.laws.is_some() {
+            fluxes.values.extend(table(edges, fields, |field| &field.u).values);
+        }
+        fluxes
+    }
+
+    /// The rows of changing laws, for the change that s is made for.
+    fn weighed(&self, laws: &Laws, functions: &Functions) -> Result<Vec<Block>> {
+        let mut blocks = laws.blocks(self.problem, self.patterns, functions)?;
+        let rows = blocks.iter_mut().flat_map(|block| &mut block.rows);
+        rows.flatten().for_each(|entry| *entry *= laws.change.sqrt());
+        Ok(blocks)
     }
 
     /// Why these data allow for no bound.
@@ -139,13 +166,13 @@ impl FormData<'_> {
             self.floating.iter().for_each(|&at| inverse[at] = 1.0 / self.openings[at]);
             source = Some(Source { inverse, load: load.clone() });
         }
-        let fluxes = table(self.problem.ends.len(), &columns, |field| &field.flux);
+        let fluxes = self.fluxes(&columns);
         stability(self.matrix, &energies(blocks, &fluxes), source.as_ref())
     }
 }
 
 /// The upper triangle by columns.
-fn packed(factor: &Mat<f64>) -> Vec<f64> {
+pub(super) fn packed(factor: &Mat<f64>) -> Vec<f64> {
     (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
 }
 

@@ -22,6 +22,7 @@
 //! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
 
 mod best;
+mod block;
 mod chain;
 mod columns;
 mod elimination;
@@ -30,8 +31,10 @@ mod factor;
 mod form;
 mod functions;
 mod held;
+mod laws;
 mod measures;
 mod model;
+mod modes;
 mod order;
 mod patterns;
 mod points;
@@ -47,13 +50,15 @@ use faer::Mat;
 
 use crate::problem::{Approach, Parts, Problem};
 use columns::columns;
-use elimination::{Field, fields};
-use form::FormData;
+use elimination::{Field, FieldLoads, fields};
+use form::{FormData, Found};
 use held::{held_alone, held_by_contact, held_by_one};
+use laws::Laws;
 use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
+pub use modes::{ModalModel, modal};
 pub use order::along_boundary;
-use patterns::patterns;
+use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
@@ -70,63 +75,121 @@ pub fn condense(problem: &Problem) -> Result<CondensedModel> {
 /// The model, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
 fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     Approach::Condensation.check(problem)?;
-    let parts = Parts::examine(problem)?;
-    let patterns = patterns(problem)?;
-    let (m, n) = (patterns.len(), problem.topology.counts.contact);
-    let edges = along_boundary(problem);
-    let held_by_contact = held_by_contact(problem, &parts, &edges);
-    if held_by_contact.iter().any(|part| part.len() == 1) {
-        return Err(held_by_one(&problem.scene));
+    let pieces = Pieces::new(problem)?;
+    let fields = pieces.fields(Vec::new())?;
+    pieces.model(fields)
+}
+
+/// What a condensed model is made of before anything is eliminated.
+struct Pieces<'p> {
+    problem: &'p Problem,
+    parts: Parts,
+    patterns: Vec<Pattern>,
+    edges: Vec<usize>,
+    held_by_contact: Vec<Vec<usize>>,
+    /// The cells of the one part that contact alone holds.
+    alone: Option<Vec<bool>>,
+    /// Transfer laws whose coefficient changes, where their fluxes are read off means of u.
+    laws: Option<Laws>,
+}
+
+impl<'p> Pieces<'p> {
+    fn new(problem: &'p Problem) -> Result<Self> {
+        let parts = Parts::examine(problem)?;
+        let patterns = patterns(problem)?;
+        let edges = along_boundary(problem);
+        let held_by_contact = held_by_contact(problem, &parts, &edges);
+        if held_by_contact.iter().any(|part| part.len() == 1) {
+            return Err(held_by_one(&problem.scene));
+        }
+        let alone = held_alone(problem, &parts, &edges);
+        Ok(Self { problem, parts, patterns, edges, held_by_contact, alone, laws: None })
     }
-    let alone = held_alone(problem, &parts, &edges);
-    let mut fields = fields(problem, &columns(problem, &patterns, &edges, alone.as_deref()))?;
-    let source = fields.split_off(m + n).pop();
-    let opening = scaled(problem, &edges, &mut fields[m..])?;
-    let matrix = matrix(problem, &edges, &fields[m..], &opening);
-    let load = |field: &Field, q: &[f64]| condensed_load(problem, &edges, field, q, &opening);
-    let mut model = CondensedModel {
-        contact: n,
-        edges: edges.clone(),
-        inputs: m,
-        matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
-        multiplier: opening.iter().map(|d| 1.0 / d).collect(),
-        load: fields.iter().zip(&patterns).map(|(f, p)| load(f, &p.loads().contact_flux)).collect(),
-        limits: Vec::new(),
-        defaults: std::iter::once(1.0)
-            .chain(problem.scene.inputs.iter().map(|i| i.default))
-            .collect(),
-        ranges: std::iter::once([1.0, 1.0])
-            .chain(problem.scene.inputs.iter().map(Input::interval))
-            .collect(),
-        outputs: measures(problem, &edges, &opening, &patterns, &fields)?,
-        certificate: Err(String::new()),
-        energy_unit: 1.0,
-        held_by_contact,
-        opening: opening.clone(),
-    };
-    let data = FormData {
-        problem,
-        parts: &parts,
-        edges: &edges,
-        patterns: &patterns,
-        fields: &fields,
-        openings: &opening,
-        matrix: &matrix,
-        source: source.as_ref().map(|field| (field, load(field, &vec![0.0; n]))),
-        floating: model
-            .held_by_contact
-            .first()
-            .filter(|_| source.is_some())
-            .cloned()
-            .unwrap_or_default(),
-    };
-    let (form, admissibles) = match data.form()? {
-        Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
-        Err(reason) => (Err(reason), None),
-    };
-    model.certificate = form;
-    model.choose_unit();
-    Ok((model, Recovery { fields, admissibles }))
+
+    /// Those of the patterns, of unit openings, of the source where there is one, and of `more` loads.
+    fn fields(&self, more: Vec<FieldLoads>) -> Result<Fields> {
+        let Self { problem, patterns, edges, alone, .. } = self;
+        let mut columns = columns(problem, patterns, edges, alone.as_deref());
+        let own = columns.len();
+        columns.extend(more);
+        let mut inputs = fields(problem, &columns)?;
+        let more = inputs.split_off(own);
+        let mut openings = inputs.split_off(patterns.len());
+        let source = openings.split_off(edges.len()).pop();
+        Ok(Fields { inputs, openings, source, more })
+    }
+
+    fn model(&self, fields: Fields) -> Result<(CondensedModel, Recovery)> {
+        let Self { problem, patterns, edges, .. } = self;
+        let (m, n) = (patterns.len(), edges.len());
+        let Fields { inputs: mut fields, mut openings, source, .. } = fields;
+        let opening = scaled(problem, edges, &mut openings)?;
+        fields.append(&mut openings);
+        let matrix = matrix(problem, edges, &fields[m..], &opening);
+        let load = |field: &Field, q: &[f64]| condensed_load(problem, edges, field, q, &opening);
+        let of_inputs = fields.iter().zip(patterns);
+        let inputs = || problem.scene.inputs.iter();
+        let mut model = CondensedModel {
+            contact: n,
+            edges: edges.clone(),
+            inputs: m,
+            matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
+            multiplier: opening.iter().map(|d| 1.0 / d).collect(),
+            load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
+            limits: Vec::new(),
+            defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
+            ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
+            outputs: measures(problem, edges, &opening, patterns, &fields)?,
+            certificate: Err(String::new()),
+            energy_unit: 1.0,
+            held_by_contact: self.held_by_contact.clone(),
+            opening: opening.clone(),
+        };
+        // Amplitudes of modes are no inputs of the scene.
+        model.defaults.resize(m, 0.0);
+        model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
+        let (form, admissibles) = match self.form(&fields, &opening, &matrix, source.as_ref())? {
+            Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
+            Err(reason) => (Err(reason), None),
+        };
+        model.certificate = form;
+        model.choose_unit();
+        Ok((model, Recovery { fields, admissibles }))
+    }
+
+    fn form(
+        &self,
+        fields: &[Field],
+        openings: &[f64],
+        matrix: &Mat<f64>,
+        source: Option<&Field>,
+    ) -> Result<Found> {
+        let Self { problem, parts, patterns, edges, held_by_contact, .. } = self;
+        let silent = vec![0.0; edges.len()];
+        let load = |field| condensed_load(problem, edges, field, &silent, openings);
+        let floating = held_by_contact.first().filter(|_| source.is_some());
+        let data = FormData {
+            problem,
+            parts,
+            edges,
+            patterns,
+            fields,
+            openings,
+            matrix,
+            source: source.map(|field| (field, load(field))),
+            floating: floating.cloned().unwrap_or_default(),
+            laws: self.laws.as_ref(),
+        };
+        data.form()
+    }
+}
+
+/// The fields of all columns.
+struct Fields {
+    inputs: Vec<Field>,
+    openings: Vec<Field>,
+    source: Option<Field>,
+    more: Vec<Field>,
 }
 
 /// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.

@@ -10,6 +10,7 @@ use crate::problem::{Loads, Problem};
 use signorini_scene::error::Result;
 
 /// One pattern.
+#[derive(Clone)]
 pub(super) struct Pattern {
     /// The problem in which only this pattern is alive, with its loads.
     pub problem: Problem,
@@ -21,6 +22,11 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
+    /// None of the terms: the pattern of what is no load of the scene.
+    pub fn silent(problem: &Problem) -> Result<Self> {
+        Self::new(problem.left_with(&[])?)
+    }
+
     fn new(problem: Problem) -> Result<Self> {
         let Evaluated { ends, oscillation, no_bound, .. } = Evaluated::new(&problem)?;
         Ok(Self { problem, ends, oscillation, no_bound })

@@ -8,33 +8,20 @@
 
 use signorini_kernel::{Real, Tensor};
 
+use super::block::{Block, triangular};
 use super::functions::Functions;
+use super::laws::{Laws, of_law, transfer};
 use super::patterns::Pattern;
 use super::points::{points, points_for};
 use crate::certify::cell::{Cell, Local};
 use crate::certify::conductivity::Conductivity;
 use crate::certify::curved::{POINTS, of_rough_sides};
 use crate::certify::deviation::Deviations;
-use crate::certify::robin::{RobinPoints, robin};
+use crate::certify::robin::RobinPoints;
 use crate::field::CellField;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, Point, gauss};
 use signorini_scene::error::Result;
-
-/// A remainder below this part of its column is the rounding of a dependent one. A row more than needed does no harm: at
-/// each step |c|² = (q·c)² + |c − (q·c)q|² for any unit vector q.
-const DEPENDENT: f64 = 16.0 * f64::EPSILON;
-
-/// Rows of one cell or Robin edge: coefficients of the functions of s, then of the fluxes, then of p.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Block {
-    /// Which functions of s, see [`Functions`].
-    pub functions: Vec<u32>,
-    /// Which edges' fluxes, in the edges' directions, or means.
-    pub edges: Vec<u32>,
-    /// Row after row.
-    pub rows: Vec<Vec<f64>>,
-}
 
 /// The rows of all cells and Robin edges.
 ///
@@ -44,16 +31,20 @@ pub(super) fn blocks(
     problem: &Problem,
     patterns: &[Pattern],
     functions: &Functions,
+    laws: Option<&Laws>,
 ) -> Result<Vec<Block>> {
     let deviations = deviations(problem, patterns)?;
     let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
     let cells = (0..problem.cells()).map(of_fluxes);
     let mut blocks = cells.collect::<Result<Vec<_>>>()?;
-    let transfer = patterns.iter().map(|pattern| robin(&pattern.problem, 0.0));
-    let transfer = transfer.collect::<Result<Vec<_>>>()?;
+    let transfer = transfer(patterns)?;
     for (at, record) in problem.loads.robin.iter().enumerate() {
         let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
-        blocks.push(of_robin(problem, record.edge as usize, functions, &ambient));
+        let edge = record.edge as usize;
+        blocks.push(match laws.is_some_and(|laws| laws.shares[at] > 0.0) {
+            true => of_law(problem, edge, functions, &ambient, record.coefficient),
+            false => of_robin(problem, edge, functions, &ambient),
+        });
     }
     Ok(blocks)
 }
@@ -246,27 +237,4 @@ fn of_robin(
         columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
     }
     Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
-}
-
-/// The rows of R in the QR factorisation of `columns` by modified Gram–Schmidt: Q is not kept, and a
-/// column that depends on those before it adds no row.
-fn triangular(mut columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let norm = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-    let sizes: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    let mut rows = Vec::new();
-    for at in 0..columns.len() {
-        let remainder = norm(&columns[at]);
-        if remainder <= DEPENDENT * sizes[at] {
-            continue;
-        }
-        let unit: Vec<f64> = columns[at].iter().map(|entry| entry / remainder).collect();
-        let mut row = vec![0.0; columns.len()];
-        row[at] = remainder;
-        for (entry, column) in row.iter_mut().zip(&mut columns).skip(at + 1) {
-            *entry = unit.iter().zip(&*column).map(|(q, c)| q * c).sum();
-            column.iter_mut().zip(&unit).for_each(|(c, q)| *c -= *entry * q);
-        }
-        rows.push(row);
-    }
-    rows
 }

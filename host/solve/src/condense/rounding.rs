@@ -12,9 +12,9 @@
 use signorini_kernel::mesh::components::Support;
 
 use super::best::Table;
+use super::block::Block;
 use super::elimination::Field;
 use super::form::FormData;
-use super::residual::Block;
 use crate::certify::forest::EquilibrationForest;
 use crate::certify::metric::Metric;
 use crate::problem::{Assembled, EdgeKind, Loads};

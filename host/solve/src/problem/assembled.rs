@@ -85,12 +85,17 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.parts = numbers.len();
     }
 
-    /// Takes the loads of another time; the matrix stays.
+    /// Takes the loads of another time; the matrix follows where a transfer coefficient is another one.
     ///
     /// # Errors
     /// Loads that the scalar type cannot hold.
     pub fn set_loads(&mut self, loads: &Loads) -> Result<(), Error> {
-        self.loads = loads.narrowed();
+        let before = std::mem::replace(&mut self.loads, loads.narrowed());
+        let coefficients =
+            |of: &Loads<R>| of.robin.iter().map(|law| law.coefficient).collect::<Vec<R>>();
+        if coefficients(&before) != coefficients(&self.loads) {
+            self.fill_values()?;
+        }
         self.fill_load()
     }
 

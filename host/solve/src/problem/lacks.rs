@@ -21,12 +21,16 @@ use signorini_scene::scene::term::first_in_time;
 pub enum Approach {
     /// The elimination of all but the contact edges: [`crate::condense`].
     Condensation,
+    /// The same for every value of one transfer coefficient: [`crate::condense::modal`].
+    Modes,
     /// The kernel's tick on the mesh.
     Tick,
     /// The full model that `bake` writes: that tick, with loads linear in inputs.
     FullModel,
-    /// The kernel's sparse factor, in a solve or in the ticks of a full model.
+    /// The kernel's sparse factor, in a solve.
     Factor,
+    /// The same in the ticks of a full model, one factor for all of them.
+    FactoredTicks,
     /// Data for tests of the kernel's stages.
     Export,
     /// Other solvers on the same matrices.
@@ -49,7 +53,7 @@ impl Approach {
     pub fn lack(self, problem: &Problem) -> Result<Option<Lack>> {
         let needs_parts = |of: &Property| of.is_of_parts() && !self.treats(*of);
         let parts = match Property::ALL.iter().any(needs_parts) {
-            true => Parts::examine(problem)?.counts,
+            true => Parts::whatever_inputs(problem)?.counts,
             false => PartCounts::default(),
         };
         Ok(self.lack_with(problem, parts))
@@ -82,36 +86,43 @@ impl Approach {
 
     /// How it refuses a problem with this property, if it does.
     const fn refusal(self, property: Property) -> Option<fn(&Problem) -> InputError> {
-        use Approach::{Baselines, Condensation, Export, Factor, FullModel, Tick};
+        use Approach::{
+            Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Modes, Tick,
+        };
         match property {
             Property::NoContact => match self {
                 Baselines => Some(nothing_to_compare),
-                Condensation | Tick | FullModel | Factor | Export => None,
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Export => None,
             },
             Property::ManyContactEdges => match self {
-                Condensation => Some(too_many),
-                Tick | FullModel | Factor | Export | Baselines => None,
+                Condensation | Modes => Some(too_many),
+                Tick | FullModel | Factor | FactoredTicks | Export | Baselines => None,
             },
             // Where that leaves a matrix singular, the factor finds it out.
             Property::FloatingPart => match self {
-                Condensation => Some(no_level),
+                Condensation | Modes => Some(no_level),
                 Tick | FullModel => Some(|problem| no_tick(problem, "nothing holds")),
-                Factor | Export | Baselines => None,
+                Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::PartHeldByContact => match self {
                 Tick | FullModel => Some(|problem| no_tick(problem, "contact alone holds")),
-                Condensation | Factor | Export | Baselines => None,
+                // Where h is what may fail to hold it, its matrix is singular for some h alone.
+                Modes => Some(|problem| no_tick(problem, "contact alone holds")),
+                Condensation | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::LoadInTime => match self {
-                Condensation | FullModel => Some(no_clock),
-                Tick | Factor | Export | Baselines => None,
+                Condensation | Modes | FullModel => Some(no_clock),
+                Tick | Factor | FactoredTicks | Export | Baselines => None,
             },
             Property::TransferInput => match self {
-                Condensation | FullModel | Tick | Export => Some(one_matrix),
-                Factor | Baselines => None,
+                Condensation | Export => Some(one_matrix),
+                FactoredTicks => Some(one_factor),
+                FullModel | Modes | Tick | Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Condensation | FullModel | Export | Baselines => Some(two_sides),
+                Condensation | Modes | FullModel | FactoredTicks | Export | Baselines => {
+                    Some(two_sides)
+                }
                 Tick | Factor => None,
             },
         }
@@ -143,9 +154,15 @@ fn no_level(problem: &Problem) -> InputError {
 
 /// The tick's certificate needs a way out of every part that no iterate can close.
 fn no_tick(problem: &Problem, held: &str) -> InputError {
+    let scene = &problem.scene;
+    if let Some(range) = problem.insulating_input().and_then(|input| input.range.as_ref()) {
+        let message = format!("within it nothing may pass, and then {held} a part of the domain");
+        let hint = "narrow the range, or give every part another dirichlet or robin boundary";
+        return scene.error(range, message).hint(hint);
+    }
     let message = format!("boundary: the full model has no tick for a part that {held}");
     let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
-    InputError::new(message).file(&problem.scene.path).hint(hint)
+    InputError::new(message).file(&scene.path).hint(hint)
 }
 
 /// Firmware has no clock of the scene's.
@@ -162,15 +179,23 @@ fn no_clock(problem: &Problem) -> InputError {
     refusal.hint(hint)
 }
 
-/// The matrix of a tick is that of the tick before.
+/// A condensed model, and data for tests, have one matrix.
 fn one_matrix(problem: &Problem) -> InputError {
+    changes_matrix(problem, "it changes the matrix, and one is written for all ticks")
+        .hint("take the full model (--full, model = \"full\")")
+}
+
+fn one_factor(problem: &Problem) -> InputError {
+    changes_matrix(problem, "it changes the matrix, and a factor holds for one of them")
+        .hint("take solver = \"sweeps\"")
+}
+
+fn changes_matrix(problem: &Problem, message: &str) -> InputError {
     let scene = &problem.scene;
-    let message = "it changes the matrix, which stays the same from tick to tick";
-    let refusal = match scene.transfer_input() {
+    match scene.transfer_input() {
         Some(input) => scene.error(&input.field, message),
         None => InputError::new(message).file(&scene.path),
-    };
-    refusal.hint("`signorini solve --input` takes it; for a controller, state the coefficient in the scene and bake one for each value")
+    }
 }
 
 /// Contact with two sides.

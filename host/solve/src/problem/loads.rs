@@ -1,18 +1,18 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
+use signorini_kernel::Error as KernelError;
 use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::mesh::flux_range::{FluxRange, Span, Spans};
-use signorini_kernel::{Error as KernelError, Real};
 
 use super::{EdgeKind, Problem, Sum, limits};
-use crate::quadrature::{DATA_POINTS, mean_on_edge};
+use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
-use signorini_scene::scene::{Condition, Field, Located, Scene};
+use signorini_scene::scene::{Condition, Field, Located};
 
 /// Everything on the right-hand side, integrated in f64; the kernel's records of it in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -73,7 +73,7 @@ impl Loads {
     /// Integrates all data of `problem` at time `time`.
     ///
     /// # Errors
-    /// Data that are not finite, a negative Robin coefficient.
+    /// Data that are not finite.
     pub fn at_time(problem: &Problem, time: f64) -> Result<Self> {
         let source = Sum::source(&problem.scene, time);
         let mut loads = Self::default();
@@ -156,7 +156,6 @@ impl Loads {
                     Sum::new(&problem.scene, name, Field::Coefficient, coefficient, time),
                     Sum::new(&problem.scene, name, Field::Ambient, ambient, time),
                 );
-                nowhere_negative(&problem.scene, coefficient, segment, &h)?;
                 let both = mean_on_edge(segment, |x, y| h.at(x, y) * outside.at(x, y));
                 let robin = Robin {
                     edge: index,
@@ -183,24 +182,4 @@ impl Loads {
 /// An infinite end of a flux.
 fn infinite(end: &Located<Expression>) -> Option<f64> {
     end.value.is_constant().filter(|end| end.is_infinite())
-}
-
-fn nowhere_negative(
-    scene: &Scene,
-    coefficient: &Located<Expression>,
-    [a, b]: [[f64; 2]; 2],
-    h: &Sum,
-) -> Result<()> {
-    let inside = f64::GAUSS[DATA_POINTS - 1].iter().map(|point| point[0]);
-    for t in inside.chain([0.0, 1.0]) {
-        let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-        let value = h.at(x, y);
-        if value < 0.0 {
-            let message = format!("the coefficient is {value} at ({x}, {y}), expected ≥ 0");
-            let hint =
-                "flux = coefficient · (ambient − u) with a negative coefficient has no limit";
-            return Err(scene.error(coefficient, message).hint(hint).into());
-        }
-    }
-    Ok(())
 }

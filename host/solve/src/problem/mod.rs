@@ -16,6 +16,7 @@ mod diagonal;
 mod element_matrices;
 mod integrals;
 mod lacks;
+mod least_transfer;
 mod limits;
 mod loads;
 mod property;
@@ -26,6 +27,7 @@ mod sum;
 mod tests;
 mod topology;
 mod transfer;
+mod transfer_pattern;
 mod unit_box;
 mod warnings;
 
@@ -39,6 +41,7 @@ pub use property::Property;
 pub use solvability::Parts;
 pub use sum::Sum;
 pub use topology::{EdgeKind, Topology};
+pub use transfer_pattern::TransferPattern;
 
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::{Loads, Problem, corners, integrals, limits};
+use super::{Loads, Problem, corners, integrals, limits, transfer};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::{Term, left_with};
@@ -20,6 +20,7 @@ impl Problem {
         self.loads = Loads::at_time(self, time)?;
         self.time = time;
         limits::check(self)?;
+        transfer::check_now(self)?;
         corners::check(self)
     }
 
@@ -57,7 +58,7 @@ impl Problem {
     }
 
     /// One unit of each of these terms of the loads, and nothing else. What the whole sum has to meet, a term alone may
-    /// break: nothing is checked where boundaries meet.
+    /// break: nothing is checked where boundaries meet, nor whether a coefficient is negative.
     ///
     /// # Errors
     /// Data that are not finite.

@@ -4,7 +4,7 @@ use signorini_kernel::discrete::assembly;
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
 use signorini_kernel::mesh::edges::{Edges, Side};
 
-use super::Problem;
+use super::{Loads, Problem};
 use signorini_scene::error::{InputError, Result};
 
 /// Loads whose sum is this small against their sizes are in balance: what quadrature leaves.
@@ -30,6 +30,27 @@ impl Parts {
         let mut cells = vec![Part::default(); triangles + problem.mesh.quads.len()];
         let counts = Self::counts(problem, &mut cells).map_err(|error| refused(problem, error))?;
         Ok(Self { counts, cells, triangles })
+    }
+
+    /// The same where every transfer coefficient is the least that inputs make it, and loads are such that each part has a
+    /// solution: what holds the parts whatever the inputs. Without such inputs, those of `problem` as it stands.
+    ///
+    /// # Errors
+    /// As for [`Parts::examine`] without such inputs; data that are not finite.
+    pub fn whatever_inputs(problem: &Problem) -> Result<Self> {
+        if problem.scene.transfer_input().is_none() {
+            return Self::examine(problem);
+        }
+        let mut least = problem.at_least_transfer()?;
+        least.loads = Loads {
+            neumann: Vec::new(),
+            contact_flux: vec![-1.0; least.topology.counts.contact],
+            triangles: Vec::new(),
+            quads: Vec::new(),
+            ..least.loads
+        };
+        least.loads.robin.iter_mut().for_each(|law| law.ambient = 0.0);
+        Self::examine(&least)
     }
 
     fn counts(

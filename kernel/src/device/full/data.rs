@@ -60,6 +60,9 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         for (pattern, &p) in patterns.iter().zip(inputs) {
             pattern.add(p, self);
         }
+        if features::TRANSFER {
+            self.transfer(patterns, inputs);
+        }
         if features::CURVED {
             same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
             let sums = base.curved_sums.iter().zip(self.curved.iter_mut());

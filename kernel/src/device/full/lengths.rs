@@ -153,7 +153,7 @@ impl Lengths {
                 numbers.dirichlet = base.dirichlet.len();
                 numbers.dirichlet_ends = base.ends.given.as_flattened().len();
             }
-            Pattern::Ambient { .. } => {
+            Pattern::Ambient { .. } | Pattern::Coefficient(_) => {
                 self.robin = base.robin.len();
                 numbers.transfer = base.transfer.as_flattened().as_flattened().len();
             }

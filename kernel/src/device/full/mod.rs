@@ -1,7 +1,7 @@
 //! The full model of a baked scene: its mesh solved on the target, tick after tick, by its inputs.
 //!
 //! ```text
-//!   inputs p ─► patterns: loads, gaps, boundary data linear in p ─► tick ─► functionals: outputs
+//!   inputs p ─► patterns: loads, gaps, boundary data, h of p ─► tick ─► functionals: outputs
 //! ```
 //! Everything that the host can compute beforehand is a `static` ([`Full`]): numbering, element matrices,
 //! packed cells in the order of the walk, the patterns of the inputs, the weights of the outputs. Nothing of it
@@ -15,12 +15,15 @@ mod functional;
 mod lengths;
 mod pattern;
 mod storage;
+mod transfer;
 
 pub use curved::{CurvedPart, CurvedSum, Product};
 pub use data::Base;
 pub use functional::Functional;
 pub use lengths::{Lengths, Numbers};
-pub use pattern::{Contribution, DataMemory, EdgeTrace, Pattern, Points};
+pub use pattern::{
+    AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
+};
 pub use storage::{ArrayStorage, Storage};
 
 use crate::bound::certificate::{Discretization, Verdict};

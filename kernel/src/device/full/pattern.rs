@@ -26,13 +26,33 @@ pub struct EdgeTrace<R, I> {
     pub ends: [R; 2],
 }
 
-/// What one unit of an input adds to u_ext at the 8 Gauss points of an edge.
+/// What one unit of an input adds to u_ext, or to ∫h, at the 8 Gauss points of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Points<R, I> {
     /// The place of the transfer law.
     pub at: I,
     /// The additions.
-    pub ambient: [R; 8],
+    pub values: [R; 8],
+}
+
+/// What one unit of an input adds to h and, with it, to ∫h u_ext.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransferPattern<'a, R, I> {
+    /// ∫π, by number of the transfer law.
+    pub integrals: &'a [Contribution<R, I>],
+    /// ∫π u_ext, in parts.
+    pub ambient: &'a [AmbientShare<'a, R, I>],
+    /// |E|π at points, where h and u_ext are not constant along every edge.
+    pub points: &'a [Points<R, I>],
+}
+
+/// The part of ∫π u_ext that the base, or one unit of an input, makes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AmbientShare<'a, R, I> {
+    /// 0 for the base, else 1 more than the number of the input.
+    pub input: u16,
+    /// ∫π u₀ or ∫π w, by number of the transfer law.
+    pub integrals: &'a [Contribution<R, I>],
 }
 
 /// A pattern by the field that it acts on: nothing elsewhere.
@@ -60,6 +80,8 @@ pub enum Pattern<'a, R, I> {
         /// At points, where that is not constant along every edge.
         points: &'a [Points<R, I>],
     },
+    /// h
+    Coefficient(&'a TransferPattern<'a, R, I>),
 }
 
 /// Memory for the data: each array is as long as its base where an input changes it, and else empty.
@@ -105,17 +127,21 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
                         law.ambient += p * weight;
                     }
                 });
-                for Points { at, ambient } in points {
+                for Points { at, values } in points {
                     let Some(edge) = data.transfer.get_mut(at.at()) else { break };
-                    edge.iter_mut().zip(ambient).for_each(|(point, &add)| point[1] += p * add);
+                    edge.iter_mut().zip(values).for_each(|(point, &add)| point[1] += p * add);
                 }
             }
-            Self::ContactFlux(_) | Self::Gap(_) | Self::Ambient { .. } => {}
+            // Coefficients need all inputs at once: see `super::transfer`.
+            Self::ContactFlux(_) | Self::Gap(_) | Self::Ambient { .. } | Self::Coefficient(_) => {}
         }
     }
 }
 
-fn each<R: Real, I: Index>(shares: &[Contribution<R, I>], mut each: impl FnMut(usize, R)) {
+pub(super) fn each<R: Real, I: Index>(
+    shares: &[Contribution<R, I>],
+    mut each: impl FnMut(usize, R),
+) {
     shares.iter().for_each(|share| each(share.at.at(), share.weight));
 }
 

@@ -5,8 +5,9 @@
 //!    ▲                        │
 //!    └──── the next tick starts from this one's iterate and active set
 //! ```
-//! Mesh, A and forest stay ([`Discretization`]); loads, gaps and Dirichlet values change with every tick, and
-//! nothing is built anew but the rows. Data that are not finite, or so large that their answer may overflow, are
+//! Mesh, A and forest stay ([`Discretization`]); loads, gaps, Dirichlet values and transfer coefficients change with every
+//! tick, and nothing is built anew but the rows. A root of the forest keeps a coefficient > 0, and
+//! [`crate::bound::certificate::Stability`] is that of the least ones. Data that are not finite, or so large that their answer may overflow, are
 //! refused before anything changes: the last answer and its report stay.
 //!
 //! A [`Method`] brings a tick to its answer. Of [`CertifiedSweeps`] as many lie between two certificates as the

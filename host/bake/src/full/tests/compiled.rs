@@ -77,6 +77,14 @@ fn nonparametric_quads_in_f32() -> Result<()> {
 }
 
 #[test]
+fn a_coefficient_that_an_input_changes() -> Result<()> {
+    let wind = "[input.wind]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1 - y/3\"\n";
+    let text = format!("{BENT}{wind}default = 0.5\nrange = [0, 3]\n");
+    let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
+    same_bits_of::<f32, { rows::TRIANGLES }>(&problem, |x| x.to_bits().into())
+}
+
+#[test]
 fn with_a_setting() -> Result<()> {
     let fast = Setting { math: MathKind::Micromath, share: Some(0.3), ..Setting::default() };
     let problem = scene(BENT, Cells::Mixed, fast)?;

@@ -1,6 +1,7 @@
 //! Condensed models against the full solver, and what has none.
 
 mod equality;
+mod modes;
 mod rejected;
 
 use signorini_scene::error::Result;

@@ -1,0 +1,362 @@
+//! Transfer coefficients that inputs change, tick after tick: against solvers, resistances and an exact solution.
+
+use signorini_bake::full::{Baked, Controller, source};
+use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_kernel::device::tick::{Limits, Report};
+use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_solve::certify::CertifiedFields;
+use signorini_solve::certify::exact::distance;
+use signorini_solve::fixtures::{SMOOTH, on_grid};
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{
+    GUARANTEE, OSCILLATION, TRANSFER, TRANSFER_NARROW, TRANSFER_TICK, TRANSFER_TICK_NARROW,
+    TRANSFER_WARM,
+};
+
+/// Inputs of both factors of h u_ext, with patterns that vary along the edges, one with a kink, and contact that opens and closes.
+const PRODUCTS: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "-1"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "0.3"
+[boundary.left]
+kind = "robin"
+coefficient = "2 + y"
+ambient = "y^2 - 2"
+[boundary.right]
+kind = "robin"
+coefficient = "x - 2"
+ambient = "-1"
+[boundary.contact]
+kind = "contact"
+gap = "-0.3*x^2"
+flux = "-0.1"
+[input.wind]
+of = "left"
+field = "coefficient"
+pattern = "1 - y/2"
+default = 1.0
+range = [0.0, 20.0]
+[input.shelter]
+of = "left"
+field = "coefficient"
+pattern = "y"
+range = [-1.0, 1.0]
+[input.air]
+of = "left"
+field = "ambient"
+pattern = "1 - abs(y - 0.37)"
+default = 0.5
+[input.other]
+of = "right"
+field = "coefficient"
+pattern = "2"
+default = 1.0
+range = [0.5, 10.0]
+[input.outside]
+of = "right"
+field = "ambient"
+pattern = "3"
+[output.left]
+kind = "flux"
+of = "left"
+[output.right]
+kind = "flux"
+of = "right"
+[output.force]
+kind = "force"
+[output.skin]
+kind = "mean"
+of = "right"
+"#;
+
+fn to_the_end<R: Scalar>() -> Limits<R> {
+    Limits { share: R::narrow(1e-9), ..Limits::default() }
+}
+
+fn narrowed<R: Scalar>(values: &[f64]) -> Vec<R> {
+    values.iter().map(|&value| R::narrow(value)).collect()
+}
+
+fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
+    problem: &Problem,
+    allowed: Tolerance,
+) -> Result<()> {
+    let baked = Baked::<R>::new(problem)?;
+    assert!(baked.has_bound() && baked.features().contains(&"transfer"));
+    let mut warm = Controller::<R, WIDTH>::new(&baked);
+    let steps = [
+        [1.0, 0.0, 0.5, 1.0, 0.0],
+        [20.0, -1.0, -2.0, 0.5, 1.5],
+        [0.0, -1.0, 3.0, 10.0, -0.7],
+        [0.0, 0.5, 3.0, 0.5, 1.0],
+        [1.0, 0.0, 0.5, 1.0, 0.0],
+    ];
+    for values in steps {
+        let (found, report) = warm.tick_within(&narrowed(&values), to_the_end()).expect("a tick");
+        let of_tick = report.verdict.certificate().expect("a bound");
+        let now = problem.with_inputs(&values)?;
+        let options = Options { solver: SolverKind::Direct, ..Options::default() };
+        let solution = solve(&now, &options)?;
+        let expected = outputs(&now, &solution)?;
+        let largest = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
+        for (output, found) in now.scene.outputs.iter().zip(&found) {
+            let name = &output.name.value;
+            let expected = expected[name].expect("a value");
+            let size = expected.abs().max(largest);
+            allowed.check_over(format_args!("{name} {values:?}"), found.wide() - expected, size);
+        }
+        // What a tick leaves out is at least what this coefficient does.
+        let bound = solution.bound.expect("a bound");
+        let gap = of_tick.duality_gap.wide();
+        allowed.check_relative(format_args!("gap {values:?}"), gap, bound.duality_gap);
+        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
+    }
+    Ok(())
+}
+
+#[test]
+fn a_tick_is_a_solve_with_this_coefficient() -> Result<()> {
+    let (_, problem) = on_grid(PRODUCTS, grid(5, Cells::Triangles))?;
+    against_the_direct_solver::<f64, TRIANGLES>(&problem, TRANSFER_TICK)?;
+    against_the_direct_solver::<f32, TRIANGLES>(&problem, TRANSFER_TICK_NARROW)?;
+    for cells in [Cells::Quads, Cells::Mixed] {
+        let (_, problem) = on_grid(PRODUCTS, grid(5, cells))?;
+        against_the_direct_solver::<f64, QUADS>(&problem, TRANSFER_TICK)?;
+    }
+    Ok(())
+}
+
+/// u = SMOOTH's for every h: u_ext = u + σ·n/h, where σ·n/π is an input that is set to 1/p of h = p π.
+fn smooth() -> String {
+    let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
+    let text = text.replace(" + (3*y - 6.5)/(2+y)\"", "\"");
+    text + "
+[input.h]
+of = \"left\"
+field = \"coefficient\"
+pattern = \"2+y\"
+default = 1.0
+range = [0.01, 100.0]
+[input.push]
+of = \"left\"
+field = \"ambient\"
+pattern = \"(3*y - 6.5)/(2+y)\"
+default = 1.0
+"
+}
+
+const SMOOTH_STEPS: [f64; 5] = [1.0, 0.01, 100.0, 0.1, 3.0];
+
+fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -> CertifiedFields {
+    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
+    let tau = wide(controller.tau());
+    let bubbles = match controller.bubbles() {
+        [] => vec![0.0; tau.len()],
+        bubbles => wide(bubbles),
+    };
+    let vertices = wide(controller.vertices());
+    CertifiedFields { vertices, bubbles, tau, indicators: Vec::new() }
+}
+
+fn bounds<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {
+    let baked = Baked::<R>::new(problem)?;
+    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    for h in SMOOTH_STEPS {
+        let now = problem.with_inputs(&[h, 1.0 / h])?;
+        // Cut off at first: a bound holds of any iterate.
+        for sweeps in [3, 30, u32::MAX] {
+            let limits = Limits { sweeps, ..to_the_end() };
+            let tick = controller.tick_within(&narrowed(&[h, 1.0 / h]), limits);
+            let (_, report): (_, Report<R>) = tick.expect("a tick");
+            let bound = report.verdict.certificate().expect("a bound").total.wide();
+            let exact = now.scene.exact.as_ref().expect("an exact solution");
+            let error = distance(exact, &now, &certified(&controller).admissible())?.combined;
+            GUARANTEE.check_at_most(format_args!("h = {h}, {sweeps}"), error, bound);
+            assert!(bound < 2.5 * error, "h = {h}: {bound} for {error}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_bound_holds_for_every_coefficient() -> Result<()> {
+    let (_, problem) = on_grid(&smooth(), grid(4, Cells::Triangles))?;
+    bounds::<f64, TRIANGLES>(&problem)?;
+    bounds::<f32, TRIANGLES>(&problem)?;
+    let (_, problem) = on_grid(&smooth(), grid(4, Cells::Mixed))?;
+    bounds::<f64, QUADS>(&problem)
+}
+
+fn moments(steps: &[Vec<f64>]) -> Vec<ScheduledTick> {
+    let inputs = |values: &Vec<f64>| values.iter().copied().enumerate().collect();
+    let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
+    steps.iter().enumerate().map(moment).collect()
+}
+
+fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> {
+    let sweeps = Options::default().max_sweeps;
+    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0 };
+    play(problem, None, &moments(steps), &budget, |_| {})
+}
+
+#[test]
+fn ticks_on_the_desk_bound_their_error_too() -> Result<()> {
+    let (_, problem) = on_grid(&smooth(), grid(4, Cells::Mixed))?;
+    let steps = SMOOTH_STEPS.map(|h| vec![h, 1.0 / h]);
+    for tick in played(&problem, &steps)? {
+        let bound = tick.bound.expect("a bound").total;
+        let error = tick.combined.expect("an error");
+        GUARANTEE.check_at_most(format_args!("t = {}", tick.time), error, bound);
+        assert!(bound < 2.5 * error, "t = {}: {bound} for {error}", tick.time);
+    }
+    Ok(())
+}
+
+/// A wall of conductivity 2 and width 2 between u = 1 above and air at −1 below, where h is as the input says.
+fn wall(coefficient: &str, range: &str) -> String {
+    format!(
+        "
+mesh = \"grid\"
+[material.default]
+conductivity = \"2\"
+[boundary.dirichlet]
+kind = \"dirichlet\"
+value = \"1\"
+[boundary.left]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.right]
+kind = \"neumann\"
+flux = \"0\"
+[boundary.contact]
+kind = \"robin\"
+coefficient = \"{coefficient}\"
+ambient = \"-1\"
+[input.h]
+of = \"contact\"
+field = \"coefficient\"
+pattern = \"1\"
+default = 1.0
+range = {range}
+[output.heat]
+kind = \"flux\"
+of = \"contact\"
+"
+    )
+}
+
+/// In series: 1/R = 1/(1/h + 1/2) over a width of 2, with a drop of 2. Where h vanishes nothing passes, and the bound knows.
+fn resistances<R: Scalar>(base: f64, text: &str, allowed: Tolerance) -> Result<()> {
+    let (_, problem) = on_grid(text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<R>::new(&problem)?;
+    let mut controller = Controller::<R, TRIANGLES>::new(&baked);
+    for h in [1.0, 0.0, 1e-3, 97.0, 0.0, 0.5] {
+        let tick = controller.tick_within(&narrowed(&[h - base]), to_the_end());
+        let (found, report) = tick.expect("a tick");
+        let expected = -4.0 * h * 2.0 / (h + 2.0);
+        allowed.check(format_args!("h = {h}"), found[0].wide() - expected);
+        let bound = report.verdict.certificate().expect("a bound").total.wide();
+        allowed.check(format_args!("bound, h = {h}"), bound);
+    }
+    let steps: Vec<_> = [1.0, 0.0, 97.0].map(|h| vec![h - base]).into();
+    for tick in played(&problem, &steps)? {
+        allowed
+            .check(format_args!("bound at t = {}", tick.time), tick.bound.expect("a bound").total);
+    }
+    let outside = controller.tick(&narrowed(&[97.5 - base]));
+    assert!(outside.is_err_and(|error| error.to_string().contains("input 0")));
+    Ok(())
+}
+
+#[test]
+fn a_wall_passes_what_its_resistances_let_through_tick_after_tick() -> Result<()> {
+    resistances::<f64>(0.0, &wall("0", "[0.0, 97.0]"), TRANSFER)?;
+    resistances::<f64>(3.1, &wall("3.1", "[-3.1, 93.9]"), TRANSFER)?;
+    resistances::<f32>(0.0, &wall("0", "[0.0, 97.0]"), TRANSFER_NARROW)?;
+    resistances::<f32>(3.1, &wall("3.1", "[-3.1, 93.9]"), TRANSFER_NARROW)
+}
+
+/// A wall of another material, in units of which f32 cannot square the numbers: a controller answers in the scene's.
+#[test]
+fn a_wall_in_other_units_passes_as_much() -> Result<()> {
+    let text = wall("0", "[0.0, 97.0]")
+        .replace("conductivity = \"2\"", "conductivity = \"2e-20\"")
+        .replace("pattern = \"1\"", "pattern = \"1e-20\"");
+    let (_, problem) = on_grid(&text, grid(4, Cells::Triangles))?;
+    let baked = Baked::<f32>::new(&problem)?;
+    let mut controller = Controller::<f32, TRIANGLES>::new(&baked);
+    for h in [1.0, 0.0, 97.0, 0.5] {
+        let (found, report) =
+            controller.tick_within(&narrowed(&[h]), to_the_end()).expect("a tick");
+        let expected = -4.0 * h * 2.0 / (h + 2.0);
+        TRANSFER_NARROW.check(format_args!("h = {h}"), found[0].wide() * 1e20 - expected);
+        assert!(report.verdict.certificate().is_some(), "h = {h}: {report:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_part_that_a_vanishing_coefficient_holds_is_refused_by_its_range() -> Result<()> {
+    let alone = |range: &str| {
+        wall("0", range)
+            .replace("kind = \"dirichlet\"\nvalue = \"1\"", "kind = \"neumann\"\nflux = \"1\"")
+    };
+    let (_, problem) = on_grid(&alone("[0.5, 2.0]"), grid(3, Cells::Mixed))?;
+    Baked::<f64>::new(&problem)?;
+    let (_, problem) = on_grid(&alone("[0.0, 2.0]"), grid(3, Cells::Mixed))?;
+    let error = Baked::<f64>::new(&problem).expect_err("no level where h is 0").to_string();
+    let expected = "input.h.range: within it nothing may pass, and then nothing holds a part";
+    assert!(error.contains(expected), "{error}");
+    Ok(())
+}
+
+/// Contact holds the domain where h vanishes: ticks on the desk shift it then, and their matrix follows h.
+#[test]
+fn a_part_that_contact_holds_at_times_is_played_by_solves() -> Result<()> {
+    let text = PRODUCTS
+        .replace("kind = \"dirichlet\"\nvalue = \"0.3\"", "kind = \"neumann\"\nflux = \"-0.2\"")
+        .replace("coefficient = \"2 + y\"", "coefficient = \"y/2\"")
+        .replace("pattern = \"1 - y/2\"", "pattern = \"1 - y/2 - y/2\"")
+        .replace("coefficient = \"x - 2\"", "coefficient = \"0\"")
+        .replace("range = [-1.0, 1.0]", "range = [-0.5, 1.0]")
+        .replace("range = [0.5, 10.0]", "range = [0.0, 10.0]");
+    let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
+    let error = Baked::<f64>::new(&problem).expect_err("no tick").to_string();
+    assert!(error.contains("within it nothing may pass, and then contact alone holds"), "{error}");
+    let steps = [[1.0, 0.0, 0.5, 1.0, 0.0], [0.0, -0.5, 0.5, 0.0, 0.0], [2.0, 0.3, -1.0, 5.0, 1.0]]
+        .map(Vec::from);
+    for (tick, values) in played(&problem, &steps)?.iter().zip(&steps) {
+        let now = problem.with_inputs(values)?;
+        let options = Options { solver: SolverKind::Direct, ..Options::default() };
+        let expected = outputs(&now, &solve(&now, &options)?)?;
+        for (output, found) in now.scene.outputs.iter().zip(&tick.outputs) {
+            let expected = expected[&output.name.value].expect("a value");
+            let off = found.expect("a value") - expected;
+            TRANSFER_WARM.check(format_args!("{} {values:?}", output.name.value), off);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_factor_is_refused_where_the_matrix_changes() -> Result<()> {
+    let text = wall("0", "[0.5, 97.0]") + "[setting]\nsolver = \"factor\"\n";
+    let (_, problem) = on_grid(&text, grid(3, Cells::Triangles))?;
+    let error = Baked::<f64>::new(&problem).expect_err("one factor").to_string();
+    assert!(error.contains("input.h.field: it changes the matrix, and a factor"), "{error}");
+    let (_, problem) = on_grid(PRODUCTS, grid(3, Cells::Triangles))?;
+    let text = source(&Baked::<f64>::new(&problem)?);
+    assert!(text.contains("AmbientShare { input: 3, integrals: &WIND_TIMES_AMBIENT_3 }"));
+    Ok(())
+}
