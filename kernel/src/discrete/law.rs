@@ -298,13 +298,9 @@ impl<R: Real> EdgeLaw<R> {
     #[inline(always)]
     pub fn flux(self, u: R, flux: R, range: FluxRange<R>) -> R {
         if self.is_saturated(u) {
-            range.ends()[1]
-        } else if u > self.lower && !self.span.is_below() {
-            range.base()
-        } else if u < self.lower && self.span.is_below() {
-            range.base()
-        } else {
-            range.nearest(flux)
+            return range.ends()[1];
         }
+        let is_free = if self.span.is_below() { u < self.lower } else { u > self.lower };
+        if is_free { range.base() } else { range.nearest(flux) }
     }
 }

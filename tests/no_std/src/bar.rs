@@ -13,12 +13,12 @@ use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::components::{self, Part};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
@@ -82,7 +82,13 @@ fn solve<R: Real, I: Index>(
     let diagonal = DiagonalTerms::new(&boundary);
     assembly::values(edges, stiffness, diagonal, &row_ptr, &mut values)?;
     assembly::load(edges, loads, &boundary, &mut load)?;
-    components::examine(edges, diagonal, (&load, Spans::UNLIMITED), R::EPSILON, &mut [Part::default(); 3])?;
+    components::examine(
+        edges,
+        diagonal,
+        (&load, Spans::UNLIMITED),
+        R::EPSILON,
+        &mut [Part::default(); 3],
+    )?;
     let matrix = Csr::new(&row_ptr, &col_idx, &values, EDGES)?;
     let gap = [-R::ONE; CONTACT];
     let system = System::new(matrix, &load, Law::above(&gap), edges.counts())?;

@@ -1,10 +1,11 @@
 //! What is left of u, as a contact problem in f32.
 
-use signorini_kernel::Error;
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::mesh::flux_range::Spans;
+
+use super::Refused;
 
 /// A contact problem for the rest of u, in f32 and in the unit s.
 #[derive(Debug)]
@@ -14,6 +15,13 @@ pub(super) struct Correction {
     spans: Vec<f32>,
     /// One entry an edge, 0 on Dirichlet edges.
     pub v: Vec<f32>,
+}
+
+/// The same as the kernel takes it.
+pub(super) struct Posed<'c> {
+    pub load: &'c [f32],
+    pub law: Law<'c, f32>,
+    pub v: &'c mut [f32],
 }
 
 impl Correction {
@@ -43,10 +51,10 @@ impl Correction {
         self.v.fill(0.0);
     }
 
-    /// Its load, its law, and v.
-    pub fn parts(&mut self) -> Result<(&[f32], Law<'_, f32>, &mut [f32]), Error> {
+    /// What the kernel solves, and v.
+    pub fn posed(&mut self) -> Refused<Posed<'_>> {
         let Self { load, lower, spans, v } = self;
-        Ok((load, Law::above(lower).with_spans(Spans::new(spans)?), v))
+        Ok(Posed { load, law: Law::above(lower).with_spans(Spans::new(spans)?), v })
     }
 
     /// Adds it to u.

@@ -5,7 +5,7 @@ use signorini_kernel::discrete::signorini::{Residual, System};
 use signorini_kernel::solve::Relaxation;
 use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
 
-use super::correction::Correction;
+use super::correction::{Correction, Posed};
 use super::{Corrected, Refused};
 
 /// Sweeps without a fall of the residual after which a solve has stalled.
@@ -57,7 +57,7 @@ impl Rounds<'_> {
                 return Ok(now);
             }
             correction.pose(&wide, unit, u);
-            let (load, law, v) = correction.parts()?;
+            let Posed { load, law, v } = correction.posed()?;
             let system = narrow.with_data(load, law)?;
             if now.corrections == 0 {
                 solver.start(&system, &mut rows, v)?;

@@ -84,8 +84,16 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
             scratch: &mut *scratch,
             open: &mut *open,
         };
-        pivoting::find(&matrix, Given::above(load), &mut tableau, &start, &mut Largest, |_| true, iterate)
-            .map(|_| ())
+        pivoting::find(
+            &matrix,
+            Given::above(load),
+            &mut tableau,
+            &start,
+            &mut Largest,
+            |_| true,
+            iterate,
+        )
+        .map(|_| ())
     };
     meter.count("exact, no edge changes", "n²", n * n, || solve(load))?;
     let mut other = [R::ZERO; MOST];
@@ -133,7 +141,8 @@ fn all_open<R: Bits>(
             open: &mut *open,
         };
         let rule = &mut Phases::default();
-        pivoting::find(matrix, Given::above(load), tableau, &start, rule, |_| true, iterate).map(|_| ())
+        pivoting::find(matrix, Given::above(load), tableau, &start, rule, |_| true, iterate)
+            .map(|_| ())
     };
     meter.count("two phases, all edges come in", "n²", n * n, || {
         tableau.reset(&start)?;
