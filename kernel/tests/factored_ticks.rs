@@ -16,6 +16,7 @@ use signorini_kernel::device::tick::{
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::QUADS;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::sparse::Exact;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};
@@ -316,6 +317,7 @@ fn a_full_model_begins_with_memory_of_any_contents() -> Result<(), Error> {
             loads: given.loads,
             neumann: boundary.neumann(),
             robin: boundary.robin(),
+            spans: Spans::UNLIMITED,
             contact_flux: &flux,
             gap: &foundation.lower,
             dirichlet: &foundation.dirichlet,

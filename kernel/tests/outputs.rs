@@ -12,6 +12,7 @@ use signorini_kernel::device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Memory, Progress, Report,
 };
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
@@ -33,6 +34,7 @@ fn tick<const N: usize>(
             loads: given.loads,
             neumann: boundary.neumann(),
             robin: boundary.robin(),
+            spans: Spans::UNLIMITED,
             contact_flux: &contact_flux,
             gap: &foundation.lower,
             dirichlet: &foundation.dirichlet,

@@ -152,6 +152,7 @@ fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
     let robin = of_kind(EdgeKind::Robin);
     let pushed = problem.loads.contact_flux.iter().filter(|&&q| q != 0.0).count();
     let gaps = problem.loads.gap.iter().filter(|&&gap| gap != 0.0).count();
+    let limits = problem.loads.spans.iter().filter(|span| **span != f64::INFINITY).count();
     let contact = counts.contact;
     let read = problem
         .scene
@@ -230,6 +231,13 @@ fn features<R: Scalar>(problem: &Problem) -> Vec<Feature> {
             None,
         ),
         feature("contact", contact, some(contact, "contact edges"), contact * (scalar + 1), None),
+        feature(
+            "limits",
+            limits,
+            some(limits, "contact edges whose flux has a limit"),
+            contact * scalar,
+            None,
+        ),
         feature("gaps", gaps, some(gaps, "edges with a gap"), contact * 3 * scalar, None),
         feature("offsets q", pushed, some(pushed, "edges with a flux q"), contact * scalar, None),
         feature(

@@ -40,8 +40,11 @@ fn contact_figure(scene: &ScenePanel) -> String {
     let exact = scene.contact.iter().any(|edge| !edge.exact_multiplier.is_empty());
     let exact = if exact { entry("exact-key", "exact λ") } else { String::new() };
     let discrete = entry("multiplier-key", "discrete λ");
-    let zone = entry("zone-key", "in contact");
-    format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zone}</ul>\n</figure>\n")
+    let mut zones = entry("zone-key", ContactState::Touching.label());
+    if scene.contact.iter().any(|edge| edge.state == ContactState::Saturated) {
+        zones += &entry("saturated-zone-key", ContactState::Saturated.label());
+    }
+    format!("<figure>\n{picture}<ul class=\"legend\">{discrete}{exact}{zones}</ul>\n</figure>\n")
 }
 
 fn error_figure(scene: &ScenePanel) -> String {

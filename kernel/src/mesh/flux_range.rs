@@ -97,6 +97,12 @@ impl<'a, R: Real> Spans<'a, R> {
         }
     }
 
+    /// The same of numbers that the host has checked, with the excess of [`Spans::varying`].
+    #[cfg(feature = "limited")]
+    pub const fn baked(lengths: &'a [R], excess: R) -> Self {
+        Self { lengths, excess, lent: PhantomData }
+    }
+
     /// The same where hi − lo varies along edges: |E| (hi − lo) is at most `excess` more than its integral anywhere.
     #[cfg(feature = "limited")]
     #[must_use]
@@ -105,7 +111,7 @@ impl<'a, R: Real> Spans<'a, R> {
     }
 
     /// By how much |E| (hi − lo) may exceed its integral; 0 where it is constant along every edge.
-    pub(crate) fn excess(&self) -> R {
+    pub fn excess(&self) -> R {
         #[cfg(feature = "limited")]
         return self.excess;
         #[cfg(not(feature = "limited"))]

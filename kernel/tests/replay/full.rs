@@ -11,6 +11,7 @@ use signorini_kernel::device::tick::{
 };
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
+use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 use crate::arrays::Arrays;
@@ -86,6 +87,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
             loads: arrays.cell_loads(),
             neumann: &arrays.neumann,
             robin: &arrays.robin,
+            spans: Spans::UNLIMITED,
             contact_flux: &arrays.flux,
             gap: &arrays.lower,
             dirichlet: &arrays.start[counts.unknowns()..],

@@ -237,6 +237,7 @@ impl<R: Scalar> Baked<R> {
             ("varying", !self.metric.is_empty()),
             ("distorted", !self.distortions.is_empty()),
             ("contact", self.counts.contact > 0),
+            ("limited", !self.data.spans.is_empty()),
             ("robin", !self.data.robin.is_empty()),
             ("transfer", self.data.varies(|pattern| matches!(pattern, Pattern::Coefficient(_)))),
             ("curved", !(self.data.curved.is_empty() && self.data.curved_sums.is_empty())),
@@ -251,12 +252,16 @@ impl<R: Scalar> Baked<R> {
     }
 }
 
-/// For every vertex where a contact and a Dirichlet edge meet, an end of either.
+/// For every vertex where a Dirichlet edge meets a contact edge on which u ≥ ψ is the law, an end of either.
 fn corners(problem: &Problem) -> Vec<[u32; 2]> {
     let counts = problem.topology.counts;
     let contact = counts.free..counts.unknowns();
     let ends = contact.flat_map(|edge| problem.ends[edge]).zip(0..);
-    let on_contact: HashMap<u32, u32> = ends.collect();
+    let is_above = |place: u32| {
+        let range = problem.loads.flux_range(place as usize / 2);
+        range.span().length() == f64::INFINITY
+    };
+    let on_contact: HashMap<u32, u32> = ends.filter(|&(_, place)| is_above(place)).collect();
     let given = (counts.unknowns()..counts.edges()).flat_map(|edge| problem.ends[edge]).zip(0..);
     given.filter_map(|(vertex, place)| Some([*on_contact.get(&vertex)?, place])).collect()
 }

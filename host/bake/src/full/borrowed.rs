@@ -5,6 +5,7 @@ use signorini_kernel::device::full::{
     self, Base, CurvedSum, Full, Functional, Lengths, TransferPattern,
 };
 use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_kernel::mesh::flux_range::Spans;
 
 use super::arrays::Baked;
 use super::data::{Data, Pattern};
@@ -54,6 +55,10 @@ impl<R: Scalar> Data<R> {
             neumann: &self.neumann,
             robin: &self.robin,
             contact_flux: &self.contact_flux,
+            spans: match self.spans.is_empty() {
+                true => Spans::UNLIMITED,
+                false => Spans::baked(&self.spans, self.span_excess),
+            },
             gap: &self.gap,
             dirichlet: &self.dirichlet,
             ends: VertexData { gap: &self.gap_ends, given: &self.dirichlet_ends },
@@ -97,6 +102,7 @@ impl<R: Scalar> Output<R> {
             Self::Flux(edges) => Functional::Flux(edges),
             Self::Force(edges) => Functional::Force(edges),
             Self::Length(shares) => Functional::Length(shares),
+            Self::Saturated(shares) => Functional::Saturated(shares),
             Self::Probe(shares) => Functional::Probe(shares),
             Self::Bound => Functional::Bound,
         }

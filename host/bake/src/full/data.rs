@@ -23,6 +23,8 @@ pub(super) struct Data<R> {
     pub neumann: Vec<Neumann<R, u32>>,
     pub robin: Vec<Robin<R, u32>>,
     pub contact_flux: Vec<R>,
+    pub spans: Vec<R>,
+    pub span_excess: R,
     pub gap: Vec<R>,
     pub gap_ends: Vec<[R; 2]>,
     pub dirichlet: Vec<R>,
@@ -64,7 +66,7 @@ impl<R: Scalar> Data<R> {
                 Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
                 Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
                 Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
-                // Scenes with limits were refused.
+                // Inputs of either end of a range were refused.
                 Field::Limit => Pattern::ContactFlux(Vec::new()),
                 Field::Ambient => ambient(part, is_uniform),
                 Field::Coefficient => {
@@ -82,6 +84,8 @@ impl<R: Scalar> Data<R> {
             neumann: Vec::new(),
             robin: base.loads.robin.iter().map(robin).collect(),
             contact_flux: narrow(&base.loads.contact_flux),
+            spans: narrow(&base.loads.spans),
+            span_excess: R::narrow(base.loads.span_excess),
             gap: narrow(&base.loads.gap),
             gap_ends: pairs(&base.ends.gap),
             dirichlet: narrow(&base.loads.dirichlet),

@@ -87,7 +87,7 @@ fn metric<R: Scalar>(of: &Metric<R>, to: &mut Statics) -> String {
 /// Loads and boundary data where all inputs are 0.
 #[rustfmt::skip]
 pub(super) fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> String {
-    let Base { loads, neumann, robin, contact_flux, gap, dirichlet, ends, curved, curved_sums, transfer } = of;
+    let Base { loads, neumann, robin, contact_flux, spans, gap, dirichlet, ends, curved, curved_sums, transfer } = of;
     let CellLoads { triangles, quads } = loads;
     let VertexData { gap: gap_ends, given } = ends;
     let triangles = to.array::<R>("SOURCE_OF_TRIANGLES", "∫f of each triangle.", "Scalar", triangles);
@@ -96,6 +96,14 @@ pub(super) fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> 
     let robin = to.array::<Robin<R, I>>("ROBIN", "Transfer laws: ∫h and ∫h u_ext.", "Robin<Scalar, Index>", robin);
     let transfer = to.array::<[[R; 2]; 8]>("TRANSFER", "∫h and u_ext at 8 points of each transfer edge.", "[[Scalar; 2]; 8]", transfer);
     let contact_flux = to.array::<R>("CONTACT_FLUX", "∫q of each contact edge.", "Scalar", contact_flux);
+    let spans = match spans.lengths() {
+        [] => "Spans::UNLIMITED".to_owned(),
+        lengths => {
+            let text = array(lengths, 8).replace("inf", "Scalar::INFINITY");
+            let lengths = to.spelt::<R>("SPANS", "∫(limit − flux) of each contact edge; −∞ where there is no least flux.", "Scalar", lengths.len(), &text);
+            format!("Spans::baked({lengths}, {:?})", spans.excess())
+        }
+    };
     let gap = to.array::<R>("GAP", "Mean of ψ on each contact edge.", "Scalar", gap);
     let gap_ends = to.array::<[R; 2]>("GAP_ENDS", "ψ at the ends of each contact edge.", "[Scalar; 2]", gap_ends);
     let dirichlet = to.array::<R>("DIRICHLET", "Mean of u_D on each Dirichlet edge.", "Scalar", dirichlet);
@@ -108,6 +116,7 @@ pub(super) fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> 
             neumann: {neumann},
             robin: {robin},
             contact_flux: {contact_flux},
+            spans: {spans},
             gap: {gap},
             dirichlet: {dirichlet},
             ends: VertexData {{ gap: {gap_ends}, given: {given} }},

@@ -116,6 +116,10 @@ fn functional<R: Scalar, I: Index>(
             let doc = format!("Contact edges whose lengths add up to `{output}`.");
             ("Length", contributions::<R, I>(&name, &doc, shares, to))
         }
+        Functional::Saturated(shares) => {
+            let doc = format!("Contact edges whose lengths at the limit add up to `{output}`.");
+            ("Saturated", contributions::<R, I>(&name, &doc, shares, to))
+        }
         Functional::Probe(shares) => {
             let doc = format!("Edges whose means make `{output}`.");
             ("Probe", contributions::<R, I>(&name, &doc, shares, to))

@@ -12,6 +12,7 @@ pub(super) enum Output<R> {
     Flux(Vec<u32>),
     Force(Vec<u32>),
     Length(Vec<Contribution<R, u32>>),
+    Saturated(Vec<Contribution<R, u32>>),
     Probe(Vec<Contribution<R, u32>>),
     Bound,
 }
@@ -33,8 +34,9 @@ pub(super) fn output<R: Scalar>(problem: &Problem, functional: &Functional) -> O
         }
         Functional::Mean(parts) => Output::Probe(shares(parts, 0)),
         Functional::Length(lengths) => Output::Length(shares(lengths, free)),
-        // Only problems without limits are baked: nothing is at its limit.
-        Functional::Saturated(_) => Output::Probe(Vec::new()),
+        // Where no flux has a limit the kernel has no code for it, and the length is 0.
+        Functional::Saturated(_) if problem.loads.spans.is_empty() => Output::Probe(Vec::new()),
+        Functional::Saturated(lengths) => Output::Saturated(shares(lengths, free)),
         Functional::Bound => Output::Bound,
     }
 }

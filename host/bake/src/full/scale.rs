@@ -64,7 +64,7 @@ impl<R: Scalar> Scale<R> {
     pub fn unit(&self, of: &Output<R>) -> Option<R> {
         match of {
             Output::Flux(_) | Output::Force(_) => Some(self.flux),
-            Output::Length(_) => Some(R::ONE),
+            Output::Length(_) | Output::Saturated(_) => Some(R::ONE),
             Output::Probe(_) => Some(self.u),
             Output::Bound => None,
         }

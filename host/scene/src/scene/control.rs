@@ -169,6 +169,15 @@ impl Scene {
         self.boundaries.iter().find(|boundary| boundary.condition.is_limited())
     }
 
+    /// The first input that changes an end of the flux of such a boundary.
+    pub fn limit_input(&self) -> Option<&Input> {
+        self.inputs.iter().find(|input| {
+            let limited = self.boundaries.iter().filter(|of| of.condition.is_limited());
+            let is_end = matches!(input.field.value, Field::Flux | Field::Limit);
+            is_end && limited.into_iter().any(|of| of.name.value == input.of.value)
+        })
+    }
+
     /// The names of its inputs, as a hint.
     pub fn known_inputs(&self) -> String {
         match list(self.inputs.iter().map(|input| &input.name)) {

@@ -120,10 +120,12 @@ impl Approach {
                 FullModel | Modes | Tick | Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Condensation | Modes | FullModel | FactoredTicks | Export | Baselines => {
-                    Some(two_sides)
-                }
-                Tick | Factor => None,
+                Condensation | Modes | Export | Baselines => Some(two_sides),
+                Tick | FullModel | Factor | FactoredTicks => None,
+            },
+            Property::LimitInput => match self {
+                FullModel | FactoredTicks => Some(one_range),
+                Condensation | Modes | Tick | Factor | Export | Baselines => None,
             },
         }
     }
@@ -198,11 +200,21 @@ fn changes_matrix(problem: &Problem, message: &str) -> InputError {
     }
 }
 
+/// The ranges of fluxes are baked.
+fn one_range(problem: &Problem) -> InputError {
+    let scene = &problem.scene;
+    let message = "it changes an end of a flux that has a limit, which a baked module holds fixed";
+    let refusal = match scene.limit_input() {
+        Some(input) => scene.error(&input.field, message),
+        None => InputError::new(message).file(&scene.path),
+    };
+    refusal.hint("`solve` and `tick` take it; for a controller, state the ends in the scene")
+}
+
 /// Contact with two sides.
 fn two_sides(problem: &Problem) -> InputError {
     let scene = &problem.scene;
-    let message =
-        "the flux of contact has a limit, which `solve` and `tick` alone can treat so far";
+    let message = "the flux of contact has a limit, which `solve`, `tick` and the full model alone can treat so far";
     let refusal = match scene.limited() {
         Some(boundary) => scene.error(&boundary.name, message),
         None => InputError::new(message).file(&scene.path),

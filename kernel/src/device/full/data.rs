@@ -12,6 +12,7 @@ use crate::features;
 use crate::index::Index;
 use crate::mesh::boundary::{Boundary, Neumann, Robin};
 use crate::mesh::edges::Edges;
+use crate::mesh::flux_range::Spans;
 use crate::real::Real;
 
 /// The data where all inputs are 0 (borrowed), as [`Data`] takes them.
@@ -25,6 +26,8 @@ pub struct Base<'a, R, I> {
     pub robin: &'a [Robin<R, I>],
     /// ∫q, one a contact edge, or nothing where q = 0.
     pub contact_flux: &'a [R],
+    /// The ranges of the fluxes on contact edges, whose bases `contact_flux` holds then.
+    pub spans: Spans<'a, R>,
     /// Means of ψ, one a contact edge.
     pub gap: &'a [R],
     /// Means of u_D, one a Dirichlet edge.
@@ -85,7 +88,8 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
                 triangles: own_or(self.triangles, base.loads.triangles),
                 quads: own_or(self.quads, base.loads.quads),
             },
-            boundary: Boundary::new(edges, neumann, robin, contact_flux)?,
+            boundary: Boundary::new(edges, neumann, robin, contact_flux)?
+                .with_spans(edges, base.spans)?,
             ends: VertexData {
                 gap: own_or(self.gap_ends, base.ends.gap),
                 given: own_or(self.dirichlet_ends, base.ends.given),
@@ -94,7 +98,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             transfer: own_or(self.transfer, base.transfer),
             oscillation,
         };
-        let law = Law::above(own_or(self.gap, base.gap));
+        let law = Law::above(own_or(self.gap, base.gap)).with_spans(base.spans);
         Ok(Data { given, law, dirichlet: own_or(self.dirichlet, base.dirichlet) })
     }
 }

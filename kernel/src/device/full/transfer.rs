@@ -64,6 +64,7 @@ mod tests {
     use crate::device::full::{AmbientShare, Base, Contribution};
     use crate::discrete::assembly::CellLoads;
     use crate::mesh::boundary::Robin;
+    use crate::mesh::flux_range::Spans;
 
     /// Two laws: h = 2 and 3 on them, u_ext = 10 and 20. Lengths are 1.
     const LAWS: [Robin<f64, u16>; 2] = [
@@ -101,6 +102,7 @@ mod tests {
             loads: CellLoads { triangles: &[], quads: &[] },
             neumann: &[],
             robin: &LAWS,
+            spans: Spans::UNLIMITED,
             contact_flux: &[],
             gap: &[],
             dirichlet: &[],
