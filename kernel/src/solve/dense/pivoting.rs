@@ -151,7 +151,8 @@ fn search<R: Real>(
     loop {
         let step = match ranges.are_limited() {
             true => {
-                let (z, exchanged) = tableau.viewed(&ranges, z, x);
+                let view = |at, z, within| ranges.viewed(at, z, read(x, at), within);
+                let (z, exchanged) = tableau.viewed(z, view);
                 rule.next(z, exchanged, noise, pivots)
             }
             false => rule.next(z, tableau.exchanged(), noise, pivots),

@@ -20,7 +20,6 @@
 
 use super::blocks::{Block, Blocks, SIDE, count, groups, groups_mut, multiply_add, padded};
 use super::correction::{position, scaled, store, subtract_two};
-use super::ranges::Ranges;
 use crate::error::{Array, Error, same_length, same_length_or_empty};
 use crate::real::Real;
 
@@ -84,11 +83,15 @@ impl<'a, R: Real> Tableau<'a, R> {
         self.exchanged
     }
 
-    /// An answer as the ranges of w see it, in scratch; and which unknowns are exchanged.
-    pub(super) fn viewed(&mut self, ranges: &Ranges<R>, z: &[R], x: &[R]) -> (&[R], &[bool]) {
-        let given = z.iter().zip(x).zip(self.exchanged.iter()).enumerate();
-        for (place, (at, ((&z, &x), &within))) in self.next.iter_mut().zip(given) {
-            *place = ranges.viewed(at, z, x, within);
+    /// What `view` makes of each entry of an answer and of whether it is exchanged, in scratch; and which are.
+    pub(super) fn viewed(
+        &mut self,
+        z: &[R],
+        view: impl Fn(usize, R, bool) -> R,
+    ) -> (&[R], &[bool]) {
+        let given = z.iter().zip(self.exchanged.iter()).enumerate();
+        for (place, (at, (&z, &within))) in self.next.iter_mut().zip(given) {
+            *place = view(at, z, within);
         }
         (self.next, self.exchanged)
     }
