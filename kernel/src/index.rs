@@ -57,7 +57,6 @@ pub(crate) fn read<T: Copy + Default>(slice: &[T], position: usize) -> T {
 }
 
 /// Sets the entry at `position`; nothing where a (never validated) index points outside.
-#[cfg(feature = "mesh")]
 #[inline(always)]
 pub(crate) fn write<T>(slice: &mut [T], position: usize, entry: T) {
     if let Some(place) = slice.get_mut(position) {

@@ -67,6 +67,7 @@ pub mod device;
 pub mod discrete;
 pub mod error;
 pub mod features;
+pub mod flux_range;
 mod index;
 mod math;
 #[cfg(feature = "mesh")]

@@ -5,11 +5,11 @@ use signorini_kernel::device::condition::{BoundaryEdge, Condition};
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::Coefficient;
 use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
     Error, Libm, Math, Mesh, Micromath, Real, Tensor, Workspace, solve::Relaxation, workspace,

@@ -7,11 +7,11 @@ use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::discrete::stiffness::{Coefficient, Stiffness};
 use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
 use signorini_kernel::mesh::components::{Part, PartCounts, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::solver::{Settings, Solver, Status};
 use signorini_kernel::{
     Error, Libm, Mesh, Micromath, Tensor, solve::Relaxation, solve::psor, workspace,

@@ -15,8 +15,8 @@ use signorini_kernel::device::tick::{
 };
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::QUADS;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::boundary::{Boundary, Robin};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::solve::sparse::Exact;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 use signorini_tolerances::kernel::{FACTORED, RESIDUAL, SWEPT};

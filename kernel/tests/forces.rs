@@ -13,7 +13,7 @@ use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::discrete::law::EdgeLaw;
 use signorini_kernel::discrete::stiffness::Coefficient;
-use signorini_kernel::mesh::flux_range::FluxRange;
+use signorini_kernel::flux_range::FluxRange;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::dense::tableau::InitialTableau;

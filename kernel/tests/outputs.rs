@@ -12,7 +12,7 @@ use signorini_kernel::device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Memory, Progress, Report,
 };
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
-use signorini_kernel::mesh::flux_range::Spans;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];

@@ -8,7 +8,7 @@
 //!   s = u_D            on D, which wins where both meet.
 //! ```
 //! Where the flux of a contact edge has two finite ends, s may be on either side of ψ, and pays for the side that u is not
-//! on: [`ease`].
+//! on (`ease`).
 //!
 //! With the chord of ψ for the gap and that of u_D for the boundary value, s is admissible; what lies
 //! between a curved gap and its chord is another term of the bound.

@@ -5,16 +5,16 @@
 //!   u > ψ:  τ = lo        u = ψ:  lo ≤ τ ≤ hi        u < ψ:  τ = hi
 //! ```
 //! Where an end is infinite there is no such side: hi = ∞ is unilateral contact, u ≥ ψ. The load b contains the base of
-//! the range ([`crate::mesh::flux_range`]), so that where u is on the other side, the span is what b lacks.
+//! the range ([`crate::flux_range`]), so that where u is on the other side, the span is what b lacks.
 //!
 //! All that solvers and bounds ask of the law is a method here, so that they know neither ψ nor q: another law of
 //! contact is another body of these. Numbers that are not finite never satisfy it.
 
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
+use crate::flux_range::{FluxRange, Span, Spans};
 use crate::index::{read, write};
 use crate::mesh::edges::EdgeCounts;
-use crate::mesh::flux_range::{FluxRange, Span, Spans};
 use crate::real::Real;
 
 /// The law on all contact edges, in their order (borrowed).

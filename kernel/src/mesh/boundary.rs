@@ -13,9 +13,9 @@
 
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::features;
+use crate::flux_range::{FluxRange, Spans};
 use crate::index::{Index, read};
 use crate::mesh::edges::{Edges, known};
-use crate::mesh::flux_range::{FluxRange, Spans};
 use crate::real::Real;
 
 /// A given flux on a free boundary edge. An edge without a record has flux 0.

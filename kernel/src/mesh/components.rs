@@ -9,10 +9,10 @@
 //! the sum of b at one end < 0 < that at the other.
 
 use crate::error::{Array, Error, same_length};
+use crate::flux_range::Spans;
 use crate::index::{Index, read};
 use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Block, Edges};
-use crate::mesh::flux_range::Spans;
 use crate::real::Real;
 
 /// What holds a connected part.

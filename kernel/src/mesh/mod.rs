@@ -18,7 +18,6 @@ pub mod boundary;
 pub mod components;
 pub mod diagonal;
 pub mod edges;
-pub mod flux_range;
 pub mod geometry;
 pub mod numbering;
 

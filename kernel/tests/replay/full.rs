@@ -10,8 +10,8 @@ use signorini_kernel::device::tick::{
     self, CertifiedSweeps, Deadline, Limits, Progress, UncertifiedSweeps,
 };
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::{Error, Libm, solve::Relaxation};
 
 use crate::arrays::Arrays;

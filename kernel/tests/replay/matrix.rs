@@ -4,8 +4,8 @@ use signorini_kernel::bound::forest::{ForestBuffers, grow};
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient};
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::components::{Part, examine};
-use signorini_kernel::mesh::flux_range::Spans;
 use signorini_kernel::{
     Error, Libm, discrete::assembly, discrete::contact, discrete::flux, solve::psor,
 };

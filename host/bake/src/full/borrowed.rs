@@ -5,7 +5,7 @@ use signorini_kernel::device::full::{
     self, Base, CurvedSum, Full, Functional, Lengths, TransferPattern,
 };
 use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::mesh::flux_range::Spans;
+use signorini_kernel::flux_range::Spans;
 
 use super::arrays::Baked;
 use super::data::{Data, Pattern};

@@ -46,7 +46,7 @@ const NAMES: &[(&str, &str)] = &[
     ("Relaxation", "solve::Relaxation"),
     ("Factor", "solve::sparse::Factor"),
     ("Factored", "solve::sparse::Factored"),
-    ("Spans", "mesh::flux_range::Spans"),
+    ("Spans", "flux_range::Spans"),
     ("Stiffness", "discrete::stiffness::Stiffness"),
     ("Tensor", "Tensor"),
 ];

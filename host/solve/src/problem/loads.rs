@@ -3,9 +3,9 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::discrete::law::Law;
+use signorini_kernel::flux_range::{FluxRange, Span, Spans};
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
-use signorini_kernel::mesh::flux_range::{FluxRange, Span, Spans};
 
 use super::{EdgeKind, Problem, Sum, limits};
 use crate::quadrature::mean_on_edge;

@@ -9,10 +9,10 @@ use crate::discrete::assembly::CellLoads;
 use crate::discrete::law::Law;
 use crate::error::{Array, Error, same_length_or_empty};
 use crate::features;
+use crate::flux_range::Spans;
 use crate::index::Index;
 use crate::mesh::boundary::{Boundary, Neumann, Robin};
 use crate::mesh::edges::Edges;
-use crate::mesh::flux_range::Spans;
 use crate::real::Real;
 
 /// The data where all inputs are 0 (borrowed), as [`Data`] takes them.

@@ -63,8 +63,8 @@ mod tests {
     use crate::bound::conforming::VertexData;
     use crate::device::full::{AmbientShare, Base, Contribution};
     use crate::discrete::assembly::CellLoads;
+    use crate::flux_range::Spans;
     use crate::mesh::boundary::Robin;
-    use crate::mesh::flux_range::Spans;
 
     /// Two laws: h = 2 and 3 on them, u_ext = 10 and 20. Lengths are 1.
     const LAWS: [Robin<f64, u16>; 2] = [

@@ -10,8 +10,8 @@
 use super::sizes;
 use super::tableau::Tableau;
 use crate::features;
+use crate::flux_range::Spans;
 use crate::index::{read, write};
-use crate::mesh::flux_range::Spans;
 use crate::real::Real;
 
 /// A load with the ranges that belong to it (borrowed).

@@ -1,7 +1,7 @@
 //! The kernel's pivoting with three sides against the reference, on dense problems.
 
 use faer::Mat;
-use signorini_kernel::mesh::flux_range::Spans;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, count, padded};
 use signorini_kernel::solve::dense::pivoting::{Found, find};

@@ -2,8 +2,8 @@
 
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::edges::EdgeCounts;
-use signorini_kernel::mesh::flux_range::Spans;
 
 use super::Refused;
 

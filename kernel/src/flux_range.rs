@@ -144,7 +144,11 @@ impl<'a, R: Real> Spans<'a, R> {
         }
     }
 
-    pub(crate) fn check_length(&self, contact: usize) -> Result<(), Error> {
+    /// `Ok` where there is one for each of so many contact edges, or none at all.
+    ///
+    /// # Errors
+    /// Another number.
+    pub fn check_length(&self, contact: usize) -> Result<(), Error> {
         if !self.are_limited() {
             return Ok(());
         }
@@ -210,7 +214,7 @@ impl<R: Real> FluxRange<R> {
     }
 
     /// The end that is nearest to a flux.
-    pub(crate) fn nearest_end(self, flux: R) -> R {
+    pub fn nearest_end(self, flux: R) -> R {
         let [least, most] = self.ends();
         if (flux - least).magnitude() <= (most - flux).magnitude() { least } else { most }
     }
