@@ -39,6 +39,8 @@ table! {
         "three pivots";
     CANCELLED: "the soft spring seen from the far end of springs 10¹² times as stiff", 5e-15,
         "a difference of numbers 10¹² times as large";
+    THREE_SIDES: "complementarity of exchanges with three sides, over the load or 1", 1e-13,
+        "a tableau of at most 24 edges";
     CONDENSED: "complementarity of exact condensed solves in f64, over the largest opening", 1e-13,
         "a tableau of at most 33 edges";
     CONDENSED_NARROW: "complementarity of exact condensed solves in f32, over the largest opening", 1e-5,
