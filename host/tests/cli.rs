@@ -134,7 +134,7 @@ fn what_ran_is_said() {
 /// Three states, each with the flux that belongs to it.
 #[test]
 fn edges_tell_the_side_of_the_gap() {
-    let (status, folder, summary) = solve("catalogue/l-tri.toml", &[]);
+    let (status, folder, summary) = solve("limits/l-tri.toml", &[]);
     assert_eq!((status, summary["converged"].as_bool()), (0, Some(true)));
     let mut counts = [0; 3];
     let edges = text(&folder.path().join("edges.csv"));

@@ -300,9 +300,9 @@ fn wrong_arguments_are_refused() {
 #[test]
 fn a_limit_may_change_from_tick_to_tick() {
     let folder = tempfile::tempdir().expect("a folder");
-    let text = std::fs::read_to_string(meshes("catalogue/l-tri.toml")).expect("a scene");
+    let text = std::fs::read_to_string(meshes("limits/l-tri.toml")).expect("a scene");
     let mesh = meshes("catalogue/square-tri-16.msh");
-    let text = text.replace("square-tri-16.msh", mesh.to_str().expect("UTF-8"));
+    let text = text.replace("../catalogue/square-tri-16.msh", mesh.to_str().expect("UTF-8"));
     let (text, _) = text.split_once("[exact]").expect("an exact solution");
     let outputs = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\n\
                    [output.power]\nkind = \"flux\"\nof = \"contact\"\n\

@@ -14,6 +14,7 @@ the fields of a chessboard (mixed).
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+LIMITS = HERE.parent / "limits"
 PEERS = HERE.parents[1] / "tests/firmware/peers"
 
 
@@ -222,8 +223,6 @@ def main():
         ("moving-tri", "H(a(t)): punch, two free points that move", "tri", moving),
         ("hg-tri", "H_g(0.55): concave gap", "tri", hg),
         ("hg-quad", "H_g(0.55): concave gap", "quad", hg),
-        ("l-tri", "L(0.55): a flux between two ends, all three states", "tri", case_l("x", "y")),
-        ("l-quad", "L(0.55): a flux between two ends, all three states", "quad", case_l("x", "y")),
         ("ag-mixed", "A + G: arbitrary gap and source", "mixed", ag),
         ("j100-tri", "J(100): conductivity 100 beside 1", "tri", jump("100")),
         ("j001-tri", "J(0.01): conductivity 0.01 beside 1", "tri", jump("0.01")),
@@ -233,6 +232,10 @@ def main():
     ]
     for name, title, kind, case in scenes:
         (HERE / f"{name}.toml").write_text(scene(title, f"square-{kind}-16.msh", case))
+    for kind in ("tri", "quad"):
+        mesh = f"../catalogue/square-{kind}-16.msh"
+        title = "L(0.55): a flux between two ends, all three states"
+        (LIMITS / f"l-{kind}.toml").write_text(scene(title, mesh, case_l("x", "y")))
 
 
 main()

@@ -44,7 +44,7 @@ const CHANGES: &[(&str, &str, &str)] = &[
     (
         "kind = \"flux\"",
         "kind = \"flow\"",
-        "34: output.seepage.kind: `flow` is not one of: flux, force, length, probe, mean, bound",
+        "34: output.seepage.kind: `flow` is not one of: flux, force, length, saturated, probe, mean, bound",
     ),
     // Expressions and numbers
     ("\"-y\"", "\"2y\"", "20: boundary.face.gap: expected an operator before `y`"),
@@ -90,7 +90,7 @@ const CHANGES: &[(&str, &str, &str)] = &[
     (
         "field = \"flux\"",
         "field = \"rain\"",
-        "30: input.rain.field: `rain` is not one of: flux, value, gap, ambient, coefficient, f",
+        "30: input.rain.field: `rain` is not one of: flux, limit, value, gap, ambient, coefficient, f",
     ),
     ("pattern = \"1\"", "pattern = \"t\"", "31: input.rain.pattern: unknown name `t`"),
     (

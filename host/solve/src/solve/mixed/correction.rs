@@ -45,10 +45,25 @@ impl Correction {
         {
             *lower = ((law.gap() - own) / unit) as f32;
         }
-        let spans = system.law().spans().lengths().iter();
+        self.pose_spans(system, unit, u);
+        self.v.fill(0.0);
+    }
+
+    /// Where the flux is at its limit, f32 would not see what is left beside it: there the limit itself is in the load, and v
+    /// stays below the gap. What that holds back is what the next correction begins with.
+    fn pose_spans(&mut self, system: &System<f64, u32>, unit: f64, u: &[f64]) {
+        let (law, free) = (system.law(), system.counts().free);
+        let spans = law.spans().lengths().iter();
         self.spans.clear();
         self.spans.extend(spans.map(|&span| (span / unit) as f32));
-        self.v.fill(0.0);
+        let rows = system.matrix().iter().zip(system.load()).skip(free);
+        let edges = rows.zip(law.edges()).zip(u.iter().skip(free)).enumerate();
+        for (at, (((row, &b), law), &own)) in edges {
+            if law.is_saturated(own) {
+                self.load[free + at] = ((b + law.missing(own) - row.dot(u)) / unit) as f32;
+                self.spans[at] = f32::NEG_INFINITY;
+            }
+        }
     }
 
     /// What the kernel solves, and v.

@@ -2,7 +2,7 @@
 
 use signorini_tolerances::solve::{DUVAUT, LIMITED, LIMITED_NARROW, LIMITED_RANDOM};
 
-use super::{Options, SolverKind, distance, solve};
+use super::{Options, SolverKind, distance, mixed, solve};
 use crate::certify::exact::distance as distance_to_exact;
 use crate::fixtures::{distorted, on_grid};
 use crate::outputs::outputs;
@@ -255,6 +255,9 @@ fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
             assert!(bound >= of.combined && bound >= of.identity, "{name}: {bound} {of:?}");
             assert!(gap < 1.02 * of.combined, "{name}: {gap} {of:?}");
         }
+        let found = mixed(&problem, &Options::default())?;
+        assert!(found.converged(), "{name}: {:?}", found.status);
+        LIMITED.check(format_args!("{name}, mixed"), distance(&found.u, &reference.u));
     }
     Ok(())
 }
