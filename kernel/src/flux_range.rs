@@ -2,10 +2,11 @@
 //!
 //! ```text
 //!   ∫lo ≤ ∫_E A∇u·n ≤ ∫hi        base = ∫lo,  span = ∫(hi − lo), 0 at least or ∞      [base, base + span]
-//!                                 base = ∫hi,  span = −∞  where lo = −∞                (−∞, base]
+//!                                 base = ∫hi,  span = ∫(lo − hi), negative or −∞       [base + span, base]
 //! ```
-//! The base is the end that the load b contains. A span of ∞ is unilateral contact, u ≥ ψ; −∞ is u ≤ ψ; 0 is a given
-//! flux. In a build without the feature `limited` all spans are ∞, and nothing is stored or asked.
+//! The base is the end that the load b contains: the smaller one, so that no digit of it is lost beside a huge one. A span of ∞
+//! is unilateral contact, u ≥ ψ; −∞ is u ≤ ψ; 0 is a given flux. In a build without the feature `limited` all spans are ∞,
+//! and nothing is stored or asked.
 
 use core::marker::PhantomData;
 
@@ -29,13 +30,13 @@ impl<R: Real> Span<R> {
         scalar: PhantomData,
     };
 
-    /// A span of this length: at least 0, ∞, or −∞.
+    /// A span of this length, of either sign or infinite.
     #[cfg(feature = "limited")]
     pub const fn new(length: R) -> Self {
         Self { length, scalar: PhantomData }
     }
 
-    /// ∫(hi − lo), ∞, or −∞.
+    /// From the base to the other end, ∞ and −∞ among them.
     #[inline(always)]
     pub fn length(self) -> R {
         #[cfg(feature = "limited")]
@@ -60,7 +61,7 @@ impl<R: Real> Span<R> {
     /// Whether it goes down without an end: u ≤ ψ then.
     #[inline(always)]
     pub(crate) fn is_below(self) -> bool {
-        features::LIMITED && self.length() < R::ZERO
+        features::LIMITED && self.length() == -R::INFINITY
     }
 }
 
@@ -84,14 +85,13 @@ impl<'a, R: Real> Spans<'a, R> {
         lent: PhantomData,
     };
 
-    /// ∫(hi − lo) of each contact edge, ∞, or −∞; none at all where every one is ∞.
+    /// Those of each contact edge, ∞ and −∞ among them; none at all where every one is ∞.
     ///
     /// # Errors
-    /// A negative one, or NaN.
+    /// NaN.
     #[cfg(feature = "limited")]
     pub fn new(lengths: &'a [R]) -> Result<Self, Error> {
-        let is_none = |length: &R| !(*length >= R::ZERO || *length == -R::INFINITY);
-        match lengths.iter().position(is_none) {
+        match lengths.iter().position(|length| !(*length >= R::ZERO || *length < R::ZERO)) {
             Some(at) => Err(Error::OutOfRange { of: Array::ContactSpans, at }),
             None => Ok(Self { lengths, excess: R::ZERO, lent: PhantomData }),
         }
@@ -175,7 +175,7 @@ impl<R: Real> FluxRange<R> {
         Self { base, span }
     }
 
-    /// The end that the load contains: the flux of an edge with u > ψ, of one with u < ψ where lo = −∞.
+    /// The end that the load contains.
     #[inline(always)]
     pub fn base(self) -> R {
         self.base
@@ -222,6 +222,9 @@ impl<R: Real> FluxRange<R> {
     /// λ ≥ 0 of an admissible flux: ∫_E (τ·n − lo), or ∫_E (hi − τ·n) where lo = −∞.
     #[inline(always)]
     pub fn multiplier(self, flux: R) -> R {
-        if self.span.is_below() { self.base - flux } else { flux - self.base }
+        if self.span.is_above() {
+            return flux - self.base;
+        }
+        if self.span.is_below() { self.base - flux } else { flux - self.ends()[0] }
     }
 }

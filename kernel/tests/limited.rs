@@ -61,7 +61,7 @@ fn a_flux_is_between_its_ends() {
 }
 
 #[test]
-fn spans_are_not_negative_but_for_the_infinite_one() {
+fn spans_are_numbers_or_infinite() {
     let lengths = [0.0, 2.0, ENDLESS, -ENDLESS];
     let spans = Spans::new(&lengths).expect("spans");
     assert_eq!(spans.lengths(), lengths);
@@ -74,11 +74,12 @@ fn spans_are_not_negative_but_for_the_infinite_one() {
     let wrong = Err(Error::Length { of: Array::ContactSpans, found: 4, expected: 3 });
     assert_eq!(spans.check_length(3), wrong);
     assert_eq!(Spans::<f64>::UNLIMITED.check_length(3), Ok(()));
-    for (at, length) in [(0, -1.0), (1, f64::NAN), (2, -1e-300)] {
-        let mut lengths = [1.0; 3];
-        lengths[at] = length;
+    for at in 0..3 {
+        let mut lengths = [1.0, -1.0, 0.0];
+        assert!(Spans::new(&lengths).is_ok());
+        lengths[at] = f64::NAN;
         let error = Spans::new(&lengths).err();
-        assert_eq!(error, Some(Error::OutOfRange { of: Array::ContactSpans, at }), "{length}");
+        assert_eq!(error, Some(Error::OutOfRange { of: Array::ContactSpans, at }));
     }
     let baked = Spans::baked(&lengths, 0.25);
     assert_eq!((baked.lengths(), baked.excess()), (&lengths[..], 0.25));
@@ -98,7 +99,10 @@ fn u_is_on_a_side_that_there_is() {
     assert_eq!(admitted(0.5), [true, true, true, false]);
     let saturated = |span| u.map(|u| law(span).is_saturated(u));
     assert_eq!(saturated(0.5), [true, false, false, false]);
-    assert_eq!([ENDLESS, -ENDLESS].map(saturated), [[false; 4]; 2]);
+    assert_eq!(saturated(ENDLESS), [false; 4]);
+    assert_eq!([-ENDLESS, -0.5].map(saturated), [[true, false, false, false]; 2]);
+    assert_eq!(u.map(|u| law(-0.5).missing(u)), [0.0, 0.0, -0.5, 0.0]);
+    assert_eq!([ENDLESS, -ENDLESS].map(|span| law(span).missing(1.0)), [0.0; 2]);
     assert_eq!(u.map(|u| law(0.5).missing(u)), [0.5, 0.0, 0.0, 0.0]);
 }
 
@@ -148,6 +152,11 @@ fn a_flux_goes_with_its_side() {
     assert_eq!(sides(-ENDLESS)[1..], [1.0, 1.0]);
     assert_eq!(flux(-ENDLESS, 2.0, -4.0), -4.0);
     assert_eq!([flux(2.0, 2.0, 0.0), flux(2.0, 2.0, 9.0)], [1.0, 3.0]);
+    // The same range from its upper end on.
+    let from_above = FluxRange::new(3.0, Span::new(-2.0));
+    let sides = [3.0, 2.0, 1.0].map(|u| law(-2.0).flux(u, 1.5, from_above));
+    assert_eq!((sides, from_above.ends()), ([1.0, 1.5, 3.0], [1.0, 3.0]));
+    assert_eq!([0.5, 1.0, 1.5].map(|flux| from_above.multiplier(flux)), [-0.5, 0.0, 0.5]);
 }
 
 fn residual_of(strip: &Strip<f64>, load: &[f64], x: &[f64], row: usize) -> f64 {
@@ -179,7 +188,7 @@ fn exchanges_find_all_three_sides() -> Result<(), Error> {
         let strip = Strip::<f64>::new(order);
         let (length, matrix) = (padded(order), strip.matrix()?);
         let spans: Vec<f64> =
-            (0..order).map(|at| [0.6, 1e-9, ENDLESS, -ENDLESS, 0.0, 2.0, 0.3][at % 7]).collect();
+            (0..order).map(|at| [0.6, 1e-9, ENDLESS, -ENDLESS, 0.0, -2.0, -0.3][at % 7]).collect();
         let mut scale = vec![0.0; length];
         scale
             .iter_mut()

@@ -220,7 +220,7 @@ impl<R: Real> EdgeLaw<R> {
     /// How far a unit of u moves with the flux from one end of its range to the other; `stiffness` is K_ii.
     #[inline(always)]
     pub(crate) fn reach(self, stiffness: R) -> R {
-        self.span.length() / stiffness
+        self.span.length().magnitude() / stiffness
     }
 
     /// How far a u that may not be so is beyond the gap.
@@ -235,16 +235,21 @@ impl<R: Real> EdgeLaw<R> {
         u == self.lower
     }
 
-    /// Whether the flux is at the end of its range that the load does not contain: u < ψ, and hi is finite.
+    /// Whether the flux is at its limit: u < ψ, and hi is finite.
     #[inline(always)]
     pub fn is_saturated(self, u: R) -> bool {
-        features::LIMITED && u < self.lower && !self.span.is_above() && !self.span.is_below()
+        features::LIMITED && u < self.lower && !self.span.is_above()
     }
 
-    /// What the load lacks at this u: ∫(hi − lo) where it is saturated.
+    /// What the load lacks at this u: the span where u is on the side whose flux is not the base.
     #[inline(always)]
     pub fn missing(self, u: R) -> R {
-        if self.is_saturated(u) { self.span.length() } else { R::ZERO }
+        let length = self.span.length();
+        if !features::LIMITED || !length.finite() {
+            return R::ZERO;
+        }
+        let is_other = if length < R::ZERO { u > self.lower } else { u < self.lower };
+        if is_other { length } else { R::ZERO }
     }
 
     /// The u that a relaxation ends at, from the one at which the row of K with its load alone would be satisfied; `softness` is
@@ -297,10 +302,14 @@ impl<R: Real> EdgeLaw<R> {
     /// ∫_E τ·n within the law, nearest to a `flux` that need not be: `range` is what contact allows the flux to be.
     #[inline(always)]
     pub fn flux(self, u: R, flux: R, range: FluxRange<R>) -> R {
-        if self.is_saturated(u) {
-            return range.ends()[1];
+        if self.span.is_above() {
+            return if u > self.lower { range.base() } else { range.nearest(flux) };
         }
-        let is_free = if self.span.is_below() { u < self.lower } else { u > self.lower };
-        if is_free { range.base() } else { range.nearest(flux) }
+        let [least, most] = range.ends();
+        match (u < self.lower, u > self.lower && !self.span.is_below()) {
+            (true, _) => most,
+            (_, true) => least,
+            _ => range.nearest(flux),
+        }
     }
 }

@@ -72,9 +72,11 @@ fn best<R: Real, I: Index>(
         }
         if let Some(law) = system.law_on(i) {
             let opening = law.opening(own);
+            if features::LIMITED {
+                force += law.missing(own);
+            }
             if features::LIMITED && opening < R::ZERO {
                 up = up.or_smaller(-opening);
-                force += law.missing(own);
             } else {
                 down = down.or_smaller(opening);
             }

@@ -3,8 +3,8 @@
 //! ```text
 //!   lo(x) = flux + Σ_j p_j π_j ≤ hi(x) = limit + Σ_j p_j π_j
 //! ```
-//! at the points of the rule for edge data and at the ends of every edge. Means of them are what the kernel has:
-//! ∫lo or, where lo = −∞, ∫hi as the base of the range, and ∫(hi − lo) as its span.
+//! at the points of the rule for edge data and at the ends of every edge. Means of them are what the kernel has: the smaller
+//! one in size as the base of the range, and the way to the other as its span.
 
 use signorini_kernel::Real;
 
@@ -21,9 +21,11 @@ const CONSTANT: f64 = 1e-12;
 
 /// Base and span of a contact edge from the means of its ends over a length of `length`.
 pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
-    match least == f64::NEG_INFINITY {
-        true => [length * most, f64::NEG_INFINITY],
-        false => [length * least, length * (most - least)],
+    // Means of equal ends may differ by rounding.
+    let span = length * (most - least).max(0.0);
+    match most.abs() < least.abs() {
+        true => [length * most, -span],
+        false => [length * least, span],
     }
 }
 

@@ -11,7 +11,7 @@
 //! for some steps, only the last of them changes (Murty) until it has.
 //!
 //! Where λ_i ≤ s_i is asked too, an unknown with λ_i > s_i goes to a third side, λ_i = s_i with d_i ≤ ψ_i, and comes back
-//! where d_i > ψ_i: the problem with bounds on both sides of Júdice and Pires. For s_i = −∞ that side has λ_i = 0.
+//! where d_i > ψ_i: the problem with bounds on both sides of Júdice and Pires. For s_i < 0 it is s_i ≤ λ_i ≤ 0.
 //!
 //! A component that only contact holds has Σλ = −Σr > 0 whatever A is, so some active unknown of it
 //! has λ_i > 0 and stays: if all leave, the load points away from the obstacle and there is no
@@ -81,9 +81,17 @@ impl<'a> ActiveSet<'a> {
         self.spans.get(i).copied().unwrap_or(f64::INFINITY)
     }
 
+    /// The least and the largest λ.
+    fn ends(&self, i: usize) -> [f64; 2] {
+        let span = self.span(i);
+        if span < 0.0 { [span, 0.0] } else { [0.0, span] }
+    }
+
     /// λ of an unknown that is not active.
     pub fn excess(&self, i: usize) -> f64 {
-        if self.below[i] && self.span(i).is_finite() { self.span(i) } else { 0.0 }
+        let [least, most] = self.ends(i);
+        let end = if self.below[i] { most } else { least };
+        if end.is_finite() { end } else { 0.0 }
     }
 
     /// The minimiser d. Violations below `noise` or the rounding of d are none.
@@ -155,11 +163,10 @@ impl<'a> ActiveSet<'a> {
     /// The side that an active unknown with this λ goes to, if it leaves.
     fn is_torn(&self, i: usize, multiplier: f64, noise: f64) -> Option<Side> {
         let noise = noise * self.schur[(i, i)].abs();
-        let (span, is_above) = (self.span(i), self.span(i) >= 0.0);
-        if is_above && multiplier < -noise {
+        let [least, most] = self.ends(i);
+        if multiplier < least - noise {
             return Some(Side::Above);
         }
-        let most = if is_above { span } else { 0.0 };
         (multiplier > most + noise).then_some(Side::Below)
     }
 

@@ -18,7 +18,7 @@ pub struct Problem<'a> {
     pub load: &'a [f64],
     /// ψ on the contact unknowns, which are the last n_c; length n_c ≤ n.
     pub lower: &'a [f64],
-    /// The most that λ may be on each contact unknown, ∞ and 0 among them, or −∞ for u ≤ ψ; empty where all are ∞.
+    /// λ is between 0 and this on each contact unknown, of either sign: ∞ for u ≥ ψ, −∞ for u ≤ ψ; empty where all are ∞.
     pub spans: &'a [f64],
     /// For each contact unknown: its connected component has neither a Dirichlet nor a Robin part.
     /// Length n_c, or empty where there is no such component.
@@ -47,9 +47,9 @@ impl Problem<'_> {
             return malformed("lower must not exceed load; floating is empty or as long as lower");
         }
         if !(self.spans.is_empty() || self.spans.len() == contact)
-            || !self.spans.iter().all(|&span| span >= 0.0 || span == f64::NEG_INFINITY)
+            || self.spans.iter().any(|span| span.is_nan())
         {
-            return malformed("spans are empty or as long as lower, and not negative but for -inf");
+            return malformed("spans are empty or as long as lower, and numbers");
         }
         check_finite("values", self.values)?;
         check_finite("load", self.load)?;

@@ -170,7 +170,10 @@ impl Matrix {
                         None | Some(&f64::INFINITY) => scaled.min(opening),
                         Some(&f64::NEG_INFINITY) => scaled.max(opening),
                         // 0 ≤ λ ≤ span is what λ/K − opening is cut to.
-                        Some(&span) => scaled - (scaled - opening).clamp(0.0, span / stiffness),
+                        Some(&span) => {
+                            let end = span / stiffness;
+                            scaled - (scaled - opening).clamp(end.min(0.0), end.max(0.0))
+                        }
                     }
                 }
             };

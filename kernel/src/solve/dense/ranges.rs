@@ -2,10 +2,10 @@
 //!
 //! ```text
 //!   x > 0:  w = 0        x = 0:  0 ≤ w ≤ m        x < 0:  w = m          m ≥ 0, or ∞: no third side
-//!   x < 0:  w = 0        x = 0:  w ≤ 0                                   m = −∞
+//!   x > 0:  w = m        x = 0:  m ≤ w ≤ 0        x < 0:  w = 0          m < 0, or −∞: no first side
 //! ```
-//! An unknown with x < 0 is exchanged like one with x > 0, but with m more of a load. Which of both it is stands in the
-//! sign of x while a search goes on, and from one search to the next.
+//! An exchanged unknown has the load of its side, b or b + m. Which side that is stands in the sign of x while a search goes
+//! on, and from one search to the next.
 
 use super::sizes;
 use super::tableau::Tableau;
@@ -34,7 +34,7 @@ impl<'a, R: Real> Given<'a, R> {
         Self { load, ranges: Ranges { spans, scale } }
     }
 
-    /// b of edge `at` and what its side has beyond: m where x < 0.
+    /// b of edge `at` and what its side has beyond.
     #[inline(always)]
     pub(super) fn on(&self, at: usize, load: R, x: R) -> R {
         if self.ranges.are_limited() { load + self.ranges.excess(at, x) } else { load }
@@ -86,8 +86,9 @@ impl<R: Real> Ranges<'_, R> {
     /// What the load of an exchanged edge has beyond b.
     #[inline(always)]
     pub(crate) fn excess(&self, at: usize, x: R) -> R {
-        let [_, most] = self.ends(at);
-        if x < R::ZERO && most.finite() { most } else { R::ZERO }
+        let [least, most] = self.ends(at);
+        let end = if x < R::ZERO { most } else { least };
+        if x != R::ZERO && end.finite() { end } else { R::ZERO }
     }
 
     /// By how much a w is outside of its range, with its sign.
@@ -118,11 +119,9 @@ impl<R: Real> Ranges<'_, R> {
             return;
         }
         let (w, [_, most]) = (read(z, at), self.ends(at));
-        let is_below = w > most;
-        write(x, at, if is_below { -R::ONE } else { R::ONE });
-        if is_below {
-            write(z, at, w - most);
-        }
+        let side = if w > most { -R::ONE } else { R::ONE };
+        write(x, at, side);
+        write(z, at, w - self.excess(at, side));
     }
 
     /// The same after it was: if it has left, what its side had beyond b is gone.

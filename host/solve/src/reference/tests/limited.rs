@@ -73,6 +73,7 @@ fn pivoting_with_three_sides_agrees_with_the_reference() {
                 2 => f64::INFINITY,
                 3 => f64::NEG_INFINITY,
                 4 => 1e12,
+                5 => -draw.number(),
                 _ => draw.number(),
             })
             .collect();

@@ -49,8 +49,8 @@ impl Correction {
         self.v.fill(0.0);
     }
 
-    /// Where the flux is at its limit, f32 would not see what is left beside it: there the limit itself is in the load, and v
-    /// stays below the gap. What that holds back is what the next correction begins with.
+    /// Where u is off its gap and the flux at an end, f32 would not see what is left beside that: there the end itself is in the
+    /// load, and v stays on this side. What that holds back is what the next correction begins with.
     fn pose_spans(&mut self, system: &System<f64, u32>, unit: f64, u: &[f64]) {
         let (law, free) = (system.law(), system.counts().free);
         let spans = law.spans().lengths().iter();
@@ -59,9 +59,9 @@ impl Correction {
         let rows = system.matrix().iter().zip(system.load()).skip(free);
         let edges = rows.zip(law.edges()).zip(u.iter().skip(free)).enumerate();
         for (at, (((row, &b), law), &own)) in edges {
-            if law.is_saturated(own) {
+            if !law.touches(own) && self.spans.get(at).is_some_and(|span| span.is_finite()) {
                 self.load[free + at] = ((b + law.missing(own) - row.dot(u)) / unit) as f32;
-                self.spans[at] = f32::NEG_INFINITY;
+                self.spans[at] = f32::INFINITY.copysign(law.opening(own) as f32);
             }
         }
     }
