@@ -33,7 +33,7 @@ table! {
         "u is affine: sweeps end in rounding, times a condition of 100";
     TRANSFER_NARROW: "heat through such a wall and its bound in f32", 2e-3,
         "ε = 1.2e-7 times u = 1 and a condition of 100";
-    LIMITED_TICK: "outputs of ticks with limits against the direct solver, relative", 1e-7,
+    LIMITED_TICK: "outputs of ticks with limits against the direct solver, relative", 5e-9,
         "ticks end at a share of 1e-9 of the bound";
     LIMITED_TICK_NARROW: "the same in f32", 1e-3,
         "rounding, and lengths that change by an edge where one is next to its limit";

@@ -69,7 +69,7 @@ table! {
         "sums of at most 20 weights";
     CATALOGUE: "errors on other meshes against the catalogue, relative", 5e-4,
         "quadrature of the norms";
-    MODES: "matrix and loads by modes against a fresh condensation, over the largest", 1e-13,
+    MODES: "matrix and loads by modes against a fresh condensation, over the largest", 5e-14,
         "rounding times the condition of the mesh";
     IDENTITY_OF_MODES: "the residual in the bound of a model of modes against the identity, relative", 2e-5,
         "quadrature of lifts in triangles";
@@ -81,11 +81,11 @@ table! {
         "u is affine, and exact in the elements";
     LIMITED: "contact with a limit by sweeps against the reference, relative to the range of u", 1e-10,
         "sweeps end at a scaled residual of 1e-13";
-    LIMITED_RANDOM: "random contact with a limit by sweeps and by the factor against the reference, relative to the range of u", 1e-8,
+    LIMITED_RANDOM: "random contact with a limit by sweeps and by the factor against the reference, relative to the range of u", 1e-10,
         "sweeps end at a scaled residual of 1e-13, times the condition of what is weakly held";
-    LIMITED_NARROW: "the same by the factor in f32", 1e-3,
+    LIMITED_NARROW: "the same by the factor in f32", 5e-6,
         "data are rounded to 1e-7, times the same";
-    THREE_SIDES: "pivoting with three sides against the reference, relative to the largest x or 1", 1e-9,
+    THREE_SIDES: "pivoting with three sides against the reference, relative to the largest x or 1", 5e-14,
         "rounding times the condition of matrices that are dominated by 1e-3 of their diagonal";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
