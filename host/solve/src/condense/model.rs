@@ -18,6 +18,9 @@ pub struct CondensedModel {
     pub multiplier: Vec<f64>,
     /// The m columns of B̂, n numbers each.
     pub load: Vec<Vec<f64>>,
+    /// The m columns of spans, n numbers each, in the unit of r̂: from the end of an edge's flux that the load contains to the other
+    /// one. ±∞ stands in the constant column alone. Empty where no flux has a limit.
+    pub spans: Vec<Vec<f64>>,
     /// A tick keeps x_i within these; empty where nothing was taken out of the model.
     pub limits: Vec<[f64; 2]>,
     /// The inputs' default values, the constant 1 first.
@@ -62,6 +65,13 @@ pub enum Measure {
         /// |E|, or 0 where the edge does not count.
         of_contact: Vec<f64>,
     },
+    /// The sum over the edges with x_i < 0, at their upper end, and those that always are.
+    Saturated {
+        /// Of edges that always are and have no x.
+        always: f64,
+        /// |E|, or 0 where the edge does not count.
+        of_contact: Vec<f64>,
+    },
     /// The error bound.
     Bound,
 }
@@ -77,6 +87,11 @@ pub struct Form {
     pub jump: Option<Vec<f64>>,
     /// The contact vertices that are not on D.
     pub vertices: Vec<Vertex>,
+    /// Where s − ψ comes from at both ends of every contact edge: the number of a vertex, from there on that of a corner, or
+    /// `usize::MAX` where it is 0. Empty where no flux has a limit.
+    pub ends: Vec<[usize; 2]>,
+    /// By how much |E| (hi − lo) may exceed its mean, in the unit of r̂.
+    pub span_excess: f64,
     /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U stability |δ|.
     pub stability: f64,
     /// Where u_D lies above ψ beside contact.

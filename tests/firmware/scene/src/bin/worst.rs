@@ -118,7 +118,7 @@ fn tick(memory: &mut Memory, inputs: Inputs) -> Result<Report<Scalar>, Error> {
     let report = SYSTEM.tick(&all, &mut method, &mut Deadline::never(), &mut memory)?;
     let mut outputs = [0.0; OUTPUTS];
     for (number, output) in outputs.iter_mut().enumerate() {
-        *output = SYSTEM.output(number, &all, &memory.iterate, &report)?;
+        *output = SYSTEM.output(number, &all, &memory, &report)?;
     }
     black_box(outputs);
     Ok(report)
