@@ -29,6 +29,10 @@ impl<R: Scalar> Output<R> {
             condense::Measure::Length { always, of_contact } => {
                 Self::Length { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
+            // No edge of a baked model has a limit so far.
+            condense::Measure::Saturated { always, .. } => {
+                Self::Length { always: R::narrow(*always), of_contact: Vec::new() }
+            }
             condense::Measure::Bound => Self::Bound,
         }
     }

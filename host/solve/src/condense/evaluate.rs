@@ -76,6 +76,10 @@ impl CondensedModel {
                 let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
                 Some(touching.fold(*always, |sum, (length, _)| sum + length))
             }
+            Measure::Saturated { always, of_contact } => {
+                let beyond = of_contact.iter().zip(x).filter(|&(_, &x)| x < 0.0);
+                Some(beyond.fold(*always, |sum, (length, _)| sum + length))
+            }
             Measure::Bound => self.bound(p, x),
         };
         self.outputs.iter().map(value).collect()

@@ -105,6 +105,8 @@ impl FormData<'_> {
             corners: chain.corners,
             oscillation,
             floating: self.floating.clone(),
+            ends: Vec::new(),
+            span_excess: 0.0,
         };
         Ok(Ok((form, Admissibles { s, fluxes, functions })))
     }

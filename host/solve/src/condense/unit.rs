@@ -53,7 +53,7 @@ impl CondensedModel {
             let (of_contact, of_reaction) = match measure {
                 Measure::Linear { of_contact, .. } => (of_contact, none),
                 Measure::Flux { of_contact, of_reaction, .. } => (of_contact, of_reaction),
-                Measure::Length { .. } | Measure::Bound => continue,
+                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => continue,
             };
             of_contact.iter_mut().chain(of_reaction).for_each(|factor| *factor *= unit);
         }

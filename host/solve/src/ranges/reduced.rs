@@ -97,6 +97,7 @@ impl Build<'_> {
             opening: scaled(&|at, s| whole.opening[at] / s),
             multiplier: scaled(&|at, s| whole.multiplier[at] * s),
             load: (0..m).map(load).collect(),
+            spans: Vec::new(),
             limits: kept
                 .iter()
                 .zip(scale)
@@ -170,6 +171,9 @@ impl Build<'_> {
                 let touching: f64 = self.maps.touching.iter().map(|&at| of_contact[at]).sum();
                 Measure::Length { always: always + touching, of_contact: kept(of_contact) }
             }
+            Measure::Saturated { always, of_contact } => {
+                Measure::Saturated { always: *always, of_contact: kept(of_contact) }
+            }
             Measure::Bound => Measure::Bound,
         }
     }
@@ -189,6 +193,8 @@ impl Build<'_> {
             corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
             oscillation: form.oscillation.clone(),
             floating: Vec::new(),
+            ends: Vec::new(),
+            span_excess: 0.0,
         }
     }
 

@@ -107,7 +107,7 @@ impl CondensedModel {
                     divide(of_contact);
                     multiply(of_reaction);
                 }
-                Measure::Length { .. } | Measure::Bound => {}
+                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => {}
             }
         }
     }
