@@ -91,8 +91,8 @@ impl CondensedModel {
                 Some(touching.fold(*always, |sum, (length, _)| sum + length))
             }
             Measure::Saturated { always, of_contact } => {
-                let saturated = of_contact.iter().zip(x).filter(|&(_, &x)| x < 0.0);
-                Some(saturated.fold(*always, |sum, (length, _)| sum + length))
+                let beyond = of_contact.iter().zip(x).filter(|&(_, &x)| x < 0.0);
+                Some(beyond.fold(*always, |sum, (length, _)| sum + length))
             }
             Measure::Bound => self.bound(p, x),
         };
