@@ -74,6 +74,23 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         Self { columns, lent: PhantomData }
     }
 
+    /// How many spans a tick works out for so many edges with their padding: none where no input changes one.
+    pub const fn buffered(&self, padded: usize) -> usize {
+        #[cfg(feature = "limited")]
+        return if self.columns.len() > padded { padded } else { 0 };
+        #[cfg(not(feature = "limited"))]
+        {
+            let _ = padded;
+            0
+        }
+    }
+
+    /// Whether a flux has a limit.
+    #[inline(always)]
+    pub fn are_limited(&self) -> bool {
+        !self.columns().is_empty()
+    }
+
     #[inline(always)]
     fn columns(&self) -> &'a [R] {
         #[cfg(feature = "limited")]
@@ -93,7 +110,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         padded: usize,
         buffer: &mut SpanBuffer<R>,
     ) -> Result<(), Error> {
-        let are_varying = features::LIMITED && self.columns().len() > padded;
+        let are_varying = features::LIMITED && self.buffered(padded) > 0;
         if are_varying { self.sum_up(inputs, padded, buffer.write()) } else { Ok(()) }
     }
 
@@ -131,7 +148,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
     {
         #[cfg(feature = "limited")]
         return Spans::baked(
-            if self.columns().len() > padded { buffer.read() } else { self.columns() },
+            if self.buffered(padded) > 0 { buffer.read() } else { self.columns() },
             R::ZERO,
         );
         #[cfg(not(feature = "limited"))]

@@ -140,14 +140,18 @@ impl<R: Real> Ranges<'_, R> {
         }
     }
 
-    /// Exchanged unknowns whose x is 0 are on the side whose end the load contains.
+    /// Exchanged unknowns whose x is 0 are on the side whose end the load contains, and none on a side that there is not.
     pub(super) fn begin(&self, exchanged: &[bool], x: &mut [R]) {
         if !self.are_limited() {
             return;
         }
         for (at, (x, &within)) in x.iter_mut().zip(exchanged).enumerate() {
-            if within && *x == R::ZERO {
-                *x = if self.ends(at)[0] < R::ZERO { -R::ONE } else { R::ONE };
+            let [least, most] = self.ends(at);
+            let is_lost = *x == R::ZERO
+                || *x < R::ZERO && !most.finite()
+                || *x > R::ZERO && !least.finite();
+            if within && is_lost {
+                *x = if least < R::ZERO { -R::ONE } else { R::ONE };
             }
         }
     }
