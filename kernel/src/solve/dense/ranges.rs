@@ -147,9 +147,8 @@ impl<R: Real> Ranges<'_, R> {
         }
         for (at, (x, &within)) in x.iter_mut().zip(exchanged).enumerate() {
             let [least, most] = self.ends(at);
-            let is_lost = *x == R::ZERO
-                || *x < R::ZERO && !most.finite()
-                || *x > R::ZERO && !least.finite();
+            let is_lost =
+                *x == R::ZERO || *x < R::ZERO && !most.finite() || *x > R::ZERO && !least.finite();
             if within && is_lost {
                 *x = if least < R::ZERO { -R::ONE } else { R::ONE };
             }
