@@ -47,7 +47,7 @@ impl CondensedModel {
     fn rescale(&mut self, unit: f64) {
         self.energy_unit = unit;
         self.opening.iter_mut().chain(&mut self.multiplier).for_each(|number| *number *= unit);
-        self.load.iter_mut().flatten().for_each(|number| *number /= unit);
+        self.load.iter_mut().chain(&mut self.spans).flatten().for_each(|number| *number /= unit);
         for measure in &mut self.outputs {
             let none = &mut Vec::new();
             let (of_contact, of_reaction) = match measure {
@@ -73,5 +73,6 @@ impl Form {
         let lost = self.lost.iter_mut().take(inputs);
         let all = of_s.chain(of_jump).chain(of_corners).chain(&mut self.oscillation).chain(lost);
         all.for_each(|number| *number /= unit);
+        self.span_excess /= unit;
     }
 }
