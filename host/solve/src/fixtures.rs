@@ -1,5 +1,7 @@
 //! Scenes and meshes that tests share.
 
+pub mod limited;
+
 use std::path::Path;
 
 use crate::outputs::outputs;

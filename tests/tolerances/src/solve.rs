@@ -87,6 +87,12 @@ table! {
         "data are rounded to 1e-7, times the same";
     THREE_SIDES: "pivoting with three sides against the reference, relative to the largest x or 1", 5e-14,
         "rounding times the condition of matrices that are dominated by 1e-3 of their diagonal";
+    GUARANTEE_LIMITED: "how far an error is above the bound of condensed contact with limits, relative", 1e-3,
+        "quadrature of the norms";
+    IDENTITY_LIMITED: "bound of condensed contact with limits against the identity, relative, singular", 1e-3,
+        "quadrature of the norms where contact ends within a cell";
+    SAME_LIMITED: "condensed contact with limits against another statement of it", 1e-11,
+        "two exact solves of one problem";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
 }

@@ -12,7 +12,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::patterns::Pattern;
-use super::{Corner, Vertex};
+use super::{Corner, Form, Vertex};
 use crate::certify::ends::of_moved;
 use crate::problem::Problem;
 
@@ -27,10 +27,14 @@ pub(super) struct Chain {
     pub gap: Vec<Vec<f64>>,
     /// Dirichlet vertices and u_D there for each pattern.
     pub dirichlet: BTreeMap<u32, Vec<f64>>,
-    /// Where s lies above ψ for good.
+    /// Where s is off ψ for good.
     pub corners: Vec<Corner>,
+    /// The vertex of each corner.
+    met: Vec<u32>,
     /// By how much each pattern is moved at vertices where two expressions for one value differ by rounding.
     pub moved: Vec<BTreeMap<u32, f64>>,
+    /// Where s − ψ at both ends of each unknown's edge comes from, as [`super::Form::ends`] has it.
+    pub ends: Vec<[usize; 2]>,
 }
 
 /// The unknowns of the contact edges at a vertex, with ψ of every pattern there.
@@ -54,7 +58,9 @@ impl Chain {
             gap: Vec::new(),
             dirichlet,
             corners: Vec::new(),
+            met: Vec::new(),
             moved: vec![BTreeMap::new(); patterns.len()],
+            ends: Vec::new(),
         };
         for (&vertex, meeting) in &meetings {
             let psi = common_gap(problem, patterns, vertex, meeting)?;
@@ -76,6 +82,7 @@ impl Chain {
                         energy: of_moved(problem, &BTreeMap::from([(vertex, openings[edge])])),
                     });
                     chain.corners.extend(corners);
+                    chain.met.resize(chain.corners.len(), vertex);
                 }
                 None => {
                     let place = place(problem, &meetings, vertex, edges, openings)?;
@@ -84,7 +91,23 @@ impl Chain {
                 }
             }
         }
+        chain.ends = chain.places(problem, edges);
         Ok(chain)
+    }
+
+    /// Where s − ψ comes from at the ends of each edge.
+    fn places(&self, problem: &Problem, edges: &[usize]) -> Vec<[usize; 2]> {
+        let free = problem.topology.counts.free;
+        let place = |unknown: usize, vertex: u32| {
+            let contact = self.contact.iter().position(|&(of, _)| of == vertex);
+            let here = |(of, corner): (&u32, &Corner)| *of == vertex && corner.edge == unknown;
+            let corner = self.met.iter().zip(&self.corners).position(here);
+            contact.or_else(|| Some(self.contact.len() + corner?)).unwrap_or(Form::NOTHING)
+        };
+        let of_edge = |(unknown, &edge): (usize, &usize)| {
+            problem.ends[free + edge].map(|vertex| place(unknown, vertex))
+        };
+        edges.iter().enumerate().map(of_edge).collect()
     }
 
     /// The vertices where s is not free.

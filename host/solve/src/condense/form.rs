@@ -14,6 +14,7 @@ use super::functions::Functions;
 use super::laws::Laws;
 use super::patterns::Pattern;
 use super::residual::{blocks, jumps};
+use super::spans::{excess, varies};
 use super::stability::{Source, stability};
 use crate::certify::ends::of_moved;
 use crate::problem::{Assembled, Parts, Problem};
@@ -96,17 +97,18 @@ impl FormData<'_> {
         let moved = chain.moved.iter().map(|moved| 2.0 * of_moved(problem, moved));
         let oscillation =
             patterns.iter().zip(moved).map(|(p, moved)| p.oscillation + moved).collect();
+        let is_limited = !problem.loads.spans.is_empty();
         let form = Form {
             factor: widened(packed(&triangular(&blocks, &s, &fluxes))),
             lost: self.lost(&blocks, &s, &fluxes, &assembled, stability)?,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
-            ends: Vec::new(),
-            span_excess: 0.0,
             stability,
             corners: chain.corners,
             oscillation,
             floating: self.floating.clone(),
+            ends: if is_limited { chain.ends } else { Vec::new() },
+            span_excess: excess(problem, self.edges, self.openings),
         };
         Ok(Ok((form, Admissibles { s, fluxes, functions })))
     }
@@ -135,6 +137,9 @@ impl FormData<'_> {
         if counts.contact > 1 {
             let reason = "contact alone holds more than one part of the mesh: what is mended in each would have to leave through an edge of its own";
             return Ok(Some(reason.to_owned()));
+        }
+        if let Some(reason) = varies(self.problem, self.patterns) {
+            return Ok(Some(reason));
         }
         let reason = self.patterns.iter().find_map(|pattern| pattern.no_bound.as_ref());
         Ok(reason.map(ToString::to_string))

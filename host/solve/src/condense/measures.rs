@@ -9,7 +9,8 @@ use crate::functional::{Functional, functionals};
 use crate::problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 
-/// Every declared output; without any, contact force and length. `openings` are the d of U = 1.
+/// Every declared output; without any, contact force and length. `openings` are the d of U = 1, `spans` those of the
+/// constant pattern on each contact edge, where any flux has a limit.
 ///
 /// # Errors
 /// A probe outside the mesh.
@@ -19,15 +20,12 @@ pub(super) fn measures(
     openings: &[f64],
     patterns: &[Pattern],
     fields: &[Field],
+    spans: Option<&Vec<f64>>,
 ) -> Result<Vec<Measure>> {
-    let columns = Columns { problem, edges, openings, patterns, fields };
+    let columns = Columns { problem, edges, openings, patterns, fields, spans };
     let measure = |functional: &Functional| match functional {
         Functional::Flux(edges) => columns.flux(edges),
-        Functional::Force(edges) => Measure::Flux {
-            of_inputs: Vec::new(),
-            of_contact: Vec::new(),
-            of_reaction: columns.reactions(edges),
-        },
+        Functional::Force(edges) => columns.force(edges),
         Functional::Probe(cell, point) => columns
             .linear(|Field { u, flux }| CellField::new(problem, *cell, u, flux).sample(point).u),
         Functional::Mean(parts) => columns.linear(|Field { u, .. }| {
@@ -36,8 +34,11 @@ pub(super) fn measures(
         Functional::Length(lengths) => {
             Measure::Length { always: 0.0, of_contact: columns.by_unknown(lengths) }
         }
-        // Only problems without limits are condensed.
-        Functional::Saturated(_) => columns.linear(|_| 0.0),
+        // Nothing is at its limit where there is none.
+        Functional::Saturated(_) if spans.is_none() => columns.linear(|_| 0.0),
+        Functional::Saturated(lengths) => {
+            Measure::Saturated { always: 0.0, of_contact: columns.by_unknown(lengths) }
+        }
         Functional::Bound => Measure::Bound,
     };
     Ok(functionals(problem)?.iter().map(measure).collect())
@@ -51,6 +52,7 @@ struct Columns<'a> {
     openings: &'a [f64],
     patterns: &'a [Pattern],
     fields: &'a [Field],
+    spans: Option<&'a Vec<f64>>,
 }
 
 impl Columns<'_> {
@@ -76,7 +78,30 @@ impl Columns<'_> {
         }
         let brings = of_inputs.iter().any(|&factor| factor != 0.0);
         let of_inputs = if brings { of_inputs } else { Vec::new() };
-        Measure::Flux { of_inputs, of_contact, of_reaction: self.reactions(&contact) }
+        let ones: Vec<_> = contact.into_iter().map(|edge| (edge, 1.0)).collect();
+        Measure::Flux { of_inputs, of_contact, of_reaction: self.reactions(&ones) }
+    }
+
+    /// ∫(τ·n − lo) over contact edges, and ∫(hi − τ·n) where lo is infinite. Where the base is hi, the way from lo to it is
+    /// constant.
+    fn force(&self, edges: &[usize]) -> Measure {
+        let free = self.problem.topology.counts.free;
+        let span = |edge: usize| {
+            self.spans.and_then(|spans| spans.get(edge - free)).copied().unwrap_or(f64::INFINITY)
+        };
+        let from_above: f64 = edges
+            .iter()
+            .map(|&edge| span(edge))
+            .filter(|span| *span < 0.0 && span.is_finite())
+            .sum();
+        let mut of_inputs = Vec::new();
+        if from_above < 0.0 {
+            of_inputs = vec![0.0; self.patterns.len()];
+            of_inputs[0] = -from_above;
+        }
+        let sign = |edge: usize| if span(edge) == f64::NEG_INFINITY { -1.0 } else { 1.0 };
+        let signs: Vec<_> = edges.iter().map(|&edge| (edge, sign(edge))).collect();
+        Measure::Flux { of_inputs, of_contact: Vec::new(), of_reaction: self.reactions(&signs) }
     }
 
     /// Σ Y_p p + Σ Y_x x
@@ -86,10 +111,9 @@ impl Columns<'_> {
         Measure::Linear { of_inputs, of_contact }
     }
 
-    /// ∫_E (τ·n − q) for r̂ = 1 on each of these contact edges.
-    fn reactions(&self, edges: &[usize]) -> Vec<f64> {
-        let ones: Vec<_> = edges.iter().map(|&edge| (edge, 1.0)).collect();
-        let counts = self.by_unknown(&ones).into_iter();
+    /// ∫_E (τ·n − q) for r̂ = 1 on each of these contact edges, times the number beside it.
+    fn reactions(&self, edges: &[(usize, f64)]) -> Vec<f64> {
+        let counts = self.by_unknown(edges).into_iter();
         counts.zip(self.openings).map(|(counts, opening)| counts / opening).collect()
     }
 

@@ -23,9 +23,11 @@
 
 mod best;
 mod block;
+mod bound;
 mod chain;
 mod columns;
 mod elimination;
+mod ends;
 mod evaluate;
 mod factor;
 mod form;
@@ -41,6 +43,7 @@ mod points;
 mod recovery;
 mod residual;
 mod rounding;
+mod spans;
 mod stability;
 #[cfg(test)]
 mod tests;
@@ -62,6 +65,7 @@ use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
+use spans::spans;
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
@@ -85,6 +89,8 @@ struct Pieces<'p> {
     problem: &'p Problem,
     parts: Parts,
     patterns: Vec<Pattern>,
+    /// From base to other end, pattern by pattern and contact edge by contact edge.
+    spans: Vec<Vec<f64>>,
     edges: Vec<usize>,
     held_by_contact: Vec<Vec<usize>>,
     /// The cells of the one part that contact alone holds.
@@ -96,14 +102,15 @@ struct Pieces<'p> {
 impl<'p> Pieces<'p> {
     fn new(problem: &'p Problem) -> Result<Self> {
         let parts = Parts::examine(problem)?;
-        let patterns = patterns(problem)?;
+        let mut patterns = patterns(problem)?;
+        let spans = spans(problem, &mut patterns)?;
         let edges = along_boundary(problem);
         let held_by_contact = held_by_contact(problem, &parts, &edges);
         if held_by_contact.iter().any(|part| part.len() == 1) {
             return Err(held_by_one(&problem.scene));
         }
         let alone = held_alone(problem, &parts, &edges);
-        Ok(Self { problem, parts, patterns, edges, held_by_contact, alone, laws: None })
+        Ok(Self { problem, parts, patterns, spans, edges, held_by_contact, alone, laws: None })
     }
 
     /// Those of the patterns, of unit openings, of the source where there is one, and of `more` loads.
@@ -136,11 +143,11 @@ impl<'p> Pieces<'p> {
             matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
             multiplier: opening.iter().map(|d| 1.0 / d).collect(),
             load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
-            spans: Vec::new(),
+            spans: self.spans_of_unknowns(&opening),
             limits: Vec::new(),
             defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
             ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
-            outputs: measures(problem, edges, &opening, patterns, &fields)?,
+            outputs: measures(problem, edges, &opening, patterns, &fields, self.spans.first())?,
             certificate: Err(String::new()),
             energy_unit: 1.0,
             held_by_contact: self.held_by_contact.clone(),
@@ -156,6 +163,20 @@ impl<'p> Pieces<'p> {
         model.certificate = form;
         model.choose_unit();
         Ok((model, Recovery { fields, admissibles }))
+    }
+
+    /// In the order of the unknowns and the unit of r̂; columns beyond the patterns of the scene are 0.
+    fn spans_of_unknowns(&self, openings: &[f64]) -> Vec<Vec<f64>> {
+        if self.spans.is_empty() {
+            return Vec::new();
+        }
+        let silent = vec![0.0; self.edges.len()];
+        let of_edges = |spans: &Vec<f64>| {
+            self.edges.iter().zip(openings).map(|(&edge, opening)| opening * spans[edge]).collect()
+        };
+        let mut columns: Vec<Vec<f64>> = self.spans.iter().map(of_edges).collect();
+        columns.resize(self.patterns.len(), silent);
+        columns
     }
 
     fn form(

@@ -54,7 +54,7 @@ impl Recovery {
             return None;
         };
         let unit = of.energy_unit;
-        let corrections = form.correction(x).into_iter().map(|d| unit * d);
+        let corrections = form.correction(&of.allowed(p), p.len(), x).into_iter().map(|d| unit * d);
         let z: Vec<f64> = columns(of, p, x).into_iter().chain(corrections).collect();
         let mended = columns(of, p, &of.mended(form, p, x)?);
         let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
@@ -83,7 +83,7 @@ impl CondensedModel {
         let n = self.contact;
         let before = self.residual(p, x);
         let mut after = before.clone();
-        form.mend(&self.opening, &mut after, x)?;
+        form.mend(&self.opening, &self.ends_of(p), &mut after, x)?;
         if n == 0 {
             return Some(Vec::new());
         }

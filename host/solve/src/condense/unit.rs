@@ -71,9 +71,9 @@ impl Form {
         let of_s = self.factor.iter_mut().take(of_inputs);
         let of_jump = self.jump.iter_mut().flat_map(|jump| jump.iter_mut().take(of_inputs));
         let of_corners = self.corners.iter_mut().flat_map(|corner| &mut corner.excess);
-        self.span_excess /= unit;
         let lost = self.lost.iter_mut().take(inputs);
         let all = of_s.chain(of_jump).chain(of_corners).chain(&mut self.oscillation).chain(lost);
         all.for_each(|number| *number /= unit);
+        self.span_excess /= unit;
     }
 }

@@ -120,8 +120,8 @@ impl Approach {
                 FullModel | Modes | Tick | Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Condensation | Modes | Export | Baselines => Some(two_sides),
-                Tick | FullModel | Factor | FactoredTicks => None,
+                Export | Baselines => Some(two_sides),
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks => None,
             },
             Property::LimitInput => match self {
                 FullModel | FactoredTicks => Some(one_range),
@@ -214,7 +214,8 @@ fn one_range(problem: &Problem) -> InputError {
 /// Contact with two sides.
 fn two_sides(problem: &Problem) -> InputError {
     let scene = &problem.scene;
-    let message = "the flux of contact has a limit, which `solve`, `tick` and the full model alone can treat so far";
+    let message =
+        "the flux of contact has a limit, which test data and other solvers know nothing of";
     let refusal = match scene.limited() {
         Some(boundary) => scene.error(&boundary.name, message),
         None => InputError::new(message).file(&scene.path),

@@ -45,6 +45,7 @@ impl Parts {
         least.loads = Loads {
             neumann: Vec::new(),
             contact_flux: vec![-1.0; least.topology.counts.contact],
+            spans: Vec::new(),
             triangles: Vec::new(),
             quads: Vec::new(),
             ..least.loads

@@ -4,7 +4,7 @@ use super::ModalModel;
 use crate::condense::{CondensedModel, Measure};
 
 impl ModalModel {
-    /// p and y where the input of the coefficient is `value`, of any x ≥ 0 of [`ModalModel::model`].
+    /// p and y where the input of the coefficient is `value`, of any x of [`ModalModel::model`].
     pub fn amplitudes(&self, value: f64, p: &[f64], x: &[f64]) -> Vec<f64> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let rows = self.of_inputs.iter().zip(&self.of_contact);
@@ -13,7 +13,7 @@ impl ModalModel {
         p.iter().copied().chain(y.collect::<Vec<_>>()).collect()
     }
 
-    /// The guaranteed bound of (p, x), x ≥ 0 of [`ModalModel::model`], in the unit of ‖A^½∇u‖; `None` where there is none.
+    /// The guaranteed bound of (p, x), x within its sides in [`ModalModel::model`], in the unit of ‖A^½∇u‖; `None` where there is none.
     pub fn bound(&self, value: f64, p: &[f64], x: &[f64]) -> Option<f64> {
         let p = self.amplitudes(value, p, x);
         self.model.bound_with(self.norm(value, &p, x)?, &p, x)
@@ -22,7 +22,7 @@ impl ModalModel {
     /// (|F(z)|² + δ |F_π(z)|²)^½, `p` with its amplitudes.
     pub(in crate::condense) fn norm(&self, value: f64, p: &[f64], x: &[f64]) -> Option<f64> {
         let (form, of_laws) = (self.model.certificate.as_ref().ok()?, self.of_laws.as_ref()?);
-        let [own, laws] = [&form.factor, of_laws].map(|factor| form.norm(factor, p, x));
+        let [own, laws] = [&form.factor, of_laws].map(|factor| self.model.norm(form, factor, p, x));
         let delta = (value - self.origin).max(0.0);
         Some((own * own + delta * laws * laws).sqrt())
     }
@@ -49,6 +49,7 @@ impl ModalModel {
             }
         }
         model.load.truncate(m);
+        model.spans.truncate(m);
         for measure in &mut model.outputs {
             self.follow(measure, &gains);
         }

@@ -4,6 +4,7 @@ use signorini_tolerances::solve::{DUVAUT, LIMITED, LIMITED_NARROW, LIMITED_RANDO
 
 use super::{Options, SolverKind, distance, mixed, solve};
 use crate::certify::exact::distance as distance_to_exact;
+use crate::fixtures::limited::{drawn, three_states, two_transitions, wall};
 use crate::fixtures::{distorted, on_grid};
 use crate::outputs::outputs;
 use crate::problem::{Parts, Problem};
@@ -12,42 +13,6 @@ use crate::solve::{ScalarKind, Solution};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
-
-/// A wall of conductivity 2 between u = `above` on top and a heater below that keeps 1 with a power of at most 3.
-fn wall(above: &str, ends: &str) -> String {
-    format!(
-        "
-mesh = \"grid\"
-[material.default]
-conductivity = \"2\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"{above}\"
-[boundary.left]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.right]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"1\"
-{ends}
-[output.power]
-kind = \"flux\"
-of = \"contact\"
-[output.short]
-kind = \"saturated\"
-of = \"contact\"
-[output.kept]
-kind = \"length\"
-of = \"contact\"
-[output.skin]
-kind = \"mean\"
-of = \"contact\"
-"
-    )
-}
 
 fn solved(problem: &Problem, solver: SolverKind, scalar: ScalarKind) -> Result<Solution> {
     solve(problem, &Options { solver, scalar, ..Options::default() })
@@ -109,52 +74,6 @@ fn a_thermostat_heats_as_much_as_it_needs_and_can() -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// u = x²y + y² + x³ with σ·n = −2.5x² on y = 0: open for x > 0.3, at the limit for x < −0.3, in contact between.
-fn three_states() -> String {
-    crate::fixtures::SMOOTH
-        .replace("gap = \"x^3\"", "gap = \"x^3 - 2*max(0, x - 0.3) + 1.5*max(0, -0.3 - x)\"")
-        .replace(
-            "flux = \"-3.5*x^2 - 1\"",
-            "flux = \"-2.5*x^2 - max(0, 0.3 - x)\"\nlimit = \"-2.5*x^2 + max(0, x + 0.3)\"",
-        )
-}
-
-/// All three sides of the law with the r^{3/2} of both transitions, at ±a on y = 0 with lo = 0 and hi = 1.5:
-/// ```text
-///   z = a sin(ξ + iη),  β = (lo − hi)/π,  c = (lo + hi)/2
-///   u = −(c y + β (x η + y ξ − a sin ξ sinh η)),    ∇u = (−β η, −(c + β ξ))
-/// ```
-/// so that η > 0 = y beyond ±a, where ξ = ±π/2 and σ·n = c + β ξ is lo or hi, and u = η = 0 between.
-fn two_transitions(unit: f64) -> String {
-    let [least, most] = [0.0, 1.5].map(|end| end * unit);
-    let (beta, c) = (format!("({least} - {most})/pi"), format!("({least} + {most})/2"));
-    // s = √(z − a) √(z + a) = i a cos(ξ + iη), and ξ + iη = π/2 + i ln((z + s)/a).
-    let size = "((x-0.55)^2+y^2)^0.25*((x+0.55)^2+y^2)^0.25";
-    let angle = "(0.5*atan2(y,x-0.55) + 0.5*atan2(y,x+0.55))";
-    let [re, im] = ["cos", "sin"].map(|of| format!("{size}*{of}{angle}"));
-    let xi = format!("(pi/2 - atan2(y + {im}, x + {re}))");
-    let eta = format!("(0.5*ln(((x + {re})^2 + (y + {im})^2)/0.55^2))");
-    let u = format!("-({c}*y + {beta}*(x*{eta} + y*{xi} - {re}))");
-    format!(
-        "
-mesh = \"grid\"
-[material.default]
-conductivity = \"1\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"{u}\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"0\"
-flux = \"{least}\"
-limit = \"{most}\"
-[exact]
-u = \"{u}\"
-gradient = [\"-{beta}*{eta}\", \"-({c} + {beta}*{xi})\"]
-"
-    )
 }
 
 /// Errors of s and τ halve with the mesh, and the bound is them, but for the flux through the edges of the transitions.
@@ -273,80 +192,6 @@ fn a_solution_with_three_states_is_found_and_bounded() -> Result<()> {
 
 /// As many of them are solved, four times each; 10 000 took seven minutes once, and agreed to 1e-8, in f32 to 1e-3.
 const PROBLEMS: u64 = 400;
-
-/// Random numbers (an xorshift), drawn by the number of the problem.
-struct Draw(u64);
-
-impl Draw {
-    fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.number()
-    }
-
-    fn of<T: Copy>(&mut self, all: &[T]) -> T {
-        all[(self.number() * all.len() as f64) as usize]
-    }
-}
-
-/// Contact below, and on the left with ends of its own; on the right transfer or nothing, u given above.
-fn drawn(seed: u64) -> (String, Mesh) {
-    let mut draw = Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-    let mut wave = |size: f64| {
-        let (a, b, c) = (draw.between(-1.0, 1.0), draw.between(1.0, 6.0), draw.between(0.0, 6.0));
-        format!("{:.6}*sin({b:.6}*(x + 1.7*y) + {c:.6})", size * a)
-    };
-    let (above, source, gaps) = (wave(1.0), wave(4.0), [wave(1.0), wave(1.0)]);
-    let (flux, tilt) = ([wave(2.0), wave(2.0)], wave(1.0));
-    // Ends that are equal, nearly equal, near, far, and infinite on either side.
-    let ends = flux.map(|flux| {
-        let span = draw.of(&[0.0, 1e-9, 0.1, 1.0, 3.0, 3.0, 3.0, 1e9]);
-        let own = draw.of(&["both", "both", "both", "both", "above", "below"]);
-        match own {
-            "above" => format!("flux = \"{flux}\""),
-            "below" => format!("flux = \"-inf\"\nlimit = \"{flux}\""),
-            _ => format!("flux = \"{flux}\"\nlimit = \"{flux} + {span:e}*(1.2 + sin(9*x))\""),
-        }
-    });
-    let right = match draw.of(&[0, 1]) {
-        0 => format!("kind = \"neumann\"\nflux = \"{tilt}\""),
-        _ => format!("kind = \"robin\"\ncoefficient = \"1\"\nambient = \"{tilt}\""),
-    };
-    let text = format!(
-        "
-mesh = \"grid\"
-[material.default]
-conductivity = [\"2\", \"{:.6}\", \"1\"]
-[source]
-f = \"{source}\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"{above}\"
-[boundary.left]
-kind = \"contact\"
-gap = \"min({above}, {}) - 1e-3\"
-{}
-[boundary.right]
-{right}
-[boundary.contact]
-kind = \"contact\"
-gap = \"{}\"
-{}
-",
-        draw.between(-1.0, 1.0),
-        gaps[0],
-        ends[0].replace("flux = \"-inf\"", "flux = \"-1\""),
-        gaps[1],
-        ends[1]
-    );
-    let cells = draw.of(&[Cells::Triangles, Cells::Quads, Cells::Mixed]);
-    (text, grid(draw.of(&[2, 3, 5]), cells))
-}
 
 /// Sweeps and the factor end where the reference does, on problems most of which have all three states.
 #[test]
