@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Writes the mesh of the anti-icing slab as it is built: a skin with three heater mats and two webs.
+
+Needs Python 3.8 or later and nothing else. Running it again writes the same bytes; generate.py does so too.
+
+    python3 meshes/scenes/antiicing.py
+
+Lengths are in metres. The skin is 360 mm long: 2 mm of laminate below y = 0.002, 1 mm of titanium above it. The mats lie on
+its inner face, y = 0. Between them stand the webs, 20 mm wide and 30 mm deep. All cells are rectangles, in which A is
+constant.
+"""
+
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+COLUMN, COLUMNS = 0.01, 36
+# Lines of the skin and of the webs, from below.
+SKIN = (0.0, 0.001, 0.002, 0.003)
+WEB = (-0.03, -0.018, -0.008, 0.0)
+# Columns of each mat and each web.
+MATS = {"nose": range(0, 10), "middle": range(12, 22), "aft": range(24, 36)}
+WEBS = (range(10, 12), range(22, 24))
+CURVES = ("nose", "middle", "aft", "outside", "web feet", "web sides", "ends")
+SURFACES = ("laminate", "titanium", "aluminium")
+
+
+def build():
+    """Vertices, and elements as (Gmsh type, physical tag, vertices)."""
+    numbers, vertices = {}, []
+
+    def at(column, y):
+        key = (column, y)
+        if key not in numbers:
+            vertices.append((round(column * COLUMN, 9), y))
+            numbers[key] = len(vertices)
+        return numbers[key]
+
+    def cell(column, low, high, surface):
+        corners = at(column, low), at(column + 1, low), at(column + 1, high), at(column, high)
+        cells.append((3, SURFACES.index(surface) + 1, corners))
+
+    def side(curve, first, last):
+        lines.append((1, CURVES.index(curve) + 1, (at(*first), at(*last))))
+
+    cells, lines = [], []
+    for low, high in zip(SKIN, SKIN[1:]):
+        for column in range(COLUMNS):
+            cell(column, low, high, "laminate" if high <= 0.002 else "titanium")
+        for column in (0, COLUMNS):
+            side("ends", (column, low), (column, high))
+    for web in WEBS:
+        for low, high in zip(WEB, WEB[1:]):
+            for column in web:
+                cell(column, low, high, "aluminium")
+            for column in (web.start, web.stop):
+                side("web sides", (column, low), (column, high))
+        for column in web:
+            side("web feet", (column, WEB[0]), (column + 1, WEB[0]))
+    for name, mat in MATS.items():
+        for column in mat:
+            side(name, (column, SKIN[0]), (column + 1, SKIN[0]))
+    for column in range(COLUMNS):
+        side("outside", (column, SKIN[-1]), (column + 1, SKIN[-1]))
+    return vertices, lines + cells
+
+
+def msh22(vertices, elements):
+    """Gmsh MSH 2.2 ASCII."""
+    names = [f'1 {tag} "{name}"' for tag, name in enumerate(CURVES, 1)]
+    names += [f'2 {tag} "{name}"' for tag, name in enumerate(SURFACES, 1)]
+    text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
+    text += ["$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames"]
+    text += ["$Nodes", str(len(vertices))]
+    text += [f"{k} {x!r} {y!r} 0" for k, (x, y) in enumerate(vertices, 1)]
+    text += ["$EndNodes", "$Elements", str(len(elements))]
+    for k, (kind, tag, corners) in enumerate(elements, 1):
+        text.append(f"{k} {kind} 2 {tag} {tag} " + " ".join(map(str, corners)))
+    return "\n".join(text + ["$EndElements", ""])
+
+
+def main():
+    vertices, elements = build()
+    (HERE / "antiicing.msh").write_text(msh22(vertices, elements), encoding="utf-8")
+    quads = sum(kind == 3 for kind, _, _ in elements)
+    print(f"antiicing: 0 triangles, {quads} quads, MSH 2.2 ASCII")
+
+
+if __name__ == "__main__":
+    main()
