@@ -5,22 +5,29 @@ Needs Python 3.8 or later and nothing else. Running it again writes the same byt
 
     python3 meshes/scenes/antiicing.py
 
-Lengths are in metres. The skin is 360 mm long: 2 mm of laminate below y = 0.002, 1 mm of titanium above it. The mats lie on
-its inner face, y = 0. Between them stand the webs, 20 mm wide and 30 mm deep. All cells are rectangles, in which A is
-constant.
+The skin is 160 mm long: 2 mm of laminate, and outside of it 1 mm of titanium. The mats lie on its inner face, y = 0. Between
+them stand the webs, 8 mm wide and 20 mm deep, beside which 2.5 mm of the face are bare. Columns are narrow beside the webs,
+where the heat changes most. All cells are rectangles, in which A is constant.
 """
 
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-COLUMN, COLUMNS = 0.01, 36
-# Lines of the skin and of the webs, from below.
+# Widths of the columns in millimetres: of a mat from its far end to a web, of the bare skin and the web between two mats.
+END = (6, 6, 5, 5, 4, 4, 3, 3, 2, 2)
+ROOT = (1.5, 1, 1.5, 2.5, 2.5, 1.5, 1, 1.5)
+BETWEEN = (2, 3, 4, 5, 6, 6, 5, 4, 3, 2)
+AFT = (2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7)
+# Lines of the skin and of the webs in metres, from below.
 SKIN = (0.0, 0.001, 0.002, 0.003)
-WEB = (-0.03, -0.018, -0.008, 0.0)
-# Columns of each mat and each web.
-MATS = {"nose": range(0, 10), "middle": range(12, 22), "aft": range(24, 36)}
-WEBS = (range(10, 12), range(22, 24))
-CURVES = ("nose", "middle", "aft", "outside", "web feet", "web sides", "ends")
+WEB = (-0.02, -0.01, -0.004, 0.0)
+# Columns of each mat and each web, and those without a mat.
+WIDTHS = END + ROOT + BETWEEN + ROOT + AFT
+COLUMNS = len(WIDTHS)
+MATS = {"nose": range(0, 10), "middle": range(18, 28), "aft": range(36, 48)}
+WEBS = (range(12, 16), range(30, 34))
+BARE = (10, 11, 16, 17, 28, 29, 34, 35)
+CURVES = ("nose", "middle", "aft", "outside", "bare", "web feet", "web sides", "ends")
 SURFACES = ("laminate", "titanium", "aluminium")
 
 
@@ -31,7 +38,7 @@ def build():
     def at(column, y):
         key = (column, y)
         if key not in numbers:
-            vertices.append((round(column * COLUMN, 9), y))
+            vertices.append((round(sum(WIDTHS[:column]) / 1000, 9), y))
             numbers[key] = len(vertices)
         return numbers[key]
 
@@ -45,7 +52,7 @@ def build():
     cells, lines = [], []
     for low, high in zip(SKIN, SKIN[1:]):
         for column in range(COLUMNS):
-            cell(column, low, high, "laminate" if high <= 0.002 else "titanium")
+            cell(column, low, high, "laminate" if high <= SKIN[-2] else "titanium")
         for column in (0, COLUMNS):
             side("ends", (column, low), (column, high))
     for web in WEBS:
@@ -59,6 +66,8 @@ def build():
     for name, mat in MATS.items():
         for column in mat:
             side(name, (column, SKIN[0]), (column + 1, SKIN[0]))
+    for column in BARE:
+        side("bare", (column, SKIN[0]), (column + 1, SKIN[0]))
     for column in range(COLUMNS):
         side("outside", (column, SKIN[-1]), (column + 1, SKIN[-1]))
     return vertices, lines + cells

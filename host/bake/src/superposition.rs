@@ -16,6 +16,9 @@ use signorini_solve::certify::ends::Ends;
 use signorini_solve::certify::robin::{RobinPoints, robin};
 use signorini_solve::problem::{Loads, Problem, RangeTerm, TransferPattern};
 
+/// Inputs of transfer coefficients that a scene may have: every term is evaluated at the 2⁸ corners of their ranges.
+const MOST_COEFFICIENTS: usize = 8;
+
 /// The data of one part.
 #[derive(Debug, Clone)]
 pub struct Part {
@@ -40,8 +43,17 @@ pub struct Part {
 /// The base and every input's part, in the order of the terms.
 ///
 /// # Errors
-/// Data that are not finite.
+/// Data that are not finite, too many inputs of transfer coefficients.
 pub fn parts(problem: &Problem) -> Result<Vec<Part>> {
+    let mut coefficients = problem.scene.inputs.iter().filter(|input| changes_transfer(input));
+    if let Some(beyond) = coefficients.nth(MOST_COEFFICIENTS) {
+        let message = format!(
+            "more than {MOST_COEFFICIENTS} inputs change transfer coefficients: the error bound is worked out at every \
+             corner of their ranges, and each input doubles their number"
+        );
+        let hint = "let one input change what changes together";
+        return Err(problem.scene.error(&beyond.field, message).hint(hint).into());
+    }
     (0..=problem.scene.inputs.len()).map(|term| Part::new(problem, term)).collect()
 }
 
