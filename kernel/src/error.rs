@@ -87,8 +87,8 @@ pub enum Error {
         input: usize,
     },
     /// Inputs bring the limit of a contact edge's flux below its least value.
-    LimitBelowFlux {
-        /// Its number among the contact edges of the model.
+    EmptyRange {
+        /// The contact edge, counted from the first one.
         contact: usize,
     },
     /// The relaxation factor is not inside (0, 2).
@@ -181,8 +181,8 @@ impl fmt::Display for Error {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
             Self::InputOutOfRange { input } => write!(f, "input {input} is outside its range"),
-            Self::LimitBelowFlux { contact } => {
-                write!(f, "the limit of contact edge {contact} is below its least flux")
+            Self::EmptyRange { contact } => {
+                write!(f, "the limit of contact edge {contact} is less than its least flux")
             }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),

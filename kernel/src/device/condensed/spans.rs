@@ -131,7 +131,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         };
         // Nothing is written where an edge is refused.
         if let Some(contact) = (0..padded).find(is_reversed) {
-            return Err(Error::LimitBelowFlux { contact });
+            return Err(Error::EmptyRange { contact });
         }
         for (at, span) in spans.iter_mut().enumerate() {
             let (sum, size) = sums(at);
