@@ -37,6 +37,10 @@ table! {
         "ticks end at a share of 1e-9 of the bound";
     LIMITED_TICK_NARROW: "the same in f32", 1e-3,
         "rounding, and lengths that change by an edge where one is next to its limit";
+    LIMITED_BOUND: "bounds of condensed ticks with limits against those of the same answers, relative", 1e-10,
+        "the rounding part is in the first alone";
+    LIMITED_BOUND_NARROW: "the same in f32", 2e-3,
+        "rounding of the forms and of the residuals";
     LIMITED_INPUT_TICK: "outputs of ticks with inputs of a limit against the direct solver, relative", 1e-8,
         "ticks end at a share of 1e-9 of the bound";
     LIMITED_INPUT_TICK_NARROW: "the same in f32", 1e-3,
