@@ -102,6 +102,11 @@ impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
         &self.shared
     }
 
+    /// The same, to be written.
+    pub fn shared_mut(&mut self) -> &mut Storage<Numbers, Flags, Columns> {
+        &mut self.shared
+    }
+
     /// p and y of the last tick.
     pub fn inputs(&self) -> &[R]
     where
