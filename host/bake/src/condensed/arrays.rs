@@ -288,7 +288,7 @@ fn worst(contact: usize) -> u32 {
 }
 
 /// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
-pub(crate) fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
+fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
     let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
     let split = Split::new(&stored, condensate.contact);
     split.is_some_and(|split| split.has_all_signs())

@@ -23,6 +23,8 @@ pub struct Controller<'b, R: Scalar> {
     baked: &'b Baked<R>,
     storage: Owned<R>,
     tableau: TableauStorage<Vec<Block<R>>, Vec<bool>, Vec<R>>,
+    /// Whether the last tick had another coefficient than the one before.
+    follows: bool,
 }
 
 impl<'b, R: Scalar> Controller<'b, R> {
@@ -43,6 +45,7 @@ impl<'b, R: Scalar> Controller<'b, R> {
             baked,
             storage,
             tableau: TableauStorage::of(blocks, vec![false; n], [zeros(n), zeros(n)]),
+            follows: false,
         }
     }
 
@@ -58,14 +61,15 @@ impl<'b, R: Scalar> Controller<'b, R> {
             self.tableau.reset();
         }
         let inputs: Vec<R> = std::iter::once(R::ONE).chain(inputs.iter().copied()).collect();
-        let (storage, tableau) = (&mut self.storage, &mut self.tableau);
+        let Self { storage, tableau, follows, .. } = self;
         baked.with_model(|model| {
             let Some(modes) = &baked.modes else {
                 let memory = storage.shared_mut().memory(model);
                 return solve(baked, model, tableau, Ticking::Plain(&inputs, memory));
             };
             let modal = &modes.view(model);
-            if storage.set(modal, &inputs)? {
+            *follows = storage.set(modal, &inputs)?;
+            if *follows {
                 tableau.reset();
             }
             let (model, memory) = storage.at(modal);
@@ -75,7 +79,9 @@ impl<'b, R: Scalar> Controller<'b, R> {
 
     /// What the last tick looked at.
     pub fn visited(&self) -> Visited {
-        Visited::new::<R>(self.storage.shared().open(), self.storage.shared().combination())
+        let shared = self.storage.shared();
+        let visited = Visited::new::<R>(shared.open(), shared.combination());
+        Visited { follows: self.follows, ..visited }
     }
 
     /// The amplitudes of the last tick, where there are modes.

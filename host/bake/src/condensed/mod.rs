@@ -22,7 +22,6 @@ mod statics;
 mod tests;
 mod visited;
 
-pub(crate) use arrays::is_monotone;
 pub use arrays::{Baked, Work};
 pub use controller::Controller;
 pub use header::header;

@@ -10,6 +10,9 @@
 //! roundings where it counts n + m + K + 4. The flux through the boundary is off its law by √t |Δa|, a_k = β_k·p + α_k·x rounded, and
 //! by the a_k of the modes that were left out: both are counted in the columns of F_π.
 
+#[cfg(test)]
+mod tests;
+
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::modes::Modal;
 use signorini_solve::condense::{CondensedModel, LawsForm, Measure, ModalModel};

@@ -113,7 +113,8 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         (numbers + of_inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar)
     });
     let modes = baked.modes.as_ref();
-    let followed = modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count);
+    let followed =
+        modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count);
     Sizes {
         ram: (4 * n + 2 * columns + followed) * scalar + n + tableau,
         flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + outputs) * scalar

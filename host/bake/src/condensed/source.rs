@@ -76,7 +76,8 @@ const COLUMNS: usize = {columns};
     if let Some(modes) = &baked.modes {
         let terms = baked.inputs + modes.count;
         text += &blocks.replace("the tableau", "the matrix");
-        let _ = write!(text, "/// The constant, inputs and modes.\nconst TERMS: usize = {terms};\n");
+        let _ =
+            write!(text, "/// The constant, inputs and modes.\nconst TERMS: usize = {terms};\n");
         blocks.clear();
     }
     let purpose = match baked.solver() {

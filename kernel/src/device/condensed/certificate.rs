@@ -164,7 +164,13 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// The norm of a form, with what the rounding of e = E x + d can do to it.
-    pub(super) fn norm(&self, factor: &Factor<R>, x: &[R], z: &[R], sum: &mut [R]) -> Result<Norm<R>, Error> {
+    pub(super) fn norm(
+        &self,
+        factor: &Factor<R>,
+        x: &[R],
+        z: &[R],
+        sum: &mut [R],
+    ) -> Result<Norm<R>, Error> {
         let norm = factor.norm(z, sum)?;
         Ok(Norm { rounding: norm.rounding + self.nudged(factor, x), ..norm })
     }

@@ -86,7 +86,8 @@ mod tests {
                 for (column, &entry) in line.iter().enumerate() {
                     let is_diagonal = at != 1 && row == column;
                     let is_negative = (at, row, column) == (1, 2, 2);
-                    let expected = [0.0, 0.25, -0.5][usize::from(is_diagonal) + 2 * usize::from(is_negative)];
+                    let expected =
+                        [0.0, 0.25, -0.5][usize::from(is_diagonal) + 2 * usize::from(is_negative)];
                     assert_eq!(entry, expected, "{at} {row} {column}");
                 }
             }

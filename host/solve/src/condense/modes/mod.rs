@@ -40,9 +40,9 @@ use crate::quadrature::DATA_POINTS;
 pub use left_out::LeftOut;
 use left_out::{Shares, norms, sizes};
 use passing::{Passing, combined};
-use signs::slack;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Field as SceneField;
+use signs::slack;
 
 /// See the module.
 #[derive(Debug, Clone)]

@@ -77,9 +77,8 @@ impl<R: Real> Modal<'_, R> {
         let answer = Candidate { inputs, x, residual: at.unpadded(shared.iterate.residual) };
         let verdict = match (&at.certificate, &self.laws) {
             (Some(form), Some(laws)) => {
-                let whole = |own, z: &[R], sum: &mut [R]| {
-                    with_laws(own, *t, form.norm(laws, x, z, sum)?)
-                };
+                let whole =
+                    |own, z: &[R], sum: &mut [R]| with_laws(own, *t, form.norm(laws, x, z, sum)?);
                 form.certify_with(&answer, shared.combination, shared.sum, whole)?
             }
             _ if at.has_bound => Verdict::NotAsked,

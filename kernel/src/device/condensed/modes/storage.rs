@@ -51,7 +51,11 @@ impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
     ModalStorage<Numbers, Flags, Columns, Matrix, Inputs, R>
 {
     /// Before the first tick, with buffers of any contents.
-    pub const fn of(shared: Storage<Numbers, Flags, Columns>, matrix: Matrix, inputs: Inputs) -> Self {
+    pub const fn of(
+        shared: Storage<Numbers, Flags, Columns>,
+        matrix: Matrix,
+        inputs: Inputs,
+    ) -> Self {
         Self { shared, matrix, inputs, t: None }
     }
 
