@@ -109,6 +109,7 @@ fn condensed_as<R: Scalar>(
         vertices: baked.vertices(),
         columns: baked.columns(),
         exact,
+        is_limited: baked.is_limited(),
         forms: baked.forms(),
         modes: baked.modes.as_ref().map_or(0, |modes| modes.count),
     };

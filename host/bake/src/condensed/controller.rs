@@ -15,7 +15,7 @@ use super::visited::Visited;
 use signorini_solve::scalar::Scalar;
 
 /// The memory of a condensed scene; that of modes is empty where there are none.
-type Owned<R> = ModalStorage<Vec<R>, Vec<bool>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
+type Owned<R> = ModalStorage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
 
 /// The controller of a condensed scene.
 #[derive(Debug)]
@@ -33,7 +33,8 @@ impl<'b, R: Scalar> Controller<'b, R> {
         let zeros = |length| vec![R::ZERO; length];
         let n = padded(baked.contact);
         let blocks = vec![[[R::ZERO; SIDE]; SIDE]; count(baked.contact)];
-        let shared = Storage::of(zeros(n), vec![false; n], zeros(baked.columns()));
+        let spans = zeros(baked.varying_spans());
+        let shared = Storage::of(zeros(n), vec![false; n], zeros(baked.columns()), spans);
         let (matrix, terms) = match &baked.modes {
             Some(modes) => (blocks.clone(), baked.inputs + modes.count),
             None => (Vec::new(), 0),
@@ -135,7 +136,7 @@ fn answer<R: Scalar>(
             (report, &*memory.inputs, memory.shared)
         }
     };
-    let output = |number| model.output(number, inputs, &memory.iterate, &report);
+    let output = |number| model.output(number, inputs, &memory, &report);
     let outputs = (0..model.outputs.len()).map(output).collect::<Result<_, _>>()?;
     Ok((outputs, report))
 }

@@ -96,6 +96,7 @@ impl<'m> Scaled<'m> {
         let now = of.in_own_scale(of.model.defaults[of.input]);
         let mut model = of.model.clone();
         model.load.truncate(of.inputs);
+        model.spans.truncate(of.inputs);
         model.load.extend(alphas);
         rescale(&mut model, of.inputs, root * energy);
         let compliance: Vec<f64> = of.compliance.iter().map(|nu| unit * nu).collect();

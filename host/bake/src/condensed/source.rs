@@ -26,7 +26,8 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let about = About { model: "condensed", text: &about, features: baked.kernel_features() };
+    let features = baked.kernel_features();
+    let about = About { model: "condensed", text: &about, features: &features };
     let mut text = face.source::<R>(&about);
     text += &imports(baked);
     text += &constants(baked);
@@ -120,11 +121,12 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let sweeps = if is_limited { baked.sweeps.most } else { 0 };
     let text = controller::controller(&Parts {
         fields: &format!(
-            "    storage: {},\n{}",
+            "    storage: {}{}>,\n{}",
             match baked.modes {
-                Some(_) => "ArrayModalStorage<Scalar, PADDED, COLUMNS, BLOCKS, TERMS>",
-                None => "ArrayStorage<Scalar, PADDED, COLUMNS>",
+                Some(_) => "ArrayModalStorage<Scalar, PADDED, COLUMNS, BLOCKS, TERMS",
+                None => "ArrayStorage<Scalar, PADDED, COLUMNS",
             },
+            if baked.varying_spans() > 0 { ", PADDED" } else { "" },
             only("    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,\n")
         ),
         values: &format!(
@@ -204,7 +206,7 @@ const PLAIN: [&str; 3] = [
     "        let mut memory = self.storage.memory(&data::SYSTEM);
         let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
 ",
-    "data::SYSTEM.output(number, &inputs, &memory.iterate, &report)",
+    "data::SYSTEM.output(number, &inputs, &memory, &report)",
 ];
 
 /// The same where a transfer coefficient changes; a tableau belongs to one of its values.
@@ -215,9 +217,8 @@ const MODAL: [&str; 3] = [
         let (model, mut memory) = self.storage.at(&data::SYSTEM);
 ",
     "        let report = data::SYSTEM.tick(&model, &mut method, deadline, &mut memory)?;
-        let iterate = &memory.shared.iterate;
 ",
-    "model.output(number, memory.inputs, iterate, &report)",
+    "model.output(number, memory.inputs, &memory.shared, &report)",
 ];
 
 /// The same without a tableau.

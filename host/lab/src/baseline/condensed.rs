@@ -51,6 +51,7 @@ pub(super) fn condensed(
         multiplier: d.iter().map(|d| 1.0 / d).collect(),
         opening: d,
         load: vec![ticks[0].load.clone()],
+        spans: Vec::new(),
         limits: Vec::new(),
         defaults: vec![1.0],
         ranges: vec![[1.0, 1.0]],

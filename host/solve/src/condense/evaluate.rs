@@ -43,6 +43,20 @@ impl CondensedModel {
         load
     }
 
+    /// The spans for these inputs; none where no flux has a limit.
+    pub fn span_of(&self, p: &[f64]) -> Vec<f64> {
+        let mut spans = self.spans.first().cloned().unwrap_or_default();
+        for (column, p) in self.spans.iter().zip(p).skip(1) {
+            spans.iter_mut().zip(column).for_each(|(sum, entry)| *sum += p * entry);
+        }
+        spans
+    }
+
+    /// Whether an input changes a span.
+    pub fn is_varying(&self) -> bool {
+        self.spans.iter().skip(1).flatten().any(|&entry| entry != 0.0)
+    }
+
     /// r̂ = Ŝx − B̂p
     pub fn residual(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
         let rows = self.matrix.chunks(self.contact.max(1));
@@ -75,6 +89,10 @@ impl CondensedModel {
             Measure::Length { always, of_contact } => {
                 let touching = of_contact.iter().zip(x).filter(|&(_, &x)| x == 0.0);
                 Some(touching.fold(*always, |sum, (length, _)| sum + length))
+            }
+            Measure::Saturated { always, of_contact } => {
+                let beyond = of_contact.iter().zip(x).filter(|&(_, &x)| x < 0.0);
+                Some(beyond.fold(*always, |sum, (length, _)| sum + length))
             }
             Measure::Bound => self.bound(p, x),
         };

@@ -101,6 +101,8 @@ impl FormData<'_> {
             lost: self.lost(&blocks, &s, &fluxes, &assembled, stability)?,
             jump,
             vertices: chain.contact.iter().map(|(_, vertex)| vertex.clone()).collect(),
+            ends: Vec::new(),
+            span_excess: 0.0,
             stability,
             corners: chain.corners,
             oscillation,

@@ -136,6 +136,7 @@ impl<'p> Pieces<'p> {
             matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
             multiplier: opening.iter().map(|d| 1.0 / d).collect(),
             load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
+            spans: Vec::new(),
             limits: Vec::new(),
             defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
             ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),

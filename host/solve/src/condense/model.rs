@@ -18,6 +18,10 @@ pub struct CondensedModel {
     pub multiplier: Vec<f64>,
     /// The m columns of B̂, n numbers each.
     pub load: Vec<Vec<f64>>,
+    /// From the end of the flux's range that the load contains, its base, to the other one, in the unit of r̂: m columns of n
+    /// numbers as those of `load`. At least 0 from the lower end up, less than 0 from the upper end down. An infinite one
+    /// stands in the constant column, with 0 in the others. Nothing at all where every flux goes up without an end.
+    pub spans: Vec<Vec<f64>>,
     /// A tick keeps x_i within these; empty where nothing was taken out of the model.
     pub limits: Vec<[f64; 2]>,
     /// The inputs' default values, the constant 1 first.
@@ -45,8 +49,9 @@ pub enum Measure {
         /// n factors.
         of_contact: Vec<f64>,
     },
-    /// of_inputs·p + of_contact·x + Σ of_reaction max(r̂, 0) over the edges with x_i = 0: a force, and a flux
-    /// through contact edges.
+    /// of_inputs·p + of_contact·x + Σ of_reaction τ: a force, and a flux through contact edges. τ, from the base of its
+    /// range on, is the admissible one nearest to r̂ where x_i = 0, max(r̂, 0) without limits; the lower end where x_i > 0 and
+    /// the upper one where x_i < 0.
     Flux {
         /// m factors, or none.
         of_inputs: Vec<f64>,
@@ -58,6 +63,13 @@ pub enum Measure {
     /// The sum over the edges with x_i = 0, and those that always touch.
     Length {
         /// Of edges that always touch and have no x.
+        always: f64,
+        /// |E|, or 0 where the edge does not count.
+        of_contact: Vec<f64>,
+    },
+    /// The sum over the edges with x_i < 0, whose flux is at its limit, and those for which that always is so.
+    Saturated {
+        /// Of edges that are always at their limit and have no x.
         always: f64,
         /// |E|, or 0 where the edge does not count.
         of_contact: Vec<f64>,
@@ -85,6 +97,17 @@ pub struct Form {
     pub oscillation: Vec<f64>,
     /// The unknowns of the one part that contact alone holds: what is mended there must leave through another edge of it.
     pub floating: Vec<usize>,
+    /// Where s − ψ at both ends of each unknown's edge comes from: `vertices[k]` is k, corner c is the number of vertices
+    /// plus c, and [`Form::NOTHING`] is 0. Nothing at all where the model has no spans.
+    pub ends: Vec<[usize; 2]>,
+    /// By how much the span of an edge may exceed its mean somewhere along it, in the unit of r̂, at most; 0 where it is
+    /// constant along each edge.
+    pub span_excess: f64,
+}
+
+impl Form {
+    /// An end of an edge where s = ψ.
+    pub const NOTHING: usize = usize::MAX;
 }
 
 /// A contact vertex: where e = s − ψ comes from there.

@@ -47,13 +47,14 @@ impl CondensedModel {
     fn rescale(&mut self, unit: f64) {
         self.energy_unit = unit;
         self.opening.iter_mut().chain(&mut self.multiplier).for_each(|number| *number *= unit);
-        self.load.iter_mut().flatten().for_each(|number| *number /= unit);
+        let loads = self.load.iter_mut().chain(&mut self.spans).flatten();
+        loads.for_each(|number| *number /= unit);
         for measure in &mut self.outputs {
             let none = &mut Vec::new();
             let (of_contact, of_reaction) = match measure {
                 Measure::Linear { of_contact, .. } => (of_contact, none),
                 Measure::Flux { of_contact, of_reaction, .. } => (of_contact, of_reaction),
-                Measure::Length { .. } | Measure::Bound => continue,
+                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => continue,
             };
             of_contact.iter_mut().chain(of_reaction).for_each(|factor| *factor *= unit);
         }
@@ -70,6 +71,7 @@ impl Form {
         let of_s = self.factor.iter_mut().take(of_inputs);
         let of_jump = self.jump.iter_mut().flat_map(|jump| jump.iter_mut().take(of_inputs));
         let of_corners = self.corners.iter_mut().flat_map(|corner| &mut corner.excess);
+        self.span_excess /= unit;
         let lost = self.lost.iter_mut().take(inputs);
         let all = of_s.chain(of_jump).chain(of_corners).chain(&mut self.oscillation).chain(lost);
         all.for_each(|number| *number /= unit);

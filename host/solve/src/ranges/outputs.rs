@@ -67,7 +67,7 @@ impl Known<'_> {
                 self.linear(of_inputs, of_contact, of_reaction).map(Some)
             }
             Measure::Length { always, of_contact } => Ok(Some(self.length(*always, of_contact))),
-            Measure::Bound => Ok(None),
+            Measure::Saturated { .. } | Measure::Bound => Ok(None),
         }
     }
 

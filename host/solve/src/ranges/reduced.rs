@@ -97,6 +97,7 @@ impl Build<'_> {
             opening: scaled(&|at, s| whole.opening[at] / s),
             multiplier: scaled(&|at, s| whole.multiplier[at] * s),
             load: (0..m).map(load).collect(),
+            spans: Vec::new(),
             limits: kept
                 .iter()
                 .zip(scale)
@@ -170,6 +171,9 @@ impl Build<'_> {
                 let touching: f64 = self.maps.touching.iter().map(|&at| of_contact[at]).sum();
                 Measure::Length { always: always + touching, of_contact: kept(of_contact) }
             }
+            Measure::Saturated { always, of_contact } => {
+                Measure::Saturated { always: *always, of_contact: kept(of_contact) }
+            }
             Measure::Bound => Measure::Bound,
         }
     }
@@ -185,6 +189,8 @@ impl Build<'_> {
             jump: form.jump.as_ref().map(|jump| columns.of(jump)),
             lost: columns.lost(form, &self.rescaled(self.maps.hidden(self.whole.inputs))),
             vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
+            ends: Vec::new(),
+            span_excess: 0.0,
             stability: form.stability * most,
             corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
             oscillation: form.oscillation.clone(),

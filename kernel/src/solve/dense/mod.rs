@@ -9,6 +9,7 @@
 
 pub mod blocks;
 mod correction;
+mod falling;
 #[cfg(feature = "transfer")]
 pub mod outer;
 pub mod pivoting;

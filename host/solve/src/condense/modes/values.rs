@@ -103,7 +103,7 @@ impl CondensedModel {
         let multiply = |numbers: &mut [f64]| {
             numbers.iter_mut().zip(&roots).for_each(|(number, root)| *number *= root);
         };
-        self.load.iter_mut().for_each(|column| divide(column));
+        self.load.iter_mut().chain(&mut self.spans).for_each(|column| divide(column));
         divide(&mut self.opening);
         multiply(&mut self.multiplier);
         for measure in &mut self.outputs {
@@ -113,7 +113,7 @@ impl CondensedModel {
                     divide(of_contact);
                     multiply(of_reaction);
                 }
-                Measure::Length { .. } | Measure::Bound => {}
+                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => {}
             }
         }
     }

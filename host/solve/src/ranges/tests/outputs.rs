@@ -28,6 +28,7 @@ fn model(entries: Vec<f64>, n: usize, ranges: [[f64; 2]; 3], seed: u64) -> Conde
         opening: vec![1.0; n],
         multiplier: vec![1.0; n],
         load,
+        spans: Vec::new(),
         limits: Vec::new(),
         defaults: vec![1.0, 0.0, 0.0],
         ranges: ranges.to_vec(),

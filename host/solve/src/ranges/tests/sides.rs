@@ -20,6 +20,7 @@ fn model(matrix: &[f64], load: &[&[f64]], ranges: &[[f64; 2]]) -> CondensedModel
         opening: vec![1.0; n],
         multiplier: vec![1.0; n],
         load: load.iter().map(|column| column.to_vec()).collect(),
+        spans: Vec::new(),
         limits: Vec::new(),
         defaults: ranges.iter().map(|[lo, hi]| 0.5 * (lo + hi)).collect(),
         ranges: ranges.to_vec(),

@@ -21,7 +21,7 @@ mod storage;
 pub use storage::{ArrayModalStorage, ModalMemory, ModalStorage};
 
 use super::Condensed;
-use super::certificate::Candidate;
+use super::candidate::Candidate;
 use super::factor::{Factor, Norm};
 use super::method::Method;
 use super::outputs::dot;
@@ -33,6 +33,7 @@ use crate::index::read;
 use crate::real::Real;
 use crate::solve::dense::blocks::{Block, padded};
 use crate::solve::dense::outer::{add_outer, without_positive};
+use crate::solve::dense::ranges::Given;
 use crate::solve::dense::sizes;
 
 /// A condensed model with the modes of its coefficient (borrowed).
@@ -70,11 +71,14 @@ impl<R: Real> Modal<'_, R> {
     ) -> Result<Report<R>, Error> {
         let ModalMemory { shared, inputs, t } = memory;
         let matrix = at.matrix()?;
-        let progress = method.solve(&matrix, shared.load, shared.iterate.reborrow(), deadline)?;
-        at.hold_back(&matrix, shared)?;
+        let spans = at.spans.of(shared.load.len(), &shared.spans);
+        let given = Given::between(shared.load, spans, &[]);
+        let progress = method.solve(&matrix, given, shared.iterate.reborrow(), deadline)?;
+        at.hold_back(&matrix, given, &mut shared.iterate)?;
         let x = at.unpadded(shared.iterate.x);
         self.set_amplitudes(*t, x, inputs)?;
-        let answer = Candidate { inputs, x, residual: at.unpadded(shared.iterate.residual) };
+        let residual = at.unpadded(shared.iterate.residual);
+        let answer = Candidate { inputs, x, residual, ranges: given.ranges };
         let verdict = match (&at.certificate, &self.laws) {
             (Some(form), Some(laws)) => {
                 let whole =

@@ -10,17 +10,23 @@ use crate::solve::dense::tableau::InitialTableau;
 
 /// What its model has, with S(t) in [`crate::solve::dense::blocks::count`] blocks, and inputs that p and y have room in.
 #[derive(Debug)]
-pub struct ModalStorage<Numbers, Flags, Columns, Matrix, Inputs, R> {
-    shared: Storage<Numbers, Flags, Columns>,
+pub struct ModalStorage<Numbers, Flags, Columns, Spans, Matrix, Inputs, R> {
+    shared: Storage<Numbers, Flags, Columns, Spans>,
     matrix: Matrix,
     inputs: Inputs,
     /// Of the matrix and the last load.
     t: Option<R>,
 }
 
-/// The same in arrays: P padded contact edges, C columns, B blocks, I inputs and modes.
-pub type ArrayModalStorage<R, const P: usize, const C: usize, const B: usize, const I: usize> =
-    ModalStorage<[R; P], [bool; P], [R; C], [Block<R>; B], [R; I], R>;
+/// The same in arrays: P padded contact edges, C columns, B blocks, I inputs and modes, S spans.
+pub type ArrayModalStorage<
+    R,
+    const P: usize,
+    const C: usize,
+    const B: usize,
+    const I: usize,
+    const S: usize = 0,
+> = ModalStorage<[R; P], [bool; P], [R; C], [R; S], [Block<R>; B], [R; I], R>;
 
 /// What a tick works on (borrowed), once its inputs are set.
 #[derive(Debug)]
@@ -33,8 +39,8 @@ pub struct ModalMemory<'a, R> {
     pub t: R,
 }
 
-impl<R: Real, const P: usize, const C: usize, const B: usize, const I: usize>
-    ArrayModalStorage<R, P, C, B, I>
+impl<R: Real, const P: usize, const C: usize, const B: usize, const I: usize, const S: usize>
+    ArrayModalStorage<R, P, C, B, I, S>
 {
     /// Zeros, which take no room in flash.
     pub const fn zeros() -> Self {
@@ -47,12 +53,12 @@ impl<R: Real, const P: usize, const C: usize, const B: usize, const I: usize>
     }
 }
 
-impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
-    ModalStorage<Numbers, Flags, Columns, Matrix, Inputs, R>
+impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
+    ModalStorage<Numbers, Flags, Columns, Spans, Matrix, Inputs, R>
 {
     /// Before the first tick, with buffers of any contents.
     pub const fn of(
-        shared: Storage<Numbers, Flags, Columns>,
+        shared: Storage<Numbers, Flags, Columns, Spans>,
         matrix: Matrix,
         inputs: Inputs,
     ) -> Self {
@@ -70,11 +76,13 @@ impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
         Numbers: AsMut<[R]>,
         Flags: AsMut<[bool]>,
         Columns: AsMut<[R]>,
+        Spans: AsMut<[R]>,
         Matrix: AsMut<[Block<R>]>,
         Inputs: AsMut<[R]>,
     {
-        let memory = self.shared.memory(&modal.model);
+        let mut memory = self.shared.memory(&modal.model);
         let t = modal.combine(inputs, self.inputs.as_mut(), memory.load)?;
+        modal.model.spans.combine(inputs, memory.load.len(), &mut memory.spans)?;
         if self.t == Some(t) {
             return Ok(false);
         }
@@ -90,6 +98,7 @@ impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
         Numbers: AsMut<[R]>,
         Flags: AsMut<[bool]>,
         Columns: AsMut<[R]>,
+        Spans: AsMut<[R]>,
         Matrix: AsRef<[Block<R>]>,
         Inputs: AsMut<[R]>,
     {
@@ -102,12 +111,12 @@ impl<Numbers, Flags, Columns, Matrix, Inputs, R: Real>
     }
 
     /// That of the model.
-    pub fn shared(&self) -> &Storage<Numbers, Flags, Columns> {
+    pub fn shared(&self) -> &Storage<Numbers, Flags, Columns, Spans> {
         &self.shared
     }
 
     /// The same, to be written.
-    pub fn shared_mut(&mut self) -> &mut Storage<Numbers, Flags, Columns> {
+    pub fn shared_mut(&mut self) -> &mut Storage<Numbers, Flags, Columns, Spans> {
         &mut self.shared
     }
 
