@@ -56,6 +56,24 @@ fn ends(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
     Ok([end(Field::Flux)?, end(Field::Limit)?])
 }
 
+/// In the order of the unknowns and the unit of r̂, so many columns: those beyond the patterns of the scene are 0.
+pub(super) fn in_unknowns(
+    spans: &[Vec<f64>],
+    edges: &[usize],
+    openings: &[f64],
+    count: usize,
+) -> Vec<Vec<f64>> {
+    if spans.is_empty() {
+        return Vec::new();
+    }
+    let of_edges = |spans: &Vec<f64>| {
+        edges.iter().zip(openings).map(|(&edge, opening)| opening * spans[edge]).collect()
+    };
+    let mut columns: Vec<Vec<f64>> = spans.iter().map(of_edges).collect();
+    columns.resize(count, vec![0.0; edges.len()]);
+    columns
+}
+
 /// Why a model whose ends inputs change has no bound: hi − lo varies along an edge.
 pub(super) fn varies(problem: &Problem, patterns: &[Pattern]) -> Option<String> {
     let input = problem.scene.limit_input()?;
