@@ -66,6 +66,8 @@ fn solve_writes_its_three_files() {
     let force = summary["contact_force"].as_f64().expect("a number");
     PRINTED.check("force", force - 0.950787);
     assert!(text(&folder.path().join("solution.vtu")).contains("UnstructuredGrid"));
+    let contact = text(&folder.path().join("contact.vtu"));
+    assert!(["lambda", "gap", "state", "boundary"].iter().all(|name| contact.contains(name)));
 }
 
 #[test]

@@ -86,6 +86,11 @@ pub enum Error {
         /// Its number.
         input: usize,
     },
+    /// Inputs bring the limit of a contact edge's flux below its least value.
+    EmptyRange {
+        /// The contact edge, counted from the first one.
+        contact: usize,
+    },
     /// The relaxation factor is not inside (0, 2).
     Relaxation,
     /// A workspace holds no problem: it has not been built, or not since an error left it half done.
@@ -176,6 +181,9 @@ impl fmt::Display for Error {
                 write!(f, "no edge can take the surplus of the part around cell {cell}")
             }
             Self::InputOutOfRange { input } => write!(f, "input {input} is outside its range"),
+            Self::EmptyRange { contact } => {
+                write!(f, "the limit of contact edge {contact} is less than its least flux")
+            }
             Self::Relaxation => write!(f, "the relaxation factor must lie between 0 and 2"),
             Self::NotBuilt => write!(f, "the workspace holds no problem: build it"),
             Self::OtherMesh => write!(f, "the workspace was built for a mesh with other cells"),

@@ -126,6 +126,12 @@ impl<'a, R: Real> Spans<'a, R> {
         &[]
     }
 
+    /// How many there are: none where all are ∞.
+    #[cfg(feature = "limited")]
+    pub const fn count(&self) -> usize {
+        self.lengths.len()
+    }
+
     /// Whether any may be other than ∞.
     #[inline(always)]
     pub(crate) fn are_limited(&self) -> bool {

@@ -5,11 +5,13 @@ mod strip;
 
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
+use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage, Storage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::error::Array;
 use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::solve::dense::{Iterate, sor};
 use signorini_kernel::{Error, Real};
@@ -56,7 +58,7 @@ impl<R: Real> Work<R> {
         let mut method = Pivots { tableau, start, most, sweeps };
         let progress = method.solve(
             &strip.matrix()?,
-            load,
+            Given::above(load),
             Iterate { x, residual, scratch, open },
             &mut Deadline::never(),
         )?;
@@ -112,7 +114,8 @@ fn sweeps_come_to_the_same() -> Result<(), Error> {
         let open = &mut [false; 24];
         let mut sweeps = Sweeps { omega: 1.4, tolerance: 1e-14, most: 1000 };
         let iterate = Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
-        let progress = sweeps.solve(&strip.matrix()?, &load, iterate, &mut Deadline::never())?;
+        let progress =
+            sweeps.solve(&strip.matrix()?, Given::above(&load), iterate, &mut Deadline::never())?;
         assert_eq!(progress.ended, Ended::Settled);
         for (a, b) in x.iter().zip(&work.x) {
             CONDENSED_SWEPT.check_over(format_args!("tick {tick}"), a - b, 1.0 + b);
@@ -129,7 +132,12 @@ fn sweeps_need_an_omega_between_0_and_2() -> Result<(), Error> {
         let (x, residual, scratch) = (&mut x[..], &mut residual[..], &mut scratch[..]);
         let iterate = Iterate { x, residual, scratch, open: &mut [false; 8] };
         let mut sweeps = Sweeps { omega, tolerance: 0.0, most: 1 };
-        let solved = sweeps.solve(&strip.matrix()?, &[0.0; 8], iterate, &mut Deadline::never());
+        let solved = sweeps.solve(
+            &strip.matrix()?,
+            Given::above(&[0.0; 8]),
+            iterate,
+            &mut Deadline::never(),
+        );
         assert_eq!(solved.is_ok(), fits, "{omega}");
     }
     Ok(())
@@ -228,7 +236,7 @@ fn a_sweep_is_gauss_seidel() -> Result<(), Error> {
     let (mut x, mut naive) = (vec![0.1; 10], vec![0.1_f64; 10]);
     x.resize(16, 0.0);
     for _ in 0..5 {
-        sor::sweep(&strip.matrix()?, &load, 1.3, &mut x)?;
+        sor::sweep(&strip.matrix()?, Given::above(&load), 1.3, &mut x)?;
         for i in 0..10 {
             let product: f64 = (0..10).map(|j| strip.at(i, j) * naive[j]).sum();
             naive[i] = (naive[i] + 1.3 * (load[i] - product)).max(0.0);
@@ -260,11 +268,11 @@ fn wrong_lengths_are_refused() -> Result<(), Error> {
         Some(Error::Length { of: Array::Unknowns, found: 5, expected: 8 })
     );
     assert_eq!(
-        sor::sweep(&matrix, &[0.0; 5], 1.0, &mut [0.0; 8]).err(),
+        sor::sweep(&matrix, Given::above(&[0.0; 5]), 1.0, &mut [0.0; 8]).err(),
         Some(Error::Length { of: Array::Load, found: 5, expected: 8 })
     );
     assert_eq!(
-        sor::sweep(&matrix, &[0.0; 8], 1.0, &mut [0.0; 5]).err(),
+        sor::sweep(&matrix, Given::above(&[0.0; 8]), 1.0, &mut [0.0; 5]).err(),
         Some(Error::Length { of: Array::Unknowns, found: 5, expected: 8 })
     );
     let mut room = [[[0.0_f64; SIDE]; SIDE]; 1];
@@ -292,6 +300,7 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         start: InitialTableau { blocks: strip.blocks(), exchanged: &nothing },
         load: &[],
         limits: &[],
+        spans: SpanColumns::UNLIMITED,
         outputs: &[],
         certificate: None,
         has_bound: false,
@@ -303,7 +312,7 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
     storage.reset();
     assert_eq!(storage.memory(&model).iterate.x, given);
 
-    let mut vectors = Storage::of(vec![7.0; PADDED], vec![true; PADDED], vec![7.0; 3]);
+    let mut vectors = Storage::of(vec![7.0; PADDED], vec![true; PADDED], vec![7.0; 3], []);
     let lent = vectors.memory(&model);
     lent.iterate.open[1] = false;
     lent.combination[2] = 0.5;
@@ -318,8 +327,12 @@ fn storage_takes_the_model_s_start_over_once() -> Result<(), Error> {
         let lent = storage.memory(&model);
         let sweeps = Sweeps { omega: 1.0, tolerance: 0.0, most: 0 };
         let mut method = tableau.method(&model, 100, sweeps)?;
-        let progress =
-            method.solve(&strip.matrix()?, &load, lent.iterate, &mut Deadline::never())?;
+        let progress = method.solve(
+            &strip.matrix()?,
+            Given::above(&load),
+            lent.iterate,
+            &mut Deadline::never(),
+        )?;
         assert_eq!(progress.ended, Ended::Exact);
         pivots.push(progress.pivots);
     }

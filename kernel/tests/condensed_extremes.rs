@@ -7,11 +7,14 @@ mod strip;
 
 use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::spans::SpanBuffer;
+use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::{Ended, Report};
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::{Error, Real};
 use signorini_tolerances::kernel::{CONDENSED_NARROW, EXTREME_DEFECT};
@@ -81,6 +84,7 @@ impl<R: Scalar> Plate<R> {
             start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
             limits: &[],
+            spans: SpanColumns::UNLIMITED,
             outputs: &[Measure::Linear { of_inputs, of_contact }],
             certificate: None,
         })
@@ -129,7 +133,13 @@ impl<R: Scalar> Store<R> {
     fn tick(&mut self, model: &Condensed<R>, how: How, p: f64) -> Result<(R, Report<R>), Error> {
         let Self { x, scratch: [residual, scratch, load], open, .. } = self;
         let iterate = Iterate { x, residual, scratch, open };
-        let mut memory = Memory { iterate, load, combination: &mut [], sum: &mut [] };
+        let mut memory = Memory {
+            iterate,
+            load,
+            spans: SpanBuffer::new(&mut []),
+            combination: &mut [],
+            sum: &mut [],
+        };
         let inputs = [R::ONE, R::of(p)];
         let sweeps = |most| Sweeps { omega: R::of(1.4), tolerance: R::of(20.0) * R::EPSILON, most };
         let never = &mut Deadline::never();
@@ -147,7 +157,7 @@ impl<R: Scalar> Store<R> {
                 model.tick(&inputs, &mut method, never, &mut memory)?
             }
         };
-        Ok((model.output(0, &inputs, &memory.iterate, &report)?, report))
+        Ok((model.output(0, &inputs, &memory, &report)?, report))
     }
 
     fn bits(&self) -> (Vec<u64>, Vec<u64>, Vec<bool>) {
@@ -285,7 +295,12 @@ fn a_huge_x_is_none<R: Scalar>() -> Result<(), Error> {
         for pull in [10f64.powi(decade), 1.0, 1e-3] {
             let iterate =
                 Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open };
-            let progress = sweeps.solve(&matrix, &load(pull), iterate, &mut Deadline::never())?;
+            let progress = sweeps.solve(
+                &matrix,
+                Given::above(&load(pull)),
+                iterate,
+                &mut Deadline::never(),
+            )?;
             assert_eq!(progress.ended, Ended::OutOfSweeps, "{pull:e} after 1e{decade}");
             assert!(x.iter().all(|x| *x >= R::ZERO && x.finite()));
         }

@@ -8,6 +8,7 @@ use signorini_kernel::Error;
 use signorini_kernel::bound::certificate::Verdict;
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::Sweeps;
+use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::{Ended, Report};
@@ -68,6 +69,7 @@ fn with_model<T>(
         start: InitialTableau { blocks: strip.blocks(), exchanged: &[false; EDGES] },
         load: &load,
         limits: &[],
+        spans: SpanColumns::UNLIMITED,
         outputs: &[],
         certificate: None,
         has_bound,

@@ -7,6 +7,8 @@ mod strip;
 
 use signorini_kernel::device::condensed::method::Sweeps;
 use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::spans::SpanBuffer;
+use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::condition::{BoundaryEdge, Condition};
 use signorini_kernel::device::limits::Deadline;
@@ -131,6 +133,7 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             start: InitialTableau { blocks: &[], exchanged: &[] },
             load: &load,
             limits: &[],
+            spans: SpanColumns::UNLIMITED,
             outputs: &outputs,
             certificate: None,
         };
@@ -139,12 +142,17 @@ fn condensed_stops<R: Real + Into<f64>>() -> Result<usize, Error> {
             let [x, residual, scratch, load] = &mut numbers;
             let open = &mut vec![false; size];
             let iterate = Iterate { x, residual, scratch, open };
-            let mut memory = Memory { iterate, load, combination: &mut [], sum: &mut [] };
+            let mut memory = Memory {
+                iterate,
+                load,
+                spans: SpanBuffer::new(&mut []),
+                combination: &mut [],
+                sum: &mut [],
+            };
             let tolerance = R::from_count(16) * R::EPSILON;
             let mut sweeps = Sweeps { omega: R::ONE, tolerance, most };
             let report = model.tick(&[R::ONE], &mut sweeps, &mut Deadline::never(), &mut memory)?;
-            let [force, flux] =
-                [0, 1].map(|at| model.output(at, &[R::ONE], &memory.iterate, &report));
+            let [force, flux] = [0, 1].map(|at| model.output(at, &[R::ONE], &memory, &report));
             let (force, flux): (f64, f64) = (force?.into(), flux?.into());
             assert!(force >= 0.0 && flux >= 0.5, "{tick}, {most} sweeps: {force} {flux}");
             let (by_law, plain, size) = by_hand(&strip, &memory, &weights);

@@ -22,6 +22,7 @@ const POWERS: Numbers<usize> = Numbers {
     dirichlet: 1 << 10,
     dirichlet_ends: 1 << 11,
     transfer: 1 << 12,
+    spans: 1 << 13,
 };
 
 const LENGTHS: Lengths =
@@ -29,7 +30,7 @@ const LENGTHS: Lengths =
 
 #[test]
 fn all_arrays_count_once() {
-    assert_eq!(POWERS.sum(), (1 << 13) - 1);
+    assert_eq!(POWERS.sum(), (1 << 14) - 1);
 }
 
 /// What the type takes here has three lengths of 64 bits where the target has 32, and is aligned.
@@ -40,7 +41,7 @@ fn bytes_are_those_of_the_type() {
         u16,
         4,
         { LENGTHS.rows },
-        { (1 << 13) - 1 },
+        { (1 << 14) - 1 },
         { LENGTHS.active },
         { LENGTHS.neumann },
         { LENGTHS.robin },

@@ -7,6 +7,7 @@ use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, count, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::rule::{Largest, Phases, Rule as _};
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_tolerances::kernel::CONDENSED;
@@ -58,7 +59,12 @@ fn exchanges(n: usize, blocks: &[Block<f64>], load: &[f64], open: &[bool]) -> Re
     let iterate =
         Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
     let mut method = TwoPhases { tableau };
-    let found = method.solve(&Blocks::new(blocks, n)?, load, iterate, &mut Deadline::never())?;
+    let found = method.solve(
+        &Blocks::new(blocks, n)?,
+        Given::above(load),
+        iterate,
+        &mut Deadline::never(),
+    )?;
     assert_eq!((found.ended, found.sweeps), (Ended::Exact, 0));
     let size = x.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
     for (x, r) in x.iter().zip(&residual) {
@@ -85,7 +91,10 @@ fn every_state_leads_to_the_solution_within_the_bound() -> Result<(), Error> {
             // Half of the open edges leave at most before it starts anew, or one.
             let open = open.iter().filter(|open| **open).count();
             let limit = if n == 1 { 1 } else { n + (open / 2).max(open.min(1)) };
-            assert!(taken <= limit && limit <= Phases::default().most(n), "{taken} of {limit}");
+            assert!(
+                taken <= limit && limit <= Phases::default().most(n, false),
+                "{taken} of {limit}"
+            );
             most = most.max(taken as f64 / n as f64);
         }
     }
@@ -121,8 +130,8 @@ fn openings_may_be_much_larger_than_loads() -> Result<(), Error> {
 
 #[test]
 fn the_bound_is_that_of_the_order() {
-    assert_eq!([0, 1, 7].map(|n| Phases::default().most(n)), [0, 1, 10]);
-    assert_eq!([0, 1, 8, 9].map(|n| Largest.most(n)), [0, 8, 8, 16]);
+    assert_eq!([0, 1, 7].map(|n| Phases::default().most(n, false)), [0, 1, 10]);
+    assert_eq!([0, 1, 8, 9].map(|n| Largest.most(n, false)), [0, 8, 8, 16]);
 }
 
 /// Without time no edge changes: the answer of the state is clipped, and the next tick goes on from it.
@@ -149,7 +158,8 @@ fn a_deadline_ends_a_tick_between_exchanges() -> Result<(), Error> {
             now
         };
         let mut deadline = Deadline { remaining, sweep: 1, certificate: 0 };
-        let found = method.solve(&Blocks::new(&blocks, 6)?, &load, iterate, &mut deadline)?;
+        let found =
+            method.solve(&Blocks::new(&blocks, 6)?, Given::above(&load), iterate, &mut deadline)?;
         assert!(found.pivots <= 1 && x.iter().all(|x| *x >= 0.0), "{found:?}");
         ended.push(found.ended);
     }
@@ -172,7 +182,12 @@ fn a_matrix_that_is_none_ends_with_zeros() -> Result<(), Error> {
     tableau.reset(&InitialTableau::untouched(&matrix))?;
     let iterate =
         Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut flags };
-    let found = TwoPhases { tableau }.solve(&matrix, &load, iterate, &mut Deadline::never())?;
+    let found = TwoPhases { tableau }.solve(
+        &matrix,
+        Given::above(&load),
+        iterate,
+        &mut Deadline::never(),
+    )?;
     assert_eq!((found.ended, x, flags), (Ended::OutOfSweeps, [0.0; SIDE], [false; SIDE]));
     assert_eq!(residual, load.map(|load: f64| -load));
     Ok(())

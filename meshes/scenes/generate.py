@@ -12,6 +12,7 @@ that the standard scenes exercise all four that Gmsh writes.
 
 from pathlib import Path
 
+import antiicing
 import gmsh
 
 HERE = Path(__file__).resolve().parent
@@ -203,6 +204,7 @@ def main():
     block("membrane", 0.2, 0.05, 48, 12, 4.1, quads=True)
     block("square", 1, 1, 32, 32, 2.2, quads=False)
     gmsh.finalize()
+    antiicing.main()
 
 
 main()

@@ -24,26 +24,42 @@ struct Image {
     kinds: &'static [&'static str],
     /// The stage that each kind counts last.
     last: &'static str,
+    /// Features that the others do without.
+    features: &'static [&'static str],
 }
 
 /// The stages on a mesh, those of its factor and of the condensed problem, and functions of micromath beside libm's.
-const IMAGES: [Image; 4] = [
+const IMAGES: [Image; 5] = [
     Image {
         bin: "cost",
         kinds: &["f32 triangles", "f32 quads", "f64 triangles", "f64 quads"],
-        last: "certificate",
+        last: "certificate, A varies",
+        features: &[],
     },
     Image {
         bin: "factor",
         kinds: &["f32 triangles", "f32 quads", "f64 triangles", "f64 quads"],
         last: "substitution, entries",
+        features: &[],
     },
     Image {
         bin: "dense",
         kinds: &["f32, n = 8", "f32, n = 16", "f32, n = 32", "f32, n = 64", "f64, n = 64"],
         last: "norm of the bound, half of x zero",
+        features: &[],
     },
-    Image { bin: "functions", kinds: &["f32 libm", "f32 micromath"], last: "powf" },
+    Image {
+        bin: "limits",
+        kinds: &[
+            "f32 limited, n = 8",
+            "f32 limited, n = 16",
+            "f32 limited, n = 32",
+            "f32 limited, n = 64",
+        ],
+        last: "three phases, all stay there",
+        features: &["limited"],
+    },
+    Image { bin: "functions", kinds: &["f32 libm", "f32 micromath"], last: "powf", features: &[] },
 ];
 
 /// Board, kind, what, and the count that it shall not exceed.
@@ -100,8 +116,12 @@ pub fn run(steps: &mut Steps) {
 
 fn measure(board: &Board, image: &Image, counts: &mut Counts) -> Result<String, String> {
     let (scenes, bins) = (scenes()?, [image.bin]);
-    let build =
-        Build { package: "signorini-firmware", bins: &bins, features: &[], scenes: &scenes };
+    let build = Build {
+        package: "signorini-firmware",
+        bins: &bins,
+        features: image.features,
+        scenes: &scenes,
+    };
     let (command, folder) = board.build(build)?;
     run_cargo(command)?;
     let said = board.run(&folder.join(image.bin), true)?;

@@ -53,7 +53,9 @@ impl Costs {
 
     /// Instructions of a stage on a dense problem of a size that was counted.
     pub(super) fn counted<R: Scalar>(&self, stage: &str, order: f64) -> Option<f64> {
-        let count = self.0.get(BOARD, &format!("{}, n = {order}", R::NAME), stage);
+        let of = |kind: String| self.0.get(BOARD, &kind, stage);
+        let count = of(format!("{}, n = {order}", R::NAME));
+        let count = count.or_else(|| of(format!("{} limited, n = {order}", R::NAME)));
         count.map(|count| count * order * order)
     }
 

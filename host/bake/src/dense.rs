@@ -55,6 +55,8 @@ pub struct Price {
     pub columns: usize,
     /// Whether the exact method is there.
     pub exact: bool,
+    /// Whether a flux has a limit.
+    pub is_limited: bool,
     /// Forms of the error bound: none, that of s, and that of u_h where it is another.
     pub forms: usize,
 }
@@ -82,12 +84,14 @@ impl Price {
     /// are those of the image. Nothing where they depend on the operands, as those of f64 without a unit for it do.
     pub fn worst<R: Scalar>(&self, costs: &Costs, exchanges: u32) -> Option<f64> {
         let [smallest, ..] = ORDERS;
-        costs.counted::<R>(STAY, smallest)?;
+        costs.counted::<R>(STAY[0], smallest)?;
         let solve = match self.order {
             0 => 0.0,
             n => {
-                2.0 * costs.of_dense::<R>(STAY, n)?
-                    + f64::from(exchanges + 1) * self.each::<R>(costs)?
+                // Edges that leave their limit may end open, on a way without an exchange.
+                let ways = if self.is_limited { n as u32 } else { 0 };
+                2.0 * self.stage::<R>(costs, STAY)?
+                    + f64::from(exchanges + ways + 1) * self.each::<R>(costs)?
             }
         };
         let columns = self.columns;
@@ -108,12 +112,18 @@ impl Price {
         Some(f64::from(pivots) * each + odd * exchange)
     }
 
-    /// An exchange on the way from nothing open to all, where that was counted.
+    /// An exchange on the way from nothing open to all, where that was counted; to all at their limits, if that takes more.
     fn each<R: Scalar>(&self, costs: &Costs) -> Option<f64> {
         let [smallest, ..] = ORDERS;
-        costs.counted::<R>(COME, smallest)?;
-        let of = |stage| costs.of_dense::<R>(stage, self.order);
-        Some((of(COME)? - 0.5 * of(STAY)?) / self.order as f64)
+        costs.counted::<R>(COME[0], smallest)?;
+        let of = |stage| self.stage::<R>(costs, stage);
+        let most = of(COME)?.max(of(FALL)?);
+        Some((most - 0.5 * of(STAY)?) / self.order as f64)
+    }
+
+    /// Instructions of a stage that was counted without limits and with them.
+    fn stage<R: Scalar>(&self, costs: &Costs, [plain, limited]: [&str; 2]) -> Option<f64> {
+        costs.of_dense::<R>(if self.is_limited { limited } else { plain }, self.order)
     }
 
     fn bound<R: Scalar>(&self, costs: &Costs, visited: &Visited) -> Option<f64> {
@@ -131,8 +141,9 @@ impl Price {
 }
 
 const PRODUCT: &str = "product, half of x zero";
-const STAY: &str = "two phases, all edges stay open";
-const COME: &str = "two phases, all edges come in";
+const STAY: [&str; 2] = ["two phases, all edges stay open", "three phases, all stay there"];
+const COME: [&str; 2] = ["two phases, all edges come in", "three phases, all edges come in"];
+const FALL: [&str; 2] = ["two phases, all edges come in", "three phases, all to their limits"];
 
 impl Price {
     /// The coefficients of a stage for this order.
@@ -203,15 +214,24 @@ mod tests {
                 vertices: order,
                 columns: 2 * order,
                 exact: true,
+                is_limited: false,
                 forms: 1,
             };
             let worst = |exchanges| price.worst::<f32>(&costs, exchanges).unwrap();
             let [none, all] = [worst(0), worst(order as u32)];
             // What was counted from nothing open to all, and the rest of a tick.
-            let counted = costs.counted::<f32>(COME, order as f64).unwrap();
+            let counted = costs.counted::<f32>(COME[0], order as f64).unwrap();
             assert!(all > counted && all - none < 1.3 * counted, "{order}");
         }
-        let price = Price { order: 0, entries: 9, vertices: 0, columns: 2, exact: false, forms: 1 };
+        let price = Price {
+            order: 0,
+            entries: 9,
+            vertices: 0,
+            columns: 2,
+            exact: false,
+            is_limited: false,
+            forms: 1,
+        };
         assert!(price.worst::<f32>(&costs, 0).unwrap() > A_TICK);
         assert_eq!(price.worst::<f64>(&costs, 0), None);
     }
@@ -219,7 +239,15 @@ mod tests {
     #[test]
     fn an_exchange_alone_costs_less_than_two() {
         let costs = Costs::measured();
-        let price = Price { order: 64, entries: 0, vertices: 0, columns: 0, exact: true, forms: 0 };
+        let price = Price {
+            order: 64,
+            entries: 0,
+            vertices: 0,
+            columns: 0,
+            exact: true,
+            is_limited: false,
+            forms: 0,
+        };
         let of = |pivots| price.of::<f32>(&costs, &Done { pivots, ..Done::default() }).unwrap();
         assert!(of(1) > of(0) && of(2) > of(1) && of(2) - of(1) < of(1) - of(0));
     }

@@ -14,7 +14,10 @@ use signorini_solve::certify::Evaluated;
 use signorini_solve::certify::curved::{Curved, curved};
 use signorini_solve::certify::ends::Ends;
 use signorini_solve::certify::robin::{RobinPoints, robin};
-use signorini_solve::problem::{Loads, Problem, TransferPattern};
+use signorini_solve::problem::{Loads, Problem, RangeTerm, TransferPattern};
+
+/// Inputs of transfer coefficients that a scene may have: every term is evaluated at the 2⁸ corners of their ranges.
+const MOST_COEFFICIENTS: usize = 8;
 
 /// The data of one part.
 #[derive(Debug, Clone)]
@@ -33,13 +36,24 @@ pub struct Part {
     pub has_bound: bool,
     /// What the part adds to h, where it is an input that does.
     pub coefficient: Option<TransferPattern>,
+    /// What the part adds to the ranges of contact fluxes, where inputs change an end of one.
+    pub range: Option<RangeTerm>,
 }
 
 /// The base and every input's part, in the order of the terms.
 ///
 /// # Errors
-/// Data that are not finite.
+/// Data that are not finite, too many inputs of transfer coefficients.
 pub fn parts(problem: &Problem) -> Result<Vec<Part>> {
+    let mut coefficients = problem.scene.inputs.iter().filter(|input| changes_transfer(input));
+    if let Some(beyond) = coefficients.nth(MOST_COEFFICIENTS) {
+        let message = format!(
+            "more than {MOST_COEFFICIENTS} inputs change transfer coefficients: the error bound is worked out at every \
+             corner of their ranges, and each input doubles their number"
+        );
+        let hint = "let one input change what changes together";
+        return Err(problem.scene.error(&beyond.field, message).hint(hint).into());
+    }
     (0..=problem.scene.inputs.len()).map(|term| Part::new(problem, term)).collect()
 }
 
@@ -57,15 +71,30 @@ impl Part {
             let no_bound = worst.no_bound.or(there.no_bound);
             Ok::<_, Error>(Evaluated { oscillation, no_bound, ..there })
         })?;
+        let is_end = problem.scene.limit_input().is_some();
+        let range = is_end.then(|| problem.range_term(term)).transpose()?;
+        // Which share of the mean hi − lo keeps along an edge depends on the inputs then.
+        let keeps = range.as_ref().is_none_or(|range| !range.varies);
         Ok(Self {
             ends: data.ends,
             curved: data.curved,
             transfer: robin(&alone, alone.time)?,
             oscillation: data.oscillation,
-            has_bound: data.no_bound.is_none(),
+            has_bound: data.no_bound.is_none() && keeps,
             coefficient,
+            range,
             loads: alone.loads,
         })
+    }
+
+    /// What it adds to the bases of contact fluxes.
+    pub fn contact_flux(&self) -> &[f64] {
+        self.range.as_ref().map_or(&self.loads.contact_flux, |range| &range.fluxes)
+    }
+
+    /// What it adds to their spans; for the base these are the spans.
+    pub fn spans(&self) -> &[f64] {
+        self.range.as_ref().map_or(&self.loads.spans, |range| &range.spans)
     }
 
     /// Whether h and u_ext are constant along every edge.

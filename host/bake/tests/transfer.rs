@@ -360,3 +360,21 @@ fn a_factor_is_refused_where_the_matrix_changes() -> Result<()> {
     assert!(text.contains("AmbientShare { input: 3, integrals: &WIND_TIMES_AMBIENT_3 }"));
     Ok(())
 }
+
+#[test]
+fn ranges_with_too_many_corners_are_refused() -> Result<()> {
+    let with = |inputs: usize| {
+        let input = |at| {
+            format!(
+                "[input.gust{at}]\nof = \"contact\"\nfield = \"coefficient\"\npattern = \"1\"\nrange = [0, 1]\n"
+            )
+        };
+        wall("1", "[0.0, 1.0]") + &(1..inputs).map(input).collect::<String>()
+    };
+    let (_, problem) = on_grid(&with(8), grid(1, Cells::Triangles))?;
+    Baked::<f64>::new(&problem)?;
+    let (_, problem) = on_grid(&with(9), grid(1, Cells::Triangles))?;
+    let error = Baked::<f64>::new(&problem).expect_err("512 corners").to_string();
+    assert!(error.contains("input.gust8.field: more than 8 inputs change"), "{error}");
+    Ok(())
+}

@@ -41,7 +41,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Solve one scene and write edges.csv, summary.json and solution.vtu
+    /// Solve one scene and write edges.csv, summary.json, solution.vtu and contact.vtu
     Solve(solve::Arguments),
     /// Solve a scene over time, each tick from the last one's answer; write ticks.csv and ticks.svg
     Tick(tick::Arguments),

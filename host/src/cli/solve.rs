@@ -13,10 +13,11 @@ use signorini_solve::energy_norm;
 use signorini_solve::field::CellField;
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::output::contact::contact;
 use signorini_solve::output::digits::{percent_above, rounded, supported};
 use signorini_solve::output::edges::edges_csv;
 use signorini_solve::output::summary::Summary;
-use signorini_solve::output::vtu::{Field, vtu};
+use signorini_solve::output::vtu::{Field, contact_vtu, vtu};
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -84,6 +85,7 @@ impl Arguments {
                 edges_csv(&problem, &solution).map_err(|error| Error::Check(error.to_string()))?,
             ),
             ("solution.vtu", picture(&problem, &solution).into_bytes()),
+            ("contact.vtu", contact_vtu(&contact(&problem, &solution)).into_bytes()),
             ("summary.json", summary.json().into_bytes()),
         ];
         for (name, bytes) in files {

@@ -12,6 +12,7 @@ pub mod certificate;
 pub mod conforming;
 #[cfg(feature = "mesh")]
 pub mod equilibrium;
+pub(crate) mod excess;
 #[cfg(feature = "mesh")]
 pub mod forest;
 pub mod verdict;

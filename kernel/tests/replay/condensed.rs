@@ -5,10 +5,14 @@ use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::device::condensed::method::{Method, Pivots, Sweeps};
 use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::sides::Sides;
+use signorini_kernel::device::condensed::spans::SpanBuffer;
+use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 
 use crate::journal::Journal;
@@ -88,6 +92,7 @@ impl<R: Scalar> Model<R> {
             factor: Factor { columns: &self.columns, norms: &self.norms },
             vertices: &self.vertices,
             corners: &corners,
+            sides: Sides::UNLIMITED,
             stability: R::of(1.5),
             floating: &self.floating,
             oscillation: &[R::of(0.125), R::of(0.25), R::of(0.0625)],
@@ -110,6 +115,7 @@ impl<R: Scalar> Model<R> {
             start: InitialTableau { blocks: self.strip.blocks(), exchanged: &self.nothing },
             load: &self.load,
             limits: &[],
+            spans: SpanColumns::UNLIMITED,
             outputs: &outputs,
             certificate: Some(certificate),
             has_bound: true,
@@ -174,8 +180,10 @@ fn worn<R: Scalar>(strip: &Strip<R>, journal: &mut Journal) -> Result<(), Error>
         let [x, residual, scratch] = &mut numbers;
         let open = &mut vec![false; size];
         let iterate = Iterate { x, residual, scratch, open };
-        journal
-            .line("worn", pivots.solve(&strip.matrix()?, &load, iterate, &mut Deadline::never())?);
+        journal.line(
+            "worn",
+            pivots.solve(&strip.matrix()?, Given::above(&load), iterate, &mut Deadline::never())?,
+        );
         journal.digest("x and residual", &numbers[..2]);
         // By 4 ε at first, then by more.
         let off = R::ONE + R::EPSILON * R::of(4.0_f64.powi(1 + at as i32 / 2));
@@ -196,7 +204,7 @@ fn ticks<R: Scalar, M: Method<R>>(
     let [x, residual, scratch, load, combination, sum] = &mut numbers;
     let open = &mut vec![false; size];
     let iterate = Iterate { x, residual, scratch, open };
-    let mut memory = Memory { iterate, load, combination, sum };
+    let mut memory = Memory { iterate, load, spans: SpanBuffer::new(&mut []), combination, sum };
     let of_reaction: &Vec<_> = &(0..model.contact).map(|at| R::of((at % 3) as f64)).collect();
     let outputs = [
         Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction },
@@ -211,11 +219,11 @@ fn ticks<R: Scalar, M: Method<R>>(
         let report = held.tick(&inputs, method, &mut Deadline::never(), &mut memory)?;
         journal.line("tick", (report.ended, report.exchanges, report.sweeps, report.active));
         journal.line("bound", report.certificate().map(|certificate| certificate.total));
+        let outputs = [0, 1, 2, 3, 4].map(|at| model.output(at, &inputs, &memory, &report));
         let iterate = &memory.iterate;
-        let outputs = [0, 1, 2, 3, 4].map(|at| model.output(at, &inputs, iterate, &report));
         journal.digest("bound and outputs", (report.certificate(), outputs));
         journal.digest("x and residual", (&*iterate.x, &iterate.residual));
-        let forces = [0, 1].map(|at| pressed.output(at, &inputs, iterate, &report));
+        let forces = [0, 1].map(|at| pressed.output(at, &inputs, &memory, &report));
         journal.digest("forces", forces);
     }
     Ok(())

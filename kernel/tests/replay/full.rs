@@ -193,6 +193,7 @@ fn play<R: Scalar>(
                 dirichlet_ends,
                 curved: &mut own.curved,
                 transfer: &mut own.transfer,
+                spans: &mut [],
             },
             progress: &mut progress,
         };

@@ -8,6 +8,8 @@ use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::device::condensed::method::{Linear, Pivots, Sweeps};
 use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::sides::{self, Sides};
+use signorini_kernel::device::condensed::spans::{SpanBuffer, SpanColumns};
 use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::report::{Ended, Report};
@@ -66,11 +68,15 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let (floating, oscillation) = (bytes.reals(n), bytes.reals(m));
     let largest_load = bytes.reals(m);
     let factor = Factor { columns: &entries, norms: &norms };
+    let ends: Vec<_> = (0..n).map(|_| [(); 2].map(|()| u16::from(bytes.byte()) % 8)).collect();
+    let (scale, largest, excess) = (bytes.reals(n), bytes.reals(m), bytes.real());
+    let sides = sides::Baked { ends: &ends, scale: &scale, excess, largest: &largest };
     let form = Form {
         factor,
         jump: (m > 1).then_some(factor),
         vertices: &vertices,
         corners: &corners[..bytes.below(2)],
+        sides: if bytes.flag() { Sides::new(sides) } else { Sides::UNLIMITED },
         stability: bytes.real(),
         floating: if bytes.flag() { &floating } else { &[] },
         oscillation: &oscillation,
@@ -82,6 +88,8 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let outputs = [
         Measure::Linear { of_inputs: &of_inputs, of_contact: &of_contact },
         Measure::Length { always: bytes.real(), of_contact: &of_contact },
+        Measure::Saturated { always: bytes.real(), of_contact: &of_contact },
+        Measure::Flux { of_inputs: &of_inputs, of_contact: &[], of_reaction: &of_contact },
         Measure::Bound,
     ];
     let exchanged: Vec<_> = (0..padded(n)).map(|_| bytes.flag()).collect();
@@ -94,6 +102,8 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     } else {
         Vec::new()
     };
+    let columns_of_spans = [0, 1, m][bytes.below(3)];
+    let spans = bytes.reals(padded(n) * columns_of_spans);
     let model = Condensed {
         contact: n,
         matrix: &matrix,
@@ -101,6 +111,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
         start,
         load: &load,
         limits: &limits,
+        spans: SpanColumns::new(&spans),
         outputs: &outputs,
         certificate,
         has_bound: true,
@@ -122,6 +133,7 @@ fn ticked<R: Bits>(
     let (mut combination, mut sum, mut open) = (zeros(columns), zeros(columns), vec![false; n]);
     let mut blocks = model.matrix.to_vec();
     let (mut exchanged, mut column, mut next) = (vec![false; n], zeros(n), zeros(n));
+    let mut spans = zeros(n);
     let mut tableau =
         Tableau::new(model.contact, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
     tableau.reset(&model.start)?;
@@ -132,8 +144,13 @@ fn ticked<R: Bits>(
         let p = bytes.reals::<R>(inputs);
         let iterate =
             Iterate { x: &mut x, residual: &mut residual, scratch: &mut scratch, open: &mut open };
-        let mut memory =
-            Memory { iterate, load: &mut load, combination: &mut combination, sum: &mut sum };
+        let mut memory = Memory {
+            iterate,
+            load: &mut load,
+            spans: SpanBuffer::new(&mut spans),
+            combination: &mut combination,
+            sum: &mut sum,
+        };
         let never = &mut Deadline::never();
         let report = match bytes.below(3) {
             0 => model.tick(&p, &mut Linear, never, &mut memory),
@@ -141,8 +158,8 @@ fn ticked<R: Bits>(
             _ => model.tick(&p, &mut pivots, never, &mut memory),
         };
         let Ok(report) = report else { continue };
-        for number in 0..4 {
-            if let Ok(value) = model.output(number, &p, &memory.iterate, &report) {
+        for number in 0..6 {
+            if let Ok(value) = model.output(number, &p, &memory, &report) {
                 assert!(!value.wide().is_nan(), "output {number}: {value:?} {report:?}");
             }
         }

@@ -58,7 +58,9 @@ fn linear(of: &CondensedModel, measure: &Measure) -> (Vec<f64>, Vec<f64>) {
         Measure::Flux { of_inputs, of_contact, of_reaction } => {
             (of_inputs, of_contact, of_reaction)
         }
-        Measure::Length { .. } | Measure::Bound => unreachable!("neither is linear"),
+        Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => {
+            unreachable!("neither is linear")
+        }
     };
     let (mut of_inputs, mut of_contact) = (of_inputs.clone(), of_contact.clone());
     of_inputs.resize(of.inputs, 0.0);
@@ -100,7 +102,7 @@ fn linear_outputs<R: Scalar>(model: &Model, amount: f64, random: &mut Random) ->
             let (found, lengths) = (found.wide(), || problem.lengths.iter().sum::<f64>());
             match measure {
                 Measure::Bound => assert_eq!(found.is_finite(), report.certificate().is_some()),
-                Measure::Length { .. } => {
+                Measure::Length { .. } | Measure::Saturated { .. } => {
                     let off = found - expected.expect("a value");
                     let epsilon = R::EPSILON.wide() / f64::EPSILON * lengths();
                     SUM_OF_LENGTHS.check_over(&model.what, off, epsilon);

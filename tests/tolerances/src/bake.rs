@@ -37,6 +37,16 @@ table! {
         "ticks end at a share of 1e-9 of the bound";
     LIMITED_TICK_NARROW: "the same in f32", 1e-3,
         "rounding, and lengths that change by an edge where one is next to its limit";
+    LIMITED_BOUND: "bounds of condensed ticks with limits against those of the same answers, relative", 1e-10,
+        "the rounding part is in the first alone";
+    LIMITED_BOUND_NARROW: "the same in f32", 2e-3,
+        "rounding of the forms and of the residuals";
+    LIMITED_INPUT_TICK: "outputs of ticks with inputs of a limit against the direct solver, relative", 1e-8,
+        "ticks end at a share of 1e-9 of the bound";
+    LIMITED_INPUT_TICK_NARROW: "the same in f32", 1e-3,
+        "rounding, and lengths that change by an edge where one is next to its limit";
+    LIMITED_DESK: "outputs of ticks on the desk against the direct solver, relative", 2e-2,
+        "such a tick ends where a tenth of its error bound is left to sweeps";
     TRANSFER_TICK: "outputs of ticks with other coefficients against the direct solver, over the largest flux", 1e-8,
         "sweeps end at 1e-9 of the bound";
     TRANSFER_TICK_NARROW: "outputs of such ticks in f32, over the largest flux", 1e-3,

@@ -41,6 +41,8 @@ table! {
         "a difference of numbers 10¹² times as large";
     THREE_SIDES: "complementarity of exchanges with three sides, over the load or 1", 1e-13,
         "a tableau of at most 24 edges";
+    THREE_PHASES_SWEPT: "openings of either sign by sweeps against three phases", 1e-12,
+        "sweeps end at 1e-15 of the load";
     CONDENSED: "complementarity of exact condensed solves in f64, over the largest opening", 1e-13,
         "a tableau of at most 33 edges";
     CONDENSED_NARROW: "complementarity of exact condensed solves in f32, over the largest opening", 1e-5,

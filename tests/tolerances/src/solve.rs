@@ -1,6 +1,8 @@
 //! Comparisons in the tests of `host/solve`.
 
 table! {
+    RANGE_TERMS: "ends of ranges as sums over inputs", 1e-14,
+        "means of the same rule, added up";
     FOUND: "reference coordinates of a point that was put there", 2e-14,
         "Newton's method ends within rounding";
     CONDENSED: "condensed outputs, openings and forces against a full solve, over the largest", 2e-12,

@@ -104,6 +104,7 @@ fn condensed_as<R: Scalar>(
         vertices: baked.vertices(),
         columns: baked.columns(),
         exact,
+        is_limited: baked.is_limited(),
         forms: baked.forms(),
     };
     let spaces = condensate.defaults.iter().zip(&condensate.ranges).skip(1);

@@ -86,7 +86,7 @@ impl<R: Scalar> TickCost<'_, R> {
         }
         let [certificates, measurements] = looks.map(|look| f64::from(look[of]));
         let last = match self.baked.is_certified() {
-            true => certificates * self.of_cells("certificate")?,
+            true => certificates * self.of_certificate()?,
             false => self.of_cells("flux by edges")?,
         };
         let swept = match sweeps {
@@ -122,6 +122,17 @@ impl<R: Scalar> TickCost<'_, R> {
         let cost =
             |(kind, number)| self.costs.of_mesh::<R>(kind, stage).map(|each| each * number as f64);
         kinds.into_iter().filter(|(_, number)| *number > 0).map(cost).sum()
+    }
+
+    /// A certificate: cells in which A in reference coordinates varies take 64 points each.
+    fn of_certificate(&self) -> Option<f64> {
+        let [triangles, quads] = self.baked.varying();
+        let varying = [("triangles", triangles), ("quads", quads)].into_iter();
+        let more = varying.filter(|(_, number)| *number > 0).map(|(kind, number)| {
+            let of = |stage| self.costs.of_mesh::<R>(kind, stage);
+            Some((of("certificate, A varies")? - of("certificate")?) * number as f64)
+        });
+        Some(self.of_cells("certificate")? + more.sum::<Option<f64>>()?)
     }
 
     /// A stage on all unknowns, of which `quads` is the part that costs what it does on quads.

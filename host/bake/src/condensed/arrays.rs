@@ -3,7 +3,8 @@
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::certificate::Corner;
 use signorini_kernel::device::condensed::method::Sweeps;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE};
+use signorini_kernel::device::condensed::spans::SpanColumns;
+use signorini_kernel::solve::dense::blocks::{Block, SIDE, padded};
 use signorini_kernel::solve::dense::rule::{Phases, Rule as _};
 use signorini_kernel::{Error, error::Array};
 
@@ -65,6 +66,8 @@ pub struct Baked<R: Scalar> {
     pub(super) start: InitialState<R>,
     pub(super) load: Vec<R>,
     pub(super) limits: Vec<[R; 2]>,
+    /// By columns: one where no input changes a span, else one for each input; empty where no flux has a limit.
+    pub(super) spans: Vec<R>,
     /// Of the inputs without the constant; empty where no range is declared.
     pub(super) ranges: Vec<[R; 2]>,
     pub(super) outputs: Vec<Output<R>>,
@@ -99,6 +102,7 @@ impl<R: Scalar> Baked<R> {
             start: InitialState::new(condensate, n > 0 && work.pivots.is_some())?,
             load: condensate.load.iter().flat_map(|column| filled_up(column)).collect(),
             limits: condensate.limits.iter().map(|pair| pair.map(R::narrow)).collect(),
+            spans: spans(condensate)?,
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
@@ -111,7 +115,7 @@ impl<R: Scalar> Baked<R> {
             _ if self.contact == 0 => Solver::Linear,
             None => Solver::Sweeps,
             // Fewer than may be needed leave something to sweeps.
-            Some(most) if self.is_monotone && most >= worst(self.contact) => Solver::TwoPhases,
+            Some(most) if self.is_monotone && most >= self.worst() => Solver::TwoPhases,
             Some(most) => Solver::Exchanges(most),
         }
     }
@@ -131,7 +135,7 @@ impl<R: Scalar> Baked<R> {
     pub fn worst_exchanges(&self) -> Option<u32> {
         match self.solver() {
             Solver::Linear => Some(0),
-            Solver::TwoPhases => Some(worst(self.contact)),
+            Solver::TwoPhases => Some(self.worst()),
             Solver::Sweeps | Solver::Exchanges(_) => None,
         }
     }
@@ -174,6 +178,22 @@ impl<R: Scalar> Baked<R> {
         Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
     }
 
+    /// Exchanges in phases from whatever state.
+    fn worst(&self) -> u32 {
+        Phases::default().most(self.contact, self.is_limited()) as u32
+    }
+
+    /// Whether a flux has a limit.
+    pub fn is_limited(&self) -> bool {
+        !self.spans.is_empty()
+    }
+
+    /// Spans that a tick works out, padding included: none where no input changes one.
+    pub fn varying_spans(&self) -> usize {
+        let n = padded(self.contact);
+        if self.spans.len() > n { n } else { 0 }
+    }
+
     /// Bytes of one number.
     pub(super) fn scalar(&self) -> usize {
         size_of::<R>()
@@ -206,7 +226,7 @@ impl<R: Scalar> Baked<R> {
         let corners: Vec<_> =
             corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
-        let Self { contact, matrix, load, limits, .. } = self;
+        let Self { contact, matrix, load, limits, spans, .. } = self;
         let (x, start) = (&self.start.x, self.start.view());
         then(&Condensed {
             contact: *contact,
@@ -215,6 +235,10 @@ impl<R: Scalar> Baked<R> {
             start,
             load,
             limits,
+            spans: match spans.is_empty() {
+                true => SpanColumns::UNLIMITED,
+                false => SpanColumns::new(spans),
+            },
             outputs: &outputs,
             certificate,
             has_bound: self.has_bound,
@@ -240,9 +264,18 @@ impl<R: Scalar> Baked<R> {
     }
 }
 
-/// Exchanges of two phases from whatever state.
-fn worst(contact: usize) -> u32 {
-    Phases::default().most(contact) as u32
+/// The columns of spans that the target needs.
+///
+/// # Errors
+/// A limit that the scalar takes for none.
+fn spans<R: Scalar>(condensate: &CondensedModel) -> Result<Vec<R>, Error> {
+    let columns = if condensate.is_varying() { condensate.inputs } else { 1 };
+    let columns = || condensate.spans.iter().take(columns);
+    let is_lost = |span: &f64| span.is_finite() && !R::narrow(*span).finite();
+    match columns().flatten().position(is_lost) {
+        Some(at) => Err(Error::NotFinite { of: Array::ContactSpans, at }),
+        None => Ok(columns().flat_map(|column| filled_up(column)).collect()),
+    }
 }
 
 /// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.

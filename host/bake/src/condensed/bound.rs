@@ -2,6 +2,7 @@
 
 use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::sides::{self, ON_GAP, Sides};
 
 use super::padding::narrow;
 use signorini_solve::condense::{self, CondensedModel};
@@ -21,12 +22,48 @@ pub(super) struct Bound<R> {
     pub jump: Option<Columns<R>>,
     pub vertices: Vec<Vertex<R>>,
     pub corners: Vec<(u16, Vec<R>)>,
+    /// Nothing where no flux has a limit.
+    pub sides: Option<Ends<R>>,
     pub stability: R,
     pub floating: Vec<R>,
     pub oscillation: Vec<R>,
     pub row_sum: R,
     pub largest_load: Vec<R>,
     pub unit: R,
+}
+
+/// Where s − ψ comes from at the ends of contact edges, see [`sides::Baked`].
+#[derive(Debug, Clone)]
+pub(super) struct Ends<R> {
+    pub ends: Vec<[u16; 2]>,
+    pub scale: Vec<R>,
+    pub excess: R,
+    pub largest: Vec<R>,
+}
+
+impl<R: Scalar> Ends<R> {
+    fn new(condensate: &CondensedModel, form: &condense::Form) -> Option<Self> {
+        if condensate.spans.is_empty() {
+            return None;
+        }
+        let end = |at: usize| u16::try_from(at).unwrap_or(ON_GAP);
+        let scale = condensate.multiplier.iter().map(|m| R::narrow(m / condensate.energy_unit));
+        let sizes = |column: &Vec<f64>| {
+            let finite = column.iter().filter(|span| span.is_finite());
+            R::narrow(finite.fold(0.0, |most: f64, span| most.max(span.abs())))
+        };
+        Some(Self {
+            ends: form.ends.iter().map(|ends| ends.map(end)).collect(),
+            scale: scale.collect(),
+            excess: R::narrow(form.span_excess),
+            largest: condensate.spans.iter().map(sizes).collect(),
+        })
+    }
+
+    fn view(&self) -> Sides<'_, R> {
+        let Self { ends, scale, excess, largest } = self;
+        Sides::new(sides::Baked { ends, scale, excess: *excess, largest })
+    }
 }
 
 impl<R: Scalar> Columns<R> {
@@ -72,6 +109,7 @@ impl<R: Scalar> Bound<R> {
             jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
             vertices: form.vertices.iter().map(vertex).collect(),
             corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
+            sides: Ends::new(condensate, form),
             stability: R::narrow(form.stability),
             floating: narrow(&floating),
             oscillation: narrow(&oscillation),
@@ -87,6 +125,7 @@ impl<R: Scalar> Bound<R> {
             jump: self.jump.as_ref().map(Columns::view),
             vertices: &self.vertices,
             corners,
+            sides: self.sides.as_ref().map_or(Sides::UNLIMITED, Ends::view),
             stability: self.stability,
             floating: &self.floating,
             oscillation: &self.oscillation,

@@ -14,7 +14,7 @@ use super::visited::Visited;
 use signorini_solve::scalar::Scalar;
 
 /// The memory of a condensed scene.
-type Owned<R> = Storage<Vec<R>, Vec<bool>, Vec<R>>;
+type Owned<R> = Storage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>>;
 
 /// The controller of a condensed scene.
 #[derive(Debug)]
@@ -30,7 +30,10 @@ impl<'b, R: Scalar> Controller<'b, R> {
         let zeros = |length| vec![R::ZERO; length];
         let n = padded(baked.contact);
         let blocks = vec![[[R::ZERO; SIDE]; SIDE]; count(baked.contact)];
-        let mut storage = Storage::of(zeros(n), vec![false; n], zeros(baked.columns()));
+        let mut storage = {
+            let spans = zeros(baked.varying_spans());
+            Storage::of(zeros(n), vec![false; n], zeros(baked.columns()), spans)
+        };
         // x is what the first tick begins with, even if that is refused.
         baked.with_model(|model| _ = storage.memory(model));
         Self {
@@ -88,7 +91,7 @@ fn answer<R: Scalar>(
 ) -> Result<(Vec<R>, Report<R>), Error> {
     let mut memory = storage.memory(model);
     let report = model.tick(inputs, &mut method, &mut Deadline::never(), &mut memory)?;
-    let output = |number| model.output(number, inputs, &memory.iterate, &report);
+    let output = |number| model.output(number, inputs, &memory, &report);
     let outputs = (0..model.outputs.len()).map(output).collect::<Result<_, _>>()?;
     Ok((outputs, report))
 }

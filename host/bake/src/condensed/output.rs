@@ -12,6 +12,7 @@ pub(super) enum Output<R> {
     Linear { of_inputs: Vec<R>, of_contact: Vec<R> },
     Flux { of_inputs: Vec<R>, of_contact: Vec<R>, of_reaction: Vec<R> },
     Length { always: R, of_contact: Vec<R> },
+    Saturated { always: R, of_contact: Vec<R> },
     Bound,
 }
 
@@ -29,9 +30,8 @@ impl<R: Scalar> Output<R> {
             condense::Measure::Length { always, of_contact } => {
                 Self::Length { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
-            // No edge of a baked model has a limit so far.
-            condense::Measure::Saturated { always, .. } => {
-                Self::Length { always: R::narrow(*always), of_contact: Vec::new() }
+            condense::Measure::Saturated { always, of_contact } => {
+                Self::Saturated { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
             condense::Measure::Bound => Self::Bound,
         }
@@ -44,7 +44,9 @@ impl<R: Scalar> Output<R> {
             Self::Flux { of_inputs, of_contact, of_reaction } => {
                 [of_inputs, of_contact, of_reaction]
             }
-            Self::Length { of_contact, .. } => [&[], of_contact, &[]],
+            Self::Length { of_contact, .. } | Self::Saturated { of_contact, .. } => {
+                [&[], of_contact, &[]]
+            }
             Self::Bound => [&[]; 3],
         }
     }
@@ -56,6 +58,9 @@ impl<R: Scalar> Output<R> {
                 Measure::Flux { of_inputs, of_contact, of_reaction }
             }
             Self::Length { always, of_contact } => Measure::Length { always: *always, of_contact },
+            Self::Saturated { always, of_contact } => {
+                Measure::Saturated { always: *always, of_contact }
+            }
             Self::Bound => Measure::Bound,
         }
     }

@@ -55,6 +55,13 @@ impl<R: Scalar> Baked<R> {
                     Err(reason) => reason.clone(),
                 },
             ),
+            ("limits of fluxes", self.is_limited(), self.spans.len() * scalar, {
+                match self.varying_spans() {
+                    _ if !self.is_limited() => "no flux has a limit".to_owned(),
+                    0 => "fixed, on every edge".to_owned(),
+                    _ => "inputs change them".to_owned(),
+                }
+            }),
             ("corners", corners > 0, corners * self.inputs * scalar, {
                 format!("{corners} touching edges end at a value that may lie above the gap")
             }),
@@ -88,12 +95,16 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         let corners: usize = bound.corners.iter().map(|(_, excess)| excess.len() + 1).sum();
         let form = |form: &Columns<R>| form.columns.len() + form.norms.len();
         let forms = form(&bound.factor) + bound.jump.as_ref().map_or(0, form);
-        let numbers = forms + corners + bound.floating.len();
-        (numbers + 2 * baked.inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar)
+        let sides = bound.sides.as_ref();
+        let ends = sides.map_or(0, |of| of.scale.len() + of.largest.len() + 1);
+        let numbers = forms + corners + bound.floating.len() + ends;
+        let ends = sides.map_or(0, |of| 4 * of.ends.len());
+        (numbers + 2 * baked.inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar) + ends
     });
     Sizes {
-        ram: (4 * n + 2 * columns) * scalar + n + tableau,
-        flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + outputs) * scalar
+        ram: (4 * n + 2 * columns + baked.varying_spans()) * scalar + n + tableau,
+        flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + baked.spans.len() + outputs)
+            * scalar
             + start
             + bound,
     }

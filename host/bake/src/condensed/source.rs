@@ -26,7 +26,8 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let about = About { model: "condensed", text: &about, features: &[] };
+    let features: &[&str] = if baked.is_limited() { &["limited"] } else { &[] };
+    let about = About { model: "condensed", text: &about, features };
     let mut text = face.source::<R>(&about);
     text += &imports(baked);
     text += &constants(baked);
@@ -108,7 +109,8 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let sweeps = if is_limited { baked.sweeps.most } else { 0 };
     let text = controller::controller(&Parts {
         fields: &format!(
-            "    storage: ArrayStorage<Scalar, PADDED, COLUMNS>,\n{}",
+            "    storage: ArrayStorage<Scalar, PADDED, COLUMNS{}>,\n{}",
+            if baked.varying_spans() > 0 { ", PADDED" } else { "" },
             only("    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,\n")
         ),
         values: &format!(
@@ -163,7 +165,7 @@ fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         let mut method = {method};
         let mut memory = self.storage.memory(&data::SYSTEM);
         let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
-        let output = |number| data::SYSTEM.output(number, &inputs, &memory.iterate, &report);
+        let output = |number| data::SYSTEM.output(number, &inputs, &memory, &report);
         let outputs = Outputs {{ {} }};
         Ok(Answer {{ outputs, report }})
 ",

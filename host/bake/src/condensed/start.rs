@@ -32,7 +32,7 @@ impl<R: Scalar> InitialState<R> {
         let mut tableau = Tableau::new(n, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
         let given = matrix::<f64>(condensate);
         tableau.reset(&tableau::InitialTableau { blocks: &given, exchanged: &nothing })?;
-        for open in (0..n).filter(|&edge| x[edge] > 0.0) {
+        for open in (0..n).filter(|&edge| x[edge] != 0.0) {
             tableau.exchange(open, &mut answer)?;
         }
         let narrow = |block: &Block<f64>| block.map(|row| row.map(R::narrow));

@@ -5,7 +5,7 @@ use std::fmt::{Debug, Write as _};
 use signorini_kernel::solve::dense::blocks::Block;
 
 use super::arrays::{Baked, Solver};
-use super::bound::Bound;
+use super::bound::{Bound, Ends};
 use super::output::Output;
 use crate::module_api::ModuleApi;
 use crate::text::array;
@@ -50,6 +50,14 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
             "&WITHIN"
         }
     };
+    let spans = match baked.spans.is_empty() {
+        true => "SpanColumns::UNLIMITED",
+        false => {
+            let doc = "How far it is to the other end of each flux, by columns.";
+            numbers(&mut text, "SPANS", doc, &baked.spans);
+            "SpanColumns::new(&SPANS)"
+        }
+    };
     for (output, name) in baked.outputs.iter().zip(face.outputs()) {
         names.push(measure(&mut text, &name.to_ascii_uppercase(), output));
     }
@@ -58,8 +66,10 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         Err(_) => "None".to_owned(),
     };
     let uses = match &baked.bound {
-        Ok(bound) if bound.corners.is_empty() => "certificate::{Form, Vertex}, factor::Factor, ",
-        Ok(_) => "certificate::{Corner, Form, Vertex}, factor::Factor, ",
+        Ok(bound) if bound.corners.is_empty() => {
+            "certificate::{Form, Vertex}, factor::Factor, sides::Sides, "
+        }
+        Ok(_) => "certificate::{Corner, Form, Vertex}, factor::Factor, sides::Sides, ",
         Err(_) => "",
     };
     format!(
@@ -68,7 +78,7 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::device::condensed::{{{uses}outputs::Measure, Condensed}};
+    use signorini_kernel::device::condensed::{{{uses}outputs::Measure, spans::SpanColumns, Condensed}};
     use signorini_kernel::solve::dense::tableau::InitialTableau;
 
     use super::Scalar;
@@ -81,6 +91,7 @@ mod data {{
         start: {start},
         load: &LOAD,
         limits: {limits},
+        spans: {spans},
         outputs: &[{}],
         certificate: {certificate},
         has_bound: {},
@@ -140,6 +151,10 @@ fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> Strin
             numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
             format!("Measure::Length {{ always: {always:?}, of_contact: &{name}_OF_CONTACT }}")
         }
+        Output::Saturated { always, of_contact } => {
+            numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
+            format!("Measure::Saturated {{ always: {always:?}, of_contact: &{name}_OF_CONTACT }}")
+        }
         Output::Bound => "Measure::Bound".to_owned(),
     }
 }
@@ -168,6 +183,10 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
             "&FLOATING"
         }
     };
+    let sides = match &bound.sides {
+        None => "Sides::UNLIMITED".to_owned(),
+        Some(sides) => baked_sides(text, sides),
+    };
     let corners = bound.corners.iter().enumerate().map(|(at, (edge, excess))| {
         let name = format!("CORNER_{at}");
         numbers(text, &name, "u_D above the gap at an end of the contact.", excess);
@@ -180,6 +199,7 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
             jump: {jump},
             vertices: &VERTICES,
             corners: &[{}],
+            sides: {sides},
             stability: {:?},
             floating: {floating},
             oscillation: &OSCILLATION,
@@ -191,5 +211,22 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
         bound.stability,
         bound.row_sum,
         bound.unit
+    )
+}
+
+/// Where s − ψ comes from at the ends of contact edges.
+fn baked_sides<R: Debug>(text: &mut String, sides: &Ends<R>) -> String {
+    let value = (sides.ends.len(), array(&sides.ends, 4));
+    put(text, "ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", value);
+    numbers(text, "SCALE", "From the unit of vertices to that of 1/r.", &sides.scale);
+    numbers(text, "LARGEST_SPAN", "The largest span of each input.", &sides.largest);
+    format!(
+        "Sides::new(signorini_kernel::device::condensed::sides::Baked {{
+                ends: &ENDS,
+                scale: &SCALE,
+                excess: {:?},
+                largest: &LARGEST_SPAN,
+            }})",
+        sides.excess
     )
 }

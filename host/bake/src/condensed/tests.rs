@@ -114,6 +114,53 @@ at = [0.1, 0.4]
 kind = "bound"
 "#;
 
+/// Both ends of a flux change; another has no lower end.
+const LIMITED: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[boundary.dirichlet]
+kind = "robin"
+coefficient = "4"
+ambient = "-1"
+[boundary.left]
+kind = "contact"
+gap = "0.1"
+flux = "-inf"
+limit = "0"
+[boundary.right]
+kind = "dirichlet"
+value = "0"
+[boundary.contact]
+kind = "contact"
+gap = "x/9"
+flux = "-0.2"
+limit = "0"
+[input.air]
+of = "dirichlet"
+field = "ambient"
+pattern = "1"
+default = -0.5
+[input.supply]
+of = "contact"
+field = "limit"
+pattern = "0.3"
+default = 1.0
+[input.least]
+of = "contact"
+field = "flux"
+pattern = "0.1"
+default = -0.2
+[output.power]
+kind = "force"
+of = "contact"
+[output.short]
+kind = "saturated"
+of = "contact"
+[output.bound]
+kind = "bound"
+"#;
+
 fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
     let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
     let condensate = condense(&problem)?;
@@ -155,6 +202,21 @@ fn without_a_bound() -> Result<()> {
 fn without_inputs_on_contact_alone() -> Result<()> {
     same_bits::<f32>(FLOATING, SWEEPS, true, |x| x.to_bits().into())?;
     same_bits::<f64>(FLOATING, PIVOTS, true, f64::to_bits)
+}
+
+#[test]
+fn with_limits() -> Result<()> {
+    for text in [
+        LIMITED,
+        &LIMITED
+            .replace("field = \"limit\"\npattern = \"0.3\"", "field = \"gap\"\npattern = \"0.01\"")
+            .replace("field = \"flux\"", "field = \"gap\"")
+            .replace("limit = \"0\"\n[input", "limit = \"0.4\"\n[input"),
+    ] {
+        same_bits::<f32>(text, PIVOTS, true, |x| x.to_bits().into())?;
+        same_bits::<f64>(text, SWEEPS, true, f64::to_bits)?;
+    }
+    Ok(())
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::condensed::{Baked, Controller};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{ErrorBound, NoBound};
+use signorini_solve::condense::CondensedModel;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::{Ran, ended_name, unfit};
@@ -97,7 +98,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
             outputs: self.outputs.iter().map(|x| x.wide()).collect(),
             sweeps: self.report.map_or(0, |report| report.sweeps),
             omega: self.baked.sweeps.omega.wide(),
-            residual: largest_violation(&whole.residual(&p, &x), &x),
+            residual: largest_violation(whole, &p, &x),
             force: whole.force(&p, &x),
             active,
             bound: certificate.map(ErrorBound::new),
@@ -113,9 +114,19 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
     }
 }
 
-/// max |min(x, r)| over max x: how far complementarity fails.
-fn largest_violation(residual: &[f64], x: &[f64]) -> f64 {
-    let size = x.iter().chain(residual).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-    let violations = residual.iter().zip(x).map(|(r, x)| r.min(*x).abs());
+/// How far the law of contact fails, over the largest x or residual: max |min(x, r)| where no flux has a limit.
+fn largest_violation(whole: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
+    let (residual, spans) = (whole.residual(p, x), whole.span_of(p));
+    let size = x.iter().chain(&residual).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let violations = residual.iter().zip(x).enumerate().map(|(at, (r, x))| {
+        let span = spans.get(at).copied().unwrap_or(f64::INFINITY);
+        // x > 0 goes with the least flux, x < 0 with the largest.
+        let (to_least, to_most) = (r - span.min(0.0), span.max(0.0) - r);
+        match *x {
+            x if x > 0.0 => to_least.min(x).abs(),
+            x if x < 0.0 => to_most.min(-x).abs(),
+            _ => (-to_least).max(-to_most).max(0.0),
+        }
+    });
     violations.fold(0.0, f64::max) / size
 }

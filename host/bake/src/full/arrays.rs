@@ -93,6 +93,14 @@ impl<R: Scalar> Baked<R> {
         !self.of_quads.is_empty()
     }
 
+    /// Triangles and quads in which A in reference coordinates varies.
+    pub fn varying(&self) -> [usize; 2] {
+        let (triangles, quads) =
+            self.metric_place.split_at(self.of_triangles.len().min(self.metric_place.len()));
+        let varies = |place: &&u32| (**place as usize) < self.metric.len();
+        [triangles, quads].map(|places| places.iter().filter(varies).count())
+    }
+
     /// Whether these data allow for an error bound.
     pub fn has_bound(&self) -> bool {
         self.data.has_bound

@@ -18,8 +18,8 @@ impl<R: Scalar> Baked<R> {
     /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.
     ///
     /// # Errors
-    /// A setting that no module can have. What [`Approach::FullModel`] cannot treat. Numbers or answers that the scalar
-    /// type cannot hold.
+    /// A setting that no module can have. What [`Approach::FullModel`] cannot treat. Ranges of inputs that leave a contact edge
+    /// no flux. Numbers or answers that the scalar type cannot hold.
     pub fn new(problem: &Problem) -> Result<Self> {
         Self::of_scaled(&Scaled::new(problem, choose_for_inputs(problem)?)?)
     }
@@ -29,6 +29,7 @@ impl<R: Scalar> Baked<R> {
     /// # Errors
     /// As for [`Baked::new`].
     pub fn of_scaled(problem: &Scaled) -> Result<Self> {
+        problem.own.check_limits_within_ranges()?;
         let face = ModuleApi::new(problem.own);
         let scale = match problem.units == Units::default() {
             true => None,

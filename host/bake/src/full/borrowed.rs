@@ -85,6 +85,7 @@ impl<R: Scalar> Pattern<R> {
             Self::Source { triangles, quads } => full::Pattern::Source { triangles, quads },
             Self::Neumann(shares) => full::Pattern::Neumann(shares),
             Self::ContactFlux(shares) => full::Pattern::ContactFlux(shares),
+            Self::ContactRange { fluxes, spans } => full::Pattern::ContactRange { fluxes, spans },
             Self::Gap(chords) => full::Pattern::Gap(chords),
             Self::Value(chords) => full::Pattern::Value(chords),
             Self::Ambient { integrals, points } => full::Pattern::Ambient { integrals, points },

@@ -43,6 +43,7 @@ pub(super) enum Pattern<R> {
     Source { triangles: Vec<Contribution<R, u32>>, quads: Vec<Contribution<R, u32>> },
     Neumann(Vec<Contribution<R, u32>>),
     ContactFlux(Vec<Contribution<R, u32>>),
+    ContactRange { fluxes: Vec<Contribution<R, u32>>, spans: Vec<Contribution<R, u32>> },
     Gap(Vec<EdgeTrace<R, u32>>),
     Value(Vec<EdgeTrace<R, u32>>),
     Ambient { integrals: Vec<Contribution<R, u32>>, points: Vec<Points<R, u32>> },
@@ -56,18 +57,17 @@ impl<R: Scalar> Data<R> {
         let neumann = with_flux(parts);
         let is_uniform = parts.iter().all(Part::is_uniform);
         let patterns = problem.scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
-            let contact = !part.loads.contact_flux.iter().all(|&flux| flux == 0.0);
+            let contact = !part.contact_flux().iter().all(|&flux| flux == 0.0);
             match input.field.value {
                 Field::Source => Pattern::Source {
                     triangles: shares(&part.loads.triangles),
                     quads: shares(&part.loads.quads),
                 },
-                Field::Flux if contact => Pattern::ContactFlux(shares(&part.loads.contact_flux)),
+                Field::Flux if contact => range(part),
                 Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
                 Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
                 Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
-                // Inputs of either end of a range were refused.
-                Field::Limit => Pattern::ContactFlux(Vec::new()),
+                Field::Limit => range(part),
                 Field::Ambient => ambient(part, is_uniform),
                 Field::Coefficient => {
                     let of = part.coefficient.as_ref();
@@ -83,8 +83,8 @@ impl<R: Scalar> Data<R> {
             quads: narrow(&base.loads.quads),
             neumann: Vec::new(),
             robin: base.loads.robin.iter().map(robin).collect(),
-            contact_flux: narrow(&base.loads.contact_flux),
-            spans: narrow(&base.loads.spans),
+            contact_flux: narrow(base.contact_flux()),
+            spans: narrow(base.spans()),
             span_excess: R::narrow(base.loads.span_excess),
             gap: narrow(&base.loads.gap),
             gap_ends: pairs(&base.ends.gap),
@@ -137,7 +137,10 @@ impl<R: Scalar> Data<R> {
             }
         };
         let source = self.varies(|pattern| matches!(pattern, Pattern::Source { .. }));
-        let flux = self.varies(|pattern| matches!(pattern, Pattern::ContactFlux(_)));
+        let flux = self.varies(|pattern| match pattern {
+            Pattern::ContactRange { fluxes, .. } => !fluxes.is_empty(),
+            pattern => matches!(pattern, Pattern::ContactFlux(_)),
+        });
         fit(&mut self.triangles, source, problem.mesh.triangles.len());
         fit(&mut self.quads, source, problem.mesh.quads.len());
         fit(&mut self.contact_flux, flux, problem.topology.counts.contact);
@@ -166,6 +169,7 @@ impl<R: Scalar> Pattern<R> {
             |shares: &[Contribution<R, u32>]| shares.iter().map(|share| share.weight).collect();
         match self {
             Self::Source { triangles, quads } => [of(triangles), of(quads)].concat(),
+            Self::ContactRange { fluxes, spans } => [of(fluxes), of(spans)].concat(),
             Self::Neumann(shares) | Self::ContactFlux(shares) => of(shares),
             Self::Gap(chords) | Self::Value(chords) => {
                 let all =
@@ -200,6 +204,17 @@ fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
     let points = edges.map(|(edge, at)| Points { at, values: edge.map(|[_, u]| R::narrow(u)) });
     let acts = |points: &Points<R, u32>| points.values.iter().any(|&u| u != R::ZERO);
     Pattern::Ambient { integrals: shares(&integrals), points: points.filter(acts).collect() }
+}
+
+/// What an input adds to the fluxes of contact edges: to their bases alone, or to spans as well.
+fn range<R: Scalar>(part: &Part) -> Pattern<R> {
+    let fluxes = shares(part.contact_flux());
+    match &part.range {
+        Some(range) if range.spans.iter().any(|&span| span != 0.0) => {
+            Pattern::ContactRange { fluxes, spans: shares(&range.spans) }
+        }
+        _ => Pattern::ContactFlux(fluxes),
+    }
 }
 
 /// The Neumann edges on which some part of the data has a flux, ascending.

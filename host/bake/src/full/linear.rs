@@ -35,6 +35,11 @@ fn pattern<R: Scalar, I: Index>(of: &Pattern<R, u32>, input: &str, to: &mut Stat
         Pattern::ContactFlux(all) => {
             format!("Pattern::ContactFlux({})", shares("PATTERN", "∫q", all))
         }
+        Pattern::ContactRange { fluxes, spans } => {
+            let fluxes = shares("TO_FLUXES", "∫lo", fluxes);
+            let spans = shares("TO_SPANS", "∫(hi − lo)", spans);
+            format!("Pattern::ContactRange {{ fluxes: {fluxes}, spans: {spans} }}")
+        }
         Pattern::Gap(all) => format!("Pattern::Gap({})", traces::<R, I>(input, all, to)),
         Pattern::Value(all) => format!("Pattern::Value({})", traces::<R, I>(input, all, to)),
         Pattern::Ambient { integrals, points } => {

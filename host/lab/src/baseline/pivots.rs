@@ -5,6 +5,7 @@ use signorini_kernel::device::condensed::method::{Method, Pivots as Exchanges, S
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 
 use super::failed;
@@ -75,7 +76,7 @@ impl<R: Scalar> Pivots<R> {
                 let iterate = Iterate { x, residual, scratch, open };
                 let most = WORK.pivots.unwrap_or(0);
                 let mut method = Exchanges { tableau, start: begin, most, sweeps };
-                method.solve(&matrix, &loads[tick], iterate, &mut Deadline::never())
+                method.solve(&matrix, Given::above(&loads[tick]), iterate, &mut Deadline::never())
             });
             progress.map(|progress| (cycles, progress))
         })

@@ -108,7 +108,7 @@ impl Spot {
 
 impl NoBound {
     /// What [`NoBound::of_data`] may find, for whoever has not kept it.
-    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, or the range of a contact flux does";
+    pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, the range of a contact flux does, or inputs change one that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.
     pub fn of_data(

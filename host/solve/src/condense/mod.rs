@@ -102,6 +102,7 @@ struct Pieces<'p> {
 impl<'p> Pieces<'p> {
     fn new(problem: &'p Problem) -> Result<Self> {
         let parts = Parts::examine(problem)?;
+        problem.check_limits_within_ranges()?;
         let mut patterns = patterns(problem)?;
         let spans = spans(problem, &mut patterns)?;
         let edges = along_boundary(problem);

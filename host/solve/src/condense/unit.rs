@@ -47,7 +47,8 @@ impl CondensedModel {
     fn rescale(&mut self, unit: f64) {
         self.energy_unit = unit;
         self.opening.iter_mut().chain(&mut self.multiplier).for_each(|number| *number *= unit);
-        self.load.iter_mut().chain(&mut self.spans).flatten().for_each(|number| *number /= unit);
+        let loads = self.load.iter_mut().chain(&mut self.spans).flatten();
+        loads.for_each(|number| *number /= unit);
         for measure in &mut self.outputs {
             let none = &mut Vec::new();
             let (of_contact, of_reaction) = match measure {

@@ -1,7 +1,6 @@
 //! `edges.csv`: one line an edge, in the order of the kernel's unknowns.
 
-use signorini_kernel::discrete::law::EdgeLaw;
-
+use super::contact::State;
 use crate::problem::{EdgeKind, Problem};
 use crate::solve::{ScalarKind, Solution};
 
@@ -56,12 +55,7 @@ fn on_contact(problem: &Problem, solution: &Solution, edge: usize) -> [String; 5
     }
     let at = edge - problem.topology.counts.free;
     let (gap, range) = (solution.gap(problem, at), problem.loads.flux_range(at));
-    let law = EdgeLaw::above(gap).with_span(range.span());
-    let state = match solution.u[edge] {
-        u if law.touches(u) => "touching",
-        u if law.is_saturated(u) => "saturated",
-        _ => "open",
-    };
+    let state = State::of(problem, solution, at).name();
     let [least, most] = range.ends().map(|end| digits(solution, end / problem.lengths[edge]));
     let lambda = digits(solution, solution.multiplier(problem, at));
     [digits(solution, gap), least, most, lambda, state.to_owned()]

@@ -1,6 +1,7 @@
 //! Files that other programs read: written whole or not at all.
 
 pub mod atomic;
+pub mod contact;
 pub mod digits;
 pub mod edges;
 pub mod summary;

@@ -5,7 +5,8 @@
 
 use std::fmt::Write;
 
-/// The cell types of VTK: a triangle and a quad, both with counterclockwise vertices.
+/// The cell types of VTK: a line, and a triangle and a quad with counterclockwise vertices.
+const VTK_LINE: u32 = 3;
 const VTK_TRIANGLE: u32 = 5;
 const VTK_QUAD: u32 = 9;
 
@@ -35,19 +36,13 @@ pub struct Field<'a> {
 pub fn vtu(field: &Field) -> String {
     let cells = field.triangles.len() + field.quads.len();
     let points = field.vertices.len();
-    let mut file = String::new();
-    file.push_str("<?xml version=\"1.0\"?>\n");
-    file.push_str("<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n");
-    let _ = writeln!(file, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">");
-
-    let space: Vec<[f64; 3]> = field.vertices.iter().map(|&[x, y]| [x, y, 0.0]).collect();
-    section(&mut file, "Points", "", &reals("points", points, &space));
+    let mut file = begin(points, cells);
+    section(&mut file, "Points", "", &in_space("points", points, field.vertices));
     section(&mut file, "Cells", "", &topology(field));
 
     let means: Vec<[f64; 1]> = field.cell_u.iter().map(|&u| [u]).collect();
-    let flux: Vec<[f64; 3]> = field.cell_flux.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let mut cell_data = reals("u", cells, &means);
-    cell_data += &reals("flux", cells, &flux);
+    cell_data += &in_space("flux", cells, field.cell_flux);
     if field.region.len() == cells {
         cell_data += &integers("region", "Int32", field.region.iter());
     }
@@ -55,8 +50,55 @@ pub fn vtu(field: &Field) -> String {
 
     let values: Vec<[f64; 1]> = field.vertex_u.iter().map(|&u| [u]).collect();
     section(&mut file, "PointData", " Scalars=\"u\"", &reals("u", points, &values));
-    file.push_str("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-    file
+    file + END
+}
+
+/// The contact edges, each a line.
+#[derive(Debug, Clone, Default)]
+pub struct Contact {
+    /// Both ends of each edge.
+    pub ends: Vec<[[f64; 2]; 2]>,
+    /// λ
+    pub lambda: Vec<[f64; 1]>,
+    /// u − ψ
+    pub gap: Vec<[f64; 1]>,
+    /// 1 where the edge is open, 0 where it touches, −1 where its flux is at its limit.
+    pub state: Vec<i8>,
+    /// The boundary's place among the tables of the scene, from 0.
+    pub boundary: Vec<usize>,
+}
+
+/// The text of `contact.vtu`, with two points an edge.
+pub fn contact_vtu(contact: &Contact) -> String {
+    let edges = contact.ends.len();
+    let mut file = begin(2 * edges, edges);
+    let points = in_space("points", 2 * edges, contact.ends.as_flattened());
+    section(&mut file, "Points", "", &points);
+    let topology = integers("connectivity", "Int64", 0..2 * edges)
+        + &integers("offsets", "Int64", (1..=edges).map(|edge| 2 * edge))
+        + &integers("types", "UInt8", std::iter::repeat_n(VTK_LINE, edges));
+    section(&mut file, "Cells", "", &topology);
+    let data = reals("lambda", edges, &contact.lambda)
+        + &reals("gap", edges, &contact.gap)
+        + &integers("state", "Int8", contact.state.iter())
+        + &integers("boundary", "Int32", contact.boundary.iter());
+    section(&mut file, "CellData", " Scalars=\"lambda\"", &data);
+    file + END
+}
+
+const END: &str = "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+
+fn begin(points: usize, cells: usize) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n\
+         <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
+    )
+}
+
+/// Vectors of the plane.
+fn in_space(name: &str, expected: usize, vectors: &[[f64; 2]]) -> String {
+    let space: Vec<[f64; 3]> = vectors.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    reals(name, expected, &space)
 }
 
 fn section(file: &mut String, name: &str, attributes: &str, arrays: &str) {
@@ -136,6 +178,26 @@ mod tests {
         assert_eq!(flux, [1.0, 2.0, 0.0, -3.0, 1e300, 0.0]);
         assert_eq!(array(&file, "CellData", "region").unwrap(), [7.0, 1.0]);
         assert_eq!(array(&file, "PointData", "u").unwrap(), MIXED.vertex_u);
+    }
+
+    #[test]
+    fn contact_edges_are_lines_with_their_states() {
+        let contact = Contact {
+            ends: vec![[[0.0, 0.0], [1.0, 0.5]], [[1.0, 0.5], [2.0, 0.0]]],
+            lambda: vec![[0.25], [0.0]],
+            gap: vec![[0.0], [-1.5]],
+            state: vec![0, -1],
+            boundary: vec![2, 2],
+        };
+        let file = contact_vtu(&contact);
+        assert_eq!(array(&file, "Points", "points").unwrap()[3..9], [1.0, 0.5, 0.0, 1.0, 0.5, 0.0]);
+        assert_eq!(array(&file, "Cells", "connectivity").unwrap(), [0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(array(&file, "Cells", "types").unwrap(), [3.0, 3.0]);
+        assert_eq!(array(&file, "CellData", "gap").unwrap(), [0.0, -1.5]);
+        assert_eq!(array(&file, "CellData", "state").unwrap(), [0.0, -1.0]);
+        assert_eq!(array(&file, "CellData", "lambda").unwrap(), [0.25, 0.0]);
+        assert_eq!(array(&file, "CellData", "boundary").unwrap(), [2.0, 2.0]);
+        assert!(contact_vtu(&Contact::default()).contains("NumberOfCells=\"0\""));
     }
 
     #[test]

@@ -123,10 +123,6 @@ impl Approach {
                 Export | Baselines => Some(two_sides),
                 Condensation | Modes | Tick | FullModel | Factor | FactoredTicks => None,
             },
-            Property::LimitInput => match self {
-                FullModel | FactoredTicks => Some(one_range),
-                Condensation | Modes | Tick | Factor | Export | Baselines => None,
-            },
         }
     }
 }
@@ -198,17 +194,6 @@ fn changes_matrix(problem: &Problem, message: &str) -> InputError {
         Some(input) => scene.error(&input.field, message),
         None => InputError::new(message).file(&scene.path),
     }
-}
-
-/// The ranges of fluxes are baked.
-fn one_range(problem: &Problem) -> InputError {
-    let scene = &problem.scene;
-    let message = "it changes an end of a flux that has a limit, which a baked module holds fixed";
-    let refusal = match scene.limit_input() {
-        Some(input) => scene.error(&input.field, message),
-        None => InputError::new(message).file(&scene.path),
-    };
-    refusal.hint("`solve` and `tick` take it; for a controller, state the ends in the scene")
 }
 
 /// Contact with two sides.

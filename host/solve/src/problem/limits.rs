@@ -19,6 +19,19 @@ const PANELS: u32 = 4;
 /// What rounding leaves of a difference that is constant, as a part of it.
 const CONSTANT: f64 = 1e-12;
 
+/// What rounding may leave of two ends that are equal, as a part of their terms.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// The means of both ends of a contact edge's flux; an infinite end is its own mean.
+pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<[f64; 2]> {
+    let mean = |field, unlimited: f64| {
+        let Some(end) = Sum::on_edge(problem, edge, field, time) else { return Ok(unlimited) };
+        let infinite = end.constant().filter(|end| end.is_infinite());
+        infinite.map_or_else(|| end.mean(problem.segment(edge)), Ok)
+    };
+    Ok([mean(Field::Flux, f64::NEG_INFINITY)?, mean(Field::Limit, f64::INFINITY)?])
+}
+
 /// Base and span of a contact edge from the means of its ends over a length of `length`.
 pub(super) fn base_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
     // Means of equal ends may differ by rounding.
@@ -50,12 +63,15 @@ pub fn spread(problem: &Problem, edge: usize, time: f64) -> Option<Spread> {
     let inside = on_panels(PANELS, &gauss(POINTS));
     let along = inside.iter().map(|&[t, weight]| (t, weight)).chain([(0.0, 0.0), (1.0, 0.0)]);
     let (mut low, mut high, mut mean) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+    let mut terms: f64 = 0.0;
     for (t, weight) in along {
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let span = most.at(x, y) - least.at(x, y);
         (low, high, mean) = (low.min(span), high.max(span), mean + weight * span);
+        terms = terms.max(least.terms_at(x, y) + most.terms_at(x, y));
     }
-    let varies = high - low > CONSTANT * mean;
+    // Of ends that are equal rounding leaves a part of themselves.
+    let varies = high - low > (CONSTANT * mean).max(64.0 * f64::EPSILON * terms);
     varies.then(|| Spread { excess: problem.lengths[edge] * (high - mean), least: low / mean })
 }
 
@@ -80,7 +96,8 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
     for t in inside.chain([0.0, 1.0]) {
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let (low, high) = (least.at(x, y), most.at(x, y));
-        if low > high {
+        let terms = || least.terms_at(x, y) + most.terms_at(x, y);
+        if low > high && low - high > ROUNDING * terms() {
             let message =
                 format!("the limit is {high} at ({x}, {y}), less than flux = {low} there");
             let hint =

@@ -11,8 +11,7 @@ use super::{EdgeKind, Problem, Sum, limits};
 use crate::quadrature::mean_on_edge;
 use crate::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::expression::Expression;
-use signorini_scene::scene::{Condition, Field, Located};
+use signorini_scene::scene::{Condition, Field};
 
 /// Everything on the right-hand side, integrated in f64; the kernel's records of it in the scalar `R`.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -164,12 +163,9 @@ impl Loads {
                 };
                 self.robin.push(robin);
             }
-            Condition::Contact { gap, flux, limit } => {
+            Condition::Contact { gap, .. } => {
                 self.gap.push(mean(Field::Gap, gap)?);
-                let [least, most] = [flux, limit].map(infinite);
-                let least = least.map_or_else(|| mean(Field::Flux, flux), Ok)?;
-                let most = most.map_or_else(|| mean(Field::Limit, limit), Ok)?;
-                let ends = [least, most];
+                let ends = limits::ends(problem, edge, time)?;
                 let [base, span] = limits::base_and_span(ends, length);
                 self.contact_flux.push(base);
                 self.spans.push(span);
@@ -177,9 +173,4 @@ impl Loads {
         }
         Ok(())
     }
-}
-
-/// An infinite end of a flux.
-fn infinite(end: &Located<Expression>) -> Option<f64> {
-    end.value.is_constant().filter(|end| end.is_infinite())
 }

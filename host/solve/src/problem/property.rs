@@ -28,13 +28,11 @@ pub enum Property {
     TransferInput,
     /// The flux of a contact boundary has a limit, or no least value.
     Limit,
-    /// An input changes an end of such a flux.
-    LimitInput,
 }
 
 impl Property {
     /// In the order in which they are looked for.
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 7] = [
         Self::NoContact,
         Self::ManyContactEdges,
         Self::FloatingPart,
@@ -42,7 +40,6 @@ impl Property {
         Self::LoadInTime,
         Self::TransferInput,
         Self::Limit,
-        Self::LimitInput,
     ];
 
     /// Whether it is read off the connected parts.
@@ -60,7 +57,6 @@ impl Property {
             Self::LoadInTime => first_in_time(&problem.scene).is_some(),
             Self::TransferInput => problem.scene.transfer_input().is_some(),
             Self::Limit => problem.scene.limited().is_some(),
-            Self::LimitInput => problem.scene.limit_input().is_some(),
         }
     }
 }
@@ -75,7 +71,6 @@ impl fmt::Display for Property {
             Self::LoadInTime => "a load that depends on t",
             Self::TransferInput => "a transfer coefficient that an input changes",
             Self::Limit => "a contact boundary whose flux has a limit",
-            Self::LimitInput => "a limit of a flux that an input changes",
         })
     }
 }

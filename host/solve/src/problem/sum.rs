@@ -83,6 +83,15 @@ impl<'s> Sum<'s> {
             .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
     }
 
+    /// The sum of the sizes of its terms there, of which rounding is a part.
+    pub fn terms_at(&self, x: f64, y: f64) -> f64 {
+        let base = self.base.value.eval(x, y, self.time).abs();
+        let added = |(weight, pattern): &(f64, &Located<Expression>)| {
+            (weight * pattern.value.eval(x, y, self.time)).abs()
+        };
+        self.inputs.iter().map(added).fold(base, |sum, term| sum + term)
+    }
+
     /// (∂/∂x, ∂/∂y)
     pub fn gradient_at(&self, x: f64, y: f64) -> [f64; 2] {
         let (_, base) = self.base.value.gradient(x, y, self.time);

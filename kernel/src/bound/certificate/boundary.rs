@@ -4,6 +4,7 @@ use super::extension::{extension, jump, of_means, of_s};
 use super::parts::Parts;
 use super::{Continuous, Discretization, LoadCase};
 use crate::bound::equilibrium::Iterate;
+use crate::bound::excess::Excess;
 use crate::discrete::law::Law;
 use crate::features;
 use crate::index::{Index, read};
@@ -91,35 +92,6 @@ fn ends<R: Real, I: Index>(
     edge: usize,
 ) -> [R; 2] {
     s.at(&discretization.edges.endpoints(&discretization.mesh, edge))
-}
-
-/// s − ψ along a contact edge: e_a (1 − t) + e_b t + 4t(1 − t) d, with d = 0 where the ends have different signs.
-struct Excess<R> {
-    ends: [R; 2],
-    bubble: R,
-}
-
-impl<R: Real> Excess<R> {
-    /// The mean where it is nowhere negative but for rounding: (e_a + e_b)/2 + 2d/3.
-    fn mean(&self) -> R {
-        let [a, b] = self.ends.map(|e| e.or_larger(R::ZERO));
-        let mean = R::HALF * (a + b) + R::TWO * R::THIRD * self.bubble;
-        mean.or_larger(R::ZERO)
-    }
-
-    /// The means of its positive and of its negative part; e_a²/(e_a − e_b)/2 of what crosses 0.
-    fn sides(&self) -> [R; 2] {
-        let ([a, b], zero) = (self.ends, R::ZERO);
-        if a < zero && b > zero || a > zero && b < zero {
-            let (a, b) = (a.magnitude(), b.magnitude());
-            let part = |e: R| R::HALF * e * (e / (a + b));
-            let parts = [part(a), part(b)];
-            return if self.ends[0] > zero { parts } else { [parts[1], parts[0]] };
-        }
-        let is_below = a + b < zero || a + b == zero && self.bubble < zero;
-        let flipped = Self { ends: [-a, -b], bubble: -self.bubble };
-        if is_below { [zero, flipped.mean()] } else { [self.mean(), zero] }
-    }
 }
 
 /// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.

@@ -18,14 +18,18 @@
 //! of the same numbers: [`Certificate::of_u`].
 //!
 //! Mended so, τ·n = q or s = ψ all along C, but where a Dirichlet value above ψ
-//! ends a touching edge.
+//! ends a touching edge. Fluxes with a limit are mended into their range, and s may cross ψ (`price`).
 //!
 //! Rounding: p and x are exact by definition. F, S and B were rounded once, and products with them
 //! are off by a few ε of their terms; so are the sums over edges and inputs that are left, the oscillation
 //! among them. All of it is in [`Certificate::rounding`].
 
+mod price;
+
+use super::candidate::Candidate;
 use super::factor::{Factor, Norm};
 use super::outputs::dot;
+use super::sides::Sides;
 use crate::bound::verdict::{Certificate, Verdict};
 use crate::error::{Array, Error, same_length};
 use crate::index::read;
@@ -44,7 +48,7 @@ pub struct Vertex<R> {
 
 impl<R: Real> Vertex<R> {
     /// The two terms of e.
-    fn terms(&self, x: &[R]) -> [R; 2] {
+    pub(super) fn terms(&self, x: &[R]) -> [R; 2] {
         let [a, b] = self.edges.map(|edge| read(x, usize::from(edge)));
         [self.weights[0] * a, self.weights[1] * b]
     }
@@ -71,6 +75,8 @@ pub struct Form<'a, R> {
     pub vertices: &'a [Vertex<R>],
     /// Corners.
     pub corners: &'a [Corner<'a, R>],
+    /// The ends of contact edges, where a flux has a limit.
+    pub sides: Sides<'a, R>,
     /// √λ_max of the energies of the mending fluxes w_i.
     pub stability: R,
     /// Where contact alone holds one part of the domain: the physical flux of a unit of r_i on each contact edge of it,
@@ -84,17 +90,6 @@ pub struct Form<'a, R> {
     pub largest_load: &'a [R],
     /// U
     pub unit: R,
-}
-
-/// An answer to judge (borrowed).
-#[derive(Debug, Clone, Copy)]
-pub struct Candidate<'a, R> {
-    /// p, the constant 1 first.
-    pub inputs: &'a [R],
-    /// x ≥ 0
-    pub x: &'a [R],
-    /// Sx − b
-    pub residual: &'a [R],
 }
 
 impl<R: Real> Form<'_, R> {
@@ -111,19 +106,25 @@ impl<R: Real> Form<'_, R> {
         z: &mut [R],
         sum: &mut [R],
     ) -> Result<Verdict<R>, Error> {
-        let Candidate { inputs, x, residual } = *answer;
+        let Candidate { inputs, x, residual, ranges } = *answer;
         same_length(Array::Load, self.oscillation.len(), inputs.len())?;
         same_length(Array::Load, self.largest_load.len(), inputs.len())?;
         same_length(Array::Contact, residual.len(), x.len())?;
         let columns = inputs.len() + x.len() + self.vertices.len();
         same_length(Array::Scratch, z.len(), columns)?;
-        self.lay_out(inputs, x, z);
+        self.lay_out(answer, z);
         let norm = self.norm(&self.factor, x, z, sum)?;
-        let uncertainty = self.uncertainty(inputs, x);
-        let Some(mended) = self.mend(x, residual, uncertainty) else {
-            return Ok(Verdict::Unpressed);
+        let uncertainty = self.uncertainty(answer);
+        let mended = match ranges.are_limited() {
+            true => self.mend_within(answer, uncertainty),
+            false => self.mend(x, residual, uncertainty),
         };
-        let Some(corner) = self.corners(answer, uncertainty)? else { return Ok(Verdict::BelowGap) };
+        let Some(mended) = mended else { return Ok(Verdict::Unpressed) };
+        let price = match ranges.are_limited() {
+            true => self.price(answer, z, uncertainty)?,
+            false => self.corners(answer, uncertainty)?,
+        };
+        let Some(corner) = price else { return Ok(Verdict::BelowGap) };
         // Everything in the unit of energy, until the end: squares stay within the scalar's range.
         let algebraic = self.stability * mended.known;
         let first = norm.value + algebraic;
@@ -159,10 +160,20 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// `z` = (p, x, d)
-    fn lay_out(&self, inputs: &[R], x: &[R], z: &mut [R]) {
+    fn lay_out(&self, answer: &Candidate<R>, z: &mut [R]) {
+        let Candidate { inputs, x, .. } = *answer;
         let given = inputs.iter().chain(x);
         z.iter_mut().zip(given).for_each(|(z, &given)| *z = given);
         let corrections = z.iter_mut().skip(inputs.len() + x.len());
+        if answer.ranges.are_limited() {
+            let norms = self.factor.norms.iter().skip(inputs.len() + x.len());
+            for ((d, vertex), &norm) in corrections.zip(self.vertices).zip(norms) {
+                let [left, right] = vertex.terms(x);
+                let at = (vertex, x);
+                *d = price::correction(self.sides.baked(), answer.ranges, at, left + right, norm);
+            }
+            return;
+        }
         for (d, vertex) in corrections.zip(self.vertices) {
             let [left, right] = vertex.terms(x);
             let opening = left + right;
@@ -179,16 +190,19 @@ impl<R: Real> Form<'_, R> {
             let [left, right] = vertex.terms(x);
             sum + (left.magnitude() + right.magnitude()) * norm
         });
-        R::TWO * R::EPSILON * sum
+        // Vertices that are moved towards ψ are rounded once more.
+        let ulps = if self.sides.are_limited() { R::TWO + R::TWO } else { R::TWO };
+        ulps * R::EPSILON * sum
     }
 
     /// By how much an entry of r can be off.
-    fn uncertainty(&self, inputs: &[R], x: &[R]) -> R {
+    fn uncertainty(&self, answer: &Candidate<R>) -> R {
+        let Candidate { inputs, x, .. } = *answer;
         let largest = x.iter().fold(R::ZERO, |most, &x| most.or_larger(x));
         let loads = self.largest_load.iter().zip(inputs);
         let loads = loads.fold(R::ZERO, |sum, (&b, p)| sum + b * p.magnitude());
         let terms = R::from_count((x.len() + inputs.len() + 4) as u32);
-        terms * R::HALF * R::EPSILON * (self.row_sum * largest + loads)
+        terms * R::HALF * R::EPSILON * (self.row_sum * largest + loads + self.spans(answer))
     }
 
     /// ‖δ‖
@@ -236,7 +250,7 @@ impl<R: Real> Form<'_, R> {
 }
 
 /// ‖δ‖, and what rounding adds beside √n times the uncertainty of an entry.
-struct Mended<R> {
-    known: R,
-    hidden: R,
+pub(super) struct Mended<R> {
+    pub known: R,
+    pub hidden: R,
 }

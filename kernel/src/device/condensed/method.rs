@@ -30,7 +30,7 @@ pub struct SolveSummary {
     pub sweeps: u32,
 }
 
-/// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0.
+/// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0, or the same with ranges ([`crate::solve::dense::ranges`]).
 pub trait Method<R: Real> {
     /// From `iterate.x`, as far as the method is allowed to go and until the deadline: x is feasible whenever that is.
     ///
@@ -39,7 +39,7 @@ pub trait Method<R: Real> {
     fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
-        load: &[R],
+        given: Given<R>,
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<SolveSummary, Error>;
@@ -53,7 +53,7 @@ impl<R: Real> Method<R> for Linear {
     fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
-        _: &[R],
+        _: Given<R>,
         _: Iterate<R>,
         _: &mut Deadline<F>,
     ) -> Result<SolveSummary, Error> {
@@ -78,22 +78,22 @@ impl<R: Real> Method<R> for Sweeps<R> {
     fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
-        load: &[R],
+        given: Given<R>,
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<SolveSummary, Error> {
         if !(self.omega > R::ZERO && self.omega < R::TWO) {
             return Err(Error::Relaxation);
         }
-        let own = sizes::of_load(load)?;
+        let own = sizes::of_load(given.load)?;
         same_length(Array::Scratch, iterate.scratch.len(), iterate.x.len())?;
         copy(iterate.x, iterate.scratch);
         if sizes::is_absurd(sizes::norm(iterate.x), own) {
             // What a load of another size, or one without a solution, has left: sweeps would never come back.
             iterate.x.fill(R::ZERO);
         }
-        let progress = self.sweep_on(matrix, load, own, iterate.x, deadline)?;
-        settle(matrix, Given::above(load), iterate.x, iterate.residual, iterate.open)?;
+        let progress = self.sweep_on(matrix, given, own, iterate.x, deadline)?;
+        settle(matrix, given, iterate.x, iterate.residual, iterate.open)?;
         if let Err(error) = all_finite(Array::Unknowns, iterate.x) {
             copy(iterate.scratch, iterate.x);
             return Err(error);
@@ -107,7 +107,7 @@ impl<R: Real> Sweeps<R> {
     fn sweep_on<F: FnMut() -> u32>(
         &self,
         matrix: &Blocks<R>,
-        load: &[R],
+        given: Given<R>,
         own: R,
         x: &mut [R],
         deadline: &mut Deadline<F>,
@@ -119,7 +119,7 @@ impl<R: Real> Sweeps<R> {
                 progress.ended = Ended::OutOfTime;
                 break;
             }
-            let defect = sor::sweep(matrix, load, self.omega, x)?;
+            let defect = sor::sweep(matrix, given, self.omega, x)?;
             progress.sweeps += 1;
             let size = sizes::norm(x);
             let small = self.tolerance * size.or_larger(own);
@@ -153,7 +153,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
     fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
-        load: &[R],
+        given: Given<R>,
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<SolveSummary, Error> {
@@ -164,7 +164,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         let rule = &mut Largest;
         let (found, pivots) = pivoting::find(
             matrix,
-            Given::above(load),
+            given,
             &mut self.tableau,
             &self.start,
             rule,
@@ -174,7 +174,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
         if found == Found::Exact {
             return Ok(SolveSummary { ended: Ended::Exact, pivots, sweeps: 0 });
         }
-        match self.sweeps.solve(matrix, load, iterate.reborrow(), deadline) {
+        match self.sweeps.solve(matrix, given, iterate.reborrow(), deadline) {
             Ok(rest) => Ok(SolveSummary { pivots, ..rest }),
             Err(error) => {
                 // No matrix that is positive definite comes here; any other begins anew.
@@ -187,7 +187,7 @@ impl<R: Real> Method<R> for Pivots<'_, R> {
 }
 
 /// Principal pivoting in two phases, for a matrix none of whose entries off the diagonal is positive: an end after at most
-/// n + n/2 exchanges is proved, so that nothing follows. Where it starts anew, it does with S itself.
+/// n + n/2 exchanges is proved, so that nothing follows; with limits in three, and 3n + n/2. Where it starts anew, it does with S itself.
 #[derive(Debug)]
 pub struct TwoPhases<'a, R> {
     /// The tableau, kept from tick to tick.
@@ -198,12 +198,13 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
     fn solve<F: FnMut() -> u32>(
         &mut self,
         matrix: &Blocks<R>,
-        load: &[R],
+        given: Given<R>,
         iterate: Iterate<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<SolveSummary, Error> {
         let mut iterate = iterate;
-        let most = Phases::default().most(matrix.order()) as u32;
+        let has_limits = given.ranges.are_limited();
+        let most = Phases::default().most(matrix.order(), has_limits) as u32;
         let mut is_in_time = true;
         let may_exchange = |pivots| {
             is_in_time = deadline.allows_a_sweep();
@@ -211,15 +212,8 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
         };
         let (lent, rule) = (iterate.reborrow(), &mut Phases::default());
         let start = &InitialTableau::untouched(matrix);
-        let (found, pivots) = pivoting::find(
-            matrix,
-            Given::above(load),
-            &mut self.tableau,
-            start,
-            rule,
-            may_exchange,
-            lent,
-        )?;
+        let (found, pivots) =
+            pivoting::find(matrix, given, &mut self.tableau, start, rule, may_exchange, lent)?;
         let ended = match found {
             Found::Exact => Ended::Exact,
             _ if !is_in_time => Ended::OutOfTime,
@@ -228,7 +222,7 @@ impl<R: Real> Method<R> for TwoPhases<'_, R> {
         };
         if found == Found::Worn {
             let Iterate { x, residual, open, .. } = iterate;
-            settle(matrix, Given::above(load), x, residual, open)?;
+            settle(matrix, given, x, residual, open)?;
         }
         Ok(SolveSummary { ended, pivots, sweeps: 0 })
     }

@@ -8,7 +8,8 @@
 //!   outputs  y = Y_p p + Y_x x + Y_r r⁺      bound   U ‖F (p, x, d)‖ + …
 //! ```
 //! K the Schur complement on the contact edges and S = K_ij / √(K_ii K_jj). p_0 = 1 stands for what does not
-//! change. The mesh may be as fine as accuracy wants: the target never sees it.
+//! change. The mesh may be as fine as accuracy wants: the target never sees it. Where the flux of an edge has a limit, x has
+//! either sign and r its range ([`spans`], [`crate::solve::dense::ranges`]).
 //!
 //! ```text
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
@@ -16,10 +17,13 @@
 //! [`crate::solve::dense`] holds S and solves; [`factor`] and [`certificate`] bound the error; [`outputs`] are read off;
 //! [`storage`] owns the memory. `signorini bake` writes all of it.
 
+pub mod candidate;
 pub mod certificate;
 pub mod factor;
 pub mod method;
 pub mod outputs;
+pub mod sides;
+pub mod spans;
 pub mod storage;
 
 use crate::bound::verdict::Verdict;
@@ -32,9 +36,11 @@ use crate::solve::dense::pivoting::settle;
 use crate::solve::dense::ranges::Given;
 use crate::solve::dense::tableau::InitialTableau;
 use crate::solve::dense::{Iterate, sizes};
-use certificate::{Candidate, Form};
+use candidate::Candidate;
+use certificate::Form;
 use method::{Method, SolveSummary};
 use outputs::Measure;
+use spans::{SpanBuffer, SpanColumns};
 
 /// A baked model (borrowed).
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +58,8 @@ pub struct Condensed<'a, R> {
     /// x is kept within these, a pair per contact edge: there the edges that were taken out, since they never change
     /// sides within the ranges of the inputs, are on their sides. Empty where none was.
     pub limits: &'a [[R; 2]],
+    /// How far it is to the other end of each flux.
+    pub spans: SpanColumns<'a, R>,
     /// The outputs.
     pub outputs: &'a [Measure<'a, R>],
     /// What bounds the error; absent where there is no bound, or nobody asks for it.
@@ -67,6 +75,8 @@ pub struct Memory<'a, R> {
     pub iterate: Iterate<'a, R>,
     /// B p, with [`blocks::padded`] entries.
     pub load: &'a mut [R],
+    /// The spans for p.
+    pub spans: SpanBuffer<'a, R>,
     /// One entry a column of F; empty without a certificate.
     pub combination: &'a mut [R],
     /// One entry a column of F; empty without a certificate.
@@ -98,11 +108,14 @@ impl<R: Real> Condensed<'_, R> {
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
         self.hold(inputs, memory.load)?;
-        let progress = method.solve(&matrix, memory.load, memory.iterate.reborrow(), deadline)?;
-        self.hold_back(&matrix, memory)?;
+        self.spans.combine(inputs, memory.load.len(), &mut memory.spans)?;
+        let spans = self.spans.of(memory.load.len(), &memory.spans);
+        let given = Given::between(memory.load, spans, &[]);
+        let progress = method.solve(&matrix, given, memory.iterate.reborrow(), deadline)?;
+        self.hold_back(&matrix, given, &mut memory.iterate)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
-        let answer = Candidate { inputs, x, residual };
+        let answer = Candidate { inputs, x, residual, ranges: given.ranges };
         let verdict = match &self.certificate {
             Some(form) => form.certify(&answer, memory.combination, memory.sum)?,
             None if self.has_bound => Verdict::NotAsked,
@@ -113,7 +126,7 @@ impl<R: Real> Condensed<'_, R> {
         Ok(Report { ended, exchanges: pivots, sweeps, active, verdict })
     }
 
-    /// Output `number` of the last tick, `iterate` being that of its memory.
+    /// Output `number` of the last tick with this memory.
     ///
     /// # Errors
     /// Arrays of the wrong length; no such output; a value that overflows.
@@ -121,13 +134,17 @@ impl<R: Real> Condensed<'_, R> {
         &self,
         number: usize,
         inputs: &[R],
-        iterate: &Iterate<R>,
+        memory: &Memory<R>,
         report: &Report<R>,
     ) -> Result<R, Error> {
         let stray = Error::OutOfRange { of: Array::Scratch, at: number };
         let measure = self.outputs.get(number).ok_or(stray)?;
-        let (x, residual) = (self.unpadded(iterate.x), self.unpadded(iterate.residual));
-        let value = measure.value(inputs, x, residual, report.certificate())?;
+        let Iterate { x, residual, .. } = &memory.iterate;
+        let (x, residual) = (self.unpadded(x), self.unpadded(residual));
+        let spans = self.spans.of(memory.load.len(), &memory.spans);
+        let ranges = Given::between(&[], spans, &[]).ranges;
+        let answer = Candidate { inputs, x, residual, ranges };
+        let value = measure.value(&answer, report.certificate())?;
         match measure {
             Measure::Linear { .. } | Measure::Flux { .. } if !value.finite() => {
                 Err(Error::NotFinite { of: Array::Fluxes, at: number })
@@ -137,19 +154,20 @@ impl<R: Real> Condensed<'_, R> {
     }
 
     /// x within [`Condensed::limits`]: solutions are, a tick that was cut off need not be.
-    fn hold_back(&self, matrix: &Blocks<R>, memory: &mut Memory<R>) -> Result<(), Error> {
-        let Iterate { x, residual, open, .. } = &mut memory.iterate;
+    fn hold_back(
+        &self,
+        matrix: &Blocks<R>,
+        given: Given<R>,
+        iterate: &mut Iterate<R>,
+    ) -> Result<(), Error> {
+        let Iterate { x, residual, open, .. } = iterate;
         let mut is_beyond = false;
         for (x, &[least, most]) in x.iter_mut().zip(self.limits) {
             if !(least <= *x && *x <= most) {
                 (*x, is_beyond) = (if *x > most { most } else { least }, true);
             }
         }
-        if is_beyond {
-            settle(matrix, Given::above(memory.load), x, residual, open)
-        } else {
-            Ok(())
-        }
+        if is_beyond { settle(matrix, given, x, residual, open) } else { Ok(()) }
     }
 
     fn unpadded<'x>(&self, vector: &'x [R]) -> &'x [R] {
@@ -173,6 +191,8 @@ impl<R: Real> Condensed<'_, R> {
                     (of_inputs, of_contact, of_reaction)
                 }
                 Measure::Length { .. } | Measure::Bound => continue,
+                #[cfg(feature = "limited")]
+                Measure::Saturated { .. } => continue,
             };
             let given = of_inputs.iter().zip(inputs);
             let given = given.fold(R::ZERO, |sum, (&y, &p)| sum + (y * p).magnitude());

@@ -1,6 +1,7 @@
 //! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices.
 
 use super::method::{Pivots, Sweeps, TwoPhases};
+use super::spans::SpanBuffer;
 use super::{Condensed, Memory};
 use crate::error::Error;
 use crate::real::Real;
@@ -9,23 +10,25 @@ use crate::solve::dense::blocks::{Block, SIDE};
 use crate::solve::dense::tableau::Tableau;
 
 /// Iterate and scratch. Numbers and flags have [`crate::solve::dense::blocks::padded`] contact edges, columns those of the
-/// bound's factor.
+/// bound's factor; spans are as many as contact edges with padding where inputs change them, none elsewhere.
 #[derive(Debug)]
-pub struct Storage<Numbers, Flags, Columns> {
+pub struct Storage<Numbers, Flags, Columns, Spans> {
     x: Numbers,
     residual: Numbers,
     scratch: Numbers,
     open: Flags,
     load: Numbers,
+    spans: Spans,
     combination: Columns,
     sum: Columns,
     has_begun: bool,
 }
 
-/// The same in arrays: P padded contact edges, C columns.
-pub type ArrayStorage<R, const P: usize, const C: usize> = Storage<[R; P], [bool; P], [R; C]>;
+/// The same in arrays: P padded contact edges, C columns, S spans.
+pub type ArrayStorage<R, const P: usize, const C: usize, const S: usize = 0> =
+    Storage<[R; P], [bool; P], [R; C], [R; S]>;
 
-impl<R: Real, const P: usize, const C: usize> ArrayStorage<R, P, C> {
+impl<R: Real, const P: usize, const C: usize, const S: usize> ArrayStorage<R, P, C, S> {
     /// Zeros, which take no room in flash: the first tick takes the model's x over.
     pub const fn zeros() -> Self {
         Self {
@@ -34,6 +37,7 @@ impl<R: Real, const P: usize, const C: usize> ArrayStorage<R, P, C> {
             scratch: [R::ZERO; P],
             open: [false; P],
             load: [R::ZERO; P],
+            spans: [R::ZERO; S],
             combination: [R::ZERO; C],
             sum: [R::ZERO; C],
             has_begun: false,
@@ -41,15 +45,16 @@ impl<R: Real, const P: usize, const C: usize> ArrayStorage<R, P, C> {
     }
 }
 
-impl<Numbers: Clone, Flags, Columns: Clone> Storage<Numbers, Flags, Columns> {
+impl<Numbers: Clone, Flags, Columns: Clone, Spans> Storage<Numbers, Flags, Columns, Spans> {
     /// Before the first tick, with buffers like these, of any contents.
-    pub fn of(numbers: Numbers, open: Flags, columns: Columns) -> Self {
+    pub fn of(numbers: Numbers, open: Flags, columns: Columns, spans: Spans) -> Self {
         Self {
             x: numbers.clone(),
             residual: numbers.clone(),
             scratch: numbers.clone(),
             open,
             load: numbers,
+            spans,
             combination: columns.clone(),
             sum: columns,
             has_begun: false,
@@ -57,13 +62,14 @@ impl<Numbers: Clone, Flags, Columns: Clone> Storage<Numbers, Flags, Columns> {
     }
 }
 
-impl<Numbers, Flags, Columns> Storage<Numbers, Flags, Columns> {
+impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
     /// The view that [`Condensed::tick`] takes.
     pub fn memory<R: Real>(&mut self, model: &Condensed<R>) -> Memory<'_, R>
     where
         Numbers: AsMut<[R]>,
         Flags: AsMut<[bool]>,
         Columns: AsMut<[R]>,
+        Spans: AsMut<[R]>,
     {
         let x = self.x.as_mut();
         if !self.has_begun {
@@ -74,6 +80,7 @@ impl<Numbers, Flags, Columns> Storage<Numbers, Flags, Columns> {
         Memory {
             iterate: Iterate { x, residual, scratch, open: self.open.as_mut() },
             load: self.load.as_mut(),
+            spans: SpanBuffer::new(self.spans.as_mut()),
             combination: self.combination.as_mut(),
             sum: self.sum.as_mut(),
         }

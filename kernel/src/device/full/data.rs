@@ -60,12 +60,16 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         copy(Array::Dirichlet, base.dirichlet, self.dirichlet)?;
         copy(Array::Dirichlet, base.ends.given, self.dirichlet_ends)?;
         copy(Array::Robin, base.transfer, self.transfer)?;
+        #[cfg(feature = "limited")]
+        copy(Array::ContactSpans, base.spans.lengths(), self.spans)?;
         for (pattern, &p) in patterns.iter().zip(inputs) {
             pattern.add(p, self);
         }
         if features::TRANSFER {
             self.transfer(patterns, inputs);
         }
+        #[cfg(feature = "limited")]
+        super::ranges::check(self, base, patterns, inputs)?;
         if features::CURVED {
             same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
             let sums = base.curved_sums.iter().zip(self.curved.iter_mut());
@@ -82,6 +86,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         oscillation: R,
     ) -> Result<Data<'d, R, I>, Error> {
         let contact_flux = own_or(self.contact_flux, base.contact_flux);
+        let spans = self.spans(base.spans);
         let (neumann, robin) = (own_or(self.neumann, base.neumann), own_or(self.robin, base.robin));
         let given = LoadCase {
             loads: CellLoads {
@@ -89,7 +94,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
                 quads: own_or(self.quads, base.loads.quads),
             },
             boundary: Boundary::new(edges, neumann, robin, contact_flux)?
-                .with_spans(edges, base.spans)?,
+                .with_spans(edges, spans)?,
             ends: VertexData {
                 gap: own_or(self.gap_ends, base.ends.gap),
                 given: own_or(self.dirichlet_ends, base.ends.given),
@@ -98,8 +103,17 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             transfer: own_or(self.transfer, base.transfer),
             oscillation,
         };
-        let law = Law::above(own_or(self.gap, base.gap)).with_spans(base.spans);
+        let law = Law::above(own_or(self.gap, base.gap)).with_spans(spans);
         Ok(Data { given, law, dirichlet: own_or(self.dirichlet, base.dirichlet) })
+    }
+
+    /// The ranges of fluxes on contact edges.
+    fn spans<'d>(&'d self, base: Spans<'d, R>) -> Spans<'d, R> {
+        #[cfg(feature = "limited")]
+        if !self.spans.is_empty() {
+            return Spans::baked(self.spans, base.excess());
+        }
+        base
     }
 }
 

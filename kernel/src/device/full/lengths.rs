@@ -37,6 +37,9 @@ pub struct Numbers<T> {
     pub dirichlet_ends: T,
     /// ∫h and u_ext at 8 points of each transfer edge.
     pub transfer: T,
+    /// ∫(hi − lo) of contact edges.
+    #[cfg(feature = "limited")]
+    pub spans: T,
 }
 
 /// The lengths of all arrays that change; data that no input changes have none.
@@ -73,6 +76,8 @@ impl<T> Numbers<T> {
             dirichlet: each(self.dirichlet)?,
             dirichlet_ends: each(self.dirichlet_ends)?,
             transfer: each(self.transfer)?,
+            #[cfg(feature = "limited")]
+            spans: each(self.spans)?,
         })
     }
 }
@@ -94,10 +99,14 @@ impl Numbers<usize> {
             dirichlet,
             dirichlet_ends,
             transfer,
+            #[cfg(feature = "limited")]
+            spans,
         } = *self;
+        #[cfg(not(feature = "limited"))]
+        let spans = 0;
         let of_tick = load + u + tau + vertices + bubbles;
         let of_data = triangles + quads + contact_flux + gap + gap_ends;
-        of_tick + of_data + dirichlet + dirichlet_ends + transfer
+        of_tick + of_data + dirichlet + dirichlet_ends + transfer + spans
     }
 }
 
@@ -130,6 +139,8 @@ impl Lengths {
             dirichlet: 0,
             dirichlet_ends: 0,
             transfer: 0,
+            #[cfg(feature = "limited")]
+            spans: 0,
         };
         let (rows, active) = (counts.unknowns(), counts.contact);
         Self { rows, active, numbers, neumann: 0, robin: 0, curved: 0 }
@@ -145,6 +156,13 @@ impl Lengths {
             }
             Pattern::Neumann(_) => self.neumann = base.neumann.len(),
             Pattern::ContactFlux(_) => numbers.contact_flux = base.contact_flux.len(),
+            #[cfg(feature = "limited")]
+            Pattern::ContactRange { fluxes, .. } => {
+                if !fluxes.is_empty() {
+                    numbers.contact_flux = base.contact_flux.len();
+                }
+                numbers.spans = base.spans.count();
+            }
             Pattern::Gap(_) => {
                 numbers.gap = base.gap.len();
                 numbers.gap_ends = base.ends.gap.as_flattened().len();

@@ -14,6 +14,8 @@ mod data;
 mod functional;
 mod lengths;
 mod pattern;
+#[cfg(feature = "limited")]
+mod ranges;
 mod storage;
 mod transfer;
 
@@ -80,8 +82,9 @@ impl<R: Real, I: Index> Full<'_, R, I> {
     /// the memory of s, and of the discretization only edges and element matrices; the rest of either may be empty.
     ///
     /// # Errors
-    /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]); arrays of the
-    /// wrong length, a factor of another mesh. The last answer stays then, bit for bit, and `outputs` are as they were.
+    /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]), or that leave a contact
+    /// edge no flux; arrays of the wrong length, a factor of another mesh. The last answer stays then, bit for bit, and
+    /// `outputs` are as they were.
     pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
         &self,
         inputs: &[R],

@@ -69,6 +69,14 @@ pub enum Pattern<'a, R, I> {
     Neumann(&'a [Contribution<R, I>]),
     /// ∫q, by number of the contact edge.
     ContactFlux(&'a [Contribution<R, I>]),
+    /// An end of a range of fluxes whose both ends are finite, by number of the contact edge.
+    #[cfg(feature = "limited")]
+    ContactRange {
+        /// ∫lo
+        fluxes: &'a [Contribution<R, I>],
+        /// ∫(hi − lo)
+        spans: &'a [Contribution<R, I>],
+    },
     /// ψ
     Gap(&'a [EdgeTrace<R, I>]),
     /// u_D
@@ -99,6 +107,8 @@ pub struct DataMemory<'a, R, I> {
     pub dirichlet_ends: &'a mut [[R; 2]],
     pub curved: &'a mut [Curved<R, I>],
     pub transfer: &'a mut [[[R; 2]; 8]],
+    #[cfg(feature = "limited")]
+    pub spans: &'a mut [R],
 }
 
 impl<R: Real, I: Index> Pattern<'_, R, I> {
@@ -117,6 +127,11 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
                 }
             }),
             Self::ContactFlux(shares) if features::CONTACT => add(shares, p, data.contact_flux),
+            #[cfg(feature = "limited")]
+            Self::ContactRange { fluxes, spans } => {
+                add(fluxes, p, data.contact_flux);
+                add(spans, p, data.spans);
+            }
             Self::Gap(chords) if features::CONTACT => {
                 add_chords(chords, p, data.gap, data.gap_ends);
             }

@@ -7,6 +7,7 @@
 
 pub mod blocks;
 mod correction;
+mod falling;
 pub mod pivoting;
 pub mod ranges;
 pub mod rule;

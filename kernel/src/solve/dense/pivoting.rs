@@ -11,6 +11,7 @@
 
 use super::Iterate;
 use super::blocks::{Blocks, multiply_add};
+use super::falling::{self, Way};
 use super::ranges::{Given, Ranges};
 use super::rule::{Rule, Step};
 use super::sizes;
@@ -60,6 +61,7 @@ pub fn find<R: Real>(
 ) -> Result<(Found, u32), Error> {
     let Iterate { x, residual, scratch: answer, open } = iterate;
     let own = sizes::of_load(given.load)?;
+    given.ranges.begin(tableau.exchanged(), x);
     given.answer(tableau, x, residual, answer)?;
     let mut size = own.or_larger(sizes::norm(answer));
     if sizes::is_absurd(size, own) {
@@ -98,7 +100,9 @@ pub fn find<R: Real>(
             found = Found::Worn;
         }
     }
-    if found == Found::OutOfPivots && pivots as usize >= rule.most(matrix.order()) {
+    if found == Found::OutOfPivots
+        && pivots as usize >= rule.most(matrix.order(), given.ranges.are_limited())
+    {
         found = Found::Worn;
     }
     if found == Found::Worn {
@@ -139,9 +143,9 @@ fn exchange_all<R: Real>(
 
 /// Exchanges until nothing is wrong by more than `noise`, which rounding may be; nothing is found where the rule asks to
 /// start anew.
-fn search<R: Real>(
+fn search<R: Real, U: Rule>(
     tableau: &mut Tableau<R>,
-    rule: &mut impl Rule,
+    rule: &mut U,
     mut may_exchange: impl FnMut(u32) -> bool,
     (ranges, noise): (Ranges<R>, R),
     z: &mut [R],
@@ -150,15 +154,23 @@ fn search<R: Real>(
     let mut pivots = 0;
     loop {
         let step = match ranges.are_limited() {
-            true => {
-                let view = |at, z, within| ranges.viewed(at, z, read(x, at), within);
-                let (z, exchanged) = tableau.viewed(z, view);
-                rule.next(z, exchanged, noise, pivots)
-            }
+            true => next_of_three(tableau, rule, (ranges, noise), z, x, pivots),
             false => rule.next(z, tableau.exchanged(), noise, pivots),
         };
         let at = match step {
             Step::Exchange(at) => at,
+            Step::End if U::FALLS && ranges.are_limited() => {
+                let sides = (&*z, &*x, tableau.exchanged());
+                let Some(edge) = falling::worst(ranges, sides, noise) else {
+                    return Ok((Some(Found::Exact), pivots));
+                };
+                let may = &mut may_exchange;
+                match falling::fall(tableau, ranges, edge, [z, x], may, &mut pivots)? {
+                    Way::Done => continue,
+                    Way::Stopped => return Ok((Some(Found::OutOfPivots), pivots)),
+                    Way::Worn => return Ok((Some(Found::Worn), pivots)),
+                }
+            }
             Step::End => return Ok((Some(Found::Exact), pivots)),
             Step::StartAnew => return Ok((None, pivots)),
         };
@@ -173,6 +185,22 @@ fn search<R: Real>(
         ranges.has_left(at, was_within, z, x);
         pivots += 1;
     }
+}
+
+/// The step that `rule` takes where edges have three sides.
+fn next_of_three<R: Real, U: Rule>(
+    tableau: &mut Tableau<R>,
+    rule: &mut U,
+    (ranges, noise): (Ranges<R>, R),
+    z: &[R],
+    x: &[R],
+    pivots: u32,
+) -> Step {
+    let (z, exchanged) = tableau.viewed(z, |at, z, within| match U::FALLS {
+        true => ranges.viewed_from_below(at, z, read(x, at), within),
+        false => ranges.viewed(at, z, read(x, at), within),
+    });
+    rule.next(z, exchanged, noise, pivots)
 }
 
 /// x of the answer (−x_I, w_A), not below 0 where it is not to be.

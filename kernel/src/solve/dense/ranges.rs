@@ -26,12 +26,19 @@ pub struct Given<'a, R> {
 impl<'a, R: Real> Given<'a, R> {
     /// w ≥ 0.
     pub const fn above(load: &'a [R]) -> Self {
-        Self { load, ranges: Ranges { spans: Spans::UNLIMITED, scale: &[] } }
+        Self::between(load, Spans::UNLIMITED, &[])
     }
 
-    /// m in `spans`, each times its entry in `scale`.
+    /// m in `spans`, each times its entry in `scale` where that is not empty.
     pub const fn between(load: &'a [R], spans: Spans<'a, R>, scale: &'a [R]) -> Self {
-        Self { load, ranges: Ranges { spans, scale } }
+        #[cfg(not(feature = "limited"))]
+        let _ = scale;
+        let ranges = Ranges {
+            spans,
+            #[cfg(feature = "limited")]
+            scale,
+        };
+        Self { load, ranges }
     }
 
     /// b of edge `at` and what its side has beyond.
@@ -63,6 +70,7 @@ impl<'a, R: Real> Given<'a, R> {
 #[derive(Debug, Clone, Copy)]
 pub struct Ranges<'a, R> {
     spans: Spans<'a, R>,
+    #[cfg(feature = "limited")]
     scale: &'a [R],
 }
 
@@ -75,12 +83,14 @@ impl<R: Real> Ranges<'_, R> {
 
     /// The least and the largest w of an edge.
     #[inline(always)]
-    fn ends(&self, at: usize) -> [R; 2] {
-        let scaled = |end: R| match end.finite() {
+    pub(crate) fn ends(&self, at: usize) -> [R; 2] {
+        let ends = self.spans.on(at).ends();
+        #[cfg(feature = "limited")]
+        let ends = ends.map(|end: R| match end.finite() {
             true if !self.scale.is_empty() => end * read(self.scale, at),
             _ => end,
-        };
-        self.spans.on(at).ends().map(scaled)
+        });
+        ends
     }
 
     /// What the load of an exchanged edge has beyond b.
@@ -110,6 +120,52 @@ impl<R: Real> Ranges<'_, R> {
         }
         let [least, most] = self.ends(at);
         (z - least).or_smaller(most - z)
+    }
+
+    /// The same for phases in which whoever is above its range, or at its upper end, waits.
+    pub(super) fn viewed_from_below(&self, at: usize, z: R, x: R, within: bool) -> R {
+        match within {
+            true if x < R::ZERO => R::ZERO,
+            true => z,
+            false => z - self.ends(at)[0],
+        }
+    }
+
+    /// By how much an edge is above its range, or x > 0 at its upper end; below 0 elsewhere.
+    pub(super) fn above(&self, at: usize, z: R, x: R, within: bool) -> R {
+        match within {
+            true if x < R::ZERO => -z,
+            true => -R::ONE,
+            false => z - self.ends(at)[1],
+        }
+    }
+
+    /// Exchanged unknowns whose x is 0 are on the side whose end the load contains, and none on a side that there is not.
+    pub(super) fn begin(&self, exchanged: &[bool], x: &mut [R]) {
+        if !self.are_limited() {
+            return;
+        }
+        for (at, (x, &within)) in x.iter_mut().zip(exchanged).enumerate() {
+            let [least, most] = self.ends(at);
+            let is_lost =
+                *x == R::ZERO || *x < R::ZERO && !most.finite() || *x > R::ZERO && !least.finite();
+            if within && is_lost {
+                *x = if least < R::ZERO { -R::ONE } else { R::ONE };
+            }
+        }
+    }
+
+    /// The flux that an answer stands for: w within its range where x = 0, and the end of its side elsewhere.
+    #[inline(always)]
+    pub(crate) fn admissible(&self, at: usize, x: R, w: R) -> R {
+        let [least, most] = self.ends(at);
+        if x > R::ZERO {
+            least
+        } else if x < R::ZERO {
+            most
+        } else {
+            w.or_larger(least).or_smaller(most)
+        }
     }
 
     /// To be called before unknown `at` is exchanged: if it comes in, the sign of x says to which side, and the answer is

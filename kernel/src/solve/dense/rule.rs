@@ -15,8 +15,14 @@
 //! From m open edges of n, k of which leave, that takes at most k + n − (m − k) exchanges. Where nothing is open it takes as
 //! many as edges open, n at most. So once one has left, and those that have and those that would are more than m/2, the
 //! tableau goes back to where nothing is open: at most m/2 exchanges are lost, and n + n/2 is the worst case of all states.
+//!
+//! Where fluxes have limits, edges at the upper end stay there in both phases, whatever their x. Then none is below its
+//! least flux, and x is nowhere less than the solution. In a third phase x only falls, edge by edge ([`super::falling`]): an
+//! open edge touches, a touching one reaches its limit, one at its limit with x > 0 leaves it, and may come back. That is
+//! two exchanges an edge at most, 3n + n/2 in all.
 
 use super::blocks::{SIDE, groups, padded};
+use crate::features;
 use crate::real::Real;
 
 /// What to do next.
@@ -38,8 +44,12 @@ impl Step {
 
 /// Chooses exchanges.
 pub trait Rule {
-    /// Exchanges, for a matrix of this order, after which there is no solution or rounding has eaten the tableau.
-    fn most(&self, order: usize) -> usize;
+    /// Whether edges above their ranges wait for a phase of their own, in which x falls.
+    const FALLS: bool;
+
+    /// Exchanges, for a matrix of this order, after which there is no solution or rounding has eaten the tableau;
+    /// `has_limits` where a flux has a third side.
+    fn most(&self, order: usize, has_limits: bool) -> usize;
 
     /// What to do after so many `pivots`, where nothing counts as wrong up to `noise`.
     ///
@@ -52,8 +62,10 @@ pub trait Rule {
 pub struct Largest;
 
 impl Rule for Largest {
-    fn most(&self, order: usize) -> usize {
-        padded(order)
+    const FALLS: bool = false;
+
+    fn most(&self, order: usize, has_limits: bool) -> usize {
+        if features::LIMITED && has_limits { 2 * padded(order) } else { padded(order) }
     }
 
     fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, pivots: u32) -> Step {
@@ -78,8 +90,11 @@ enum Phase {
 }
 
 impl Rule for Phases {
-    fn most(&self, order: usize) -> usize {
-        order + order / 2
+    const FALLS: bool = true;
+
+    fn most(&self, order: usize, has_limits: bool) -> usize {
+        let two = order + order / 2;
+        if features::LIMITED && has_limits { two + 2 * order } else { two }
     }
 
     fn next<R: Real>(&mut self, z: &[R], exchanged: &[bool], noise: R, _: u32) -> Step {

@@ -3,6 +3,9 @@
 //! ```text
 //!   x_i ← max(0, x_i + ω (b_i − Σ_j S_ij x_j)),      S_ii = 1
 //! ```
+//! or, where w has a range of its own ([`super::ranges`]), the proximal step: up to where w = lo asks for if that is above 0,
+//! down to where w = hi asks for if that is below 0, and 0 elsewhere.
+//!
 //! The products of eight rows are formed with the x there is; then these eight are relaxed one after the
 //! other, each change being brought to the rows below it. That is Gauss–Seidel, exactly, in another
 //! order of the sums.
@@ -12,6 +15,7 @@ use core::iter;
 use super::blocks::{
     Block, Blocks, SIDE, add_products, add_transposed, groups, groups_mut, padded,
 };
+use super::ranges::{Given, Ranges};
 use crate::error::{Array, Error, same_length};
 use crate::real::Real;
 
@@ -21,7 +25,13 @@ use crate::real::Real;
 /// # Errors
 /// Arrays of the wrong length.
 #[inline(never)]
-pub fn sweep<R: Real>(matrix: &Blocks<R>, load: &[R], omega: R, x: &mut [R]) -> Result<R, Error> {
+pub fn sweep<R: Real>(
+    matrix: &Blocks<R>,
+    given: Given<R>,
+    omega: R,
+    x: &mut [R],
+) -> Result<R, Error> {
+    let Given { load, ranges } = given;
     same_length(Array::Load, load.len(), padded(matrix.order()))?;
     same_length(Array::Unknowns, x.len(), padded(matrix.order()))?;
     let mut moved = R::ZERO;
@@ -39,7 +49,7 @@ pub fn sweep<R: Real>(matrix: &Blocks<R>, load: &[R], omega: R, x: &mut [R]) -> 
             add_transposed(block, x, &mut sums);
             column = column.get(step..).unwrap_or_default();
         }
-        moved += relax(diagonal, load, &sums, omega, own);
+        moved += relax(diagonal, load, &sums, omega, (ranges, row * SIDE), own);
         rest = below;
     }
     Ok(moved)
@@ -53,15 +63,16 @@ fn relax<R: Real>(
     load: &[R; SIDE],
     sums: &[R; SIDE],
     omega: R,
+    (ranges, first): (Ranges<R>, usize),
     x: &mut [R; SIDE],
 ) -> R {
     let (mut now, mut moved) = (*x, R::ZERO);
     // Two loops of constant length: each is short enough to be unrolled, and x stays in registers.
     for row in 0..SIDE / 2 {
-        moved += relax_row(row, diagonal, load, sums, omega, &mut now);
+        moved += relax_row(row, diagonal, load, sums, omega, (ranges, first + row), &mut now);
     }
     for row in SIDE / 2..SIDE {
-        moved += relax_row(row, diagonal, load, sums, omega, &mut now);
+        moved += relax_row(row, diagonal, load, sums, omega, (ranges, first + row), &mut now);
     }
     *x = now;
     moved
@@ -74,6 +85,7 @@ fn relax_row<R: Real>(
     load: &[R; SIDE],
     sums: &[R; SIDE],
     omega: R,
+    (ranges, at): (Ranges<R>, usize),
     x: &mut [R; SIDE],
 ) -> R {
     let (Some(entries), Some(&load), Some(&sum)) =
@@ -85,8 +97,25 @@ fn relax_row<R: Real>(
     let residual = inner.fold(sum - load, |sum, (&entry, &x)| sum + entry * x);
     let Some(x) = x.get_mut(row) else { return R::ZERO };
     let relaxed = *x - omega * residual;
-    let next = if relaxed > R::ZERO { relaxed } else { R::ZERO };
+    let next = match ranges.are_limited() {
+        true => proximal(relaxed, omega, ranges.ends(at)),
+        false if relaxed > R::ZERO => relaxed,
+        false => R::ZERO,
+    };
     let moved = (next - *x).magnitude();
     *x = next;
     moved
+}
+
+/// Where x goes from `relaxed`, its value for w = 0 of the load.
+#[inline(always)]
+fn proximal<R: Real>(relaxed: R, omega: R, [least, most]: [R; 2]) -> R {
+    let (above, below) = (relaxed + omega * least, relaxed + omega * most);
+    if above > R::ZERO {
+        above
+    } else if below < R::ZERO {
+        below
+    } else {
+        R::ZERO
+    }
 }

@@ -166,6 +166,12 @@ impl<'a, R: Real> Tableau<'a, R> {
         Ok(true)
     }
 
+    /// T_·k in scratch, and which unknowns are exchanged.
+    pub(super) fn column(&mut self, k: usize) -> (&[R], &[bool]) {
+        self.load_next(k);
+        (self.next, self.exchanged)
+    }
+
     /// Carries out the correction that waits.
     pub(super) fn finish(&mut self) {
         if let Some(first) = self.waiting.take() {

@@ -8,6 +8,7 @@ pub mod breach;
 pub mod grid;
 #[cfg(target_os = "none")]
 pub mod meter;
+pub mod plate;
 pub mod scenes;
 pub mod stages;
 pub mod tick;

@@ -257,7 +257,7 @@ pub fn terms(
             let rows = rows.map(|(row, weight)| weight.abs() * sum(row, x)).sum::<f64>();
             Some(sum(of_inputs, p) + sum(of_contact, x) + sum(&loads, p) + rows)
         }
-        Measure::Length { .. } => {
+        Measure::Length { .. } | Measure::Saturated { .. } => {
             let residual = of.residual(p, x);
             let size = x.iter().fold(size_of_load(of, p), |most, x| most.max(*x));
             let is_doubtful = |(x, r): (&f64, &f64)| x.max(r.abs()) <= doubt * size;

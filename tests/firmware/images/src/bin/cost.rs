@@ -17,7 +17,7 @@ use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
 use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_kernel::bound::certificate::{
-    self, Buffers, Discretization, LoadCase, Metric, certify,
+    self, Buffers, Discretization, LoadCase, Metric, POINTS, certify,
 };
 use signorini_kernel::bound::conforming::VertexData;
 use signorini_kernel::bound::equilibrium::{Iterate, is_root};
@@ -252,6 +252,22 @@ impl Stages for Meter<'_, '_> {
             };
             let iterate = Iterate { u, law: Law::above(black_box(&lower)) };
             black_box(certify(&discretization, &given, iterate, buffers)?);
+            Ok(())
+        })?;
+        // All cells at the same 64 points.
+        let (at_points, place) = ([[tensor; POINTS * POINTS]], [0_u32; 2 * SQUARES]);
+        let place = place.get(..cells).unwrap_or(&[]);
+        let metric = Metric { at_points: black_box(&at_points), place, distortions: &[] };
+        let varying = Discretization { metric, ..discretization };
+        self.count("certificate, A varies", "cell", cells, || {
+            let buffers = Buffers {
+                vertices: &mut vertices,
+                bubbles: &mut *bubbles,
+                tau: &mut *tau,
+                indicators: &mut [],
+            };
+            let iterate = Iterate { u, law: Law::above(black_box(&lower)) };
+            black_box(certify(&varying, &given, iterate, buffers)?);
             Ok(())
         })
     }

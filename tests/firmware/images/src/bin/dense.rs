@@ -1,7 +1,6 @@
 //! What the condensed problem costs for 8, 16, 32 and 64 contact edges, as `cost` prints it.
 //!
-//! The matrix is a model, since counts depend on its size alone: S_ij = −0.3/|i − j|², half of the edges
-//! open. Of the two answers counted in whole, one changes no edge and the other two. What worst cases are made of has all
+//! Half of the edges of the model matrix are open. Of the two answers counted in whole, one changes no edge and the other two. What worst cases are made of has all
 //! edges open, from the start or one after the other.
 #![no_std]
 #![no_main]
@@ -13,10 +12,11 @@ use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::journal::Bits;
 use signorini_firmware::meter::Meter;
+use signorini_firmware::plate::fill;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::factor::Factor;
-use signorini_kernel::solve::dense::blocks::{self, Block, Blocks, SIDE};
+use signorini_kernel::solve::dense::blocks::{self, Blocks, SIDE};
 use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::rule::{Largest, Phases};
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
@@ -167,20 +167,4 @@ fn norm<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
         black_box(factor.norm(black_box(z), sum)?);
         Ok(())
     })
-}
-
-fn fill<R: Bits>(blocks: &mut [Block<R>]) {
-    let (mut row, mut column) = (0, 0);
-    for block in blocks {
-        for (r, entries) in block.iter_mut().enumerate() {
-            for (c, entry) in entries.iter_mut().enumerate() {
-                let far = R::from_count((SIDE * row + r).abs_diff(SIDE * column + c) as u32);
-                *entry = match far == R::ZERO {
-                    true => R::ONE,
-                    false => -R::from_count(3) / R::from_count(10) / (far * far),
-                };
-            }
-        }
-        (row, column) = if column < row { (row, column + 1) } else { (row + 1, 0) };
-    }
 }

@@ -16,6 +16,7 @@ use signorini_kernel::device::condensed::method::Method as _;
 use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::solve::dense::blocks::{count, padded};
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SYSTEM};
 
 const PADDED: usize = padded(CONTACT);
@@ -72,5 +73,5 @@ fn solve(memory: &mut Memory) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
     let lent = memory.storage.memory(&SYSTEM);
     let mut method = memory.tableau.two_phases(&SYSTEM)?;
-    method.solve(&matrix, lent.load, lent.iterate, &mut Deadline::never()).map(|_| ())
+    method.solve(&matrix, Given::above(lent.load), lent.iterate, &mut Deadline::never()).map(|_| ())
 }

@@ -7,7 +7,7 @@
 //!   unfinished 0          ticks that did not end with the solution
 //! ```
 //! Where there are few edges every set of them is tried, with inputs after inputs; else random sets and arcs of neighbours,
-//! of every size.
+//! of every size. Where a flux has a limit, each of these edges is above or below its gap, at random.
 #![no_std]
 #![no_main]
 
@@ -32,6 +32,7 @@ const COLUMNS: usize = match &SYSTEM.certificate {
     Some(form) => form.factor.norms.len(),
     None => 0,
 };
+const SPANS: usize = SYSTEM.spans.buffered(PADDED);
 /// At least so many ticks.
 const TICKS: u32 = 10_000;
 /// With more edges than these not every set is tried.
@@ -39,7 +40,7 @@ const FEW: usize = 12;
 
 /// What a controller has.
 struct Memory {
-    storage: ArrayStorage<Scalar, PADDED, COLUMNS>,
+    storage: ArrayStorage<Scalar, PADDED, COLUMNS, SPANS>,
     tableau: ArrayTableauStorage<Scalar, PADDED, { count(CONTACT) }>,
 }
 
@@ -63,7 +64,7 @@ fn main() -> ! {
                     draw_open(&mut draw, &mut open);
                 }
                 let mut report = None;
-                let begun = begin(MEMORY, &open);
+                let begun = begin(MEMORY, &open, &mut draw);
                 let counts = clock.measure(1, || report = tick(MEMORY, inputs).ok());
                 let (Ok(()), Some(report), Some(counts)) = (begun, report, counts) else {
                     journal.text("a tick fails");
@@ -93,7 +94,7 @@ fn draw_open(draw: &mut Draw, open: &mut [bool; CONTACT]) {
 }
 
 /// The state in which these edges are open.
-fn begin(memory: &mut Memory, open: &[bool; CONTACT]) -> Result<(), Error> {
+fn begin(memory: &mut Memory, open: &[bool; CONTACT], draw: &mut Draw) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
     let mut method = memory.tableau.two_phases(&SYSTEM)?;
     method.tableau.reset(&InitialTableau::untouched(&matrix))?;
@@ -103,6 +104,13 @@ fn begin(memory: &mut Memory, open: &[bool; CONTACT]) -> Result<(), Error> {
     }
     // Between ticks no correction waits.
     let _ = method.tableau.blocks();
+    if SYSTEM.spans.are_limited() {
+        let x = memory.storage.memory(&SYSTEM).iterate.x;
+        for (x, &open) in x.iter_mut().zip(open) {
+            let side = if draw.uniform() < 0.0 { -Scalar::ONE } else { Scalar::ONE };
+            *x = if open { side } else { Scalar::ZERO };
+        }
+    }
     Ok(())
 }
 
@@ -118,7 +126,7 @@ fn tick(memory: &mut Memory, inputs: Inputs) -> Result<Report<Scalar>, Error> {
     let report = SYSTEM.tick(&all, &mut method, &mut Deadline::never(), &mut memory)?;
     let mut outputs = [0.0; OUTPUTS];
     for (number, output) in outputs.iter_mut().enumerate() {
-        *output = SYSTEM.output(number, &all, &memory.iterate, &report)?;
+        *output = SYSTEM.output(number, &all, &memory, &report)?;
     }
     black_box(outputs);
     Ok(report)

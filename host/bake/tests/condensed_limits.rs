@@ -1,0 +1,189 @@
+//! A condensed model with limits of the flux, tick after tick: against the direct solver on the mesh, and its bound against that
+//! of the same numbers in f64.
+
+use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_kernel::device::report::Ended;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_solve::condense::{CondensedModel, condense};
+use signorini_solve::fixtures::on_grid;
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{
+    LIMITED_BOUND, LIMITED_BOUND_NARROW, LIMITED_TICK, LIMITED_TICK_NARROW,
+};
+
+/// A heated face below keeps 2, and may cool by 1; its limits vary along it. u ≤ 3 on the right, air on the left.
+const HEATER: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.3", "1"]
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "2 - x/4"
+[boundary.left]
+kind = "robin"
+coefficient = "3"
+ambient = "0"
+[boundary.right]
+kind = "contact"
+gap = "3"
+flux = "-inf"
+limit = "0.5*y"
+[boundary.contact]
+kind = "contact"
+gap = "2"
+flux = "-1"
+limit = "6 - 3*x^2"
+[input.air]
+of = "left"
+field = "ambient"
+pattern = "1"
+default = -3.0
+[input.sun]
+of = "source"
+field = "f"
+pattern = "1 - x"
+[input.wanted]
+of = "contact"
+field = "gap"
+pattern = "1"
+[output.power]
+kind = "flux"
+of = "contact"
+[output.short]
+kind = "saturated"
+of = "contact"
+[output.kept]
+kind = "length"
+of = "contact"
+[output.held]
+kind = "force"
+of = "right"
+[output.all]
+kind = "force"
+[output.skin]
+kind = "mean"
+of = "contact"
+"#;
+
+/// The gap is given in place of what it was; both ends of the flux below change.
+fn with_supply() -> String {
+    let fixed = HEATER.replace("6 - 3*x^2", "0").replace("value = \"2 - x/4\"", "value = \"2\"");
+    fixed.replace(
+        "field = \"gap\"\npattern = \"1\"",
+        "field = \"limit\"\npattern = \"3\"\ndefault = 1.0",
+    )
+}
+
+/// Inputs, among them some for each state alone, and back again.
+const STEPS: [[f64; 3]; 7] = [
+    [-3.0, 0.0, 0.5],
+    [-40.0, 0.0, 0.5],
+    [4.0, 6.0, 0.5],
+    [-3.0, 0.0, 3.0],
+    [2.0, 0.5, 0.2],
+    [-12.0, 2.0, 0.1],
+    [-3.0, 0.0, 0.5],
+];
+
+/// What is expected of each tick.
+struct Expected<'e> {
+    work: Work,
+    is_exact: bool,
+    outputs: Tolerance,
+    bound: Tolerance,
+    model: &'e CondensedModel,
+}
+
+fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]> {
+    let baked = Baked::<R>::new(expected.model, expected.work, true).expect("in range");
+    assert!(baked.is_limited() && baked.without_bound().is_none());
+    let mut controller = Controller::new(&baked);
+    let mut seen = [false; 3];
+    for values in STEPS {
+        let narrowed: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
+        let (found, report) = controller.tick(&narrowed).expect("a tick");
+        let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
+        for x in &x {
+            seen[usize::from(*x < 0.0) + 2 * usize::from(*x > 0.0)] = true;
+        }
+        let p: Vec<f64> = std::iter::once(1.0).chain(narrowed.iter().map(|p| p.wide())).collect();
+        let bound = expected.model.bound(&p, &x).expect("a bound");
+        let certified = report.verdict.certificate().expect("a bound").total.wide();
+        expected.bound.check_relative(format_args!("{values:?}"), certified, bound);
+        let bound_of_u = expected.model.bound_of_u(&p, &x).expect("a bound");
+        let of_u = report.verdict.certificate().expect("a bound").of_u.wide();
+        expected.bound.check_relative(format_args!("of u {values:?}"), of_u, bound_of_u);
+        if !expected.is_exact {
+            continue;
+        }
+        assert_eq!(report.ended, Ended::Exact);
+        let now = problem.with_inputs(&values)?;
+        let options = Options { solver: SolverKind::Direct, ..Options::default() };
+        let direct = outputs(&now, &solve(&now, &options)?)?;
+        for (output, found) in now.scene.outputs.iter().zip(&found) {
+            let name = &output.name.value;
+            let value = direct[name].expect("a value");
+            let size = value.abs().max(2.0);
+            let what = format!("{name} {values:?}");
+            expected.outputs.check_over(what, found.wide() - value, size);
+        }
+    }
+    Ok(seen)
+}
+
+const EXACT: Work = Work { pivots: Some(400), sweeps: 40 };
+
+#[test]
+fn exact_ticks_are_those_of_the_mesh() -> Result<()> {
+    for text in [HEATER.to_owned(), with_supply()] {
+        for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+            let (_, problem) = on_grid(&text, grid(6, cells))?;
+            let model = &condense(&problem)?;
+            let expected =
+                |outputs, bound| Expected { work: EXACT, is_exact: true, outputs, bound, model };
+            assert_eq!(ticks::<f64>(&problem, &expected(LIMITED_TICK, LIMITED_BOUND))?, [true; 3]);
+            let narrow = expected(LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW);
+            assert_eq!(ticks::<f32>(&problem, &narrow)?, [true; 3]);
+        }
+    }
+    Ok(())
+}
+
+/// Any answer has its bound, whatever ends the tick.
+#[test]
+fn ticks_that_are_cut_off_are_bounded_as_on_the_host() -> Result<()> {
+    for text in [HEATER.to_owned(), with_supply()] {
+        let (_, problem) = on_grid(&text, grid(6, Cells::Mixed))?;
+        let model = &condense(&problem)?;
+        for (pivots, sweeps) in
+            [(None, 0), (None, 1), (None, 3), (Some(1), 0), (Some(2), 1), (Some(5), 2)]
+        {
+            let work = Work { pivots, sweeps };
+            let expected =
+                |outputs, bound| Expected { work, is_exact: false, outputs, bound, model };
+            ticks::<f64>(&problem, &expected(LIMITED_TICK, LIMITED_BOUND))?;
+            ticks::<f32>(&problem, &expected(LIMITED_TICK_NARROW, LIMITED_BOUND_NARROW))?;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_limit_below_the_flux_is_refused_and_nothing_changes() -> Result<()> {
+    let (_, problem) = on_grid(&with_supply(), grid(4, Cells::Triangles))?;
+    let model = condense(&problem)?;
+    let baked = Baked::<f32>::new(&model, EXACT, true).expect("in range");
+    let mut controller = Controller::new(&baked);
+    let before = controller.tick(&[-3.0, 0.0, 0.5]).expect("a tick");
+    let x = controller.x().to_vec();
+    let refused = controller.tick(&[-3.0, 0.0, -1.0]).expect_err("−3 is below −1");
+    assert!(matches!(refused, signorini_kernel::Error::EmptyRange { .. }), "{refused}");
+    assert_eq!(controller.x(), x);
+    assert_eq!(controller.tick(&[-3.0, 0.0, 0.5]).expect("a tick").0, before.0);
+    Ok(())
+}

@@ -1,0 +1,35 @@
+//! By how much s lies above ψ along a contact edge, and below: what either side of the law is charged for.
+
+use crate::real::Real;
+
+/// s − ψ along a contact edge: e_a (1 − t) + e_b t + 4t(1 − t) d, with d = 0 where the ends have different signs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Excess<R> {
+    /// e_a and e_b.
+    pub ends: [R; 2],
+    /// d
+    pub bubble: R,
+}
+
+impl<R: Real> Excess<R> {
+    /// The mean where it is nowhere negative but for rounding: (e_a + e_b)/2 + 2d/3.
+    pub fn mean(&self) -> R {
+        let [a, b] = self.ends.map(|e| e.or_larger(R::ZERO));
+        let mean = R::HALF * (a + b) + R::TWO * R::THIRD * self.bubble;
+        mean.or_larger(R::ZERO)
+    }
+
+    /// The means of its positive and of its negative part; e_a²/(e_a − e_b)/2 of what crosses 0.
+    pub fn sides(&self) -> [R; 2] {
+        let ([a, b], zero) = (self.ends, R::ZERO);
+        if a < zero && b > zero || a > zero && b < zero {
+            let (a, b) = (a.magnitude(), b.magnitude());
+            let part = |e: R| R::HALF * e * (e / (a + b));
+            let parts = [part(a), part(b)];
+            return if self.ends[0] > zero { parts } else { [parts[1], parts[0]] };
+        }
+        let is_below = a + b < zero || a + b == zero && self.bubble < zero;
+        let flipped = Self { ends: [-a, -b], bubble: -self.bubble };
+        if is_below { [zero, flipped.mean()] } else { [self.mean(), zero] }
+    }
+}

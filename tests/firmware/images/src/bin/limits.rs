@@ -1,0 +1,79 @@
+//! What exchanges in three phases cost, where fluxes have limits, for 8, 16, 32 and 64 contact edges.
+//!
+//! ```text
+//!   nothing open ─► all open                    as without limits, with the ranges looked at
+//!   nothing open ─► all at their limits         each by a way of its own, with an exchange
+//!   all at their limits, nothing changes
+//! ```
+//! In f32 alone: soft floats take more or less with their operands.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use signorini_firmware::board;
+use signorini_firmware::board::clock::Clock;
+use signorini_firmware::meter::Meter;
+use signorini_firmware::plate::fill;
+use signorini_firmware::stages::cut;
+use signorini_kernel::Error;
+use signorini_kernel::flux_range::Spans;
+use signorini_kernel::solve::dense::blocks::{self, Blocks, SIDE};
+use signorini_kernel::solve::dense::ranges::Given;
+use signorini_kernel::solve::dense::rule::Phases;
+use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
+use signorini_kernel::solve::dense::{Iterate, pivoting};
+
+const MOST: usize = 64;
+const BLOCKS: usize = blocks::count(MOST);
+
+#[entry]
+fn main() -> ! {
+    let Some(clock) = Clock::start() else { board::end(false) };
+    board::run(|journal| {
+        let mut meter = Meter::new(clock, journal);
+        let counted = stages(meter.kind("f32 limited, n = 8"), 8)
+            .and_then(|()| stages(meter.kind("f32 limited, n = 16"), 16))
+            .and_then(|()| stages(meter.kind("f32 limited, n = 32"), 32))
+            .and_then(|()| stages(meter.kind("f32 limited, n = 64"), 64));
+        if counted.is_err() {
+            board::end(false);
+        }
+    })
+}
+
+#[inline(never)]
+fn stages(meter: &mut Meter, n: usize) -> Result<(), Error> {
+    let mut own = [[[0.0_f32; SIDE]; SIDE]; BLOCKS];
+    let own = cut(&mut own, blocks::count(n))?;
+    fill(own);
+    let matrix = Blocks::new(&*own, n)?;
+    let (mut room, mut exchanged) = ([[[0.0; SIDE]; SIDE]; BLOCKS], [false; MOST]);
+    let mut numbers = [[0.0; MOST]; 6];
+    let [x, residual, scratch, column, next, load] = &mut numbers;
+    let (room, exchanged) = (cut(&mut room, blocks::count(n))?, cut(&mut exchanged, n)?);
+    let mut tableau = Tableau::new(n, room, exchanged, [cut(column, n)?, cut(next, n)?])?;
+    let (x, residual, scratch, load) =
+        (cut(x, n)?, cut(residual, n)?, cut(scratch, n)?, cut(load, n)?);
+    let (mut open, spans) = ([false; MOST], [1.0; MOST]);
+    let (open, spans) = (cut(&mut open, n)?, Spans::new(spans.get(..n).unwrap_or_default())?);
+    let start = InitialTableau::untouched(&matrix);
+    let mut solve = |load: &[f32], anew: bool| {
+        if anew {
+            tableau.reset(&start)?;
+        }
+        let iterate = Iterate {
+            x: &mut *x,
+            residual: &mut *residual,
+            scratch: &mut *scratch,
+            open: &mut *open,
+        };
+        let given = Given::between(load, spans, &[]);
+        let rule = &mut Phases::default();
+        pivoting::find(&matrix, given, &mut tableau, &start, rule, |_| true, iterate).map(|_| ())
+    };
+    load.fill(1.0);
+    meter.count("three phases, all edges come in", "n²", n * n, || solve(load, true))?;
+    load.fill(-9.0);
+    meter.count("three phases, all to their limits", "n²", n * n, || solve(load, true))?;
+    meter.count("three phases, all stay there", "n²", n * n, || solve(load, false))
+}
