@@ -43,6 +43,9 @@ pub struct Ranges {
     pub always_open: usize,
     /// Those that touch for all inputs.
     pub always_touching: usize,
+    /// Those whose flux is at its limit for all inputs.
+    #[serde(default)]
+    pub always_saturated: usize,
     /// The others.
     pub may_change: usize,
     /// No exact solution has a larger error bound; none where no such limit is proved near what inputs reach.

@@ -178,12 +178,24 @@ impl Firmware {
                 "  found from {starts} starts: {instructions} instructions, {exchanges} exchanges at most"
             );
         }
-        if let Some(Ranges { contact, always_open, always_touching, may_change, .. }) = self.ranges
+        if let Some(Ranges {
+            contact,
+            always_open,
+            always_touching,
+            always_saturated,
+            may_change,
+            ..
+        }) = self.ranges
         {
+            // Scenes without limits say nothing of them.
+            let at_limit = match always_saturated {
+                0 => String::new(),
+                count => format!("{count} always at their limit, "),
+            };
             let _ = writeln!(
                 text,
                 "  contact edges: {contact}; {always_open} always open, {always_touching} always touching, \
-                 {may_change} may change"
+                 {at_limit}{may_change} may change"
             );
         }
         for name in &self.inputs_without_range {

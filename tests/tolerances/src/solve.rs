@@ -95,6 +95,10 @@ table! {
         "quadrature of the norms where contact ends within a cell";
     SAME_LIMITED: "condensed contact with limits against another statement of it", 1e-11,
         "two exact solves of one problem";
+    REDUCED_LIMITED: "openings and outputs with limits without edges that never change sides against those with all", 1e-12,
+        "two exact solves of one problem";
+    REDUCED_LIMITED_BOUND: "how far the bound of such a model is below that with all edges, relative", 1e-10,
+        "rounding of the elimination";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";
 }

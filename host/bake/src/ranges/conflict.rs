@@ -11,6 +11,10 @@ pub fn conflict(origin: &Origin) -> Option<String> {
     let whole = &origin.whole;
     let form = whole.certificate.as_ref().ok()?;
     let below = |corner: &Corner| {
+        // With a limit the flux may be at it, and u below the gap.
+        if whole.end_columns(corner.edge)[1][0].is_finite() {
+            return None;
+        }
         let terms = || corner.excess.iter().zip(&whole.ranges).filter(|(e, _)| **e != 0.0);
         let least: f64 = terms().map(|(e, [lo, hi])| (e * lo).min(e * hi)).sum();
         let size: f64 = terms().map(|(e, [lo, hi])| (e * lo).abs().max((e * hi).abs())).sum();

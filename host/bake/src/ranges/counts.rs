@@ -16,6 +16,7 @@ pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {
         contact: sides.of.len(),
         always_open: sides.count(EdgeSide::Open),
         always_touching: sides.count(EdgeSide::Touching),
+        always_saturated: sides.count(EdgeSide::Saturated),
         may_change: sides.count(EdgeSide::MayChange),
         largest_error_bound: largest_bound(baked, origin).map(|bound| bound.proved),
     }
@@ -37,14 +38,23 @@ pub fn declared(scene: &Scene) -> bool {
 
 /// The same as constants of the module.
 pub fn constants(ranges: Ranges) -> String {
-    let Ranges { always_open, always_touching, may_change, largest_error_bound, .. } = ranges;
+    let Ranges {
+        always_open,
+        always_touching,
+        always_saturated,
+        may_change,
+        largest_error_bound,
+        ..
+    } = ranges;
     format!(
         "
 /// Contact edges of the scene that are open for all inputs within `Inputs::RANGES`.
 pub const ALWAYS_OPEN: usize = {always_open};
 /// Contact edges of the scene that touch for all inputs within `Inputs::RANGES`.
 pub const ALWAYS_TOUCHING: usize = {always_touching};
-/// Contact edges of the scene that may do either; all of them where nothing is proved. [`CONTACT`] has these, and others
+/// Contact edges of the scene whose flux is at its limit for all inputs within `Inputs::RANGES`.
+pub const ALWAYS_SATURATED: usize = {always_saturated};
+/// Contact edges of the scene that may change sides; all of them where nothing is proved. [`CONTACT`] has these, and others
 /// that the error bound needs.
 pub const MAY_CHANGE: usize = {may_change};
 /// No exact solution of this model has a larger error bound while inputs are within `Inputs::RANGES`; none where that is not

@@ -54,12 +54,17 @@ fn summary(origin: &Origin) -> String {
     if contact == 0 {
         return "nothing is in contact.".to_owned();
     }
-    let sides = [EdgeSide::Open, EdgeSide::Touching, EdgeSide::MayChange];
-    let [open, touching, may_change] = sides.map(|side| origin.sides.count(side));
+    let sides = [EdgeSide::Open, EdgeSide::Touching, EdgeSide::Saturated, EdgeSide::MayChange];
+    let [open, touching, saturated, may_change] = sides.map(|side| origin.sides.count(side));
+    // Scenes without limits say nothing of them.
+    let at_limit = match origin.whole.is_limited() {
+        true => format!("{saturated} are always at their limit, "),
+        false => String::new(),
+    };
     let kept = origin.model().contact;
     let beside = kept - may_change.min(kept);
     let of_edges = format!(
-        "of {contact} contact edges {open} are always open, {touching} always touch, {may_change} may change sides."
+        "of {contact} contact edges {open} are always open, {touching} always touch, {at_limit}{may_change} may change sides."
     );
     match (origin.has_all_edges, beside) {
         (true, _) => format!("{of_edges}\n--full-edges keeps all of them."),

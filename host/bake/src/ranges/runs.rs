@@ -56,6 +56,7 @@ fn word(side: EdgeSide) -> &'static str {
     match side {
         EdgeSide::Open => "open",
         EdgeSide::Touching => "touching",
+        EdgeSide::Saturated => "at its limit",
         EdgeSide::MayChange => "may change",
     }
 }

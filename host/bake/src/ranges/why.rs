@@ -29,8 +29,15 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
         "contact alone holds a part of the domain, and its matrix is singular"
     } else if Split::new(&whole.matrix, whole.contact).is_none() {
         "the contact edges' matrix without its positive entries off the diagonal is no M-matrix"
+    } else if whole.is_limited() && has_positive_entries(&whole.matrix, whole.contact) {
+        "fluxes have limits, and the contact edges' matrix has positive entries off the diagonal"
     } else {
         "the matrix of the edges that are always open is not positive definite to working precision"
     };
     Some(format!("Nothing is proved: {reason}."))
+}
+
+/// Whether an entry off the diagonal pushes.
+fn has_positive_entries(matrix: &[f64], n: usize) -> bool {
+    matrix.iter().enumerate().any(|(at, &entry)| at / n != at % n && entry > 0.0)
 }

@@ -36,6 +36,24 @@ impl CondensedModel {
         constant.iter().enumerate().map(of_edge).collect()
     }
 
+    /// Whether the load of an edge contains the upper end of its flux.
+    fn is_from_above(&self, at: usize) -> bool {
+        let constant = self.spans.first().and_then(|spans| spans.get(at)).copied();
+        let constant = constant.unwrap_or(f64::INFINITY);
+        constant == f64::NEG_INFINITY || constant < 0.0 && !self.is_varying()
+    }
+
+    /// The least and the greatest r̂ of an edge as m factors of p; an infinite one stands in the first, with 0 in the others.
+    pub fn end_columns(&self, at: usize) -> [Vec<f64>; 2] {
+        let zero = vec![0.0; self.inputs];
+        let mut span: Vec<f64> = self.spans.iter().map(|column| column[at]).collect();
+        if span.is_empty() {
+            span = zero.clone();
+            span[0] = f64::INFINITY;
+        }
+        if self.is_from_above(at) { [span, zero] } else { [zero, span] }
+    }
+
     /// The least and the greatest r̂ of each edge.
     pub fn ends_of(&self, p: &[f64]) -> Vec<[f64; 2]> {
         if !self.is_limited() {

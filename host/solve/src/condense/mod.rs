@@ -65,7 +65,7 @@ use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
-use spans::spans;
+use spans::{in_unknowns, spans};
 
 /// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
 ///
@@ -102,6 +102,7 @@ struct Pieces<'p> {
 impl<'p> Pieces<'p> {
     fn new(problem: &'p Problem) -> Result<Self> {
         let parts = Parts::examine(problem)?;
+        problem.check_limits_within_ranges()?;
         let mut patterns = patterns(problem)?;
         let spans = spans(problem, &mut patterns)?;
         let edges = along_boundary(problem);
@@ -143,7 +144,7 @@ impl<'p> Pieces<'p> {
             matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
             multiplier: opening.iter().map(|d| 1.0 / d).collect(),
             load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
-            spans: self.spans_of_unknowns(&opening),
+            spans: in_unknowns(&self.spans, edges, &opening, m),
             limits: Vec::new(),
             defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
             ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
@@ -163,20 +164,6 @@ impl<'p> Pieces<'p> {
         model.certificate = form;
         model.choose_unit();
         Ok((model, Recovery { fields, admissibles }))
-    }
-
-    /// In the order of the unknowns and the unit of r̂; columns beyond the patterns of the scene are 0.
-    fn spans_of_unknowns(&self, openings: &[f64]) -> Vec<Vec<f64>> {
-        if self.spans.is_empty() {
-            return Vec::new();
-        }
-        let silent = vec![0.0; self.edges.len()];
-        let of_edges = |spans: &Vec<f64>| {
-            self.edges.iter().zip(openings).map(|(&edge, opening)| opening * spans[edge]).collect()
-        };
-        let mut columns: Vec<Vec<f64>> = self.spans.iter().map(of_edges).collect();
-        columns.resize(self.patterns.len(), silent);
-        columns
     }
 
     fn form(

@@ -4,9 +4,8 @@
 //! a huge one. Where one does, either may be the smaller one: the base is the lower end then, wherever that is finite.
 
 use super::patterns::Pattern;
-use crate::problem::{Problem, Sum, spread};
-use signorini_scene::error::{Error, Result};
-use signorini_scene::scene::Field;
+use crate::problem::{Problem, spread};
+use signorini_scene::error::Result;
 
 /// The spans of every pattern, contact edge by contact edge: nothing where all are ∞. The bases become the contact fluxes of
 /// `patterns`.
@@ -23,37 +22,31 @@ pub(super) fn spans(problem: &Problem, patterns: &mut [Pattern]) -> Result<Vec<V
         let silent = others.iter().map(|_| vec![0.0; base.len()]);
         return Ok([base.clone()].into_iter().chain(silent).collect());
     }
-    let first = varying(constant, true)?;
-    let others = others.iter_mut().map(|pattern| varying(pattern, false));
-    [Ok(first)].into_iter().chain(others).collect()
+    let terms = [constant].into_iter().chain(others).enumerate();
+    let spans = terms.map(|(term, pattern)| {
+        let of = problem.range_term(term)?;
+        pattern.problem.loads.contact_flux = of.fluxes;
+        Ok(of.spans)
+    });
+    spans.collect()
 }
 
-/// Those of one pattern from the lower end on, or from the upper one where there is no other.
-fn varying(pattern: &mut Pattern, is_constant: bool) -> Result<Vec<f64>> {
-    let free = pattern.problem.topology.counts.free;
-    let mut spans = Vec::new();
-    for at in 0..pattern.problem.topology.counts.contact {
-        let [least, most] = ends(&pattern.problem, free + at)?;
-        let base = if least.is_finite() { least } else { most };
-        let span = if least.is_finite() { most - least } else { least };
-        pattern.problem.loads.contact_flux[at] = base;
-        spans.push(if is_constant || span.is_finite() { span } else { 0.0 });
+/// In the order of the unknowns and the unit of r̂, so many columns: those beyond the patterns of the scene are 0.
+pub(super) fn in_unknowns(
+    spans: &[Vec<f64>],
+    edges: &[usize],
+    openings: &[f64],
+    count: usize,
+) -> Vec<Vec<f64>> {
+    if spans.is_empty() {
+        return Vec::new();
     }
-    Ok(spans)
-}
-
-/// ∫lo and ∫hi over a contact edge.
-fn ends(problem: &Problem, edge: usize) -> Result<[f64; 2]> {
-    let end = |field| {
-        let Some(sum) = Sum::on_edge(problem, edge, field, problem.time) else {
-            return Ok::<_, Error>(0.0);
-        };
-        match sum.key().value.is_constant().filter(|end| end.is_infinite()) {
-            Some(infinite) => Ok(infinite),
-            None => Ok(problem.lengths[edge] * sum.mean(problem.segment(edge))?),
-        }
+    let of_edges = |spans: &Vec<f64>| {
+        edges.iter().zip(openings).map(|(&edge, opening)| opening * spans[edge]).collect()
     };
-    Ok([end(Field::Flux)?, end(Field::Limit)?])
+    let mut columns: Vec<Vec<f64>> = spans.iter().map(of_edges).collect();
+    columns.resize(count, vec![0.0; edges.len()]);
+    columns
 }
 
 /// Why a model whose ends inputs change has no bound: hi − lo varies along an edge.

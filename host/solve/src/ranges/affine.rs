@@ -27,6 +27,17 @@ impl AffineOutput {
         of_inputs + dot(self.of_contact.iter().copied(), x.iter().copied())
     }
 
+    /// Adds μ times an end of row `at` of Sx − Bp: 0 for the lower one, 1 for the upper one.
+    pub fn add_end(&mut self, model: &CondensedModel, at: usize, end: usize, weight: f64) {
+        if weight == 0.0 || !model.is_limited() {
+            return;
+        }
+        let factors = &model.end_columns(at)[end];
+        for (sum, &factor) in self.of_inputs.iter_mut().zip(factors).filter(|(_, f)| **f != 0.0) {
+            *sum = *sum + Interval::point(weight) * Interval::point(factor);
+        }
+    }
+
     /// Adds μ times row `at` of Sx − Bp.
     pub fn add(&mut self, model: &CondensedModel, at: usize, weight: f64) {
         if weight == 0.0 {

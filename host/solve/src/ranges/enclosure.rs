@@ -8,6 +8,7 @@
 
 use super::interval::Interval;
 use super::split::{Split, product};
+use crate::condense::CondensedModel;
 use crate::reference::ReferenceError;
 
 /// Steps at most: each is an enclosure, and later ones gain little.
@@ -18,12 +19,48 @@ const GAIN: f64 = 1e-3;
 /// lo ≤ x ≤ hi for every load of a box.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enclosure {
-    /// Not negative.
+    /// Not negative without limits.
     pub lo: Vec<f64>,
     /// Not below `lo`.
     pub hi: Vec<f64>,
-    /// At most Sx − b, for the edges of which it is positive.
+    /// At most Sx − b, for the edges of which it is positive; with limits at most the way from it to either end.
     pub reaction: Vec<f64>,
+}
+
+/// Intervals of the loads of both sides of every edge: b and the lower end of Sx − b, b and the upper one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndBox {
+    /// Where x > 0; −∞ where there is no such side.
+    pub least: LoadBox,
+    /// Where x < 0; ∞ where there is no such side.
+    pub greatest: LoadBox,
+}
+
+impl EndBox {
+    /// Those of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
+    pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Self {
+        let ends: Vec<_> = (0..model.contact).map(|at| model.end_columns(at)).collect();
+        let side = |side: usize, infinite: f64| {
+            let entry = |j: usize, at: usize| {
+                let end = ends[at][side][j];
+                if end.is_finite() { model.load[j][at] + end } else { 0.0 }
+            };
+            let column = |j: usize| (0..model.contact).map(|at| entry(j, at)).collect();
+            let columns: Vec<Vec<f64>> = (0..model.inputs).map(column).collect();
+            let mut loads = LoadBox::new(&columns, ranges, model.contact);
+            for (at, end) in ends.iter().enumerate() {
+                if end[side][0].is_infinite() {
+                    (loads.lo[at], loads.hi[at]) = (infinite, infinite);
+                }
+            }
+            loads
+        };
+        let mut of = Self { least: side(0, f64::NEG_INFINITY), greatest: side(1, f64::INFINITY) };
+        // Inputs with the upper end below the lower one have no solution.
+        of.greatest.hi = higher(&of.greatest.hi, &of.least.hi);
+        of.least.lo = lower(&of.least.lo, &of.greatest.lo);
+        of
+    }
 }
 
 /// An interval for each entry of the load.
@@ -84,6 +121,30 @@ impl Enclosure {
         Ok(now)
     }
 
+    /// The solutions of `model` for p in `ranges`, where fluxes have limits; nothing where P is not 0: x may have either sign
+    /// then, and there is no enclosure to begin with.
+    ///
+    /// # Errors
+    /// Loads that are not finite.
+    pub fn between(
+        split: &Split,
+        model: &CondensedModel,
+        ranges: &[[f64; 2]],
+    ) -> Result<Option<Self>, ReferenceError> {
+        if !split.has_all_signs() {
+            return Ok(None);
+        }
+        let EndBox { least, greatest } = EndBox::new(model, ranges);
+        let hi = split.above_ends(&least.hi, &greatest.hi)?;
+        let lo = split.below_ends(&least.lo, &greatest.lo)?;
+        let mut now = Self { reaction: vec![0.0; lo.len()], lo, hi };
+        // What overflows tells nothing of any edge.
+        if now.lo.iter().chain(&now.hi).all(|end| end.is_finite()) {
+            now.reaction = split.rooms(&now, &least, &greatest);
+        }
+        Ok(Some(now))
+    }
+
     /// Σ (hi − lo)
     fn width(&self) -> f64 {
         self.hi.iter().zip(&self.lo).map(|(hi, lo)| hi - lo).sum()
@@ -99,6 +160,11 @@ impl Enclosure {
     /// Whether x_at > 0 for all loads.
     pub(super) fn is_open(&self, at: usize) -> bool {
         self.lo[at] > 0.0
+    }
+
+    /// Whether x_at < 0 for all loads.
+    pub(super) fn is_saturated(&self, at: usize) -> bool {
+        self.hi[at] < 0.0
     }
 
     /// Whether x_at = 0 for all loads.
@@ -118,6 +184,25 @@ impl Split {
             sum - noise + push - b - 4.0 * f64::EPSILON * size
         });
         least.collect()
+    }
+}
+
+impl Split {
+    /// At most the way from (Sx − b)_i to either end, where x_i = 0 is taken.
+    fn rooms(&self, of: &Enclosure, least: &LoadBox, greatest: &LoadBox) -> Vec<f64> {
+        let rows = self.off_diagonal().enumerate();
+        let room = |(at, row): (usize, Vec<f64>)| {
+            let way = |x: &[f64], end: f64, sign: f64| {
+                let (sum, noise) = product(&row, x);
+                let size = sum.abs() + end.abs();
+                match end.is_infinite() {
+                    true => f64::INFINITY,
+                    false => sign * (sum - end) - noise - 4.0 * f64::EPSILON * size,
+                }
+            };
+            way(&of.hi, least.hi[at], 1.0).min(way(&of.lo, greatest.lo[at], -1.0))
+        };
+        rows.map(room).collect()
     }
 }
 

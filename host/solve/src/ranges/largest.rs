@@ -9,6 +9,7 @@
 //! with the largest bound is halved until it is hardly larger than one that some inputs reach, or there are too many.
 
 use super::affine::AffineOutput;
+use super::crossed::{crossed, eased};
 use super::interval::{Interval, between, dot};
 use super::reduced::Reduced;
 use super::sides::Sides;
@@ -139,22 +140,30 @@ fn corners(ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
 /// The largest bound of solutions with p and x within these; nothing where there may be none.
 fn most(model: &CondensedModel, p: &[Interval], x: &[Interval]) -> Option<f64> {
     let form = model.certificate.as_ref().ok()?;
-    let moved = form.vertices.iter().map(|vertex| correction(vertex, x));
+    let limits = model.is_limited();
+    let moved = form.vertices.iter().map(|vertex| match limits {
+        true => eased(vertex, x),
+        false => correction(vertex, x),
+    });
     let z: Vec<_> = p.iter().chain(x).copied().chain(moved).collect();
     let (mut square, mut moved) = (form.largest(&z).powi(2), 0.0);
     for corner in &form.corners {
         let excess = dot(corner.excess.iter().copied().map(Interval::point), p.iter().copied());
         let size: f64 = corner.excess.iter().zip(p).map(|(a, p)| a.abs() * p.size()).sum();
-        if excess.lo < -ROUNDING * size {
+        let ends = model.end_columns(corner.edge).map(|end| end[0]);
+        let [is_below, is_above] = [ends[1] == f64::INFINITY, ends[0] == f64::NEG_INFINITY];
+        if is_below && excess.lo < -ROUNDING * size || is_above && excess.hi > ROUNDING * size {
             return None;
         }
-        if x[corner.edge].lo <= 0.0 {
+        if !limits && x[corner.edge].lo <= 0.0 {
             let mut reaction = AffineOutput::none(model);
             reaction.add(model, corner.edge, 1.0);
             square += excess.hi.max(0.0) * reaction.within(p, x).hi.max(0.0);
         }
-        moved += (-excess.lo).max(0.0) * corner.energy;
+        moved += if is_below { (-excess.lo).max(0.0) * corner.energy } else { 0.0 };
+        moved += if is_above { excess.hi.max(0.0) * corner.energy } else { 0.0 };
     }
+    square += crossed(model, form, p, x);
     let oscillation: f64 = form.oscillation.iter().zip(p).map(|(osc, p)| osc * p.size()).sum();
     let oscillation = oscillation + moved;
     // A few roundings of sums of positive numbers.

@@ -1,7 +1,7 @@
 //! What a condensed model can do for all inputs of a box: where its solution lies, and the edges that may change sides.
 //!
 //! ```text
-//!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, may change
+//!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, at its limit, may change
 //!                                                                                    ├─► where every output lies
 //!                                                                                    └─► the largest error bound
 //! ```
@@ -9,11 +9,13 @@
 
 mod affine;
 mod columns;
+mod crossed;
 pub mod enclosure;
 pub mod interval;
 pub mod largest;
 pub mod outputs;
 pub mod reduced;
+mod reduced_form;
 pub mod reduction;
 pub mod sides;
 mod slopes;

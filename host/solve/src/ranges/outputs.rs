@@ -18,7 +18,7 @@ use faer::{Mat, Side};
 
 use super::affine::AffineOutput;
 use super::enclosure::Enclosure;
-use super::interval::{Interval, between};
+use super::interval::{Interval, between, dot};
 use super::sides::Sides;
 use super::slopes::Slopes;
 use crate::condense::{CondensedModel, Measure};
@@ -67,7 +67,10 @@ impl Known<'_> {
                 self.linear(of_inputs, of_contact, of_reaction).map(Some)
             }
             Measure::Length { always, of_contact } => Ok(Some(self.length(*always, of_contact))),
-            Measure::Saturated { .. } | Measure::Bound => Ok(None),
+            Measure::Saturated { always, of_contact } => {
+                Ok(Some(self.saturated(*always, of_contact)))
+            }
+            Measure::Bound => Ok(None),
         }
     }
 
@@ -83,9 +86,12 @@ impl Known<'_> {
         };
         let mut range = self.with_reactions(&own, of_reaction);
         let mut sum = own;
-        let touching =
-            of_reaction.iter().enumerate().filter(|(at, _)| !self.enclosure.is_open(*at));
-        touching.for_each(|(at, &weight)| sum.add(self.model, at, weight));
+        for (at, &weight) in of_reaction.iter().enumerate() {
+            match self.side(at) {
+                Some(side) => sum.add_end(self.model, at, side, weight),
+                None => sum.add(self.model, at, weight),
+            }
+        }
         let eliminated = self.eliminated(&sum);
         let x = self.enclosure.intervals();
         for form in [Some(sum), eliminated].iter().flatten() {
@@ -95,8 +101,13 @@ impl Known<'_> {
             }
         }
         range = range.widened(ELIMINATION * self.terms(of_inputs, of_contact, of_reaction));
-        // A force is a sum of reactions, none of which is negative.
-        if of_inputs.is_empty() && of_contact.is_empty() && of_reaction.iter().all(|&r| r >= 0.0) {
+        // A force is a sum of reactions, none of which is negative where the base is the lower end.
+        let is_pressed = |(at, &weight): (usize, &f64)| {
+            weight == 0.0
+                || weight > 0.0 && self.model.end_columns(at)[0].iter().all(|&end| end == 0.0)
+        };
+        let are_pressed = of_reaction.iter().enumerate().all(is_pressed);
+        if of_inputs.is_empty() && of_contact.is_empty() && are_pressed {
             range = range.not_negative();
         }
         Ok(range)
@@ -105,36 +116,44 @@ impl Known<'_> {
     /// The sizes of all that an output is summed from.
     fn terms(&self, of_inputs: &[f64], of_contact: &[f64], of_reaction: &[f64]) -> f64 {
         let p: Vec<f64> = self.inputs.iter().map(Interval::size).collect();
-        let x = &self.enclosure.hi;
+        let x: Vec<f64> = self.enclosure.intervals().iter().map(Interval::size).collect();
+        let x = &x;
         let sizes = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum::<f64>();
         let row = |(at, weight): (usize, &f64)| {
             let own = &self.model.matrix[at * self.model.contact..][..self.model.contact];
             let load: f64 = self.model.load.iter().zip(&p).map(|(b, p)| (b[at] * p).abs()).sum();
-            weight.abs() * (sizes(own, x) + load)
+            let ends = self.model.end_columns(at).concat();
+            let ends = ends.iter().filter(|end| end.is_finite()).zip(p.iter().cycle());
+            let ends: f64 = ends.map(|(end, p)| (end * p).abs()).sum();
+            weight.abs() * (sizes(own, x) + load + ends)
         };
         let reactions: f64 = of_reaction.iter().enumerate().map(row).sum();
         sizes(of_inputs, &p) + sizes(of_contact, x) + reactions
     }
 
-    /// Y_p p + Y_x x + Y_r r with r ≥ 0, and 0 where the edge is always open.
+    /// Y_p p + Y_x x + Y_r r with r within its ends, and at one of them where the edge is always on one side.
     fn with_reactions(&self, own: &AffineOutput, of_reaction: &[f64]) -> Interval {
         let x = self.enclosure.intervals();
         let reaction = |(at, &weight): (usize, &f64)| {
-            if weight == 0.0 || self.enclosure.is_open(at) {
+            if weight == 0.0 {
                 return Interval::ZERO;
             }
             let mut row = AffineOutput::none(self.model);
+            if let Some(side) = self.side(at) {
+                row.add_end(self.model, at, side, 1.0);
+                return Interval::point(weight) * row.within(&self.inputs, &x);
+            }
             row.add(self.model, at, 1.0);
-            Interval::point(weight) * row.within(&self.inputs, &x).not_negative()
+            Interval::point(weight) * self.admissible(at, row.within(&self.inputs, &x))
         };
         let reactions = of_reaction.iter().enumerate().map(reaction);
         reactions.fold(own.within(&self.inputs, &x), |sum, reaction| sum + reaction)
     }
 
-    /// The same with μ times the rows of O; nothing where S_OO is not positive definite to working precision.
+    /// The same with μ times the rows of O less their ends; nothing where S_OO is not positive definite to working precision.
     fn eliminated(&self, of: &AffineOutput) -> Option<AffineOutput> {
         let n = self.model.contact;
-        let open: Vec<usize> = (0..n).filter(|&at| self.enclosure.is_open(at)).collect();
+        let open: Vec<usize> = (0..n).filter(|&at| self.side(at).is_some()).collect();
         if open.is_empty() {
             return None;
         }
@@ -144,15 +163,48 @@ impl Known<'_> {
         let given = Mat::from_fn(open.len(), 1, |i, _| -middle(of.of_contact[open[i]]));
         let weights = own.llt(Side::Lower).ok()?.solve(given);
         let mut sum = of.clone();
-        open.iter().enumerate().for_each(|(i, &at)| sum.add(self.model, at, weights[(i, 0)]));
+        for (i, &at) in open.iter().enumerate() {
+            let weight = weights[(i, 0)];
+            sum.add(self.model, at, weight);
+            sum.add_end(self.model, at, self.side(at)?, -weight);
+        }
         Some(sum)
     }
 
     /// All that always touches, and any part of what may.
     fn length(&self, always: f64, of_contact: &[f64]) -> Interval {
         let length = |(at, &length): (usize, &f64)| match () {
-            () if self.enclosure.is_open(at) => Interval::ZERO,
+            () if self.side(at).is_some() => Interval::ZERO,
             () if self.enclosure.is_touching(at) => Interval::point(length),
+            () => Interval::between([0.0, length]),
+        };
+        let lengths = of_contact.iter().enumerate().map(length);
+        lengths.fold(Interval::point(always), |sum, length| sum + length).not_negative()
+    }
+}
+
+impl Known<'_> {
+    /// The end of r on an edge that is always on one side: 0 where it is open, 1 where it is at its limit.
+    fn side(&self, at: usize) -> Option<usize> {
+        let is_saturated = || self.enclosure.is_saturated(at);
+        if self.enclosure.is_open(at) { Some(0) } else { is_saturated().then_some(1) }
+    }
+
+    /// What of an interval of r lies between the ends that inputs may make.
+    fn admissible(&self, at: usize, r: Interval) -> Interval {
+        let [least, greatest] = self.model.end_columns(at).map(|end| match end[0].is_finite() {
+            true => dot(points(&end, end.len()), self.inputs.iter().copied()),
+            false => Interval::point(end[0]),
+        });
+        let lo = if least.lo == f64::NEG_INFINITY { r.lo } else { r.lo.max(least.lo) };
+        Interval { lo, hi: if greatest.hi == f64::INFINITY { r.hi } else { r.hi.min(greatest.hi) } }
+    }
+
+    /// All that always is at its limit, and any part of what may be.
+    fn saturated(&self, always: f64, of_contact: &[f64]) -> Interval {
+        let length = |(at, &length): (usize, &f64)| match () {
+            () if self.enclosure.is_saturated(at) => Interval::point(length),
+            () if self.enclosure.is_touching(at) || self.enclosure.lo[at] >= 0.0 => Interval::ZERO,
             () => Interval::between([0.0, length]),
         };
         let lengths = of_contact.iter().enumerate().map(length);

@@ -3,17 +3,16 @@
 //! With s the diagonal of S′, unknowns are x′ = x_U √s and r′ = r_U/√s, so that its matrix has a unit diagonal. All that
 //! the model has is affine in x_O and r_T, or a form in (p, x, d), and follows:
 //! ```text
-//!   outputs   Y_p p + Y_x x + Y_r r⁺     r_T ≥ 0 is part of the affine terms, r_O = 0 of none
+//!   outputs   Y_p p + Y_x x + Y_r τ      r_T is part of the affine terms, and so is the end of r_O, 0 where it has no limit
 //!   bound     F (p, x, d) = F M (p, x′, d′) = Q F′ (p, x′, d′)
 //! ```
 //! d = −e at a vertex beside a touching edge, 0 at one whose edges are open and whose e is never below 0, and d′ elsewhere.
 //! What F M loses to rounding, and what x_O leaves of r_O, is counted with what the columns of F had lost before.
 
-use super::columns::Columns;
 use super::interval::Interval;
 use super::reduction::Reduction;
-use super::sides::{Sides, VertexSide};
-use crate::condense::{CondensedModel, Corner, Form, Measure, Vertex};
+use super::sides::Sides;
+use crate::condense::{CondensedModel, Measure};
 
 /// A condensed model and where each number of the whole one has gone.
 #[derive(Debug, Clone)]
@@ -66,11 +65,11 @@ impl Reduced {
 }
 
 /// What a reduced model is built from.
-struct Build<'b> {
-    whole: &'b CondensedModel,
-    sides: &'b Sides,
-    maps: &'b Reduction,
-    scale: &'b [f64],
+pub(super) struct Build<'b> {
+    pub whole: &'b CondensedModel,
+    pub sides: &'b Sides,
+    pub maps: &'b Reduction,
+    pub scale: &'b [f64],
 }
 
 impl Build<'_> {
@@ -97,7 +96,7 @@ impl Build<'_> {
             opening: scaled(&|at, s| whole.opening[at] / s),
             multiplier: scaled(&|at, s| whole.multiplier[at] * s),
             load: (0..m).map(load).collect(),
-            spans: Vec::new(),
+            spans: self.spans(),
             limits: kept
                 .iter()
                 .zip(scale)
@@ -116,8 +115,25 @@ impl Build<'_> {
         }
     }
 
+    /// Those of the edges that are left; none where their fluxes all go up without an end.
+    fn spans(&self) -> Vec<Vec<f64>> {
+        if !self.is_limited() {
+            return Vec::new();
+        }
+        let of_kept = |column: &Vec<f64>| {
+            self.maps.kept.iter().zip(self.scale).map(|(&at, s)| column[at] / s).collect()
+        };
+        self.whole.spans.iter().map(of_kept).collect()
+    }
+
+    /// Whether any edge that is left has a limit.
+    pub fn is_limited(&self) -> bool {
+        let constant = self.whole.spans.first();
+        constant.is_some_and(|spans| self.maps.kept.iter().any(|&at| spans[at] != f64::INFINITY))
+    }
+
     /// Factors of (p, x′) from those of (p, x_U).
-    fn rescaled(&self, mut factors: Vec<f64>) -> Vec<f64> {
+    pub fn rescaled(&self, mut factors: Vec<f64>) -> Vec<f64> {
         let of_contact = factors.iter_mut().skip(self.whole.inputs);
         of_contact.zip(self.scale).for_each(|(factor, s)| *factor /= s);
         factors
@@ -134,6 +150,14 @@ impl Build<'_> {
         }
         for (&edge, row) in self.maps.touching.iter().zip(&self.maps.reactions) {
             add(of_reaction.get(edge).copied().unwrap_or(0.0), &row.factors);
+        }
+        for (at, &edge) in self.maps.open.iter().enumerate() {
+            let [least, greatest] = self.whole.end_columns(edge);
+            let end = if at < self.maps.above { least } else { greatest };
+            let weight = of_reaction.get(edge).copied().unwrap_or(0.0);
+            if weight != 0.0 {
+                add(weight, &end);
+            }
         }
         for (at, &edge) in self.maps.kept.iter().enumerate() {
             sum[self.whole.inputs + at] += of_contact.get(edge).copied().unwrap_or(0.0);
@@ -172,86 +196,11 @@ impl Build<'_> {
                 Measure::Length { always: always + touching, of_contact: kept(of_contact) }
             }
             Measure::Saturated { always, of_contact } => {
-                Measure::Saturated { always: *always, of_contact: kept(of_contact) }
+                let beyond = &self.maps.open[self.maps.above..];
+                let beyond: f64 = beyond.iter().map(|&at| of_contact[at]).sum();
+                Measure::Saturated { always: always + beyond, of_contact: kept(of_contact) }
             }
             Measure::Bound => Measure::Bound,
-        }
-    }
-
-    fn form(&self, form: &Form) -> Form {
-        let at = |vertex: &Vertex| self.sides.at(vertex, self.maps);
-        let seen: Vec<_> =
-            form.vertices.iter().filter(|vertex| at(vertex) == VertexSide::MayChange).collect();
-        let columns = self.columns(form, &seen);
-        let most = self.scale.iter().fold(0.0, |most: f64, s| most.max(*s));
-        Form {
-            factor: columns.of(&form.factor),
-            jump: form.jump.as_ref().map(|jump| columns.of(jump)),
-            lost: columns.lost(form, &self.rescaled(self.maps.hidden(self.whole.inputs))),
-            vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
-            ends: Vec::new(),
-            span_excess: 0.0,
-            stability: form.stability * most,
-            corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
-            oscillation: form.oscillation.clone(),
-            floating: Vec::new(),
-        }
-    }
-
-    /// M: what each column of F is multiplied by, in (p, x′, d′).
-    fn columns(&self, form: &Form, seen: &[&Vertex]) -> Columns {
-        let (m, n) = (self.whole.inputs, self.sides.of.len());
-        let width = m + self.maps.kept.len() + seen.len();
-        let wide = |mut row: Vec<f64>| {
-            row.resize(width, 0.0);
-            row
-        };
-        let unit = |at: usize| {
-            let mut row = vec![0.0; width];
-            row[at] = 1.0;
-            row
-        };
-        let inputs = (0..m).map(unit);
-        let openings = (0..n).map(|edge| wide(self.rescaled(self.maps.opening(edge, m))));
-        let mut next = m + self.maps.kept.len();
-        let corrections =
-            form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
-                VertexSide::Open => [vec![0.0; width], vec![0.0; width]],
-                VertexSide::Touching => {
-                    let e = self.maps.interpolated(vertex, m);
-                    let factors = self.rescaled(e.factors).into_iter().map(|factor| -factor);
-                    [wide(factors.collect()), wide(self.rescaled(e.noise))]
-                }
-                VertexSide::MayChange => {
-                    next += 1;
-                    [unit(next - 1), vec![0.0; width]]
-                }
-            });
-        let exact = inputs.chain(openings).map(|row| [row, vec![0.0; width]]);
-        let (rows, noise) = exact.chain(corrections).map(|[row, noise]| (row, noise)).unzip();
-        Columns { rows, noise, width }
-    }
-
-    /// e in x′; an edge that always touches has no share in it.
-    fn vertex(&self, vertex: &Vertex) -> Vertex {
-        let place = |edge: usize| self.maps.kept.iter().position(|&kept| kept == edge);
-        let first = vertex.beside.iter().find_map(|&edge| place(edge)).unwrap_or(0);
-        let (mut edges, mut weights) = ([first; 2], [0.0; 2]);
-        for (at, (edge, weight)) in vertex.edges.into_iter().zip(vertex.weights).enumerate() {
-            if let Some(place) = place(edge) {
-                (edges[at], weights[at]) = (place, weight / self.scale[place]);
-            }
-        }
-        Vertex { edges, weights, beside: vertex.beside.map(|edge| place(edge).unwrap_or(first)) }
-    }
-
-    fn corner(&self, corner: &Corner) -> Corner {
-        let edge = self.maps.kept.iter().position(|&kept| kept == corner.edge).unwrap_or(0);
-        let s = self.scale[edge];
-        Corner {
-            edge,
-            excess: corner.excess.iter().map(|e| e * s).collect(),
-            energy: corner.energy / s,
         }
     }
 }

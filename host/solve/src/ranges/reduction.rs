@@ -1,8 +1,9 @@
 //! The affine maps that take edges which never change sides out of a condensed model.
 //!
-//! With O always open, T always touching and U kept,
+//! With O always open or always at their upper end, T always touching and U kept, and the end of Sx − Bp that belongs to the
+//! side of an edge,
 //! ```text
-//!   x_T = 0,    x_O = S_OO⁻¹ (B_O p − S_OU x_U),
+//!   x_T = 0,    x_O = S_OO⁻¹ (B_O p + end_O − S_OU x_U),
 //!   r_U = S′x_U − B′p,    S′ = S_UU − S_UO S_OO⁻¹ S_OU,    B′ = B_U − S_UO S_OO⁻¹ B_O,
 //!   r_T = S_TU x_U + S_TO x_O − B_T p.
 //! ```
@@ -31,6 +32,8 @@ pub struct Partition {
     pub kept: Vec<usize>,
     /// O
     pub open: Vec<usize>,
+    /// Those at their upper end, x < 0, which are eliminated like O.
+    pub saturated: Vec<usize>,
     /// T
     pub touching: Vec<usize>,
 }
@@ -40,8 +43,10 @@ pub struct Partition {
 pub struct Reduction {
     /// U
     pub kept: Vec<usize>,
-    /// O
+    /// O, those at their upper end after the others.
     pub open: Vec<usize>,
+    /// How many of O are not at their upper end.
+    pub above: usize,
     /// T
     pub touching: Vec<usize>,
     /// x_O, exact by definition.
@@ -50,31 +55,58 @@ pub struct Reduction {
     pub reactions: Vec<Affine>,
     /// r_U
     pub residuals: Vec<Affine>,
-    /// r_O: zeros but for rounding.
+    /// r_O less the end of its side: zeros but for rounding.
     pub left: Vec<Affine>,
 }
 
 impl Reduction {
     /// The maps for these edges; nothing where S_OO is not positive definite.
     pub fn new(model: &CondensedModel, parts: Partition) -> Option<Self> {
-        let Partition { kept, open, touching } = parts;
-        let openings = openings(model, &kept, &open)?;
-        let rows = |edges: &[usize]| {
+        let Partition { kept, mut open, saturated, touching } = parts;
+        let above = open.len();
+        open.extend(saturated);
+        let end = |(at, &edge): (usize, &usize)| {
+            let [least, greatest] = model.end_columns(edge);
+            if at < above { least } else { greatest }
+        };
+        let ends: Vec<Vec<f64>> = open.iter().enumerate().map(end).collect();
+        let openings = openings(model, &kept, &open, &ends)?;
+        let rows = |edges: &[usize]| -> Vec<Affine> {
             edges.iter().map(|&edge| residual(model, &kept, &open, &openings, edge)).collect()
         };
-        let (reactions, residuals, left) = (rows(&touching), rows(&kept), rows(&open));
-        Some(Self { kept, open, touching, openings, reactions, residuals, left })
+        let (reactions, residuals, mut left) = (rows(&touching), rows(&kept), rows(&open));
+        for (row, end) in left.iter_mut().zip(&ends) {
+            row.subtract(end);
+        }
+        Some(Self { kept, open, above, touching, openings, reactions, residuals, left })
     }
 
-    /// The edges of O and T that some (p, x_U) within `intervals` might put on their other side.
-    pub fn unproved(&self, intervals: &[[f64; 2]]) -> Vec<usize> {
+    /// The edges of O and T that some (p, x_U) within `intervals` might put on another side.
+    pub fn unproved(&self, model: &CondensedModel, intervals: &[[f64; 2]]) -> Vec<usize> {
         // A NaN proves nothing.
-        let is_open = |row: &[f64]| least(row, &[], intervals) > 0.0;
-        let is_touching = |row: &Affine| least(&row.factors, &row.noise, intervals) >= 0.0;
-        let open = self.open.iter().zip(&self.openings);
-        let open = open.filter(|(_, row)| !is_open(row)).map(|(&edge, _)| edge);
+        let is_open = |at: usize, row: &[f64]| match at < self.above {
+            true => least(row, &[], intervals) > 0.0,
+            false => least(&negated(row), &[], intervals) > 0.0,
+        };
+        let open = self.open.iter().zip(&self.openings).enumerate();
+        let open = open.filter(|(at, (_, row))| !is_open(*at, row)).map(|(_, (&edge, _))| edge);
+        let is_touching = |edge: usize, row: &Affine| {
+            let [lower, upper] = model.end_columns(edge);
+            let is_within = |mut row: Affine, end: &[f64], is_upper: bool| {
+                if end[0].is_infinite() {
+                    return true;
+                }
+                row.subtract(end);
+                if is_upper {
+                    row.factors = negated(&row.factors);
+                }
+                least(&row.factors, &row.noise, intervals) >= 0.0
+            };
+            is_within(row.clone(), &lower, false) && is_within(row.clone(), &upper, true)
+        };
         let touching = self.touching.iter().zip(&self.reactions);
-        let touching = touching.filter(|(_, row)| !is_touching(row)).map(|(&edge, _)| edge);
+        let touching =
+            touching.filter(|(edge, row)| !is_touching(**edge, row)).map(|(&edge, _)| edge);
         open.chain(touching).collect()
     }
 
@@ -99,6 +131,20 @@ impl Reduction {
     }
 }
 
+impl Affine {
+    /// Less what the m factors of p in `end` make.
+    fn subtract(&mut self, end: &[f64]) {
+        for ((factor, noise), end) in self.factors.iter_mut().zip(&mut self.noise).zip(end) {
+            *noise += if *end == 0.0 { 0.0 } else { f64::EPSILON * (factor.abs() + end.abs()) };
+            *factor -= end;
+        }
+    }
+}
+
+fn negated(factors: &[f64]) -> Vec<f64> {
+    factors.iter().map(|factor| -factor).collect()
+}
+
 /// At most the least value of an affine function whose variables lie in `intervals`.
 pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f64 {
     let worst = |(a, [lo, hi]): (&f64, &[f64; 2])| if *a > 0.0 { *lo } else { *hi };
@@ -110,13 +156,18 @@ pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f
 }
 
 /// x_O by rows.
-fn openings(model: &CondensedModel, kept: &[usize], open: &[usize]) -> Option<Vec<Vec<f64>>> {
+fn openings(
+    model: &CondensedModel,
+    kept: &[usize],
+    open: &[usize],
+    ends: &[Vec<f64>],
+) -> Option<Vec<Vec<f64>>> {
     let (n, m) = (model.contact, model.inputs);
     let entry = |i: usize, j: usize| model.matrix[i * n + j];
     let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
     let columns = m + kept.len();
     let given = Mat::from_fn(open.len(), columns, |i, j| match j.checked_sub(m) {
-        None => model.load[j][open[i]],
+        None => model.load[j][open[i]] + ends[i][j],
         Some(j) => -entry(open[i], kept[j]),
     });
     let solved = own.llt(Side::Lower).ok()?.solve(given);

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   always open       lo_i > 0          eliminated exactly: their openings are affine in what is left
+//!   always at limit   hi_i < 0          eliminated in the same way
 //!   always touching   reaction_i > 0    dropped: x_i = 0
 //!   may change        all else          kept
 //! ```
@@ -36,7 +37,9 @@ pub enum EdgeSide {
     Open,
     /// u = ψ for every input.
     Touching,
-    /// Both may be, as far as is proved.
+    /// u < ψ for every input, with the flux at its limit.
+    Saturated,
+    /// More than one may be, as far as is proved.
     MayChange,
 }
 
@@ -60,8 +63,8 @@ pub struct Sides {
 pub(super) enum VertexSide {
     /// An edge beside it always touches: d = −e.
     Touching,
-    /// Its edges are always open, and e ≥ 0: d = 0.
-    Open,
+    /// Its edges are always open and e ≥ 0, or always at their limit and e ≤ 0: d = 0.
+    Free,
     /// d depends on what is kept.
     MayChange,
 }
@@ -77,34 +80,53 @@ impl Sides {
         let is_bounded = inputs.iter().flatten().all(|end| end.is_finite());
         let is_held = model.held_by_contact.is_empty();
         let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
-        let Some(split) = split else { return Ok(Self::unproved(n, inputs)) };
-        let enclosure = Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?;
-        let mut sides = Self::proposed(enclosure, inputs);
+        let Some(split) = split else { return Ok(Self::unproved(model, inputs)) };
+        let enclosure = match model.is_limited() {
+            false => Some(Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?),
+            true => Enclosure::between(&split, model, &inputs)?,
+        };
+        let Some(enclosure) = enclosure else { return Ok(Self::unproved(model, inputs)) };
+        let mut sides = Self::proposed(model, enclosure, inputs);
         while sides.demote(model) {}
         Ok(sides)
     }
 
-    /// Every edge of `n` may change.
-    fn unproved(n: usize, inputs: Vec<[f64; 2]>) -> Self {
-        let (of, limits) = (vec![EdgeSide::MayChange; n], vec![[0.0, f64::INFINITY]; n]);
-        Self { inputs, of, kept: vec![true; n], limits, enclosure: None }
+    /// Every edge may change.
+    fn unproved(model: &CondensedModel, inputs: Vec<[f64; 2]>) -> Self {
+        let n = model.contact;
+        let infinite = [f64::NEG_INFINITY, f64::INFINITY];
+        let limits = (0..n).map(|at| there_is(model, at, infinite)).collect();
+        Self {
+            inputs,
+            of: vec![EdgeSide::MayChange; n],
+            kept: vec![true; n],
+            limits,
+            enclosure: None,
+        }
     }
 
     /// As the enclosure says.
-    fn proposed(enclosure: Enclosure, inputs: Vec<[f64; 2]>) -> Self {
-        let largest = enclosure.hi.iter().fold(0.0, |most: f64, hi| most.max(*hi));
-        let side = |(&lo, &reaction): (&f64, &f64)| match (lo, reaction) {
-            _ if lo > NEGLIGIBLE * largest => EdgeSide::Open,
-            _ if reaction > 0.0 => EdgeSide::Touching,
-            _ => EdgeSide::MayChange,
+    fn proposed(model: &CondensedModel, enclosure: Enclosure, inputs: Vec<[f64; 2]>) -> Self {
+        let Enclosure { lo, hi, reaction } = &enclosure;
+        let sizes = lo.iter().chain(hi).map(|x| x.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let side = |at: usize| match () {
+            () if lo[at] > NEGLIGIBLE * largest => EdgeSide::Open,
+            () if hi[at] < -NEGLIGIBLE * largest => EdgeSide::Saturated,
+            () if reaction[at] > 0.0 => EdgeSide::Touching,
+            () => EdgeSide::MayChange,
         };
-        let of: Vec<_> = enclosure.lo.iter().zip(&enclosure.reaction).map(side).collect();
-        let limits = of.iter().zip(enclosure.lo.iter().zip(&enclosure.hi));
-        let limits = limits.map(|(&side, (lo, hi))| {
-            let least = if side == EdgeSide::Open { 0.5 * lo } else { 0.0 };
-            [least, hi + MARGIN * hi + ROUNDING * largest]
-        });
-        let limits = limits.collect();
+        let of: Vec<_> = (0..lo.len()).map(side).collect();
+        let beyond = |x: f64| x + MARGIN * x + ROUNDING * largest;
+        let limits = |at: usize| {
+            let [below, above] = [(-lo[at]).max(0.0), hi[at].max(0.0)].map(beyond);
+            match of[at] {
+                EdgeSide::Open => [0.5 * lo[at], above],
+                EdgeSide::Saturated => [-below, 0.5 * hi[at]],
+                _ => there_is(model, at, [-below, above]),
+            }
+        };
+        let limits = (0..lo.len()).map(limits).collect();
         let kept = of.iter().map(|&side| side == EdgeSide::MayChange).collect();
         Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
     }
@@ -113,8 +135,9 @@ impl Sides {
     pub fn partition(&self) -> Partition {
         let all = |is: &dyn Fn(usize) -> bool| (0..self.of.len()).filter(|&at| is(at)).collect();
         let dropped = |side| all(&|at| !self.kept[at] && self.of[at] == side);
-        let [open, touching] = [EdgeSide::Open, EdgeSide::Touching].map(dropped);
-        Partition { kept: all(&|at| self.kept[at]), open, touching }
+        let [open, saturated, touching] =
+            [EdgeSide::Open, EdgeSide::Saturated, EdgeSide::Touching].map(dropped);
+        Partition { kept: all(&|at| self.kept[at]), open, saturated, touching }
     }
 
     /// How many edges are on this side.
@@ -126,12 +149,17 @@ impl Sides {
     /// were any.
     fn demote(&mut self, model: &CondensedModel) -> bool {
         let Some(reduction) = Reduction::new(model, self.partition()) else {
-            *self = Self::unproved(model.contact, self.inputs.clone());
+            *self = Self::unproved(model, self.inputs.clone());
             return false;
         };
-        let unproved = reduction.unproved(&self.box_of(&reduction));
+        let unproved = reduction.unproved(model, &self.box_of(&reduction));
         for &at in &unproved {
-            (self.of[at], self.limits[at][0]) = (EdgeSide::MayChange, 0.0);
+            match self.of[at] {
+                EdgeSide::Open => self.limits[at][0] = 0.0,
+                EdgeSide::Saturated => self.limits[at][1] = 0.0,
+                EdgeSide::Touching | EdgeSide::MayChange => {}
+            }
+            self.of[at] = EdgeSide::MayChange;
         }
         let form = model.certificate.as_ref().ok();
         let needed = form.map_or_else(Vec::new, |form| self.needed(form, &reduction));
@@ -143,7 +171,12 @@ impl Sides {
     /// The box of (p, x_U). A scalar may round limits outwards, as it may ranges.
     fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
         let limits: Vec<_> = reduction.kept.iter().map(|&at| self.limits[at]).collect();
-        let of_kept = widened(&limits).into_iter().map(|[lo, hi]| [lo.max(0.0), hi]);
+        // No scalar rounds over 0.
+        let kept = |([lo, hi], limits): ([f64; 2], &[f64; 2])| {
+            let lo = if limits[0] >= 0.0 { lo.max(0.0) } else { lo };
+            [lo, if limits[1] <= 0.0 { hi.min(0.0) } else { hi }]
+        };
+        let of_kept = widened(&limits).into_iter().zip(&limits).map(kept);
         self.inputs.iter().copied().chain(of_kept).collect()
     }
 
@@ -153,7 +186,8 @@ impl Sides {
         for vertex in &form.vertices {
             if self.at(vertex, reduction) == VertexSide::MayChange {
                 let edges = vertex.edges.iter().chain(&vertex.beside);
-                needed.extend(edges.filter(|&&edge| self.of[edge] == EdgeSide::Open));
+                let is_eliminated = |side| matches!(side, EdgeSide::Open | EdgeSide::Saturated);
+                needed.extend(edges.filter(|&&edge| is_eliminated(self.of[edge])));
             }
         }
         needed.retain(|&edge| !self.kept[edge]);
@@ -162,15 +196,26 @@ impl Sides {
 
     /// What `vertex` adds to the bound.
     pub(super) fn at(&self, vertex: &Vertex, reduction: &Reduction) -> VertexSide {
-        let mut beside = vertex.beside.iter();
-        if beside.clone().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
+        let beside = || vertex.beside.iter();
+        if beside().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
             return VertexSide::Touching;
         }
         let e = reduction.interpolated(vertex, self.inputs.len());
-        let is_open = beside.all(|&at| self.of[at] == EdgeSide::Open)
-            && least(&e.factors, &e.noise, &self.box_of(reduction)) >= 0.0;
-        if is_open { VertexSide::Open } else { VertexSide::MayChange }
+        let are = |side: EdgeSide, sign: f64| {
+            let signed: Vec<f64> = e.factors.iter().map(|factor| sign * factor).collect();
+            beside().all(|&at| self.of[at] == side)
+                && least(&signed, &e.noise, &self.box_of(reduction)) >= 0.0
+        };
+        let is_free = are(EdgeSide::Open, 1.0) || are(EdgeSide::Saturated, -1.0);
+        if is_free { VertexSide::Free } else { VertexSide::MayChange }
     }
+}
+
+/// What of an interval of x is on sides that there are.
+fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
+    let [least, greatest] = model.end_columns(at);
+    let lo = if greatest[0] == f64::INFINITY { lo.max(0.0) } else { lo };
+    [lo, if least[0] == f64::NEG_INFINITY { hi.min(0.0) } else { hi }]
 }
 
 /// The box that any scalar rounds `ranges` into.

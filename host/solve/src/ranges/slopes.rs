@@ -1,7 +1,7 @@
 //! How fast outputs change with the inputs of the box, and what that says of where they lie.
 //!
 //! Where no off-diagonal entry of S is positive, x(p) is continuous and piecewise affine, on each piece with some set A
-//! of open edges, O ⊆ A ⊆ O ∪ U: those always open and those that may change. There
+//! of open edges and those at their limit, O ⊆ A ⊆ O ∪ U: those always on one side and those that may change. There
 //! ```text
 //!   ∂x_A/∂p_j = S_AA⁻¹ B_Aj = f(A, B_j⁺) − f(A, B_j⁻),      f(O, b) ≤ f(A, b) ≤ f(O ∪ U, b) for b ≥ 0,
 //! ```
@@ -45,14 +45,15 @@ impl<'s> Slopes<'s> {
         if n > 0 && !split.as_ref().is_some_and(Split::has_all_signs) {
             return Ok(None);
         }
-        let open = (0..n).filter(|&at| enclosure.is_open(at)).collect();
+        let is_inactive = |at: &usize| enclosure.is_open(*at) || enclosure.is_saturated(*at);
+        let open = (0..n).filter(is_inactive).collect();
         let not_touching = (0..n).filter(|&at| !enclosure.is_touching(at)).collect();
         let [Some(least), Some(most)] = [open, not_touching].map(|part| Part::new(model, part))
         else {
             return Ok(None);
         };
-        let slopes = |column: &Vec<f64>| slopes(&least, &most, column);
-        let of_contact = model.load.iter().map(slopes).collect::<Result<_, _>>()?;
+        let slopes = |j: usize| slopes(&least, &most, &column(model, enclosure, j));
+        let of_contact = (0..model.inputs).map(slopes).collect::<Result<_, _>>()?;
         Ok(Some(Self { model, inputs, split, of_contact }))
     }
 
@@ -79,8 +80,12 @@ impl<'s> Slopes<'s> {
         let x = match &self.split {
             None => Vec::new(),
             Some(split) => {
-                let loads = LoadBox::new(&self.model.load, &corner, self.model.contact);
-                Enclosure::new(split, &loads)?.intervals()
+                let between = match self.model.is_limited() {
+                    true => Enclosure::between(split, self.model, &corner)?,
+                    false => None,
+                };
+                let loads = || LoadBox::new(&self.model.load, &corner, self.model.contact);
+                between.map_or_else(|| Enclosure::new(split, &loads()), Ok)?.intervals()
             }
         };
         Ok(of.within(&between(&corner), &x))
@@ -104,11 +109,28 @@ fn rises(slope: &Interval) -> bool {
     slope.hi > -slope.lo
 }
 
+/// What an input adds to the load of each edge, which has the end of the edge's side in it.
+fn column(model: &CondensedModel, enclosure: &Enclosure, j: usize) -> Vec<Interval> {
+    let of_edge = |(at, &b): (usize, &f64)| {
+        let sides = [!enclosure.is_saturated(at), !enclosure.is_open(at)];
+        let ends = model.end_columns(at);
+        let there = sides.into_iter().zip(&ends).filter(|(may, end)| *may && end[0].is_finite());
+        let entries = there.map(|(_, end)| Interval::point(b) + Interval::point(end[j]));
+        let whole =
+            |all: Interval, of: Interval| Interval { lo: all.lo.min(of.lo), hi: all.hi.max(of.hi) };
+        entries.reduce(whole).unwrap_or(Interval::point(b))
+    };
+    model.load[j].iter().enumerate().map(of_edge).collect()
+}
+
 /// ∂x/∂p for a column of B.
-fn slopes(least: &Part, most: &Part, column: &[f64]) -> Result<Vec<Interval>, ReferenceError> {
+fn slopes(least: &Part, most: &Part, column: &[Interval]) -> Result<Vec<Interval>, ReferenceError> {
     let moved = |sign: f64| -> Result<Vec<Interval>, ReferenceError> {
-        let load: Vec<f64> = column.iter().map(|b| (sign * b).max(0.0)).collect();
-        let ends = least.below(&load)?.into_iter().zip(most.above(&load)?);
+        let [few, many] = [f64::min, f64::max].map(|of| {
+            let parts = column.iter().map(|b| of((sign * b.lo).max(0.0), (sign * b.hi).max(0.0)));
+            parts.collect::<Vec<f64>>()
+        });
+        let ends = least.below(&few)?.into_iter().zip(most.above(&many)?);
         Ok(ends.map(|(lo, hi)| Interval { lo, hi }).collect())
     };
     let [up, down] = [moved(1.0)?, moved(-1.0)?];

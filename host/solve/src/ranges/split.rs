@@ -6,7 +6,12 @@
 //!   x ≥ 0, Nx ≥ b                               lies above it,
 //!   x ≥ 0, (Nx)_i ≤ b_i wherever x_i > 0        lies below it.
 //! ```
-//! So whatever solves the problem nearly is moved along w until it is a bound, rounding included.
+//! So whatever solves the problem nearly is moved along w until it is a bound, rounding included. Where Nx has two ends, as in
+//! [`Split::above_ends`], the solution grows with both, and
+//! ```text
+//!   (Nx)_i ≥ least_i, or greatest_i where x_i < 0       lies above it,
+//!   (Nx)_i ≤ greatest_i, or least_i where x_i > 0       lies below it.
+//! ```
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
@@ -72,12 +77,21 @@ impl Split {
     /// # Errors
     /// A load that is not finite.
     pub fn above(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        let x = self.solve(load)?;
-        let missing = |((row, b), _): ((&[f64], &f64), &f64)| {
-            let (sum, noise) = product(row, &x);
-            b - sum + noise + 2.0 * f64::EPSILON * b.abs()
+        self.above_ends(load, &vec![f64::INFINITY; load.len()])
+    }
+
+    /// The same where Nx is `least` with x > 0, `greatest` with x < 0, and between them with x = 0; either may be infinite.
+    ///
+    /// # Errors
+    /// As for [`Split::above`].
+    pub fn above_ends(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        let x = self.solve(least, greatest)?;
+        let wrong = |at: usize| {
+            let (sum, noise) = product(self.row(at), &x);
+            let b = if x[at] < 0.0 { greatest[at] } else { least[at] };
+            if b.is_infinite() { 0.0 } else { b - sum + noise + 2.0 * f64::EPSILON * b.abs() }
         };
-        Ok(self.moved(&x, load, missing, 1.0))
+        Ok(self.moved(&x, [least, greatest], wrong, 1.0))
     }
 
     /// At most the solution of the contact problem (N, `load`), entry by entry; not negative.
@@ -85,43 +99,68 @@ impl Split {
     /// # Errors
     /// A load that is not finite.
     pub fn below(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
-        let x = self.solve(load)?;
-        let surplus = |((row, b), &own): ((&[f64], &f64), &f64)| {
-            let (sum, noise) = product(row, &x);
-            if own > 0.0 { sum - b + noise + 2.0 * f64::EPSILON * b.abs() } else { 0.0 }
+        self.below_ends(load, &vec![f64::INFINITY; load.len()])
+    }
+
+    /// The same with two ends, as for [`Split::above_ends`].
+    ///
+    /// # Errors
+    /// As for [`Split::above`].
+    pub fn below_ends(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+        let x = self.solve(least, greatest)?;
+        let wrong = |at: usize| {
+            let (sum, noise) = product(self.row(at), &x);
+            let b = if x[at] > 0.0 { least[at] } else { greatest[at] };
+            if b.is_infinite() { 0.0 } else { sum - b + noise + 2.0 * f64::EPSILON * b.abs() }
         };
-        Ok(self.moved(&x, load, surplus, -1.0))
+        Ok(self.moved(&x, [least, greatest], wrong, -1.0))
     }
 
-    fn solve(&self, load: &[f64]) -> Result<Vec<f64>, ReferenceError> {
+    fn row(&self, at: usize) -> &[f64] {
+        &self.negative[at * self.n..][..self.n]
+    }
+
+    fn solve(&self, least: &[f64], greatest: &[f64]) -> Result<Vec<f64>, ReferenceError> {
         let matrix = MatRef::from_row_major_slice(&self.negative, self.n, self.n);
-        reference::minimise(matrix, &[], load)
+        let ends = || least.iter().zip(greatest);
+        let from_above = |(least, _): &(&f64, &f64)| **least == f64::NEG_INFINITY;
+        let load: Vec<f64> =
+            ends().map(|ends| if from_above(&ends) { *ends.1 } else { *ends.0 }).collect();
+        let span = |ends: (&f64, &f64)| match from_above(&ends) {
+            true => f64::NEG_INFINITY,
+            false => (ends.1 - ends.0).max(0.0),
+        };
+        let spans: Vec<f64> = ends().map(span).collect();
+        reference::minimise_between(matrix, &[], &load, &spans)
     }
 
-    /// x ± t w, where t is so large that no row is wrong any more; the step is rounded away from x. What overflows bounds
-    /// nothing: ∞ above, 0 below.
-    fn moved<'s>(
-        &'s self,
-        x: &'s [f64],
-        load: &'s [f64],
-        wrong: impl Fn(((&'s [f64], &'s f64), &'s f64)) -> f64,
+    /// x ± t w, where t is so large that no row is wrong any more, as far as there is that side of 0; the step is rounded away
+    /// from x. What overflows bounds nothing: ∞ above, −∞ below.
+    fn moved(
+        &self,
+        x: &[f64],
+        [least, greatest]: [&[f64]; 2],
+        wrong: impl Fn(usize) -> f64,
         sign: f64,
     ) -> Vec<f64> {
-        let rows = self.negative.chunks(self.n.max(1)).zip(load).zip(x);
+        let within = |at: usize, x: f64| {
+            let x = if greatest[at] == f64::INFINITY { x.max(0.0) } else { x };
+            if least[at] == f64::NEG_INFINITY { x.min(0.0) } else { x }
+        };
         // A NaN among them is not lost, as the larger of it and 0 would be 0.
-        let most = rows.map(wrong).fold(0.0, |most: f64, wrong| match wrong.is_nan() {
+        let most = (0..x.len()).map(wrong).fold(0.0, |most: f64, wrong| match wrong.is_nan() {
             true => f64::INFINITY,
             false => most.max(wrong),
         });
         let step = most / self.slope * (1.0 + 8.0 * f64::EPSILON);
         if !step.is_finite() {
-            return vec![if sign > 0.0 { f64::INFINITY } else { 0.0 }; self.n];
+            return (0..self.n).map(|at| within(at, sign * f64::INFINITY)).collect();
         }
-        let moved = |(&x, &w): (&f64, &f64)| {
-            let rounding = 2.0 * f64::EPSILON * (x + step * w);
-            (x + sign * (step * w + rounding)).max(0.0)
+        let moved = |(at, (&x, &w)): (usize, (&f64, &f64))| {
+            let rounding = 2.0 * f64::EPSILON * (x.abs() + step * w);
+            within(at, x + sign * (step * w + rounding))
         };
-        x.iter().zip(&self.direction).map(moved).collect()
+        x.iter().zip(&self.direction).enumerate().map(moved).collect()
     }
 }
 

@@ -128,6 +128,7 @@ impl Pair {
             let is_on_side = match side {
                 EdgeSide::Open => x > 0.0,
                 EdgeSide::Touching => x == 0.0,
+                EdgeSide::Saturated => x < 0.0,
                 EdgeSide::MayChange => true,
             };
             !is_on_side || x < *least || x > most + 1e-14 * size

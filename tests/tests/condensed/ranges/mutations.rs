@@ -21,10 +21,12 @@ enum Mutation {
 
 /// All wrong sides of an edge of these.
 fn mutations(sides: &Sides, at: usize) -> Vec<Mutation> {
-    use EdgeSide::{MayChange, Open, Touching};
+    use EdgeSide::{MayChange, Open, Saturated, Touching};
     let other = match sides.of[at] {
         Open => vec![Mutation::Side(Touching)],
         Touching => vec![Mutation::Side(Open)],
+        // No edge of these scenes has a limit.
+        Saturated => Vec::new(),
         MayChange => vec![Mutation::Side(Open), Mutation::Side(Touching)],
     };
     let is_for_bound = sides.kept[at] && sides.of[at] != MayChange;

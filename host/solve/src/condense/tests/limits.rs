@@ -1,17 +1,13 @@
-//! Contact whose flux has two ends, condensed: the answers, outputs and bounds of the full solver.
+//! Contact whose flux has two ends, condensed: the answers and outputs of the full solver.
 
-use std::path::Path;
-
-use signorini_tolerances::solve::{CONDENSED, GUARANTEE_LIMITED, IDENTITY_LIMITED, SAME_LIMITED};
+use signorini_tolerances::solve::{CONDENSED, SAME_LIMITED};
 
 use super::*;
-use crate::certify::exact::distance;
-use crate::condense::{CondensedModel, Form, Measure, Recovery, condense, modal, recoverable};
+use crate::condense::{CondensedModel, Measure, condense, modal};
 use crate::fixtures::distorted;
-use crate::fixtures::limited::{drawn, three_states, two_transitions, wall};
+use crate::fixtures::limited::{drawn, wall};
 use crate::reference::ReferenceError;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{Mesh, gmsh};
 
 /// Every input of the fixture, with a limit that lets a part of the edge fall below the gap.
 pub(super) fn limited(ends: &str, more: &str) -> String {
@@ -32,13 +28,13 @@ pub(super) const ENDS: [&str; 5] = [
 ];
 
 /// How many are open, touch, and are at their limit.
-fn states(x: &[f64]) -> [usize; 3] {
+pub(super) fn states(x: &[f64]) -> [usize; 3] {
     let count = |is: fn(f64) -> bool| x.iter().filter(|&&x| is(x)).count();
     [count(|x| x > 0.0), count(|x| x == 0.0), count(|x| x < 0.0)]
 }
 
 /// Openings, fluxes and outputs at some inputs of size `amount` around the defaults, and the states of all edges.
-fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<[usize; 3]> {
+pub(super) fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<[usize; 3]> {
     let model = condense(problem)?;
     let mut all = [0; 3];
     for round in 0..rounds {
@@ -49,7 +45,8 @@ fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<[usize; 3]> 
         let (full, solution, expected) = full_at(problem, &p)?;
         let x = model.solve(&p).expect("a solution");
         states(&x).into_iter().zip(&mut all).for_each(|(count, sum)| *sum += count);
-        let scale = solution.largest_flux();
+        // Where nothing flows, fluxes are the rounding of u.
+        let scale = solution.u.iter().fold(solution.largest_flux(), |most, u| most.max(u.abs()));
         let found = model.outputs(&p, &x);
         for ((found, expected), measure) in found.iter().zip(&expected).zip(&model.outputs) {
             if *measure != Measure::Bound {
@@ -72,7 +69,14 @@ fn compare(problem: &Problem, amount: f64, rounds: usize) -> Result<[usize; 3]> 
                 false => least,
             };
             let off = r * model.multiplier[at] - (solution.flux[edge] - base);
-            CONDENSED.check_over("flux", off, scale.max(base.abs()));
+            CONDENSED.check_over(
+                format_args!(
+                    "flux {of_contact} {x} {base} {:?}",
+                    full.loads.flux_range(of_contact)
+                ),
+                off,
+                scale.max(base.abs()),
+            );
         }
     }
     Ok(all)
@@ -96,7 +100,7 @@ fn every_input_and_range_on_all_cells() -> Result<()> {
             }
         }
     }
-    assert!(sums.iter().all(|&count| count > 100), "{sums:?}");
+    assert!(sums.iter().all(|&count| count > 60), "{sums:?}");
     Ok(())
 }
 
@@ -178,152 +182,18 @@ fn walls_heat_as_the_full_model_does() -> Result<()> {
     Ok(())
 }
 
-/// What the bound of (p, x) is about, and how far it is from the exact solution.
-struct Certified {
-    problem: Problem,
-    model: CondensedModel,
-    recovery: Recovery,
-}
-
-impl Certified {
-    fn new(text: &str, mesh: Mesh) -> Result<Self> {
-        let (_, problem) = on_grid(text, mesh)?;
-        let (model, recovery) = recoverable(&problem)?;
-        Ok(Self { problem, model, recovery })
-    }
-
-    /// The bound, the combined error, and the square root of what the exact solution says the gap is.
-    fn at(&self, x: &[f64]) -> Result<[f64; 3]> {
-        let p = &self.model.defaults;
-        let answer = self.recovery.admissible(&self.model, &self.problem, p, x);
-        let exact = self.problem.scene.exact.as_ref().expect("an exact solution");
-        let found = distance(exact, &self.problem, &answer.expect("s and τ").admissible())?;
-        let bound = self.model.bound(p, x).expect("a bound");
-        Ok([bound, found.combined, found.identity])
-    }
-
-    /// The solution and others, each on a side that there is.
-    fn trials(&self) -> Vec<(bool, Vec<f64>)> {
-        let x = self.model.solve(&self.model.defaults).expect("a solution");
-        let ends = self.model.ends_of(&self.model.defaults);
-        let allowed = |at: usize, x: f64| match ends[at] {
-            [_, f64::INFINITY] => x.max(0.0),
-            [f64::NEG_INFINITY, _] => x.min(0.0),
-            _ => x,
-        };
-        let moved = |amount: f64| {
-            let moved = |(at, x): (usize, &f64)| {
-                let wild = scatter(at + (1e3 * amount) as usize);
-                let other = if wild > 0.6 { 0.0 } else { x + amount * wild };
-                allowed(at, other)
-            };
-            (false, x.iter().enumerate().map(moved).collect())
-        };
-        let mut all: Vec<_> = [0.0, 1e-3, 0.03, 1.0].map(moved).into();
-        all.insert(0, (true, x));
-        all
-    }
-}
-
-/// At the solution the bound is the identity, and for any x it is above; all edges with one end infinite among them.
-#[test]
-fn the_bound_holds_for_any_openings() -> Result<()> {
-    let meshes =
-        || [grid(8, Cells::Triangles), grid(6, Cells::Quads), distorted(grid(6, Cells::Mixed))];
-    for (unit, is_smooth) in [(1.0, false), (1e-9, false), (0.0, true)] {
-        for mesh in meshes() {
-            let text = if is_smooth { three_states() } else { two_transitions(unit) };
-            let certified = Certified::new(&text, mesh)?;
-            let form = certified.model.certificate.as_ref().expect("a form");
-            assert!(is_smooth == (form.span_excess > 0.0), "{}", form.span_excess);
-            let oscillates = form.oscillation[0] > 0.0;
-            for (is_solution, x) in certified.trials() {
-                let [bound, combined, identity] = certified.at(&x)?;
-                println!(
-                    "{unit} {is_solution}: bound/combined {:.4} bound/identity {:.5}",
-                    bound / combined,
-                    bound / identity
-                );
-                GUARANTEE_LIMITED.check_at_most("combined", combined, bound);
-                GUARANTEE_LIMITED.check_at_most("identity", identity, bound);
-                if is_solution && !oscillates {
-                    IDENTITY_LIMITED.check_relative("identity", bound, identity);
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The catalogue's scenes, where sides of D meet contact above the gap and below it.
-#[test]
-fn the_bound_is_near_that_of_the_mesh() -> Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/limits");
-    for name in ["l-tri", "l-quad"] {
-        let scene = Scene::read(&folder.join(format!("{name}.toml")))?;
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
-        let (model, recovery) = recoverable(&problem)?;
-        compare(&problem, 0.0, 1)?;
-        let certified = Certified { problem, model, recovery };
-        let x = certified.model.solve(&[1.0]).expect("a solution");
-        let counts = states(&x);
-        assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
-        let form = certified.model.certificate.as_ref().expect("a form");
-        let excess: Vec<f64> = form.corners.iter().map(|corner| corner.excess[0]).collect();
-        assert!(excess.iter().any(|&e| e < 0.0) && excess.iter().any(|&e| e > 0.0), "{excess:?}");
-        let [bound, combined, identity] = certified.at(&x)?;
-        let (_, solution, _) = full_at(&certified.problem, &[1.0])?;
-        let of_mesh = solution.bound.expect("a bound").total;
-        println!(
-            "{name}: {counts:?} bound/mesh {:.4} bound/combined {:.4} bound/identity {:.5}",
-            bound / of_mesh,
-            bound / combined,
-            bound / identity
-        );
-        assert!(bound < 1.1 * of_mesh && bound >= combined && bound < 1.05 * combined);
-    }
-    Ok(())
-}
-
-/// u_D below the gap is an error where the limit is infinite, and has its price where it is not.
-#[test]
-fn a_dirichlet_value_below_the_gap() -> Result<()> {
-    let text = |limit: &str| {
-        format!(
-            "mesh = \"grid\"\n[material.default]\nconductivity = \"1\"\n[boundary.dirichlet]\nkind = \"dirichlet\"\n\
-             value = \"0.2*y\"\n[boundary.contact]\nkind = \"contact\"\ngap = \"0\"\nflux = \"-1\"\nlimit = \"{limit}\"\n\
-             [input.level]\nof = \"dirichlet\"\nfield = \"value\"\npattern = \"1\"\n"
-        )
-    };
-    for limit in ["0.5", "inf"] {
-        let (_, problem) = on_grid(&text(limit), grid(4, Cells::Triangles))?;
-        let model = condense(&problem)?;
-        for (level, is_bounded) in [(0.1, true), (-0.1, limit != "inf")] {
-            let p = [1.0, level];
-            let x = model.solve(&p).expect("a solution");
-            let bound = model.bound(&p, &x);
-            assert_eq!(bound.is_some(), is_bounded, "{limit} {level}");
-            if let Some(bound) = bound {
-                let (_, solution, _) = full_at(&problem, &p)?;
-                let of_mesh = solution.bound.expect("a bound").total;
-                println!("{limit} {level}: {}", bound / of_mesh);
-                assert!((0.3..1.1).contains(&(bound / of_mesh)), "{bound} {of_mesh}");
-            }
-        }
-    }
-    Ok(())
-}
-
 /// An infinite limit is none, and one that is far away is like it.
 #[test]
 fn without_an_end_it_is_the_model_without_limits() -> Result<()> {
+    // An input of the flux would move an end.
+    let all = ALL.replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
     let model = |ends: &str| -> Result<CondensedModel> {
-        condense(&on_grid(&ALL.replace("flux = \"-0.1*x^2\"", ends), grid(5, Cells::Mixed))?.1)
+        condense(&on_grid(&all.replace("flux = \"-0.1*x^2\"", ends), grid(5, Cells::Mixed))?.1)
     };
-    let without = condense(&on_grid(ALL, grid(5, Cells::Mixed))?.1)?;
+    let without = condense(&on_grid(&all, grid(5, Cells::Mixed))?.1)?;
     let infinite = model("flux = \"-0.1*x^2\"\nlimit = \"inf\"")?;
     assert_eq!(format!("{without:?}"), format!("{infinite:?}"));
-    let far = model("flux = \"-0.1*x^2\"\nlimit = \"1e9 - 0.1*x^2\"")?;
+    let far = model("flux = \"-0.1*x^2\"\nlimit = \"1e9\"")?;
     assert!(far.is_limited());
     for round in 0..4 {
         let moved = without.defaults.iter().enumerate();
@@ -392,7 +262,7 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
             let of_mesh = solution.bound.expect("a bound").total;
             let bound = model.bound(&p, &x).expect("a bound");
             println!("{heat}: {:?} {}", states(&x), bound / of_mesh);
-            assert!((0.5..1.1).contains(&(bound / of_mesh)), "{bound} {of_mesh}");
+            assert!((0.5..1.25).contains(&(bound / of_mesh)), "{bound} {of_mesh}");
             compare(&problem.with_inputs(&[heat])?, 0.0, 1)?;
         }
         // ∫f = 2 heat against −1.2 at sides and top, and −0.8 to 1.8 below.
@@ -404,26 +274,6 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
         }
     }
     assert!(sums.iter().all(|&count| count > 0), "{sums:?}");
-    Ok(())
-}
-
-/// Inputs of an end leave no bound where hi − lo varies along an edge, with the place.
-#[test]
-fn a_span_that_inputs_change_must_be_constant_along_edges() -> Result<()> {
-    let room = "[input.room]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1 + x\"\n";
-    for (ends, more, is_bounded) in [
-        ("flux = \"-0.1*x\"\nlimit = \"1 - 0.1*x\"", room.replace("1 + x", "1"), true),
-        ("flux = \"-0.1*x\"\nlimit = \"1\"", room.replace("1 + x", "1"), false),
-        ("flux = \"0\"\nlimit = \"1\"", room.to_owned(), false),
-    ] {
-        let text = limited(ends, &more)
-            .replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
-        let model = condense(&on_grid(&text, grid(3, Cells::Triangles))?.1)?;
-        match model.certificate {
-            Ok(Form { span_excess, .. }) => assert!(is_bounded && span_excess == 0.0, "{ends}"),
-            Err(reason) => assert!(!is_bounded && reason.contains("input.room"), "{reason}"),
-        }
-    }
     Ok(())
 }
 

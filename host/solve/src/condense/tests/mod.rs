@@ -2,6 +2,7 @@
 
 mod equality;
 mod limits;
+mod limits_bound;
 mod modes;
 mod rejected;
 

@@ -1,5 +1,6 @@
 //! Enclosures against solutions for loads drawn from the box.
 
+mod limits;
 mod rounding;
 mod sides;
 mod twice;

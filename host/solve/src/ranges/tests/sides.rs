@@ -150,6 +150,7 @@ fn rounding_of_an_elimination_is_counted() {
     let maps = Reduction {
         kept: vec![0, 1],
         open: vec![2],
+        above: 1,
         touching: Vec::new(),
         openings: vec![vec![0.0; 3]],
         reactions: Vec::new(),
