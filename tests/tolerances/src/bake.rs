@@ -59,7 +59,7 @@ table! {
         "ε = 1.2e-7 times such a condition";
     MODAL_BOUND: "bound of a tick by modes against the host's for its exact solution, relative", 1e-9,
         "rounding";
-    MODAL_BEST: "bound of a tick by modes against that of the model of one coefficient, relative", 3e-2,
+    MODAL_BEST: "bound of a tick by modes against that of the model of one coefficient, relative", 0.12,
         "s is the best one at a tenth of a range of 1 to 60";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";

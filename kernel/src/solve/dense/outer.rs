@@ -19,7 +19,7 @@ pub fn add_outer<R: Real>(
     same_length(Array::MatrixValues, blocks.len(), count(order))?;
     let length = padded(order).max(1);
     same_length(Array::Load, columns.len() % length, 0)?;
-    for (at, pair) in columns.chunks(2 * length).enumerate() {
+    for (at, pair) in columns.chunks((2 * length).max(1)).enumerate() {
         let (a, b) = pair.split_at_checked(length).unwrap_or_default();
         // The last of an odd number has no partner.
         let (b, of_b) = if b.is_empty() { (a, R::ZERO) } else { (b, -gain(2 * at + 1)) };
