@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::export::scenes;
+use crate::flight;
 use crate::replay;
 use crate::setup;
 use crate::snapshot::snapshot;
@@ -57,6 +58,7 @@ pub fn run(steps: &mut Steps) {
         Err(said) if said.contains("\nmisses 10000\n") => Ok(()),
         Err(said) => Err(format!("failed for another reason: {said}")),
     });
+    steps.check("RTIC example: a flight of the baked anti-icing slab", || flight::check(bless));
 }
 
 fn build_desk() -> Result<(), String> {

@@ -11,6 +11,7 @@ mod counted;
 mod cross;
 mod export;
 mod firmware;
+mod flight;
 mod fuzz;
 mod imports;
 mod mutants;

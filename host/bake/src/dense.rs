@@ -57,8 +57,10 @@ pub struct Price {
     pub exact: bool,
     /// Whether a flux has a limit.
     pub is_limited: bool,
-    /// Forms of the error bound: none, that of s, and that of u_h where it is another.
+    /// Forms of the error bound: none, that of s, that of u_h where it is another, and that of laws that change.
     pub forms: usize,
+    /// Modes of a transfer coefficient that changes.
+    pub modes: usize,
 }
 
 impl Price {
@@ -77,7 +79,8 @@ impl Price {
             (_, false) => at(self.line::<R>(costs, PRODUCT, |n| [n * n / 128.0, n])?, [after, n]),
         };
         let sweeps = f64::from(done.sweeps) * costs.of_dense::<R>("sweep", self.order)?;
-        Some(given + solve + sweeps + self.bound::<R>(costs, &done.visited[1])?)
+        let follows = if done.visited[1].follows { self.follows::<R>(costs)? } else { 0.0 };
+        Some(given + solve + sweeps + follows + self.bound::<R>(costs, &done.visited[1])?)
     }
 
     /// Instructions that no tick exceeds which needs so many exchanges at most: an upper bound as far as the record's counts
@@ -95,8 +98,20 @@ impl Price {
             }
         };
         let columns = self.columns;
-        let all = Visited { blocks: 0, entries: columns * (columns + 1) / 2, order: columns };
-        Some(MARGIN * (self.given() + solve + self.bound::<R>(costs, &all)?))
+        let entries = columns * (columns + 1) / 2;
+        let all = Visited { entries, order: columns, ..Visited::default() };
+        let follows = self.follows::<R>(costs)?;
+        Some(MARGIN * (self.given() + solve + follows + self.bound::<R>(costs, &all)?))
+    }
+
+    /// The matrix for another value of the coefficient: a mode takes half a pass over it, as an exchange does with what comes
+    /// on top; two more for the matrix that it is added to, and for signs.
+    pub fn follows<R: Scalar>(&self, costs: &Costs) -> Option<f64> {
+        if self.modes == 0 || self.order == 0 {
+            return Some(0.0);
+        }
+        let exchange = costs.of_dense::<R>("exchange", self.order)?;
+        Some((self.modes + 2) as f64 * self.each::<R>(costs).unwrap_or(exchange))
     }
 
     /// Instructions of load, outputs and report.
@@ -216,6 +231,7 @@ mod tests {
                 exact: true,
                 is_limited: false,
                 forms: 1,
+                modes: 0,
             };
             let worst = |exchanges| price.worst::<f32>(&costs, exchanges).unwrap();
             let [none, all] = [worst(0), worst(order as u32)];
@@ -231,6 +247,7 @@ mod tests {
             exact: false,
             is_limited: false,
             forms: 1,
+            modes: 0,
         };
         assert!(price.worst::<f32>(&costs, 0).unwrap() > A_TICK);
         assert_eq!(price.worst::<f64>(&costs, 0), None);
@@ -247,6 +264,7 @@ mod tests {
             exact: true,
             is_limited: false,
             forms: 0,
+            modes: 0,
         };
         let of = |pivots| price.of::<f32>(&costs, &Done { pivots, ..Done::default() }).unwrap();
         assert!(of(1) > of(0) && of(2) > of(1) && of(2) - of(1) < of(1) - of(0));

@@ -26,7 +26,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let (model, features, worst_case, source) = match &candidate.model {
         Model::Condensed(baked) => {
             let source = condensed::source(&ModuleApi::new(problem), baked);
-            ("condensed", Vec::new(), baked.worst_case(), source)
+            ("condensed", baked.kernel_features(), baked.worst_case(), source)
         }
         Model::Full(baked) => ("full", baked.features(), WorstCase::default(), full::source(baked)),
     };

@@ -46,7 +46,19 @@ pub fn explanation<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     text += &table(&rows);
     text += "\nBytes and instructions: what the general model spends on it on this mesh, RAM and flash \
              together; instructions a tick, of quads' columns a sweep (Cortex-M4F, counted parts).\n";
-    text + &ranges::section(problem, choice) + &worst::section(choice)
+    text + &following(choice) + &ranges::section(problem, choice) + &worst::section(choice)
+}
+
+/// What it costs that a transfer coefficient changes.
+fn following<R: Scalar>(choice: &Choice<R>) -> String {
+    let candidate = choice.candidate();
+    let Some((staying, changing)) = candidate.staying.zip(candidate.needs.instructions()) else {
+        return String::new();
+    };
+    format!(
+        "\nThe matrix follows a transfer coefficient: the median warm tick takes {changing:.0} instructions where that changes, \
+         {staying:.0} where it stays.\n"
+    )
 }
 
 /// What is to be said of the model chosen: ticks that probably take longer than declared, a bound that there cannot be.

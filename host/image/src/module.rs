@@ -53,6 +53,11 @@ impl Module {
         Self { quiet: true, ..self }
     }
 
+    /// The file that holds it.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
     /// Whether builds are out of sight.
     pub fn is_quiet(&self) -> bool {
         self.quiet

@@ -1,4 +1,4 @@
-//! Puts the memory map where the linker looks for it.
+//! Puts the memory map where the linker looks for it, and makes a baked scene, if there is one, a module.
 
 use std::path::PathBuf;
 use std::{env, fs, io};
@@ -16,5 +16,8 @@ fn main() -> io::Result<()> {
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     fs::write(out.join("memory.x"), MEMORY)?;
     println!("cargo:rustc-link-search={}", out.display());
-    Ok(())
+    println!("cargo:rerun-if-env-changed=SIGNORINI_SCENE");
+    let Some(scene) = env::var_os("SIGNORINI_SCENE").map(PathBuf::from) else { return Ok(()) };
+    println!("cargo:rerun-if-changed={}", scene.display());
+    fs::write(out.join("module.rs"), format!("#[path = {scene:?}]\nmod scene;\n"))
 }

@@ -53,6 +53,14 @@ table! {
         "ε = 1.2e-7 times the condition";
     TRANSFER_WARM: "outputs of warm solves with other coefficients against the direct solver", 1e-10,
         "the tolerance of a solve, 1e-13, times the condition";
+    MODAL: "outputs and u of a condensed tick by modes against the direct solver, over the largest", 1e-11,
+        "rounding times a condition of 1000";
+    MODAL_NARROW: "the same in f32", 3e-4,
+        "ε = 1.2e-7 times such a condition";
+    MODAL_BOUND: "bound of a tick by modes against the host's for its exact solution, relative", 1e-9,
+        "rounding";
+    MODAL_BEST: "bound of a tick by modes against that of the model of one coefficient, relative", 0.12,
+        "s is the best one at a tenth of a range of 1 to 60";
     GUARANTEE: "how far an error is above its bound, relative", 1e-3,
         "quadrature of the norms";
     IDENTITY: "bound of a condensed model against the identity, relative, smooth", 1e-5,

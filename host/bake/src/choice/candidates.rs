@@ -3,7 +3,7 @@
 use signorini_kernel::solve::dense::blocks::padded;
 
 use super::work::{allowed, entries, fixed, within};
-use super::{Candidate, Model};
+use super::{Candidate, Model, Origin};
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::dense::{Done, Price};
@@ -21,9 +21,10 @@ use signorini_solve::solve::unfit;
 /// out a bound that is asked for are no choice.
 pub(super) fn of_condensed<R: Scalar>(
     scene: &Scene,
-    condensate: &CondensedModel,
+    origin: &Origin,
     budget: &Budget,
 ) -> Result<Vec<Candidate<R>>> {
+    let condensate = origin.model();
     let setting = checked::<R>(scene)?;
     refuse_singular::<R>(scene, condensate)?;
     let has_bound = condensate.certificate.is_ok();
@@ -43,8 +44,7 @@ pub(super) fn of_condensed<R: Scalar>(
             _ => &[true, false],
         };
         for &exact in methods {
-            let mut candidate =
-                condensed_as(scene, condensate, budget, &setting, [exact, certified])?;
+            let mut candidate = condensed_as(scene, origin, budget, &setting, [exact, certified])?;
             candidate.lacks_bound = setting.certificate && !certified;
             if setting.certificate {
                 candidate.unbounded = condensate.certificate.as_ref().err().cloned();
@@ -53,7 +53,7 @@ pub(super) fn of_condensed<R: Scalar>(
         }
         // Sweeps come back from loads without a solution by small steps, where contact alone holds a part. Nor do they have
         // an end that is proved, where exchanges have.
-        if condensate.held_by_contact.is_empty() && !condensed::is_monotone::<R>(condensate) {
+        if condensate.held_by_contact.is_empty() && !pair.iter().any(Candidate::is_monotone) {
             pair.sort_by(|a, b| time(&a.needs).total_cmp(&time(&b.needs)));
         }
         all.extend(pair);
@@ -88,30 +88,43 @@ pub(super) fn time(needs: &Needs) -> f64 {
 
 fn condensed_as<R: Scalar>(
     scene: &Scene,
-    condensate: &CondensedModel,
+    origin: &Origin,
     budget: &Budget,
     setting: &Setting,
     [exact, certified]: [bool; 2],
 ) -> Result<Candidate<R>> {
+    let condensate = origin.model();
     let unfit = unfit::<R>(scene);
     let all = allowed(setting, condensate.contact, exact);
-    let baked = condensed::Baked::<R>::new(condensate, all, certified).map_err(unfit)?;
+    let baked = match &origin.modes {
+        Some(modes) => condensed::Baked::<R>::modal(modes, all, certified),
+        None => condensed::Baked::<R>::new(condensate, all, certified),
+    };
+    let baked = baked.map_err(unfit)?;
     let baked = baked.with_setting(setting);
     let costs = Costs::measured();
     let price = Price {
         order: padded(condensate.contact),
-        entries: entries(condensate),
+        entries: entries(condensate, baked.modes.as_ref()),
         vertices: baked.vertices(),
         columns: baked.columns(),
         exact,
         is_limited: baked.is_limited(),
         forms: baked.forms(),
+        modes: baked.modes.as_ref().map_or(0, |modes| modes.count),
     };
-    let spaces = condensate.defaults.iter().zip(&condensate.ranges).skip(1);
+    let spaces = condensate.defaults.iter().zip(&condensate.ranges).take(baked.inputs).skip(1);
     let spaces: Vec<_> = spaces.map(|(&default, &range)| InputSpace { default, range }).collect();
     let of_tick = |done: &Done| price.of::<R>(&costs, done);
     let (trial, instructions) = trial::of_condensed(&baked, &spaces, of_tick);
-    let fixed = fixed::<R>(&costs, condensate, exact, certified);
+    let staying = origin.modes.as_ref().and_then(|modes| {
+        let mut spaces = spaces.clone();
+        spaces[modes.input - 1].range = [spaces[modes.input - 1].default; 2];
+        trial::of_condensed(&baked, &spaces, of_tick).1[0]
+    });
+    let fixed = fixed::<R>(&costs, condensate, exact, certified)
+        .zip(price.follows::<R>(&costs))
+        .map(|(fixed, follows)| fixed + follows);
     let time = fixed.zip(budget.instructions()).filter(|_| setting.sweeps.is_none());
     let worst = baked.worst_exchanges().and_then(|most| price.worst::<R>(&costs, most));
     let is_late = |count: Option<f64>| {
@@ -131,13 +144,15 @@ fn condensed_as<R: Scalar>(
         (_, true) => "exact method",
         (_, false) => "sweeps alone",
     };
+    let modes = if baked.modes.is_some() { " by modes" } else { "" };
     let bound = if baked.without_bound().is_none() { "" } else { ", no error bound" };
     Ok(Candidate {
-        name: format!("condensed, {solver}{bound}"),
+        name: format!("condensed{modes}, {solver}{bound}"),
         shortfalls: budget.shortfalls(&needs),
         model: Model::Condensed(Box::new(baked)),
         needs,
         trial,
+        staying,
         too_long: worst.filter(|_| is_late(worst)),
         lacks_bound: false,
         unbounded: None,

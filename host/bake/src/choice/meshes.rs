@@ -56,6 +56,7 @@ fn candidate<R: Scalar>(problem: &Problem, budget: &Budget, baked: full::Baked<R
     Candidate {
         name: format!("full{solver}{bound}"),
         too_long: None,
+        staying: None,
         lacks_bound: false,
         // Where the bound is left out, nobody asks for it.
         unbounded: (baked.is_certified() && !baked.has_bound())

@@ -26,7 +26,7 @@ use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
+use signorini_solve::condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
 use signorini_solve::problem::{Approach, Lack, Problem, Property};
 use signorini_solve::ranges::reduced::Reduced;
 use signorini_solve::ranges::sides::Sides;
@@ -59,6 +59,8 @@ pub struct Candidate<R: Scalar> {
     pub needs: Needs,
     /// What its warm ticks do.
     pub trial: Trial,
+    /// Instructions of the median warm tick in which the transfer coefficient that an input changes stays what it was.
+    pub staying: Option<f64>,
     /// What of the device it goes beyond.
     pub shortfalls: Vec<Shortfall>,
     /// Instructions of the worst tick that is proved of the exact method, where `[target]` has no time for it.
@@ -73,6 +75,11 @@ impl<R: Scalar> Candidate<R> {
     /// Whether the device has room and time for it.
     pub fn fits(&self) -> bool {
         self.shortfalls.is_empty()
+    }
+
+    /// Whether its matrix is proved to be an M-matrix.
+    fn is_monotone(&self) -> bool {
+        matches!(&self.model, Model::Condensed(baked) if baked.is_monotone)
     }
 
     fn may_be_chosen(&self) -> bool {
@@ -130,22 +137,42 @@ pub struct Origin {
     pub reduced: Option<Reduced>,
     /// Whether it was asked for that none is taken out.
     pub has_all_edges: bool,
+    /// Where an input changes a transfer coefficient, the modes of that; `whole` is the model at its least value then.
+    pub modes: Option<ModalModel>,
 }
 
 impl Origin {
-    fn new(problem: &Problem, wanted: Wanted) -> Result<Self> {
-        let (whole, recovery) = recoverable(problem)?;
+    /// Shares of modes up to `negligible` are left out.
+    fn new(problem: &Problem, wanted: Wanted, negligible: f64) -> Result<Self> {
+        let (whole, recovery, modes) = match Approach::condensing(problem) {
+            Approach::Modes => {
+                let (modes, recovery) = modal(problem, negligible)?;
+                (modes.model.clone(), recovery, Some(modes))
+            }
+            _ => {
+                let (whole, recovery) = recoverable(problem)?;
+                (whole, recovery, None)
+            }
+        };
         let sides = Sides::new(&whole).map_err(|error| no_reference(&problem.scene, &error))?;
-        let reduced = match wanted.has_all_edges {
+        let reduced = match wanted.has_all_edges || modes.is_some() {
             true => None,
             false => Reduced::new(&whole, sides.clone()),
         };
-        Ok(Self { whole, recovery, sides, reduced, has_all_edges: wanted.has_all_edges })
+        Ok(Self { whole, recovery, sides, reduced, has_all_edges: wanted.has_all_edges, modes })
     }
 
     /// The model that is baked.
     pub fn model(&self) -> &CondensedModel {
         self.reduced.as_ref().map_or(&self.whole, |reduced| &reduced.model)
+    }
+
+    /// The inputs of the whole model with these x: those of the scene, the constant first, and amplitudes where there are modes.
+    pub fn inputs(&self, p: Vec<f64>, x: &[f64]) -> Vec<f64> {
+        match &self.modes {
+            Some(modes) => modes.amplitudes(p[modes.input], &p, x),
+            None => p,
+        }
     }
 
     /// x of the whole model, from that of the one that is baked.
@@ -162,7 +189,8 @@ impl Origin {
 /// # Errors
 /// What keeps a condensed model from existing; loads that leave no solution to enclose.
 pub fn reduced(problem: &Problem) -> Result<CondensedModel> {
-    Ok(Origin::new(problem, Wanted::default())?.model().clone())
+    Approach::Condensation.check(problem)?;
+    Ok(Origin::new(problem, Wanted::default(), negligible::<f64>())?.model().clone())
 }
 
 impl<R: Scalar> Choice<R> {
@@ -193,12 +221,19 @@ impl<R: Scalar> Choice<R> {
             excluded.push(format!("condensed: {why}"));
         } else if forced != Some(ModelKind::Full) {
             refuse_squares::<f64>(&problem.scene, &units)?;
-            let own = Origin::new(problem, wanted)?;
-            refuse_inputs::<R>(&problem.scene)?;
-            refuse_loads::<R>(&problem.scene, own.model())?;
-            match of_condensed(&problem.scene, own.model(), &budget) {
-                Ok(found) => (candidates, origin) = (found, Some(own)),
-                Err(error) if forced.is_some() => return Err(error),
+            // What modes refuse, a pattern of two signs say, the full model can treat.
+            let is_modal = Approach::condensing(problem) == Approach::Modes;
+            match Origin::new(problem, wanted, negligible::<R>()) {
+                Ok(own) => {
+                    refuse_inputs::<R>(&problem.scene)?;
+                    refuse_loads::<R>(&problem.scene, own.model())?;
+                    match of_condensed(&problem.scene, &own, &budget) {
+                        Ok(found) => (candidates, origin) = (found, Some(own)),
+                        Err(error) if forced.is_some() => return Err(error),
+                        Err(error) => excluded.push(format!("condensed: {error}")),
+                    }
+                }
+                Err(error) if forced.is_some() || !is_modal => return Err(error),
                 Err(error) => excluded.push(format!("condensed: {error}")),
             }
         }
@@ -261,12 +296,17 @@ impl<R: Scalar> Choice<R> {
     }
 }
 
+/// The share of a mode in the squares of answers that is nothing beside what a program in `R` rounds.
+fn negligible<R: Scalar>() -> f64 {
+    (8.0 * R::EPSILON.wide()).powi(2)
+}
+
 /// Why no condensed model is worked out where nobody asks for one, if so.
 fn unsuited(problem: &Problem, units: &Units) -> Result<Option<String>> {
     if let Err(error) = refuse_squares::<f64>(&problem.scene, units) {
         return Ok(Some(error.to_string()));
     }
-    let (counts, lack) = (problem.topology.counts, Approach::Condensation.lack(problem)?);
+    let (counts, lack) = (problem.topology.counts, Approach::condensing(problem).lack(problem)?);
     let is_large = |lack: &Lack| lack.property == Property::ManyContactEdges;
     if counts.contact > MOST_CONTACTS || lack.as_ref().is_some_and(is_large) {
         let (contact, edges) = (counts.contact, counts.edges());

@@ -2,7 +2,7 @@
 
 use signorini_kernel::solve::dense::blocks::padded;
 
-use crate::condensed::Work;
+use crate::condensed::{Modes, Work};
 use crate::costs::Costs;
 use crate::trial::Trial;
 use signorini_scene::setting::Setting;
@@ -31,14 +31,16 @@ pub(super) fn fixed<R: Scalar>(
         true => 2.0 * of("norm of the bound, half of x zero")?,
         false => 0.0,
     };
-    Some(AN_ENTRY * entries(condensate) as f64 + solve + bound)
+    Some(AN_ENTRY * entries::<R>(condensate, None) as f64 + solve + bound)
 }
 
-/// Entries of loads and outputs.
-pub(super) fn entries(condensate: &CondensedModel) -> usize {
+/// Entries of loads and outputs, and of what amplitudes of modes are made of: for the load, and once x is known.
+pub(super) fn entries<R>(condensate: &CondensedModel, modes: Option<&Modes<R>>) -> usize {
     let CondensedModel { contact, inputs, outputs, .. } = condensate;
     let n = padded(*contact);
-    n * inputs + outputs.len() * (n + inputs)
+    // The largest amplitudes, with which outputs are refused, take another column.
+    let of_modes = modes.map_or(0, |modes| modes.count * 2 * (n + inputs - modes.count));
+    n * inputs + outputs.len() * (n + inputs) + of_modes
 }
 
 /// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number.

@@ -9,6 +9,7 @@ use signorini_kernel::solve::dense::rule::{Phases, Rule as _};
 use signorini_kernel::{Error, error::Array};
 
 use super::bound::Bound;
+use super::modes::{Modes, Scaled};
 use super::output::Output;
 use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
@@ -16,7 +17,7 @@ use super::start::InitialState;
 use crate::inputs::ranges;
 use signorini_image::chosen::WorstCase;
 use signorini_scene::setting::{Omega, Setting, Start as From};
-use signorini_solve::condense::CondensedModel;
+use signorini_solve::condense::{CondensedModel, ModalModel};
 use signorini_solve::ranges::split::Split;
 use signorini_solve::scalar::Scalar;
 
@@ -47,8 +48,10 @@ pub(super) enum Solver {
 pub struct Baked<R: Scalar> {
     /// n
     pub contact: usize,
-    /// m, the constant 1 included.
+    /// m, the constant 1 included; amplitudes of modes are none.
     pub inputs: usize,
+    /// The modes of the transfer coefficient that an input changes.
+    pub modes: Option<Modes<R>>,
     /// What the solver may do.
     pub work: Work,
     /// The factor of the sweeps and when they end.
@@ -88,10 +91,11 @@ impl<R: Scalar> Baked<R> {
         };
         let order = f64::from(u32::try_from(n.max(1)).unwrap_or(u32::MAX));
         let tolerance = R::narrow(4.0 * order.sqrt() * R::EPSILON.wide());
-        let omega = R::narrow(best_omega(condensate));
+        let omega = R::narrow(best_omega(condensate, 1.0));
         let baked = Self {
             contact: n,
             inputs: condensate.inputs,
+            modes: None,
             work,
             sweeps: Sweeps { omega, tolerance, most: work.sweeps },
             cold: false,
@@ -106,6 +110,32 @@ impl<R: Scalar> Baked<R> {
             ranges: ranges(condensate.ranges.get(1..).unwrap_or_default()),
             outputs: condensate.outputs.iter().map(Output::new).collect(),
             bound,
+        };
+        baked.check().map(|()| baked)
+    }
+
+    /// Narrows a model of modes in the same way.
+    ///
+    /// # Errors
+    /// As for [`Baked::new`].
+    pub fn modal(of: &ModalModel, work: Work, certified: bool) -> Result<Self, Error> {
+        let scaled = Scaled::new(of);
+        let baked = Self::new(&scaled.model, Work { pivots: None, ..work }, certified)?;
+        let modes = scaled.modes(baked.bound.is_ok());
+        let now = of.in_own_scale(of.model.defaults[of.input]);
+        let omega = R::narrow(best_omega(&now, modes.diagonal));
+        let mut bound = baked.bound;
+        bound.iter_mut().for_each(|bound| scaled.tell(bound));
+        let baked = Self {
+            inputs: of.inputs,
+            work,
+            sweeps: Sweeps { omega, ..baked.sweeps },
+            is_monotone: modes.is_monotone,
+            start: InitialState::at(&scaled.x),
+            ranges: ranges(of.model.ranges.get(1..of.inputs).unwrap_or_default()),
+            modes: Some(modes),
+            bound,
+            ..baked
         };
         baked.check().map(|()| baked)
     }
@@ -125,7 +155,7 @@ impl<R: Scalar> Baked<R> {
         match self.solver() {
             Solver::Linear => "linear, condensed",
             Solver::Sweeps => ", condensed, swept",
-            _ if self.forms() > 1 => ", condensed, on quads",
+            _ if self.has_jump() => ", condensed, on quads",
             _ if self.contact <= SIDE => "levee, condensed",
             _ => "unknowns, condensed",
         }
@@ -160,7 +190,8 @@ impl<R: Scalar> Baked<R> {
     pub fn with_setting(self, setting: &Setting) -> Self {
         let mut sweeps = self.sweeps;
         if let Omega::Fixed(omega) = setting.omega {
-            sweeps.omega = R::narrow(omega);
+            let diagonal = self.modes.as_ref().map_or(1.0, |modes| modes.diagonal);
+            sweeps.omega = R::narrow(omega / diagonal);
         }
         if setting.sweeps.is_some() {
             sweeps.tolerance = R::ZERO;
@@ -176,6 +207,12 @@ impl<R: Scalar> Baked<R> {
     /// The same with other limits, the exact method staying in or out.
     pub fn with_work(self, work: Work) -> Self {
         Self { work, sweeps: Sweeps { most: work.sweeps, ..self.sweeps }, ..self }
+    }
+
+    /// The features of the kernel that it needs.
+    pub fn kernel_features(&self) -> Vec<&'static str> {
+        let limited = self.is_limited().then_some("limited");
+        limited.into_iter().chain(self.modes.is_some().then_some("transfer")).collect()
     }
 
     /// Exchanges in phases from whatever state.
@@ -214,9 +251,14 @@ impl<R: Scalar> Baked<R> {
         self.bound.as_ref().err().map(String::as_str)
     }
 
-    /// How many forms the bound has: none, that of s, and that of u_h where it is another.
+    /// How many forms the bound has: none, that of s, that of u_h where it is another, and that of laws that change.
     pub fn forms(&self) -> usize {
-        self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()))
+        let laws = usize::from(self.modes.is_some());
+        self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws)
+    }
+
+    fn has_jump(&self) -> bool {
+        self.bound.as_ref().is_ok_and(|bound| bound.jump.is_some())
     }
 
     /// Lends the model, as the generated module has it.
@@ -257,7 +299,8 @@ impl<R: Scalar> Baked<R> {
             }
         }
         let Ok(bound) = &self.bound else { return Ok(()) };
-        for form in std::iter::once(&bound.factor).chain(&bound.jump) {
+        let laws = self.modes.iter().flat_map(|modes| &modes.laws);
+        for form in std::iter::once(&bound.factor).chain(&bound.jump).chain(laws) {
             finite(Array::MatrixValues, &form.columns)?;
         }
         finite(Array::Coefficients, &[bound.unit, bound.stability, R::ONE / bound.unit])
@@ -279,7 +322,7 @@ fn spans<R: Scalar>(condensate: &CondensedModel) -> Result<Vec<R>, Error> {
 }
 
 /// Whether Ŝ in the scalar of the target is a nonsingular M-matrix.
-pub(crate) fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
+fn is_monotone<R: Scalar>(condensate: &CondensedModel) -> bool {
     let stored: Vec<f64> = condensate.matrix.iter().map(|&entry| R::narrow(entry).wide()).collect();
     let split = Split::new(&stored, condensate.contact);
     split.is_some_and(|split| split.has_all_signs())

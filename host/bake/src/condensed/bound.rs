@@ -78,7 +78,7 @@ impl<R: Scalar> Columns<R> {
         Self { columns: narrow(factor), norms }
     }
 
-    fn view(&self) -> Factor<'_, R> {
+    pub fn view(&self) -> Factor<'_, R> {
         Factor { columns: &self.columns, norms: &self.norms }
     }
 }

@@ -1,9 +1,10 @@
 //! What the baked module does, on this machine and on the same numbers.
 
 use signorini_kernel::Error;
-use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::{Linear, Method};
+use signorini_kernel::device::condensed::modes::{Modal, ModalMemory, ModalStorage};
 use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
+use signorini_kernel::device::condensed::{Condensed, Memory};
 use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::ranges::check;
 use signorini_kernel::device::report::Report;
@@ -13,8 +14,8 @@ use super::arrays::{Baked, Solver};
 use super::visited::Visited;
 use signorini_solve::scalar::Scalar;
 
-/// The memory of a condensed scene.
-type Owned<R> = Storage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>>;
+/// The memory of a condensed scene; that of modes is empty where there are none.
+type Owned<R> = ModalStorage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;
 
 /// The controller of a condensed scene.
 #[derive(Debug)]
@@ -22,6 +23,8 @@ pub struct Controller<'b, R: Scalar> {
     baked: &'b Baked<R>,
     storage: Owned<R>,
     tableau: TableauStorage<Vec<Block<R>>, Vec<bool>, Vec<R>>,
+    /// Whether the last tick had another coefficient than the one before.
+    follows: bool,
 }
 
 impl<'b, R: Scalar> Controller<'b, R> {
@@ -30,16 +33,20 @@ impl<'b, R: Scalar> Controller<'b, R> {
         let zeros = |length| vec![R::ZERO; length];
         let n = padded(baked.contact);
         let blocks = vec![[[R::ZERO; SIDE]; SIDE]; count(baked.contact)];
-        let mut storage = {
-            let spans = zeros(baked.varying_spans());
-            Storage::of(zeros(n), vec![false; n], zeros(baked.columns()), spans)
+        let spans = zeros(baked.varying_spans());
+        let shared = Storage::of(zeros(n), vec![false; n], zeros(baked.columns()), spans);
+        let (matrix, terms) = match &baked.modes {
+            Some(modes) => (blocks.clone(), baked.inputs + modes.count),
+            None => (Vec::new(), 0),
         };
+        let mut storage = ModalStorage::of(shared, matrix, zeros(terms));
         // x is what the first tick begins with, even if that is refused.
-        baked.with_model(|model| _ = storage.memory(model));
+        baked.with_model(|model| _ = storage.shared_mut().memory(model));
         Self {
             baked,
             storage,
             tableau: TableauStorage::of(blocks, vec![false; n], [zeros(n), zeros(n)]),
+            follows: false,
         }
     }
 
@@ -55,42 +62,80 @@ impl<'b, R: Scalar> Controller<'b, R> {
             self.tableau.reset();
         }
         let inputs: Vec<R> = std::iter::once(R::ONE).chain(inputs.iter().copied()).collect();
-        let storage = &mut self.storage;
-        baked.with_model(|model| match baked.solver() {
-            Solver::Linear => answer(model, &inputs, Linear, storage),
-            Solver::Sweeps => answer(model, &inputs, baked.sweeps, storage),
-            Solver::TwoPhases => {
-                let method = self.tableau.two_phases(model)?;
-                answer(model, &inputs, method, storage)
+        let Self { storage, tableau, follows, .. } = self;
+        baked.with_model(|model| {
+            let Some(modes) = &baked.modes else {
+                let memory = storage.shared_mut().memory(model);
+                return solve(baked, model, tableau, Ticking::Plain(&inputs, memory));
+            };
+            let modal = &modes.view(model);
+            *follows = storage.set(modal, &inputs)?;
+            if *follows {
+                tableau.reset();
             }
-            Solver::Exchanges(most) => {
-                let method = self.tableau.method(model, most, baked.sweeps)?;
-                answer(model, &inputs, method, storage)
-            }
+            let (model, memory) = storage.at(modal);
+            solve(baked, &model, tableau, Ticking::Modal(modal, memory))
         })
     }
 
     /// What the last tick looked at.
     pub fn visited(&self) -> Visited {
-        Visited::new::<R>(self.storage.open(), self.storage.combination())
+        let shared = self.storage.shared();
+        let visited = Visited::new::<R>(shared.open(), shared.combination());
+        Visited { follows: self.follows, ..visited }
+    }
+
+    /// The amplitudes of the last tick, where there are modes.
+    pub fn amplitudes(&self) -> &[R] {
+        self.storage.inputs().get(self.baked.inputs..).unwrap_or_default()
     }
 
     /// The scaled openings of the last tick; before the first, those that it begins with.
     pub fn x(&self) -> &[R] {
-        let x = self.storage.x();
+        let x = self.storage.shared().x();
         x.get(..self.baked.contact).unwrap_or(x)
+    }
+}
+
+/// What a tick works on.
+enum Ticking<'m, R> {
+    Plain(&'m [R], Memory<'m, R>),
+    Modal(&'m Modal<'m, R>, ModalMemory<'m, R>),
+}
+
+/// A tick by the method of `baked`.
+fn solve<R: Scalar>(
+    baked: &Baked<R>,
+    model: &Condensed<R>,
+    tableau: &mut TableauStorage<Vec<Block<R>>, Vec<bool>, Vec<R>>,
+    ticking: Ticking<R>,
+) -> Result<(Vec<R>, Report<R>), Error> {
+    match baked.solver() {
+        Solver::Linear => answer(model, Linear, ticking),
+        Solver::Sweeps => answer(model, baked.sweeps, ticking),
+        Solver::TwoPhases => answer(model, tableau.two_phases(model)?, ticking),
+        Solver::Exchanges(most) => {
+            answer(model, tableau.method(model, most, baked.sweeps)?, ticking)
+        }
     }
 }
 
 /// The outputs and the report of a tick.
 fn answer<R: Scalar>(
     model: &Condensed<R>,
-    inputs: &[R],
     mut method: impl Method<R>,
-    storage: &mut Owned<R>,
+    ticking: Ticking<R>,
 ) -> Result<(Vec<R>, Report<R>), Error> {
-    let mut memory = storage.memory(model);
-    let report = model.tick(inputs, &mut method, &mut Deadline::never(), &mut memory)?;
+    let deadline = &mut Deadline::never();
+    let (report, inputs, memory) = match ticking {
+        Ticking::Plain(inputs, mut memory) => {
+            (model.tick(inputs, &mut method, deadline, &mut memory)?, inputs, memory)
+        }
+        Ticking::Modal(modal, mut memory) => {
+            let report = modal.tick(model, &mut method, deadline, &mut memory)?;
+            (report, &*memory.inputs, memory.shared)
+        }
+    };
     let output = |number| model.output(number, inputs, &memory, &report);
     let outputs = (0..model.outputs.len()).map(output).collect::<Result<_, _>>()?;
     Ok((outputs, report))

@@ -7,13 +7,14 @@ const MOST: u32 = 400;
 /// The sum of changes at which a trial ends, relative to the largest b_i.
 const SMALL: f64 = 1e-6;
 
-/// The ω with which sweeps from a cold start at the default inputs end first.
-pub(super) fn best_omega(condensate: &CondensedModel) -> f64 {
+/// The ω with which sweeps from a cold start at the default inputs end first, `diagonal` being the largest entry on that
+/// of the matrix: less than 2 over that.
+pub(super) fn best_omega(condensate: &CondensedModel, diagonal: f64) -> f64 {
     let load = condensate.load_of(&condensate.defaults);
     let trial = |omega: f64| (sweeps(condensate, &load, omega), omega);
-    let trials = (0..20).map(|step| trial(1.0 + 0.05 * f64::from(step)));
+    let trials = (0..20).map(|step| trial((1.0 + 0.05 * f64::from(step)) / diagonal));
     let fewest = trials.min_by_key(|(sweeps, _)| *sweeps);
-    fewest.map_or(1.0, |(_, omega)| omega)
+    fewest.map_or(1.0 / diagonal, |(_, omega)| omega)
 }
 
 fn sweeps(condensate: &CondensedModel, load: &[f64], omega: f64) -> u32 {

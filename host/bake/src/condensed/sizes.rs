@@ -4,6 +4,7 @@ use signorini_kernel::solve::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::bound::Columns;
+use super::modes::Modes;
 use super::output::Output;
 use crate::full::Sizes;
 use signorini_solve::scalar::Scalar;
@@ -12,6 +13,15 @@ use signorini_solve::scalar::Scalar;
 const BLOCK: usize = 64;
 
 impl<R: Scalar> Baked<R> {
+    /// Bytes that modes take beside the bound.
+    fn of_modes(&self) -> usize {
+        self.modes.as_ref().map_or(0, |modes| {
+            let columns = modes.count * padded(self.contact);
+            let own = modes.compliance.len() + modes.of_inputs.len() + columns;
+            (own + BLOCK * count(self.contact) + self.inputs + modes.count) * self.scalar()
+        })
+    }
+
     /// The parts of the model: name, whether it is there, its bytes of RAM and flash, why.
     pub fn features(&self) -> impl Iterator<Item = (&'static str, bool, usize, String)> {
         let (whole, n) = (sizes(self), padded(self.contact));
@@ -36,6 +46,7 @@ impl<R: Scalar> Baked<R> {
                 exact,
                 tableau,
                 match exact {
+                    true if self.modes.is_some() => "a tableau".to_owned(),
                     true => "a tableau, and the one it begins with".to_owned(),
                     false if self.contact == 0 => "no contact edges".to_owned(),
                     false => {
@@ -46,12 +57,21 @@ impl<R: Scalar> Baked<R> {
             ("inputs", self.inputs > 1, self.inputs * n * scalar, {
                 format!("{} and the constant part", self.inputs - 1)
             }),
+            ("modes", self.modes.is_some(), self.of_modes(), {
+                self.modes.as_ref().map_or("no transfer coefficient changes".to_owned(), |modes| {
+                    let all = modes.count + modes.left_out;
+                    format!("{} of {all} modes of the coefficient's boundary kept", modes.count)
+                })
+            }),
             (
                 "error bound",
                 self.bound.is_ok(),
                 bound,
                 match &self.bound {
-                    Ok(bound) => format!("a factor of {} columns", bound.factor.norms.len()),
+                    Ok(bound) => {
+                        let forms = if self.modes.is_some() { "factors" } else { "a factor" };
+                        format!("{forms} of {} columns", bound.factor.norms.len())
+                    }
                     Err(reason) => reason.clone(),
                 },
             ),
@@ -99,12 +119,17 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         let ends = sides.map_or(0, |of| of.scale.len() + of.largest.len() + 1);
         let numbers = forms + corners + bound.floating.len() + ends;
         let ends = sides.map_or(0, |of| 4 * of.ends.len());
-        (numbers + 2 * baked.inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar) + ends
+        let of_inputs = bound.oscillation.len() + bound.largest_load.len();
+        (numbers + of_inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar) + ends
     });
+    let modes = baked.modes.as_ref();
+    let followed =
+        modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count);
     Sizes {
-        ram: (4 * n + 2 * columns + baked.varying_spans()) * scalar + n + tableau,
+        ram: (4 * n + 2 * columns + baked.varying_spans() + followed) * scalar + n + tableau,
         flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + baked.spans.len() + outputs)
             * scalar
+            + modes.map_or(0, Modes::numbers) * scalar
             + start
             + bound,
     }

@@ -26,8 +26,8 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         bytes.ram,
         bytes.flash
     );
-    let features: &[&str] = if baked.is_limited() { &["limited"] } else { &[] };
-    let about = About { model: "condensed", text: &about, features };
+    let features = baked.kernel_features();
+    let about = About { model: "condensed", text: &about, features: &features };
     let mut text = face.source::<R>(&about);
     text += &imports(baked);
     text += &constants(baked);
@@ -36,13 +36,18 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 }
 
 fn imports<R: Scalar>(baked: &Baked<R>) -> String {
-    const BOTH: &str = "storage::{ArrayStorage, ArrayTableauStorage}";
+    let is_modal = baked.modes.is_some();
+    let one = if is_modal { "modes::ArrayModalStorage" } else { "storage::ArrayStorage" };
+    let both = match is_modal {
+        true => "{modes::ArrayModalStorage, storage::ArrayTableauStorage}",
+        false => "storage::{ArrayStorage, ArrayTableauStorage}",
+    };
     let method = |name| format!("use signorini_kernel::device::condensed::method::{name};\n");
     let (method, storage) = match baked.solver() {
-        Solver::Linear => (method("Linear"), "storage::ArrayStorage"),
-        Solver::Sweeps => (method("Sweeps"), "storage::ArrayStorage"),
-        Solver::Exchanges(_) => (method("Sweeps"), BOTH),
-        Solver::TwoPhases => (String::new(), BOTH),
+        Solver::Linear => (method("Linear"), one),
+        Solver::Sweeps => (method("Sweeps"), one),
+        Solver::Exchanges(_) => (method("Sweeps"), both),
+        Solver::TwoPhases => (String::new(), both),
     };
     format!(
         "
@@ -67,7 +72,15 @@ const COLUMNS: usize = {columns};
         padded = padded(contact),
         columns = baked.columns(),
     );
-    let blocks = format!("/// Blocks of the tableau.\nconst BLOCKS: usize = {};\n", count(contact));
+    let mut blocks =
+        format!("/// Blocks of the tableau.\nconst BLOCKS: usize = {};\n", count(contact));
+    if let Some(modes) = &baked.modes {
+        let terms = baked.inputs + modes.count;
+        text += &blocks.replace("the tableau", "the matrix");
+        let _ =
+            write!(text, "/// The constant, inputs and modes.\nconst TERMS: usize = {terms};\n");
+        blocks.clear();
+    }
     let purpose = match baked.solver() {
         Solver::Linear => return text,
         Solver::TwoPhases => return text + &blocks,
@@ -95,8 +108,7 @@ pub const SWEEPS: Sweeps<Scalar> =
 
 fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let solver = baked.solver();
-    let is_exact = matches!(solver, Solver::Exchanges(_) | Solver::TwoPhases);
-    let only = |text: &'static str| if is_exact { text } else { "" };
+    let only = |text: &'static str| if is_exact(solver) { text } else { "" };
     let ends = match solver {
         Solver::Linear => "with the solution, for nothing is in contact",
         Solver::Sweeps => "with complementarity, or after so many sweeps",
@@ -109,12 +121,17 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let sweeps = if is_limited { baked.sweeps.most } else { 0 };
     let text = controller::controller(&Parts {
         fields: &format!(
-            "    storage: ArrayStorage<Scalar, PADDED, COLUMNS{}>,\n{}",
+            "    storage: {}{}>,\n{}",
+            match baked.modes {
+                Some(_) => "ArrayModalStorage<Scalar, PADDED, COLUMNS, BLOCKS, TERMS",
+                None => "ArrayStorage<Scalar, PADDED, COLUMNS",
+            },
             if baked.varying_spans() > 0 { ", PADDED" } else { "" },
             only("    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,\n")
         ),
         values: &format!(
-            "            storage: ArrayStorage::zeros(),\n{}",
+            "            storage: {}::zeros(),\n{}",
+            if baked.modes.is_some() { "ArrayModalStorage" } else { "ArrayStorage" },
             only("            tableau: ArrayTableauStorage::zeros(),\n")
         ),
         first: "begins with the answer to the scene's own inputs",
@@ -135,42 +152,80 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     text + "\npub use data::SYSTEM;\n"
 }
 
+fn is_exact(solver: Solver) -> bool {
+    matches!(solver, Solver::Exchanges(_) | Solver::TwoPhases)
+}
+
 /// The body of a tick.
 fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
+    let (model, set) = match baked.modes.is_some() {
+        false => ("&data::SYSTEM", PLAIN),
+        true if is_exact(baked.solver()) => ("&model", MODAL),
+        true => ("&model", MODAL_SWEPT),
+    };
     let method = match baked.solver() {
         Solver::Linear => "Linear".to_owned(),
-        Solver::TwoPhases => "self.tableau.two_phases(&data::SYSTEM)?".to_owned(),
+        Solver::TwoPhases => format!("self.tableau.two_phases({model})?"),
         Solver::Sweeps => SWEEPS.to_owned(),
         Solver::Exchanges(_) => {
             format!(
                 "{{
             let sweeps = {SWEEPS};
-            self.tableau.method(&data::SYSTEM, PIVOTS, sweeps)?
+            self.tableau.method({model}, PIVOTS, sweeps)?
         }}"
             )
         }
     };
     let names: Vec<_> = face.inputs().collect();
-    let given: Vec<_> = std::iter::once("1.0").chain(names.iter().copied()).collect();
+    let listed: Vec<_> = std::iter::once("1.0").chain(names.iter().copied()).collect();
     let pattern = match names.is_empty() {
         true => "let Inputs {} = inputs;".to_owned(),
         false => format!("let Inputs {{ {} }} = inputs;", names.join(", ")),
     };
     let outputs = face.outputs().enumerate();
     let outputs: Vec<_> = outputs.map(|(at, name)| format!("{name}: output({at})?")).collect();
+    let [before, solved, given] = set;
     format!(
         "{}        {pattern}
         let inputs = [{}];
-        let mut method = {method};
-        let mut memory = self.storage.memory(&data::SYSTEM);
-        let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
-        let output = |number| data::SYSTEM.output(number, &inputs, &memory, &report);
+{before}        let mut method = {method};
+{solved}        let output = |number| {given};
         let outputs = Outputs {{ {} }};
         Ok(Answer {{ outputs, report }})
 ",
         if baked.cold { "        self.reset();\n" } else { "" },
-        given.join(", "),
+        listed.join(", "),
         outputs.join(", "),
     )
 }
+
+/// What comes before the method, what solves with it, and an output.
+const PLAIN: [&str; 3] = [
+    "",
+    "        let mut memory = self.storage.memory(&data::SYSTEM);
+        let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
+",
+    "data::SYSTEM.output(number, &inputs, &memory, &report)",
+];
+
+/// The same where a transfer coefficient changes; a tableau belongs to one of its values.
+const MODAL: [&str; 3] = [
+    "        if self.storage.set(&data::SYSTEM, &inputs)? {
+            self.tableau.reset();
+        }
+        let (model, mut memory) = self.storage.at(&data::SYSTEM);
+",
+    "        let report = data::SYSTEM.tick(&model, &mut method, deadline, &mut memory)?;
+",
+    "model.output(number, memory.inputs, &memory.shared, &report)",
+];
+
+/// The same without a tableau.
+const MODAL_SWEPT: [&str; 3] = [
+    "        self.storage.set(&data::SYSTEM, &inputs)?;
+        let (model, mut memory) = self.storage.at(&data::SYSTEM);
+",
+    MODAL[1],
+    MODAL[2],
+];

@@ -40,6 +40,11 @@ impl<R: Scalar> InitialState<R> {
         Ok(Self { x: filled_up(&x), blocks, exchanged })
     }
 
+    /// x alone: exchanges begin with the matrix.
+    pub fn at(x: &[f64]) -> Self {
+        Self { x: filled_up(x), blocks: Vec::new(), exchanged: Vec::new() }
+    }
+
     pub fn view(&self) -> tableau::InitialTableau<'_, R> {
         tableau::InitialTableau { blocks: &self.blocks, exchanged: &self.exchanged }
     }

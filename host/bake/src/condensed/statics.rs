@@ -6,6 +6,7 @@ use signorini_kernel::solve::dense::blocks::Block;
 
 use super::arrays::{Baked, Solver};
 use super::bound::{Bound, Ends};
+use super::modes::Modes;
 use super::output::Output;
 use crate::module_api::ModuleApi;
 use crate::text::array;
@@ -19,7 +20,7 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         (baked.matrix.len(), blocks(&baked.matrix))
     });
     let start = match baked.solver() {
-        Solver::Exchanges(_) | Solver::TwoPhases => {
+        Solver::Exchanges(_) | Solver::TwoPhases if baked.modes.is_none() => {
             let doc = "The tableau of the scene's own inputs: where exchanges begin.";
             let value = (baked.start.blocks.len(), blocks(&baked.start.blocks));
             put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);
@@ -72,19 +73,26 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         Ok(_) => "certificate::{Corner, Form, Vertex}, factor::Factor, sides::Sides, ",
         Err(_) => "",
     };
+    let [uses_modes, of, before, after] = match &baked.modes {
+        Some(modes) => {
+            ["modes::Modal, ", "Modal", "Modal {\n        model: ", &of_modes(&mut text, modes)]
+                .map(str::to_owned)
+        }
+        None => ["", "Condensed", "", ""].map(str::to_owned),
+    };
     format!(
         "
 /// The scene: what stays from tick to tick.
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::device::condensed::{{{uses}outputs::Measure, spans::SpanColumns, Condensed}};
+    use signorini_kernel::device::condensed::{{{uses}{uses_modes}outputs::Measure, spans::SpanColumns, Condensed}};
     use signorini_kernel::solve::dense::tableau::InitialTableau;
 
     use super::Scalar;
 {text}
     /// All of it.
-    pub static SYSTEM: Condensed<'static, Scalar> = Condensed {{
+    pub static SYSTEM: {of}<'static, Scalar> = {before}Condensed {{
         contact: super::CONTACT,
         matrix: &MATRIX,
         x: &START,
@@ -95,12 +103,38 @@ mod data {{
         outputs: &[{}],
         certificate: {certificate},
         has_bound: {},
-    }};
+    }}{after};
 }}
 ",
         names.iter().map(|name| format!("\n            {name},")).collect::<String>()
             + "\n        ",
         baked.has_bound,
+    )
+}
+
+/// What follows the model of modes.
+fn of_modes<R: Scalar>(text: &mut String, modes: &Modes<R>) -> String {
+    numbers(text, "COMPLIANCE", "What one of each mode brings to itself.", &modes.compliance);
+    numbers(text, "MODES_OF_INPUTS", "By modes: what the inputs bring to them.", &modes.of_inputs);
+    let laws = match &modes.laws {
+        None => "None",
+        Some(laws) => {
+            numbers(text, "LAWS", "F of the laws that change, by columns.", &laws.columns);
+            numbers(text, "LAWS_NORMS", "The norms of its columns.", &laws.norms);
+            "Some(Factor { columns: &LAWS, norms: &LAWS_NORMS })"
+        }
+    };
+    format!(
+        ",
+        input: {},
+        origin: {:?},
+        per_unit: {:?},
+        compliance: &COMPLIANCE,
+        of_inputs: &MODES_OF_INPUTS,
+        laws: {laws},
+        is_monotone: {},
+    }}",
+        modes.input, modes.origin, modes.per_unit, modes.is_monotone
     )
 }
 

@@ -11,6 +11,8 @@ pub struct Visited {
     pub entries: usize,
     /// Order of that factor.
     pub order: usize,
+    /// Whether the matrix was worked out anew, for another value of a transfer coefficient.
+    pub follows: bool,
 }
 
 impl Visited {
@@ -26,7 +28,7 @@ impl Visited {
         let zero = R::default();
         let columns = multipliers.iter().enumerate().filter(|(_, z)| **z != zero);
         let entries = columns.map(|(at, _)| at + 1).sum();
-        Self { blocks, entries, order: multipliers.len() }
+        Self { blocks, entries, order: multipliers.len(), follows: false }
     }
 }
 
@@ -38,7 +40,7 @@ mod tests {
     fn all_that_is_not_zero_counts() {
         let all = Visited::new(&[true; 24], &[1.0, 0.0, 2.0]);
         // The whole square of blocks, and columns of 1 and 3 entries.
-        assert_eq!(all, Visited { blocks: 9, entries: 4, order: 3 });
+        assert_eq!(all, Visited { blocks: 9, entries: 4, order: 3, follows: false });
         // The first of two groups: the half of the square that it meets.
         let mut half = [false; 16];
         half[3] = true;

@@ -76,6 +76,7 @@ impl<R: Scalar> Engine for Condensed<'_, R> {
             std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
         let Origin { whole, recovery, .. } = self.origin;
         let x = self.origin.expand(&p, x);
+        let p = self.origin.inputs(p, &x);
         let (mut u, flux) = recovery.field(whole, &p, &x);
         let counts = problem.topology.counts;
         let active: Vec<_> = whole.by_edge(&x).into_iter().map(|x| x == 0.0).collect();

@@ -16,6 +16,12 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
         ));
     }
     let whole = &origin.whole;
+    if let Some(modes) = &origin.modes {
+        let name = scene.inputs.get(modes.input - 1).map_or("", |input| &input.name.value);
+        return Some(format!(
+            "Nothing is proved: the matrix follows {name:?}, and sides are proved for one matrix."
+        ));
+    }
     if whole.contact == 0 || origin.sides.enclosure.is_some() {
         return None;
     }

@@ -61,6 +61,12 @@ impl CondensedModel {
         form.norm(factor, p, x, &form.correction(&self.allowed(p), p.len(), x))
     }
 
+    /// d of (p, x); nothing without a bound.
+    pub fn corrections(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let of = |form: &Form| form.correction(&self.allowed(p), p.len(), x);
+        self.certificate.as_ref().map(of).unwrap_or_default()
+    }
+
     /// What the law allows at `p`.
     pub(super) fn allowed(&self, p: &[f64]) -> Allowed {
         let scale = self.opening.iter().map(|d| self.energy_unit / d).collect();

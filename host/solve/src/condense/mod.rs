@@ -59,7 +59,7 @@ use held::{held_alone, held_by_contact, held_by_one};
 use laws::Laws;
 use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
-pub use modes::{ModalModel, modal};
+pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
 use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};

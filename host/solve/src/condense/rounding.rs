@@ -23,7 +23,7 @@ use signorini_scene::error::Result;
 
 /// Roundings of a sum of a few products, of its factors, and of what follows from them.
 /// And 16 for columns that count as dependent.
-const FEW: f64 = 24.0 * f64::EPSILON;
+pub(super) const FEW: f64 = 24.0 * f64::EPSILON;
 
 impl FormData<'_> {
     /// lost_j of the columns of p and x, for U = 1.
@@ -103,7 +103,7 @@ impl FormData<'_> {
 }
 
 /// (Σ over rows (Σ |terms|)²)^½ of every column of the residual.
-fn terms(blocks: &[Block], s: &Table, fluxes: &Table) -> Vec<f64> {
+pub(super) fn terms(blocks: &[Block], s: &Table, fluxes: &Table) -> Vec<f64> {
     let (mut squares, mut sum) = (vec![0.0; s.columns], vec![0.0; s.columns]);
     for block in blocks {
         for row in &block.rows {

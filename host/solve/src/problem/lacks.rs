@@ -14,6 +14,7 @@ use signorini_kernel::mesh::components::PartCounts;
 use super::property::{MOST_NUMBERS, Property};
 use super::{Parts, Problem};
 use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Field;
 use signorini_scene::scene::term::first_in_time;
 
 /// What is done with a problem.
@@ -46,6 +47,15 @@ pub struct Lack {
 }
 
 impl Approach {
+    /// How `problem` is condensed: for every value of a transfer coefficient where one input changes it.
+    pub fn condensing(problem: &Problem) -> Self {
+        let inputs = problem.scene.inputs.iter();
+        match inputs.filter(|input| input.field.value == Field::Coefficient).count() {
+            1 => Self::Modes,
+            _ => Self::Condensation,
+        }
+    }
+
     /// The first property of `problem` that this approach cannot treat.
     ///
     /// # Errors
@@ -177,7 +187,7 @@ fn no_clock(problem: &Problem) -> InputError {
     refusal.hint(hint)
 }
 
-/// A condensed model, and data for tests, have one matrix.
+/// A condensed model has one matrix, or one for each value of a single coefficient; data for tests have one.
 fn one_matrix(problem: &Problem) -> InputError {
     changes_matrix(problem, "it changes the matrix, and one is written for all ticks")
         .hint("take the full model (--full, model = \"full\")")

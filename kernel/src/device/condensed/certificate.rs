@@ -106,6 +106,17 @@ impl<R: Real> Form<'_, R> {
         z: &mut [R],
         sum: &mut [R],
     ) -> Result<Verdict<R>, Error> {
+        self.certify_with(answer, z, sum, |norm, _, _| Ok(norm))
+    }
+
+    /// The same with what `whole` makes of ‖F (p, x, d)‖, given z and scratch: that of all forms there are.
+    pub(super) fn certify_with(
+        &self,
+        answer: &Candidate<R>,
+        z: &mut [R],
+        sum: &mut [R],
+        whole: impl FnOnce(Norm<R>, &[R], &mut [R]) -> Result<Norm<R>, Error>,
+    ) -> Result<Verdict<R>, Error> {
         let Candidate { inputs, x, residual, ranges } = *answer;
         same_length(Array::Load, self.oscillation.len(), inputs.len())?;
         same_length(Array::Load, self.largest_load.len(), inputs.len())?;
@@ -113,7 +124,7 @@ impl<R: Real> Form<'_, R> {
         let columns = inputs.len() + x.len() + self.vertices.len();
         same_length(Array::Scratch, z.len(), columns)?;
         self.lay_out(answer, z);
-        let norm = self.norm(&self.factor, x, z, sum)?;
+        let norm = whole(self.norm(&self.factor, x, z, sum)?, z, sum)?;
         let uncertainty = self.uncertainty(answer);
         let mended = match ranges.are_limited() {
             true => self.mend_within(answer, uncertainty),
@@ -154,7 +165,13 @@ impl<R: Real> Form<'_, R> {
     }
 
     /// The norm of a form, with what the rounding of e = E x + d can do to it.
-    fn norm(&self, factor: &Factor<R>, x: &[R], z: &[R], sum: &mut [R]) -> Result<Norm<R>, Error> {
+    pub(super) fn norm(
+        &self,
+        factor: &Factor<R>,
+        x: &[R],
+        z: &[R],
+        sum: &mut [R],
+    ) -> Result<Norm<R>, Error> {
         let norm = factor.norm(z, sum)?;
         Ok(Norm { rounding: norm.rounding + self.nudged(factor, x), ..norm })
     }

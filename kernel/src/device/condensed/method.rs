@@ -6,8 +6,9 @@
 //! tick goes on exchanging: the answer is feasible and has its bound in any case. Without contact there is
 //! nothing to solve, and [`Linear`] brings no code for it.
 
+use crate::bound::verdict::Verdict;
 use crate::device::limits::Deadline;
-use crate::device::report::Ended;
+use crate::device::report::{Ended, Report};
 use crate::error::{Array, Error, all_finite, same_length};
 use crate::real::Real;
 use crate::solve::dense::Iterate;
@@ -28,6 +29,15 @@ pub struct SolveSummary {
     pub pivots: u32,
     /// Sweeps.
     pub sweeps: u32,
+}
+
+impl SolveSummary {
+    /// What a tick reports of it.
+    pub(super) fn report<R: Real>(self, x: &[R], verdict: Verdict<R>) -> Report<R> {
+        let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
+        let Self { ended, pivots, sweeps } = self;
+        Report { ended, exchanges: pivots, sweeps, active, verdict }
+    }
 }
 
 /// Solves x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0, or the same with ranges ([`crate::solve::dense::ranges`]).

@@ -15,12 +15,14 @@
 //!   inputs ─► load B p ─► Method: pivoting (exact) or sweeps ─► r ─► certificate ─► outputs
 //! ```
 //! [`crate::solve::dense`] holds S and solves; [`factor`] and [`certificate`] bound the error; [`outputs`] are read off;
-//! [`storage`] owns the memory. `signorini bake` writes all of it.
+//! [`storage`] owns the memory; `modes` are for a transfer coefficient that changes. `signorini bake` writes all of it.
 
 pub mod candidate;
 pub mod certificate;
 pub mod factor;
 pub mod method;
+#[cfg(feature = "transfer")]
+pub mod modes;
 pub mod outputs;
 pub mod sides;
 pub mod spans;
@@ -38,7 +40,7 @@ use crate::solve::dense::tableau::InitialTableau;
 use crate::solve::dense::{Iterate, sizes};
 use candidate::Candidate;
 use certificate::Form;
-use method::{Method, SolveSummary};
+use method::Method;
 use outputs::Measure;
 use spans::{SpanBuffer, SpanColumns};
 
@@ -121,9 +123,7 @@ impl<R: Real> Condensed<'_, R> {
             None if self.has_bound => Verdict::NotAsked,
             None => Verdict::Unavailable,
         };
-        let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
-        let SolveSummary { ended, pivots, sweeps } = progress;
-        Ok(Report { ended, exchanges: pivots, sweeps, active, verdict })
+        Ok(progress.report(x, verdict))
     }
 
     /// Output `number` of the last tick with this memory.

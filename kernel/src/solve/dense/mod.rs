@@ -1,13 +1,17 @@
-//! A dense contact problem, small and exact: x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0 with S scaled to a diagonal of 1.
+//! A dense contact problem, small and exact: x ≥ 0, Sx − b ≥ 0, xᵀ(Sx − b) = 0 with S scaled to a diagonal of 1, or more where a
+//! transfer coefficient adds to it.
 //!
 //! It is what is left of a problem where everything but the contact edges has been eliminated: on the host
 //! ([`crate::device::condensed`]) or by a sparse factor ([`super::sparse`]).
 //!
-//! [`blocks`] hold S; [`sor`] sweeps over them; [`tableau`] and [`pivoting`] solve exactly.
+//! [`blocks`] hold S, and `outer` makes it follow a transfer coefficient; [`sor`] sweeps over them; [`tableau`] and
+//! [`pivoting`] solve exactly.
 
 pub mod blocks;
 mod correction;
 mod falling;
+#[cfg(feature = "transfer")]
+pub mod outer;
 pub mod pivoting;
 pub mod ranges;
 pub mod rule;

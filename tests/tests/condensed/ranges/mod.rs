@@ -187,7 +187,7 @@ impl Pair {
     /// Σ of the sizes of what the bound of the whole model is a norm of.
     fn terms_of_bound(&self, p: &[f64], x: &[f64]) -> f64 {
         let Ok(form) = &self.whole.certificate else { return 0.0 };
-        let z = p.iter().chain(x).copied().chain(form.correction(x));
+        let z = p.iter().chain(x).copied().chain(self.whole.corrections(p, x));
         let column = |j: usize| &form.factor[j * (j + 1) / 2..(j + 1) * (j + 2) / 2];
         let norm = |j: usize| column(j).iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         let terms: f64 = z.enumerate().map(|(j, z)| norm(j) * z.abs()).sum();

@@ -18,8 +18,13 @@
 //!   |A^½∇s − A^{−½}τ|² + ∫_R …/h = |F(z)|² + δ |F_π(z)|²,    z = (p, y, x, d),   δ = 0 at the least h.
 //! ```
 //! What mends r costs most there too.
+//!
+//! A mode that is left out, y_k = 0, leaves the flux of the law off by δ a_k: (Σ δ a_k²)^½ more, and no other part of the bound
+//! knows of it ([`LeftOut`]).
 
+mod left_out;
 mod passing;
+mod signs;
 mod values;
 
 use super::elimination::Field;
@@ -27,13 +32,17 @@ use super::factor::triangular;
 use super::form::packed;
 use super::laws::Laws;
 use super::patterns::Pattern;
+use super::rounding::{FEW, terms};
 use super::{CondensedModel, Pieces, Recovery};
 use crate::certify::robin::{RobinPoints, robin};
 use crate::problem::{Approach, Problem, TransferPattern};
 use crate::quadrature::DATA_POINTS;
+pub use left_out::LeftOut;
+use left_out::{Shares, norms, sizes};
 use passing::{Passing, combined};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Field as SceneField;
+use signs::slack;
 
 /// See the module.
 #[derive(Debug, Clone)]
@@ -52,15 +61,30 @@ pub struct ModalModel {
     pub of_inputs: Vec<Vec<f64>>,
     /// U α_k, n numbers a mode.
     pub of_contact: Vec<Vec<f64>>,
-    /// F_π by columns; nothing where there is no bound.
-    pub of_laws: Option<Vec<f64>>,
+    /// F_π; nothing where there is no bound.
+    pub of_laws: Option<LawsForm>,
+    /// What the modes that are no part of it cost.
+    pub left_out: LeftOut,
+    /// Where the matrix is an M-matrix whatever the coefficient is: at most how far above 0 the sum of what is positive of a
+    /// row of Ŝ(δ) may be by rounding, off the diagonal.
+    pub slack: Option<f64>,
 }
 
-/// Condenses `problem`, one input of which changes a coefficient, for all values of its inputs.
+/// F_π
+#[derive(Debug, Clone)]
+pub struct LawsForm {
+    /// By columns.
+    pub factor: Vec<f64>,
+    /// What rounding in f64 may hide of each.
+    pub lost: Vec<f64>,
+}
+
+/// Condenses `problem`, one input of which changes a coefficient, for all values of its inputs. Modes whose share, of 1 in the
+/// squares of x and of the inputs, is at most `negligible` are left out.
 ///
 /// # Errors
 /// Several inputs of coefficients, a pattern that is negative on an edge; as for [`super::condense`].
-pub fn modal(problem: &Problem) -> Result<(ModalModel, Recovery)> {
+pub fn modal(problem: &Problem, negligible: f64) -> Result<(ModalModel, Recovery)> {
     let input = only_input(problem)?;
     Approach::Modes.check(problem)?;
     let [origin, most] = problem.scene.inputs[input].interval();
@@ -80,9 +104,22 @@ pub fn modal(problem: &Problem) -> Result<(ModalModel, Recovery)> {
         of_inputs[*term].iter_mut().zip(brought).for_each(|(sum, more)| *sum += more);
     }
     let of_openings = of_fields(&fields.openings);
-    fields.inputs.extend(modes.iter().map(|mode| combined(&mode.weights, &fields.more)));
+    let free = problem.topology.counts.free;
+    let stiffness = pieces.edges.iter().zip(&fields.openings);
+    let openings = stiffness.map(|(edge, field)| field.flux[free + edge].sqrt().recip());
+    let shares = Shares {
+        change: most - origin,
+        inputs: &of_inputs,
+        sizes: &sizes(problem),
+        contact: &of_openings,
+        openings: &openings.collect::<Vec<_>>(),
+    };
+    let is_kept = |k: &usize| shares.of(*k) > negligible;
+    let (kept, others): (Vec<usize>, Vec<usize>) = (0..modes.len()).partition(is_kept);
+    let of_kept = kept.iter().map(|&k| combined(&modes[k].weights, &fields.more));
+    fields.inputs.extend(of_kept.collect::<Vec<_>>());
     let silent = Pattern::silent(problem)?;
-    pieces.patterns.resize(m + modes.len(), silent);
+    pieces.patterns.resize(m + kept.len(), silent);
     pieces.laws = laws(problem, &pattern, most - origin)?;
     let (mut model, recovery) = pieces.model(fields)?;
     if pieces.laws.is_none() {
@@ -90,19 +127,30 @@ pub fn modal(problem: &Problem) -> Result<(ModalModel, Recovery)> {
             Err("a transfer coefficient that changes varies along an edge".to_owned());
     }
     let of_laws = of_laws(problem, &pieces, &recovery, &model)?;
-    let transposed = |columns: &[Vec<f64>], units: &[f64]| -> Vec<Vec<f64>> {
-        let row = |k: usize| columns.iter().zip(units).map(|(of, unit)| unit * of[k]).collect();
-        (0..modes.len()).map(row).collect()
+    let row = |columns: &[Vec<f64>], units: &[f64], k: usize| -> Vec<f64> {
+        columns.iter().zip(units).map(|(of, unit)| unit * of[k]).collect()
     };
+    let rows = |columns: &[Vec<f64>], units: &[f64], of: &[usize]| -> Vec<Vec<f64>> {
+        of.iter().map(|&k| row(columns, units, k)).collect()
+    };
+    let (ones, openings) = (vec![1.0; m], model.opening.clone());
+    let left_out = LeftOut {
+        count: others.len(),
+        of_inputs: norms(&rows(&of_inputs, &ones, &others), m),
+        of_contact: norms(&rows(&of_openings, &openings, &others), model.contact),
+    };
+    let all: Vec<usize> = (0..modes.len()).collect();
     let modal = ModalModel {
-        of_inputs: transposed(&of_inputs, &vec![1.0; m]),
-        of_contact: transposed(&of_openings, &model.opening),
+        of_inputs: rows(&of_inputs, &ones, &kept),
+        of_contact: rows(&of_openings, &openings, &kept),
+        slack: slack(&model, &modes, &rows(&of_openings, &openings, &all)),
         model,
         inputs: m,
         input: input + 1,
         origin,
-        compliance: modes.iter().map(|mode| mode.compliance).collect(),
+        compliance: kept.iter().map(|&k| modes[k].compliance).collect(),
         of_laws,
+        left_out,
     };
     Ok((modal, recovery))
 }
@@ -138,13 +186,16 @@ fn of_laws(
     pieces: &Pieces,
     recovery: &Recovery,
     model: &CondensedModel,
-) -> Result<Option<Vec<f64>>> {
+) -> Result<Option<LawsForm>> {
     let (Some(laws), Some(of)) = (&pieces.laws, &recovery.admissibles) else { return Ok(None) };
     let blocks = laws.blocks(problem, &pieces.patterns, &of.functions)?;
     let mut factor = packed(&triangular(&blocks, &of.s, &of.fluxes));
     let of_inputs = model.inputs * (model.inputs + 1) / 2;
     factor.iter_mut().take(of_inputs).for_each(|entry| *entry /= model.energy_unit);
-    Ok(Some(factor))
+    let mut lost = terms(&blocks, &of.s, &of.fluxes);
+    lost.iter_mut().for_each(|size| *size *= FEW);
+    lost.iter_mut().take(model.inputs).for_each(|size| *size /= model.energy_unit);
+    Ok(Some(LawsForm { factor, lost }))
 }
 
 fn only_input(problem: &Problem) -> Result<usize> {

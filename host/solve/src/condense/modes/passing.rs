@@ -17,7 +17,7 @@ pub(super) struct Passing {
 
 /// A mode: g_k = Σ weights · (field of a unit on an edge of R).
 pub(super) struct Mode {
-    vector: Vec<f64>,
+    pub vector: Vec<f64>,
     pub weights: Vec<f64>,
     pub compliance: f64,
 }

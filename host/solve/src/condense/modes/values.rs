@@ -22,7 +22,8 @@ impl ModalModel {
     /// (|F(z)|² + δ |F_π(z)|²)^½, `p` with its amplitudes.
     pub(in crate::condense) fn norm(&self, value: f64, p: &[f64], x: &[f64]) -> Option<f64> {
         let (form, of_laws) = (self.model.certificate.as_ref().ok()?, self.of_laws.as_ref()?);
-        let [own, laws] = [&form.factor, of_laws].map(|factor| self.model.norm(form, factor, p, x));
+        let [own, laws] =
+            [&form.factor, &of_laws.factor].map(|factor| self.model.norm(form, factor, p, x));
         let delta = (value - self.origin).max(0.0);
         Some((own * own + delta * laws * laws).sqrt())
     }
@@ -35,6 +36,13 @@ impl ModalModel {
 
     /// The model where the input of the coefficient is `value`; without an error bound, which is that of another coefficient.
     pub fn at(&self, value: f64) -> CondensedModel {
+        let mut model = self.in_own_scale(value);
+        model.normalise();
+        model
+    }
+
+    /// The same with the x of [`ModalModel::model`]: its matrix has a diagonal of 1 or more.
+    pub fn in_own_scale(&self, value: f64) -> CondensedModel {
         let (n, m, unit) = (self.model.contact, self.inputs, self.model.energy_unit);
         let gains = self.gains(value);
         let mut model = self.model.clone();
@@ -58,7 +66,6 @@ impl ModalModel {
         model.ranges.truncate(m);
         model.inputs = m;
         model.certificate = Err("the bound of another coefficient".to_owned());
-        model.normalise();
         model
     }
 

@@ -43,7 +43,7 @@ fn physical(model: &CondensedModel) -> Vec<Vec<f64>> {
 fn compare(cells: Cells, pattern: &str) -> Result<()> {
     let mesh = || distorted(grid(5, cells));
     let (_, problem) = on_grid(&with_input(pattern), mesh())?;
-    let (modes, _) = modal(&problem)?;
+    let (modes, _) = modal(&problem, 0.0)?;
     assert!(!modes.compliance.is_empty() && modes.compliance.iter().all(|nu| *nu > 0.0));
     for value in [1.5, -1.0, 0.0, 1.4, 30.0, 1000.0] {
         let found = modes.at(value);
@@ -127,7 +127,7 @@ fn best(cells: Cells, h: f64) -> Result<f64> {
 fn the_bound_holds_for_every_coefficient() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let (_, problem) = on_grid(&smooth(), grid(4, cells))?;
-        let (modes, recovery) = modal(&problem)?;
+        let (modes, recovery) = modal(&problem, 0.0)?;
         for h in [0.01, 0.1, 1.0, 10.0, 100.0] {
             let (p, now) = ([1.0, h, 1.0 / h], modes.at(h));
             let solution = now.solve(&p).expect("a solution");
@@ -165,7 +165,7 @@ fn the_bound_holds_for_every_coefficient() -> Result<()> {
 fn edges_without_a_pattern_are_no_part_of_the_modes() -> Result<()> {
     let pattern = "max(0, y - 0.5)";
     let (_, problem) = on_grid(&with_input(pattern), grid(6, Cells::Quads))?;
-    assert_eq!(modal(&problem)?.0.compliance.len(), 3);
+    assert_eq!(modal(&problem, 0.0)?.0.compliance.len(), 3);
     compare(Cells::Triangles, pattern)
 }
 
@@ -181,7 +181,7 @@ fn what_modes_cannot_do_is_told() -> Result<()> {
         (with_input("y - 0.5").replace("1000.0", "2.0"), "input.h.pattern: negative on an edge"),
     ] {
         let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
-        let error = modal(&problem).expect_err("no modes").to_string();
+        let error = modal(&problem, 0.0).expect_err("no modes").to_string();
         assert!(error.contains(expected), "{error}");
     }
     Ok(())

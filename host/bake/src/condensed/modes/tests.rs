@@ -1,0 +1,330 @@
+//! Ticks with any coefficient give what a solve with that coefficient gives, with the bits of the module.
+
+use std::path::Path;
+
+use signorini_kernel::Error;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{Method, ModelKind, Setting};
+use signorini_solve::certify::exact::distance;
+use signorini_solve::condense::{condense, modal};
+use signorini_solve::fixtures::{SMOOTH, distorted, full_at, on_grid, scatter, scene};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::ScalarKind;
+use signorini_tolerances::Tolerance;
+use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
+
+use super::super::{Baked, Controller, Work, source};
+use crate::choice::{Choice, Model, Wanted};
+use crate::compiled::printed;
+use crate::engine;
+use crate::explain::explanation;
+use crate::module_api::ModuleApi;
+
+/// Contact below, air on the right with a coefficient from 1 to 60.
+const AIR: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = ["2", "0.5", "1"]
+[source]
+f = "-1 - x"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "0.1*x"
+[boundary.left]
+kind = "dirichlet"
+value = "0.1*y"
+[boundary.right]
+kind = "robin"
+coefficient = "2"
+ambient = "y"
+[boundary.contact]
+kind = "contact"
+gap = "-0.3 + 0.1*x^2"
+[input.gap]
+of = "contact"
+field = "gap"
+pattern = "cos(3*x)/5"
+default = -0.3
+[input.ambient]
+of = "right"
+field = "ambient"
+pattern = "1 + y"
+default = 0.7
+[input.h]
+of = "right"
+field = "coefficient"
+pattern = "1"
+default = 1.5
+range = [-1.0, 58.0]
+[output.flux]
+kind = "flux"
+of = "right"
+[output.force]
+kind = "force"
+of = "contact"
+[output.inside]
+kind = "probe"
+at = [0.1, 0.4]
+[output.mean]
+kind = "mean"
+of = "right"
+"#;
+
+/// Both ends, repetitions, jumps, and what lies between.
+fn coefficient(tick: usize) -> f64 {
+    match tick % 6 {
+        0 | 1 => -1.0,
+        2 => 58.0,
+        3 => -0.999,
+        _ => -1.0 + 29.5 * (1.0 + scatter(7 * (tick - tick % 2))),
+    }
+}
+
+fn inputs(tick: usize) -> Vec<f64> {
+    let [a, b] = [3 * tick, 3 * tick + 1].map(scatter);
+    [-0.3 + 0.4 * a, 0.7 + b, coefficient(tick)].map(|x| f64::from(x as f32)).to_vec()
+}
+
+fn with(text: &str, cells: Cells, setting: Setting) -> Result<Problem> {
+    let (scene, problem) = on_grid(text, distorted(grid(5, cells)))?;
+    let setting = Setting { model: Some(ModelKind::Condensed), ..setting };
+    let scene = Scene { setting: Some(setting), ..scene };
+    Problem::new(&scene, problem.mesh)
+}
+
+/// Ticks against the direct solver on the mesh, and their bounds against those of a model of that coefficient.
+fn ticks(problem: &Problem, scalar: ScalarKind, allowed: Tolerance, name: &str) -> Result<()> {
+    let (modes, _) = modal(problem, 0.0)?;
+    engine::baked(problem, Some(scalar), |engine, found| {
+        assert_eq!(found, name);
+        let (mut touching, mut open) = (0, 0);
+        for tick in 0..24 {
+            let values = inputs(tick);
+            let p: Vec<f64> = std::iter::once(1.0).chain(values.iter().copied()).collect();
+            let (now, solution, expected) = full_at(problem, &p)?;
+            engine.tick(&values)?;
+            let answer = engine.answer(&now)?;
+            let size = solution.largest_flux();
+            for (found, expected) in answer.outputs.iter().zip(&expected) {
+                let expected = expected.expect("a value");
+                let size = size.max(expected.abs());
+                allowed.check_over(format_args!("tick {tick}"), found - expected, size);
+            }
+            let largest = solution.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+            for (found, expected) in answer.u.iter().zip(&solution.u) {
+                allowed.check_over(format_args!("u of tick {tick}"), found - expected, largest);
+            }
+            let active = answer.active.iter().filter(|active| **active).count();
+            (touching, open) = (touching + active, open + answer.active.len() - active);
+            if scalar == ScalarKind::F64 {
+                let fresh = condense(&stated(problem, &values)?)?;
+                let x = fresh.solve(&p[..3]).expect("a solution");
+                let best = fresh.bound(&p[..3], &x).expect("a bound");
+                let bound = answer.bound.expect("a bound").total;
+                let x = modes.in_own_scale(values[2]).solve(&p).expect("a solution");
+                let of_host = modes.bound(values[2], &p, &x).expect("a bound");
+                MODAL_BOUND.check_relative(format_args!("tick {tick}"), bound, of_host);
+                MODAL_BEST.check_relative(format_args!("tick {tick}"), bound, best);
+            }
+        }
+        assert!(touching > 5 && open > 5, "{touching} {open}");
+        Ok(())
+    })
+}
+
+/// The scene with its coefficient as a number.
+fn stated(problem: &Problem, values: &[f64]) -> Result<Problem> {
+    let text = AIR.split("[input.h]").next().unwrap_or_default();
+    let coefficient = format!("coefficient = \"{}\"", 2.0 + values[2]);
+    let fresh = scene(&text.replace("coefficient = \"2\"", &coefficient))?;
+    let fresh = Problem::new(&fresh, problem.mesh.clone())?;
+    fresh.with_inputs(&values[..2])
+}
+
+#[test]
+fn ticks_follow_the_coefficient() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let problem = with(AIR, cells, Setting::default())?;
+        ticks(&problem, ScalarKind::F64, MODAL, "condensed by modes, exact method, f64")?;
+        ticks(&problem, ScalarKind::F32, MODAL_NARROW, "condensed by modes, exact method, f32")?;
+    }
+    let sweeps = Setting { solver: Some(Method::Sweeps), ..Setting::default() };
+    let problem = with(AIR, Cells::Triangles, sweeps)?;
+    ticks(&problem, ScalarKind::F64, MODAL, "condensed by modes, sweeps alone, f64")
+}
+
+/// u = SMOOTH's for every h: u_ext = u + σ·n/h, and σ·n is an input that is set to 1/h.
+fn smooth() -> String {
+    let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
+    text.replace(" + (3*y - 6.5)/(2+y)\"", "\"")
+        + "
+[input.h]
+of = \"left\"
+field = \"coefficient\"
+pattern = \"1\"
+default = 1.0
+range = [0.01, 100.0]
+[input.push]
+of = \"left\"
+field = \"ambient\"
+pattern = \"3*y - 6.5\"
+default = 1.0
+"
+}
+
+#[test]
+fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
+    for (cells, scalar) in [
+        (Cells::Triangles, ScalarKind::F64),
+        (Cells::Quads, ScalarKind::F64),
+        (Cells::Mixed, ScalarKind::F32),
+    ] {
+        let problem = with(&smooth(), cells, Setting::default())?;
+        engine::baked(&problem, Some(scalar), |engine, _| {
+            for h in [0.0625_f64, 0.5, 1.0, 16.0, 64.0] {
+                let values = [h, 1.0 / h];
+                engine.tick(&values)?;
+                let now = problem.with_inputs(&values)?;
+                let answer = engine.answer(&now)?;
+                let exact = now.scene.exact.as_ref().expect("an exact solution");
+                let found = distance(exact, &now, &answer.certified.admissible())?;
+                let bound = answer.bound.expect("a bound").total;
+                GUARANTEE.check_at_most(format_args!("{cells:?}, {h}"), found.combined, bound);
+                assert!(
+                    bound < 4.0 * found.combined,
+                    "{cells:?}, {h}: {bound}, {}",
+                    found.combined
+                );
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+/// Prints the bits of the outputs of each tick.
+fn main(ticks: &[Vec<f64>]) -> String {
+    format!(
+        "
+fn main() {{
+    let mut controller = Box::new(Controller::new());
+    for inputs in {ticks:?} {{
+        let answer = controller.tick(Inputs::from_array(inputs.map(|x: f64| x as Scalar)));
+        println!(\"{{:?}}\", answer.map(|answer| answer.outputs.to_array().map(Scalar::to_bits)));
+    }}
+}}
+"
+    )
+}
+
+fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
+    let (_, problem) = on_grid(text, grid(3, Cells::Mixed))?;
+    let (modes, _) = modal(&problem, 0.0)?;
+    let baked = Baked::<R>::modal(&modes, work, certified).expect("numbers in range");
+    let mut controller = Controller::new(&baked);
+    let mut log: Vec<_> = (0..8).map(inputs).collect();
+    log[4][2] = 59.0;
+    let lines = log.iter().map(|inputs| {
+        let inputs: Vec<R> = inputs.iter().map(|&x| R::narrow(x)).collect();
+        let answer = controller.tick(&inputs).map(|(outputs, _)| outputs);
+        let bits = answer.map(|outputs| outputs.into_iter().map(bits).collect::<Vec<_>>());
+        format!("{bits:?}\n")
+    });
+    let lines: Vec<_> = lines.collect();
+    assert!(lines[0] != lines[2] && lines[4] == "Err(InputOutOfRange { input: 2 })\n", "{lines:?}");
+    let text = source(&ModuleApi::new(&problem), &baked);
+    assert_eq!(printed(&(text + &main(&log))), lines.concat(), "{work:?}");
+    Ok(())
+}
+
+#[test]
+fn modules_have_the_same_bits() -> Result<()> {
+    let exact = Work { pivots: Some(40), sweeps: 4 };
+    let swept = Work { pivots: None, sweeps: 6 };
+    same_bits::<f32>(AIR, exact, true, |x| x.to_bits().into())?;
+    same_bits::<f64>(AIR, Work { pivots: Some(2), ..exact }, false, f64::to_bits)?;
+    same_bits::<f64>(AIR, swept, true, f64::to_bits)?;
+    let linear = AIR.replace("kind = \"contact\"\ngap = ", "kind = \"dirichlet\"\nvalue = ");
+    let linear = linear.replace("field = \"gap\"", "field = \"value\"");
+    same_bits::<f32>(&linear.replace("kind = \"force\"", "kind = \"flux\""), swept, true, |x| {
+        x.to_bits().into()
+    })
+}
+
+#[test]
+fn what_is_refused_leaves_the_last_answer() -> Result<()> {
+    let (_, problem) = on_grid(AIR, grid(4, Cells::Triangles))?;
+    let (modes, _) = modal(&problem, 0.0)?;
+    let work = Work { pivots: Some(40), sweeps: 4 };
+    let baked = Baked::<f32>::modal(&modes, work, true).expect("numbers in range");
+    assert!(baked.is_monotone, "no entry is positive on these triangles");
+    let (mut one, mut other) = (Controller::new(&baked), Controller::new(&baked));
+    for tick in 0..12 {
+        let inputs: Vec<f32> = inputs(tick).iter().map(|&x| x as f32).collect();
+        let huge = one.tick(&[1e38, inputs[1], 3.0]).expect_err("too large");
+        assert!(matches!(huge, Error::NotFinite { .. }), "{huge}");
+        assert_eq!(one.tick(&[0.0, 0.0, 58.5]), Err(Error::InputOutOfRange { input: 2 }));
+        assert_eq!(one.tick(&inputs), other.tick(&inputs), "{tick}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_modes_cannot_do_takes_the_full_model() -> Result<()> {
+    let second = AIR
+        .replace("field = \"ambient\"", "field = \"coefficient\"")
+        .replace("default = 0.7", "default = 0.7\nrange = [0, 1]");
+    let signs = AIR
+        .replace("pattern = \"1\"\n", "pattern = \"y - 0.5\"\n")
+        .replace("[-1.0, 58.0]", "[-1.0, 2.0]");
+    for (text, reason) in [
+        (second, "input.ambient.field: it changes the matrix, and one is written for all ticks"),
+        (signs, "input.h.pattern: negative on an edge"),
+    ] {
+        let (_, problem) = on_grid(&text, grid(3, Cells::Mixed))?;
+        let choice = Choice::<f32>::new(&problem, Wanted::default())?;
+        assert!(matches!(choice.candidate().model, Model::Full(_)));
+        assert!(choice.excluded.iter().any(|why| why.contains(reason)), "{:?}", choice.excluded);
+        let wanted = Wanted::model(ModelKind::Condensed);
+        assert!(Choice::<f32>::new(&problem, wanted).is_err());
+    }
+    Ok(())
+}
+
+#[test]
+fn a_slab_in_moving_air() -> Result<()> {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/firmware/scenes");
+    let scene = Scene::read(&scenes.join("slab-air.toml"))?;
+    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let choice = Choice::<f32>::new(&problem, Wanted { is_compared: true, ..Wanted::default() })?;
+    let said = explanation(&problem, &choice);
+    for expected in
+        ["86 of 86 modes of the coefficient's boundary kept", "Worst case, proved for all inputs"]
+    {
+        assert!(said.contains(expected), "{said}");
+    }
+    assert_eq!(choice.candidate().name, "condensed by modes, exact method");
+    let ticks: Vec<_> =
+        (0..12).map(|tick| [5.0 * scatter(tick), 5.0 + 6.25 * ((7 * tick) % 13) as f64]).collect();
+    for (scalar, allowed) in [(ScalarKind::F64, MODAL), (ScalarKind::F32, MODAL_NARROW)] {
+        engine::baked(&problem, Some(scalar), |engine, _| {
+            for values in ticks.iter().map(|values| values.map(|x| f64::from(x as f32))) {
+                let (now, solution, expected) = full_at(&problem, &[1.0, values[0], values[1]])?;
+                engine.tick(&values)?;
+                let answer = engine.answer(&now)?;
+                assert!(answer.bound.is_some());
+                for (found, expected) in answer.outputs.iter().zip(&expected).take(3) {
+                    let expected = expected.expect("a value");
+                    let size = solution.largest_flux().max(expected.abs());
+                    allowed.check_over(format_args!("{values:?}"), found - expected, size);
+                }
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}

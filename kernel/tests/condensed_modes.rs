@@ -1,0 +1,195 @@
+//! Two contact edges and two modes of a coefficient, in numbers that are exact: against the same by hand.
+
+use signorini_kernel::Error;
+use signorini_kernel::device::condensed::Condensed;
+use signorini_kernel::device::condensed::method::Sweeps;
+use signorini_kernel::device::condensed::modes::{ArrayModalStorage, Modal};
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::spans::SpanColumns;
+use signorini_kernel::device::condensed::storage::ArrayTableauStorage;
+use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::device::report::Ended;
+use signorini_kernel::solve::dense::blocks::Block;
+use signorini_kernel::solve::dense::tableau::InitialTableau;
+
+/// S = [1, −¼; −¼, 1]
+const MATRIX: [Block<f64>; 1] = [{
+    let mut block = [[0.0; 8]; 8];
+    block[0] = [1.0, -0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    block[1] = [-0.25, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    block
+}];
+/// b = (1, ½) + q (0, 1) for p = (1, q, h); then α = (½, ¼) and (0, −½).
+const LOAD: [f64; 40] = {
+    let mut load = [0.0; 40];
+    (load[0], load[1], load[9]) = (1.0, 0.5, 1.0);
+    (load[24], load[25], load[33]) = (0.5, 0.25, -0.5);
+    load
+};
+const NU: [f64; 2] = [1.0, 3.0];
+const BETA: [[f64; 3]; 2] = [[0.5, 0.25, 0.0], [-0.25, 0.0, 0.0]];
+/// h = 2.5 where t = 0, and t = (h − 2.5)/4.
+const ORIGIN: [f64; 2] = [2.0, 0.5];
+
+/// q + 2 y_0 − y_1 + x_0 + 4 x_1
+const OUTPUT: Measure<f64> =
+    Measure::Linear { of_inputs: &[0.0, 1.0, 0.0, 2.0, -1.0], of_contact: &[1.0, 4.0] };
+
+const MODEL: Modal<'static, f64> = Modal {
+    model: Condensed {
+        contact: 2,
+        matrix: &MATRIX,
+        x: &[],
+        start: InitialTableau { blocks: &[], exchanged: &[] },
+        load: &LOAD,
+        limits: &[],
+        spans: SpanColumns::UNLIMITED,
+        outputs: &[OUTPUT],
+        certificate: None,
+        has_bound: true,
+    },
+    input: 2,
+    origin: ORIGIN,
+    per_unit: 0.25,
+    compliance: &NU,
+    of_inputs: BETA.as_flattened(),
+    laws: None,
+    is_monotone: false,
+};
+
+struct Memory {
+    storage: ArrayModalStorage<f64, 8, 0, 1, 5>,
+    tableau: ArrayTableauStorage<f64, 8, 1>,
+}
+
+impl Memory {
+    fn new() -> Self {
+        Self { storage: ArrayModalStorage::zeros(), tableau: ArrayTableauStorage::zeros() }
+    }
+
+    /// Whether the matrix was worked out, how the tick ended, x and the output.
+    fn tick(&mut self, modal: &Modal<'static, f64>, q: f64, h: f64) -> Result<Ticked, Error> {
+        let is_new = self.storage.set(modal, &[1.0, q, h])?;
+        if is_new {
+            self.tableau.reset();
+        }
+        let (model, mut memory) = self.storage.at(modal);
+        let sweeps = Sweeps { omega: 1.0, tolerance: 0.0, most: 0 };
+        let mut method = self.tableau.method(&model, 8, sweeps)?;
+        let report = modal.tick(&model, &mut method, &mut Deadline::never(), &mut memory)?;
+        let output = model.output(0, memory.inputs, &memory.shared, &report)?;
+        let x = [memory.shared.iterate.x[0], memory.shared.iterate.x[1]];
+        Ok(Ticked { is_new, ended: report.ended, x, output })
+    }
+}
+
+#[derive(Debug, PartialEq)]
+struct Ticked {
+    is_new: bool,
+    ended: Ended,
+    x: [f64; 2],
+    output: f64,
+}
+
+/// The same by hand: x of two edges, whichever of them touch.
+fn by_hand(q: f64, h: f64) -> ([f64; 2], f64) {
+    let t = (h - 2.5) / 4.0;
+    let gain = NU.map(|nu| t / (1.0 + t * nu));
+    let given = BETA.map(|beta| beta[0] + beta[1] * q);
+    let alpha = [[0.5, 0.25], [0.0, -0.5]];
+    let entry = |i: usize, j: usize| {
+        MATRIX[0][i][j] + gain[0] * alpha[0][i] * alpha[0][j] + gain[1] * alpha[1][i] * alpha[1][j]
+    };
+    let load = |i: usize| {
+        [1.0, 0.5 + q][i] - gain[0] * alpha[0][i] * given[0] - gain[1] * alpha[1][i] * given[1]
+    };
+    let determinant = entry(0, 0) * entry(1, 1) - entry(0, 1) * entry(1, 0);
+    let both = [
+        (load(0) * entry(1, 1) - load(1) * entry(0, 1)) / determinant,
+        (load(1) * entry(0, 0) - load(0) * entry(1, 0)) / determinant,
+    ];
+    let alone = [load(0) / entry(0, 0), load(1) / entry(1, 1)];
+    let x = match both {
+        [a, b] if a >= 0.0 && b >= 0.0 => both,
+        _ if alone[0] > 0.0 && entry(1, 0) * alone[0] >= load(1) => [alone[0], 0.0],
+        _ if alone[1] > 0.0 && entry(0, 1) * alone[1] >= load(0) => [0.0, alone[1]],
+        _ => [0.0, 0.0],
+    };
+    let amplitude = |k: usize| gain[k] * (given[k] + alpha[k][0] * x[0] + alpha[k][1] * x[1]);
+    (x, q + 2.0 * amplitude(0) - amplitude(1) + x[0] + 4.0 * x[1])
+}
+
+#[test]
+fn ticks_follow_the_coefficient() -> Result<(), Error> {
+    let mut memory = Memory::new();
+    let mut sides = [false; 4];
+    let mut last = f64::NAN;
+    for (q, h) in [
+        (0.0, 2.5),
+        (0.0, 6.5),
+        (-2.0, 6.5),
+        (-2.0, 2.5),
+        (1.0, 18.5),
+        (-9.0, 18.5),
+        (0.25, 3.5),
+        (0.25, 3.5),
+        (7.0, 2.5),
+    ] {
+        let found = memory.tick(&MODEL, q, h)?;
+        let (x, output) = by_hand(q, h);
+        assert_eq!((found.is_new, found.ended), (h != last, Ended::Exact), "{q} {h}");
+        for (found, expected) in
+            found.x.iter().chain([&found.output]).zip(x.iter().chain([&output]))
+        {
+            assert!(
+                (found - expected).abs() <= 1e-14 * (1.0 + expected.abs()),
+                "{q} {h}: {found} {expected}"
+            );
+        }
+        sides[usize::from(x[0] > 0.0) + 2 * usize::from(x[1] > 0.0)] = true;
+        last = h;
+    }
+    assert!(sides[1] && sides[3], "{sides:?}");
+    Ok(())
+}
+
+#[test]
+fn a_reset_and_a_refusal_leave_what_was() -> Result<(), Error> {
+    let (mut one, mut other) = (Memory::new(), Memory::new());
+    for (q, h) in [(0.0, 3.5), (0.5, 3.5), (-1.0, 10.5)] {
+        for refused in [[f64::NAN, h], [1e308, 4.5], [0.0, f64::INFINITY]] {
+            assert!(
+                one.storage.set(&MODEL, &[1.0, refused[0], refused[1]]).is_err(),
+                "{refused:?}"
+            );
+        }
+        assert_eq!(one.tick(&MODEL, q, h), other.tick(&MODEL, q, h), "{q} {h}");
+    }
+    let first = Memory::new().tick(&MODEL, 0.0, 10.5);
+    one.storage.reset();
+    assert_eq!(one.tick(&MODEL, 0.0, 10.5), first);
+    assert!(one.storage.set(&MODEL, &[1.0, 0.0]).is_err());
+    Ok(())
+}
+
+#[test]
+fn entries_above_0_are_left_out_where_none_should_be() -> Result<(), Error> {
+    // At t = 4 the entry off the diagonal is −¼ + ⅘/8 and less; another first mode makes it positive.
+    let load = {
+        let mut load = LOAD;
+        (load[24], load[25]) = (1.0, 1.0);
+        load
+    };
+    let load: &'static [f64] = Box::leak(Box::new(load));
+    let plain = Modal { model: Condensed { load, ..MODEL.model }, ..MODEL };
+    let monotone = Modal { is_monotone: true, ..plain };
+    for (modal, expected) in [(plain, 0.8 - 0.25), (monotone, 0.0)] {
+        let mut memory = Memory::new();
+        memory.storage.set(&modal, &[1.0, 0.0, 18.5])?;
+        let (model, _) = memory.storage.at(&modal);
+        let [block] = model.matrix else { panic!("one block") };
+        assert!((block[0][1] - expected).abs() < 1e-15 && block[0][1] == block[1][0], "{block:?}");
+        assert!(block[0][0] > 1.7 && block[1][1] > 1.7);
+    }
+    Ok(())
+}

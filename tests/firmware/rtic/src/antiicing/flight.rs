@@ -1,0 +1,61 @@
+//! Stands in for air data and bus voltages: a climb, a cruise in gusts with a generator out for a while, a descent.
+
+use crate::scene::Inputs;
+
+/// Ticks of the flight.
+pub const TICKS: u32 = 1200;
+/// Ticks at which the climb ends, and the descent begins and ends.
+const CLIMBED: u32 = 300;
+const DESCENDS: u32 = 850;
+const DOWN: u32 = 1150;
+/// Ticks within which one of two generators is out.
+const OUT: core::ops::Range<u32> = 550..700;
+
+/// The flight, tick after tick.
+pub struct Flight {
+    tick: u32,
+    seed: u32,
+    gust: f32,
+}
+
+impl Flight {
+    /// On the ground.
+    pub const START: Self = Self { tick: 0, seed: 1, gust: 0.0 };
+
+    /// Ticks so far.
+    pub fn ticks(&self) -> u32 {
+        self.tick
+    }
+
+    /// The inputs of the next tick.
+    pub fn next(&mut self) -> Inputs {
+        let height = height(self.tick);
+        self.gust = 0.9 * self.gust + 4.0 * (self.part() - 0.5);
+        let voltage = if OUT.contains(&self.tick) { 0.55 } else { 1.0 };
+        let mut supply = || voltage * (1.0 + 0.04 * (self.part() - 0.5));
+        let (nose_supply, middle_supply, aft_supply) = (supply(), supply(), supply());
+        self.tick += 1;
+        let (airspeed, ambient) = (12.0 + 58.0 * height + self.gust, 6.0 - 38.0 * height);
+        let inputs = Inputs { airspeed, ambient, nose_supply, middle_supply, aft_supply };
+        inputs.clamped()
+    }
+
+    /// From [0, 1). Xorshift (Marsaglia) makes every run the same.
+    fn part(&mut self) -> f32 {
+        self.seed ^= self.seed << 13;
+        self.seed ^= self.seed >> 17;
+        self.seed ^= self.seed << 5;
+        (self.seed >> 8) as f32 / (1 << 24) as f32
+    }
+}
+
+/// 0 on the ground, 1 at cruise.
+fn height(tick: u32) -> f32 {
+    let part = |ticks: u32, of: u32| ticks as f32 / of as f32;
+    match tick {
+        ..CLIMBED => part(tick, CLIMBED),
+        CLIMBED..DESCENDS => 1.0,
+        DESCENDS..DOWN => part(DOWN - tick, DOWN - DESCENDS),
+        _ => 0.0,
+    }
+}
