@@ -45,11 +45,24 @@ impl Evaluated {
     /// # Errors
     /// Data that are not finite.
     pub fn new(problem: &Problem) -> Result<Self> {
+        Self::with(problem, Ends::moved)
+    }
+
+    /// The same of a term of a sum: what the sum has to meet, it may break. Where u_D is on a side of ψ that there is not, whoever
+    /// adds up the terms has to count it.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn of_term(problem: &Problem) -> Result<Self> {
+        Self::with(problem, Ends::moved_on_dirichlet)
+    }
+
+    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
         let time = problem.time;
         let ends = Ends::at_time(problem, time)?;
         let curved_edges = curved_edges(problem, time)?;
         // s is off by that much, and once more where u_h is compared with it.
-        let left_out = 2.0 * (curved_edges.left_out + ends.moved(problem));
+        let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
         let curved = curved_edges.records;
         let of_cells = oscillation(problem, time)?;
         let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();

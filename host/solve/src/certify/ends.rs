@@ -56,13 +56,7 @@ impl Ends {
     /// or u_D on a side of ψ that there is not. s takes one value there, which moves it by the difference in all cells around.
     pub fn moved(&self, problem: &Problem) -> f64 {
         let counts = problem.topology.counts;
-        let mut values = BTreeMap::<u32, [f64; 2]>::new();
-        for (edge, pair) in (counts.unknowns()..).zip(&self.given) {
-            for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
-                let [low, high] = values.entry(vertex).or_insert([value; 2]);
-                (*low, *high) = (low.min(value), high.max(value));
-            }
-        }
+        let mut values = self.values(problem);
         for (edge, pair) in (counts.free..).zip(&self.gap) {
             let span = problem.loads.flux_range(edge - counts.free).span().length();
             for (vertex, &psi) in problem.ends[edge].into_iter().zip(pair) {
@@ -75,8 +69,24 @@ impl Ends {
                 }
             }
         }
-        let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));
-        of_moved(problem, &spread.collect())
+        of_spread(problem, values)
+    }
+
+    /// The same of the first kind alone: one term of a sum may have u_D on any side of ψ.
+    pub fn moved_on_dirichlet(&self, problem: &Problem) -> f64 {
+        of_spread(problem, self.values(problem))
+    }
+
+    /// The least and the largest u_D at each vertex.
+    fn values(&self, problem: &Problem) -> BTreeMap<u32, [f64; 2]> {
+        let mut values = BTreeMap::<u32, [f64; 2]>::new();
+        for (edge, pair) in (problem.topology.counts.unknowns()..).zip(&self.given) {
+            for (vertex, &value) in problem.ends[edge].into_iter().zip(pair) {
+                let [low, high] = values.entry(vertex).or_insert([value; 2]);
+                (*low, *high) = (low.min(value), high.max(value));
+            }
+        }
+        values
     }
 
     /// The largest modulus of all these numbers.
@@ -84,6 +94,12 @@ impl Ends {
         let all = self.gap.iter().chain(&self.given).flatten();
         all.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
+}
+
+/// ‖A^½∇·‖ of what s misses where values at vertices lie between these.
+fn of_spread(problem: &Problem, values: BTreeMap<u32, [f64; 2]>) -> f64 {
+    let spread = values.into_iter().map(|(vertex, [low, high])| (vertex, high - low));
+    of_moved(problem, &spread.collect())
 }
 
 /// ‖A^½∇·‖ of the continuous function that is at most these numbers at these vertices, and 0 at the others.

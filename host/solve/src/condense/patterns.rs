@@ -28,7 +28,7 @@ impl Pattern {
     }
 
     fn new(problem: Problem) -> Result<Self> {
-        let Evaluated { ends, oscillation, no_bound, .. } = Evaluated::new(&problem)?;
+        let Evaluated { ends, oscillation, no_bound, .. } = Evaluated::of_term(&problem)?;
         Ok(Self { problem, ends, oscillation, no_bound })
     }
 

@@ -281,7 +281,7 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
 #[test]
 fn modes_keep_their_limits() -> Result<()> {
     let input = "[input.h]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 1.5\nrange = [-1.0, 100.0]\n";
-    let text = limited(ENDS[3], input)
+    let text = limited(ENDS[0], input)
         .replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
     let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
     let (modes, _) = modal(&problem)?;
