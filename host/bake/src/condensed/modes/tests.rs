@@ -206,6 +206,37 @@ fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
     Ok(())
 }
 
+#[test]
+fn modes_that_are_left_out_are_paid_for() -> Result<()> {
+    let work = Work { pivots: Some(40), sweeps: 4 };
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let problem = with(&smooth(), cells, Setting::default())?;
+        let (all, _) = modal(&problem, 0.0)?;
+        let (some, recovery) = modal(&problem, 0.1)?;
+        let kept = some.compliance.len();
+        assert!(kept > 0 && kept + some.left_out.count == all.compliance.len(), "{kept}");
+        assert!(some.left_out.count > 0 && all.left_out.count == 0);
+        let baked = [&all, &some].map(|of| Baked::<f64>::modal(of, work, true).expect("in range"));
+        let [mut whole, mut less] = baked.each_ref().map(Controller::new);
+        for h in [0.0625_f64, 1.0, 16.0] {
+            let values = [h, 1.0 / h];
+            let total = |controller: &mut Controller<f64>| {
+                let (_, report) = controller.tick(&values).expect("a tick");
+                report.certificate().expect("a bound").total
+            };
+            let [best, bound] = [total(&mut whole), total(&mut less)];
+            let p = some.amplitudes(h, &[1.0, h, 1.0 / h], less.x());
+            let fields = recovery.admissible(&some.model, &problem, &p, less.x()).expect("s and τ");
+            let now = problem.with_inputs(&values)?;
+            let exact = now.scene.exact.as_ref().expect("an exact solution");
+            let error = distance(exact, &now, &fields.admissible())?.combined;
+            GUARANTEE.check_at_most(format_args!("{cells:?}, {h}"), error, bound);
+            assert!(bound > best, "{cells:?}, {h}: {bound}, {best} with all");
+        }
+    }
+    Ok(())
+}
+
 /// Prints the bits of the outputs of each tick.
 fn main(ticks: &[Vec<f64>]) -> String {
     format!(
