@@ -1,5 +1,6 @@
 //! The inputs of a controller: their ranges in its scalar, and values drawn from them for trials.
 
+use signorini_kernel::device::ranges::clamp;
 use signorini_scene::scene::{Input, Scene};
 use signorini_solve::scalar::Scalar;
 
@@ -24,17 +25,19 @@ impl InputSpace {
         Self { default, range: [f64::NEG_INFINITY, f64::INFINITY] }
     }
 
-    /// The value of `tick` that 32 random bits stand for.
-    fn value(&self, tick: usize, bits: u32) -> f64 {
-        let Self { default, range: [lo, hi] } = *self;
-        let part = f64::from(bits >> 8) / f64::from(1 << 24);
-        match (tick % 4, lo.is_finite() && hi.is_finite()) {
+    /// The value of `tick` that 32 random bits stand for, in the arithmetic of the device: on a mesh another last digit of an
+    /// input may lead the search for ω elsewhere, to another number of sweeps.
+    fn value<R: Scalar>(&self, tick: usize, bits: u32) -> R {
+        let [default, lo, hi] = [self.default, self.range[0], self.range[1]].map(R::narrow);
+        let part = R::from_count(bits >> 8) / R::from_count(1 << 24);
+        match (tick % 4, lo.finite() && hi.finite()) {
             _ if tick == 0 => default,
             (_, false) => {
-                default + (if default == 0.0 { 1.0 } else { default }) * 0.1 * (2.0 * part - 1.0)
+                let unit = if default == R::ZERO { R::ONE } else { default };
+                default + unit * (R::narrow(0.2) * part - R::narrow(0.1))
             }
-            (0 | 1, true) => lo + (hi - lo) * part,
-            _ if part < 0.5 => lo,
+            (0 | 1, true) => clamp(lo + (hi - lo) * part, [lo, hi]),
+            _ if part < R::HALF => lo,
             _ => hi,
         }
     }
@@ -54,7 +57,7 @@ pub fn drawn<R: Scalar>(spaces: &[InputSpace], ticks: usize) -> impl Iterator<It
     (0..=ticks).map(move |tick| {
         let value = |space: &InputSpace| {
             let bits = if tick == 0 { 0 } else { bits() };
-            R::narrow(space.value(tick, bits))
+            space.value(tick, bits)
         };
         spaces.iter().map(value).collect()
     })

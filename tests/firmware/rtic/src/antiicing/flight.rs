@@ -3,13 +3,13 @@
 use crate::scene::Inputs;
 
 /// Ticks of the flight.
-pub const TICKS: u32 = 1200;
+pub const TICKS: u32 = 600;
 /// Ticks at which the climb ends, and the descent begins and ends.
-const CLIMBED: u32 = 300;
-const DESCENDS: u32 = 850;
-const DOWN: u32 = 1150;
+const CLIMBED: u32 = 150;
+const DESCENDS: u32 = 425;
+const DOWN: u32 = 575;
 /// Ticks within which one of two generators is out.
-const OUT: core::ops::Range<u32> = 550..700;
+const OUT: core::ops::Range<u32> = 275..350;
 
 /// The flight, tick after tick.
 pub struct Flight {

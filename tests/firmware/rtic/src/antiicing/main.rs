@@ -50,9 +50,9 @@ mod app {
         judge: Judge,
     }
 
-    #[init(local = [controller: Controller = Controller::new()])]
+    #[init(local = [memory: Controller = Controller::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
-        let (mut systick, controller) = (cx.core.SYST, cx.local.controller);
+        let (mut systick, controller) = (cx.core.SYST, cx.local.memory);
         let Ok(costs) = Costs::measure(&mut systick, controller) else { console::end(false) };
         clock::start(&mut systick);
         let local = Local { controller, flight: Flight::START, systick, judge: Judge::new(costs) };
