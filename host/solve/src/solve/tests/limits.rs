@@ -121,15 +121,15 @@ fn three_states() -> String {
         )
 }
 
-/// All three sides of the law with the r^{3/2} of both transitions, at ±a on y = 0 with lo = 0 and hi = 1.5:
+/// All three sides of the law with the r^{3/2} of both transitions, at ±a on y = 0 with lo and hi:
 /// ```text
 ///   z = a sin(ξ + iη),  β = (lo − hi)/π,  c = (lo + hi)/2
 ///   u = −(c y + β (x η + y ξ − a sin ξ sinh η)),    ∇u = (−β η, −(c + β ξ))
 /// ```
 /// so that η > 0 = y beyond ±a, where ξ = ±π/2 and σ·n = c + β ξ is lo or hi, and u = η = 0 between.
-fn two_transitions(unit: f64) -> String {
-    let [least, most] = [0.0, 1.5].map(|end| end * unit);
-    let (beta, c) = (format!("({least} - {most})/pi"), format!("({least} + {most})/2"));
+pub(super) fn two_transitions([least, most]: [f64; 2]) -> String {
+    let beta = format!("({least:e} - ({most:e}))/pi");
+    let c = format!("({least:e} + {most:e})/2");
     // s = √(z − a) √(z + a) = i a cos(ξ + iη), and ξ + iη = π/2 + i ln((z + s)/a).
     let size = "((x-0.55)^2+y^2)^0.25*((x+0.55)^2+y^2)^0.25";
     let angle = "(0.5*atan2(y,x-0.55) + 0.5*atan2(y,x+0.55))";
@@ -148,8 +148,8 @@ value = \"{u}\"
 [boundary.contact]
 kind = \"contact\"
 gap = \"0\"
-flux = \"{least}\"
-limit = \"{most}\"
+flux = \"{least:e}\"
+limit = \"{most:e}\"
 [exact]
 u = \"{u}\"
 gradient = [\"-{beta}*{eta}\", \"-({c} + {beta}*{xi})\"]
@@ -163,7 +163,7 @@ fn both_transitions_converge_and_are_bounded() -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let mut before: Option<f64> = None;
         for n in [8, 16, 32] {
-            let (scene, problem) = on_grid(&two_transitions(1.0), grid(n, cells))?;
+            let (scene, problem) = on_grid(&two_transitions([0.0, 1.5]), grid(n, cells))?;
             let exact = scene.exact.as_ref().expect("an exact solution");
             let found = solved(&problem, SolverKind::Kernel, ScalarKind::F64)?;
             let reference = solved(&problem, SolverKind::Direct, ScalarKind::F64)?;
@@ -205,7 +205,7 @@ fn states(problem: &Problem, solution: &Solution) -> [usize; 3] {
 /// Wherever sweeps end, the bound holds; so it does for limits that hardly let anything through, and for huge ones.
 #[test]
 fn the_bound_holds_at_any_stop() -> Result<()> {
-    let units = [1.0, 1e-12, 1e12];
+    let units = [1.0, 1e-12, 1e12].map(|unit| [0.0, 1.5 * unit]);
     for (name, mesh) in meshes(6) {
         for text in [three_states()].into_iter().chain(units.map(two_transitions)) {
             let (scene, problem) = on_grid(&text, mesh.clone())?;
@@ -236,7 +236,7 @@ fn the_bound_holds_at_any_stop() -> Result<()> {
     Ok(())
 }
 
-fn meshes(n: u32) -> [(&'static str, Mesh); 4] {
+pub(super) fn meshes(n: u32) -> [(&'static str, Mesh); 4] {
     [
         ("triangles", grid(n, Cells::Triangles)),
         ("quads", grid(n, Cells::Quads)),
