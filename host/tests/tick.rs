@@ -397,3 +397,22 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         COARSE_START.check_relative(format_args!("{cells:?}"), same, bound);
     }
 }
+
+/// A heater whose supply sags below what it gives at least: the log's line says so, not the scene's.
+#[test]
+fn ends_that_a_log_turns_round_are_blamed_on_its_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, log) = (folder.path().join("l.toml"), folder.path().join("sagging.csv"));
+    let mesh = meshes("catalogue/square-tri-16.msh");
+    std::fs::copy(mesh, folder.path().join("square.msh")).expect("a mesh");
+    let text = "mesh = \"square.msh\"\n[material.default]\nconductivity = \"1\"\n\
+        [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"0\"\n\
+        [boundary.contact]\nkind = \"contact\"\nflux = \"-2\"\nlimit = \"0\"\n\
+        [input.cap]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\ndefault = 1\n";
+    std::fs::write(&scene, text).expect("a scene");
+    std::fs::write(&log, "t,cap\n0,1\n1,-3\n2,1\n").expect("a log");
+    let log = log.to_str().expect("UTF-8");
+    let message = refused(&scene, &folder.path().join("out"), &["--log", log]);
+    assert!(message.contains("sagging.csv:3:") && message.contains("at t = 1"), "{message}");
+    assert!(message.contains("the limit is -3") && !message.contains("l.toml"), "{message}");
+}

@@ -41,6 +41,8 @@ pub struct InputError {
     message: String,
     hint: Option<String>,
     excerpt: Option<(NamedSource<Arc<str>>, SourceSpan)>,
+    /// The time of a scene at which it is wrong.
+    time: Option<f64>,
 }
 
 /// Lines beyond this many bytes are not shown: they would bury the message.
@@ -49,7 +51,14 @@ const LONGEST_EXCERPT: usize = 400;
 impl InputError {
     /// `message` names the culprit (`boundary.river.value`, `triangle 12`) and what was expected.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { file: None, line: None, message: message.into(), hint: None, excerpt: None }
+        Self {
+            file: None,
+            line: None,
+            message: message.into(),
+            hint: None,
+            excerpt: None,
+            time: None,
+        }
     }
 
     /// What is wrong, without its place.
@@ -73,6 +82,17 @@ impl InputError {
     pub fn line(mut self, line: usize) -> Self {
         self.line = Some(line);
         self
+    }
+
+    /// Lays it on another line instead, of a file that is not shown.
+    #[must_use]
+    pub fn moved(self, file: &Path, line: usize) -> Self {
+        Self { file: Some(file.to_owned()), line: Some(line), excerpt: None, ..self }
+    }
+
+    /// The time of a scene at which it is wrong, if it is so at some times alone.
+    pub fn time(&self) -> Option<f64> {
+        self.time
     }
 
     /// Adds the text and the byte range to underline; the line number follows from it.
@@ -156,6 +176,7 @@ impl Error {
     pub fn at_time(mut self, time: f64) -> Self {
         if let Self::Input(error) = &mut self {
             error.message = format!("{} (at t = {time})", error.message);
+            error.time = Some(time);
         }
         self
     }

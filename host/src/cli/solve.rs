@@ -21,7 +21,9 @@ use signorini_solve::output::vtu::{Field, contact_vtu, vtu};
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::solve::{
+    FreeLevel, Options, ScalarKind, Solution, SolverKind, free_levels, solve,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -74,6 +76,10 @@ impl Arguments {
         warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
         let solution = waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
+        let levels = free_levels(&problem, &solution)?;
+        let levels: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
+        warn(&levels);
+        problem.warnings.extend(levels);
         let errors = of_solution(&problem, &solution)?;
         let declared = outputs(&problem, &solution)?;
         let norm = energy_norm::of_solution(&problem, &solution)?;

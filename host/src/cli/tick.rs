@@ -98,7 +98,11 @@ impl Arguments {
                 .map(|ticks| ("full, swept".to_owned(), ticks)),
         };
         bar.finish_and_clear();
-        let (model, ticks) = ticks?;
+        let blamed = |error| match &self.log {
+            Some(path) => log::blamed(path, error),
+            None => error,
+        };
+        let (model, ticks) = ticks.map_err(blamed)?;
         let table = ticks_csv(&scene, &ticks).map_err(|error| Error::Check(error.to_string()))?;
         let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;

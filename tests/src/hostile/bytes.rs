@@ -108,6 +108,20 @@ impl<'a> Bytes<'a> {
         (0..count).map(|_| [(); N].map(|()| self.real())).collect()
     }
 
+    /// Spans of so many contact edges: mostly none, ∞ on every edge; else, by the last byte of all, some of any bits.
+    pub fn spans<R: Bits>(&mut self, count: usize) -> Vec<R> {
+        let span = |bytes: &mut Self| match bytes.below(6) {
+            0 => R::INFINITY,
+            1 => -R::INFINITY,
+            2 => R::ZERO,
+            _ => bytes.real(),
+        };
+        match self.rest.last() {
+            Some(0xc0..) => (0..count).map(|_| span(self)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// `reals`, of which a finite one only where `wild` is not set.
     pub fn given<R: Bits>(&mut self, count: usize, wild: bool) -> Vec<R> {
         let tame = |x: R| if wild || x.finite() { x } else { R::ONE };

@@ -11,6 +11,7 @@ use signorini_kernel::device::tick::Data;
 use signorini_kernel::discrete::assembly::CellLoads;
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::{Block, Edges};
@@ -146,7 +147,8 @@ pub struct Loads<R> {
     curved: Vec<Curved<R, u16>>,
     transfer: Vec<[[R; 2]; 8]>,
     oscillation: R,
-    pub lower: Vec<R>,
+    lower: Vec<R>,
+    spans: Vec<R>,
     pub dirichlet: Vec<R>,
 }
 
@@ -170,6 +172,7 @@ impl<R: Bits> Loads<R> {
             conditions,
             lower,
             dirichlet,
+            spans: bytes.spans(counts.contact),
         }
     }
 
@@ -178,7 +181,7 @@ impl<R: Bits> Loads<R> {
         let [gap, given] = &self.ends;
         Ok(LoadCase {
             loads: CellLoads { triangles: &self.cells.0, quads: &self.cells.1 },
-            boundary: self.conditions.boundary(edges)?,
+            boundary: self.conditions.boundary(edges)?.with_spans(edges, self.spans()?)?,
             ends: VertexData { gap, given },
             curved: &self.curved,
             transfer: &self.transfer,
@@ -188,8 +191,16 @@ impl<R: Bits> Loads<R> {
 
     /// As a tick takes them.
     pub fn data(&self, edges: &Edges<u16>) -> Result<Data<'_, R, u16>, Error> {
-        let (law, dirichlet) = (Law::above(&self.lower), &self.dirichlet);
-        Ok(Data { given: self.given(edges)?, law, dirichlet })
+        Ok(Data { given: self.given(edges)?, law: self.law()?, dirichlet: &self.dirichlet })
+    }
+
+    fn spans(&self) -> Result<Spans<'_, R>, Error> {
+        Spans::new(&self.spans)
+    }
+
+    /// What holds on C.
+    pub fn law(&self) -> Result<Law<'_, R>, Error> {
+        Ok(Law::above(&self.lower).with_spans(self.spans()?))
     }
 }
 
@@ -207,7 +218,7 @@ pub fn judged<R: Bits>(
         tau: &mut vec![R::ZERO; edges],
         indicators: &mut vec![R::ZERO; if bytes.flag() { cells } else { 0 }],
     };
-    let iterate = Iterate { u: &u, law: Law::above(&loads.lower) };
+    let iterate = Iterate { u: &u, law: loads.law()? };
     match certify(discretization, &loads.given(&discretization.edges)?, iterate, buffers)? {
         Verdict::Certified(found) => is_bound(&found),
         Verdict::Pulled { edge } => {

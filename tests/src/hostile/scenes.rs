@@ -86,10 +86,35 @@ pattern = "y"
 "#,
 ];
 
-/// A scene of [`TEXTS`] on its mesh.
+/// Held by Dirichlet values, with a flux between two ends; for full models alone.
+pub const LIMITED: [&str; 1] = [r#"
+mesh = "none.msh"
+[material.default]
+conductivity = "1 + 0.5*x"
+[boundary.dirichlet]
+kind = "dirichlet"
+value = "0.5*x"
+[boundary.contact]
+kind = "contact"
+gap = "0.2*x"
+flux = "-0.3"
+limit = "0.4"
+[input.value]
+of = "dirichlet"
+field = "value"
+pattern = "1"
+"#];
+
+/// A scene of [`TEXTS`] or [`LIMITED`] on its mesh.
 pub fn of(text: &str) -> Option<(Scene, Mesh)> {
     let bound = if text.contains("certificate = false") { "" } else { BOUND };
-    let text = format!("{text}{INPUTS_AND_OUTPUTS}{bound}");
+    // Both ends of a flux with a limit are fixed in a module.
+    let rest = match text.contains("\nlimit = ") {
+        true => INPUTS_AND_OUTPUTS
+            .replace("of = \"contact\"\nfield = \"flux\"", "of = \"source\"\nfield = \"f\""),
+        false => INPUTS_AND_OUTPUTS.to_owned(),
+    };
+    let text = format!("{text}{rest}{bound}");
     let scene = Scene::parse(&text, Path::new("sound.toml")).ok()?;
     let cells = if text.contains("robin") { Cells::Mixed } else { Cells::Triangles };
     Some((scene, grid(2, cells)))

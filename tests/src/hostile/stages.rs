@@ -91,10 +91,12 @@ fn solved<R: Bits>(
     let (triangles, quads) = (bytes.reals(k.triangles.len()), bytes.reals(k.quads.len()));
     let cells = CellLoads { triangles: &triangles, quads: &quads };
     assembly::load(edges, cells, &boundary, &mut load)?;
+    let spans = bytes.spans(counts.contact);
+    let spans = Spans::new(&spans)?;
     let _ = examine(
         edges,
         diagonal,
-        (&load, Spans::UNLIMITED),
+        (&load, spans),
         bytes.real(),
         &mut vec![Part::default(); edges.cells()],
     );
@@ -102,7 +104,7 @@ fn solved<R: Bits>(
     let mut memory = vec![Row::EMPTY; counts.unknowns()];
     let rows = Rows::<R, u16, QUADS>::new(edges, &mut memory)?;
     let lower = bytes.reals(counts.contact);
-    let system = System::new(matrix, &load, Law::above(&lower), counts)?;
+    let system = System::new(matrix, &load, Law::above(&lower).with_spans(spans), counts)?;
     let u = iterated(bytes, &system, diagonal, rows)?;
     let mut fluxes = vec![R::ZERO; u.len()];
     flux::recover(edges, k, cells, &u, &[], &mut fluxes).map(drop)
@@ -134,7 +136,7 @@ pub fn iterated<R: Bits, const WIDTH: usize>(
     let outcome = refinement::run::<R, u16, Libm, WIDTH>(
         &system, diagonal, settings, rounds, &mut u, buffers,
     )?;
-    sound(&outcome, counts, system.law().lower(), &u);
+    sound(&outcome, counts, system.law(), &u);
     Ok(u)
 }
 
@@ -153,14 +155,14 @@ fn settings<R: Bits>(bytes: &mut Bytes) -> Settings<R> {
     }
 }
 
-/// An iterate that is no overflow is finite and on or above the gap.
-fn sound<R: Bits>(outcome: &Outcome<R>, counts: EdgeCounts, lower: &[R], u: &[R]) {
+/// An iterate that is no overflow is finite and on a side of the gap that there is.
+fn sound<R: Bits>(outcome: &Outcome<R>, counts: EdgeCounts, law: Law<R>, u: &[R]) {
     if outcome.status == Status::NotFinite {
         return;
     }
     assert!(u.iter().take(counts.unknowns()).all(|u| u.finite()), "{outcome:?} {u:?}");
-    let contact = u.iter().skip(counts.free).zip(lower);
-    assert!(contact.into_iter().all(|(u, lower)| u >= lower), "{outcome:?} {u:?}");
+    let contact = u.iter().skip(counts.free).zip(law.edges());
+    assert!(contact.into_iter().all(|(u, law)| law.admits(*u)), "{outcome:?} {u:?}");
     let residual = outcome.residual;
     assert!(residual.largest.finite() && residual.largest >= R::ZERO, "{outcome:?}");
 }
@@ -179,9 +181,11 @@ fn swept<R: Bits>(
     let mut u = bytes.reals(counts.edges());
     let diagonal = DiagonalTerms::new(&conditions.boundary(edges)?);
     rows.gather(edges, k, diagonal, &load, bytes.real())?;
+    let spans = bytes.spans(counts.contact);
+    let law = Law::above(&lower).with_spans(Spans::new(&spans)?);
     for _ in 0..bytes.below(5) {
-        psor::sweep(&rows, Law::above(&lower), &mut u)?;
-        let defect = psor::defect(&rows, Law::above(&lower), &u)?;
+        psor::sweep(&rows, law, &mut u)?;
+        let defect = psor::defect(&rows, law, &u)?;
         assert!(defect.largest.wide().is_nan() || defect.largest >= R::ZERO, "{defect:?}");
     }
     psor::sweep_free(&rows, &mut u)

@@ -12,7 +12,7 @@ use std::path::Path;
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
 use super::{ScheduledTick, schedule::MOST};
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Scene;
 
 const SHAPE: &str = "a log is a CSV file: a line t,NAME,… with inputs of the scene, then numbers";
@@ -46,6 +46,25 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
         return Err(InputError::new("no tick in the log").file(path).line(1).hint(SHAPE).into());
     }
     Ok(moments)
+}
+
+/// What is wrong at a time is wrong with the line of the log that has it, whose inputs made it so.
+#[must_use]
+pub fn blamed(path: &Path, error: Error) -> Error {
+    let Error::Input(error) = error else { return error };
+    match error.time().and_then(|time| line_of(path, time)) {
+        Some(line) => error.moved(path, line).into(),
+        None => Error::Input(error),
+    }
+}
+
+/// The line of a log that was read before with this time.
+fn line_of(path: &Path, time: f64) -> Option<usize> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).from_path(path).ok()?;
+    let mut records = reader.records().filter_map(std::result::Result::ok);
+    let is_then = |record: &StringRecord| record.get(0).and_then(|t| t.parse().ok()) == Some(time);
+    let record = records.find(is_then)?;
+    record.position().map(|position| position.line() as usize)
 }
 
 /// What stands in a column behind the first: its name and the input.

@@ -51,31 +51,26 @@ pub enum Axis {
     Robin,
     /// Contact edges that all open or close from tick to tick.
     Switching,
+    /// hi − lo over lo, of a flux in three states.
+    Span,
+    /// The same with hi < 0: over |hi|.
+    SpanBelow,
+    /// hi = −lo on a wall whose flux would be 1.
+    Ends,
+    /// u above a wall whose flux has the ends −2 and 3.
+    Above,
+    /// hi over the largest flux, which nothing reaches beyond 1.
+    Limit,
+    /// lo likewise, where u is kept below ψ.
+    Least,
+    /// Which end is infinite: the lower one (−1), the upper one (1), both (0).
+    Infinite,
+    /// A wall at either end of the flux from tick to tick.
+    MovingWall,
 }
 
 /// ‖(2, 1)‖: the diameter of the domain.
 const DIAMETER: f64 = 2.236_067_977_499_79;
-
-const JUMPS: [f64; 13] =
-    [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12];
-const FEW_JUMPS: [f64; 7] = [1e-12, 1e-8, 1e-4, 1.0, 1e4, 1e8, 1e12];
-
-/// 2⁻²⁰ to 2²⁰: 10⁻⁶ to 10⁶.
-const STRETCHES: [f64; 13] = [
-    9.536_743_164_062_5e-7,
-    7.629_394_531_25e-6,
-    6.103_515_625e-5,
-    4.882_812_5e-4,
-    3.906_25e-3,
-    6.25e-2,
-    1.0,
-    16.0,
-    256.0,
-    2048.0,
-    16_384.0,
-    131_072.0,
-    1_048_576.0,
-];
 
 impl Axis {
     /// Its name in the files.
@@ -102,79 +97,14 @@ impl Axis {
             Self::Sweeps => "most sweeps",
             Self::Robin => "transfer coefficient",
             Self::Switching => "switching edges",
-        }
-    }
-
-    /// The places on it when it stands alone.
-    pub fn values(self) -> &'static [f64] {
-        match self {
-            Self::Contrast => &JUMPS,
-            Self::Anisotropy => &STRETCHES,
-            Self::Obliqueness => &[0.0, 0.25, 1.0, 3.0, 10.0, 32.0, 100.0, 300.0, 1024.0],
-            Self::Aspect | Self::Slivers => &[1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9, 1e12],
-            Self::Collapse => &[-0.1, 0.0, 1e-18, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1],
-            Self::Trapezoids => &[4.0, 8.0, 16.0, 32.0, 64.0],
-            Self::Length => {
-                &[1e-300, 1e-150, 1e-50, 1e-15, 1e-6, 1.0, 1e6, 1e15, 1e50, 1e150, 1e300]
-            }
-            Self::Shift => &[0.0, 1.0, 1e3, 1e6, 1e9, 1e12, 1e15],
-            Self::Load => &[
-                1e-320, 1e-310, 1e-300, 1e-150, 1e-44, 1e-40, 1e-30, 1e-15, 1.0, 1e10, 1e15, 1e20,
-                1e30, 1e37, 1e150, 1e300,
-            ],
-            Self::FlushedLoad => {
-                &[1e-320, 1e-308, 1e-300, 1e-150, 1e-44, 1e-40, 1e-37, 1e-30, 1e-15, 1.0]
-            }
-            Self::Stiffness => &[
-                1e-310, 1e-300, 1e-150, 1e-44, 1e-30, 1e-15, 1e-10, 1e-5, 1.0, 1e5, 1e10, 1e15,
-                1e30, 1e37, 1e150, 1e300,
-            ],
-            Self::Grazing => &[0.0, 0.25, 0.5, 1.0],
-            Self::Contact => &[0.0, 0.0625, 2.0, 6.0],
-            Self::Active => &[0.0, 0.5, 1.0],
-            Self::Dirichlet => &[0.0, 1e-6, 1e-3, 0.0625, 1.0, 4.0],
-            Self::Cells => &[2.0, 4.0, 64.0, 1024.0, 16_384.0, 262_144.0, 1_960_000.0],
-            Self::Omega => &[
-                -1.0,
-                0.0,
-                1e-12,
-                1e-6,
-                1e-3,
-                0.1,
-                1.0,
-                1.9,
-                1.99,
-                1.9999,
-                1.999_999,
-                1.999_999_999,
-                2.0,
-            ],
-            Self::Sweeps => &[1.0, 10.0, 100.0, 1000.0],
-            Self::Robin => &JUMPS,
-            Self::Switching => &[2.0, 8.0, 16.0, 32.0],
-        }
-    }
-
-    /// The places on it when it is crossed with another.
-    pub fn crossed(self) -> &'static [f64] {
-        match self {
-            Self::Contrast | Self::Robin => &FEW_JUMPS,
-            Self::Anisotropy => &[
-                STRETCHES[0],
-                STRETCHES[2],
-                STRETCHES[4],
-                1.0,
-                STRETCHES[8],
-                STRETCHES[10],
-                STRETCHES[12],
-            ],
-            Self::Obliqueness => &[0.0, 0.25, 1.0, 4.0, 32.0, 256.0, 1024.0],
-            Self::Aspect => &[1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6],
-            Self::Length => &[1e-15, 1e-10, 1e-5, 1.0, 1e5, 1e10, 1e15],
-            Self::Load => &[1e-310, 1e-150, 1e-40, 1e-20, 1.0, 1e15, 1e30],
-            Self::Cells => &[4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0],
-            Self::Omega => &[1e-3, 0.1, 1.0, 1.9, 1.99, 1.9999, 1.999_999],
-            other => other.values(),
+            Self::Span => "span of the flux",
+            Self::SpanBelow => "span of a negative flux",
+            Self::Ends => "ends of the flux",
+            Self::Above => "potential above",
+            Self::Limit => "greatest flux",
+            Self::Least => "least flux",
+            Self::Infinite => "infinite end",
+            Self::MovingWall => "switching limits",
         }
     }
 
@@ -182,7 +112,7 @@ impl Axis {
     pub fn set(self, value: f64, case: &mut ExtremeCase) {
         let (posed, effort) = (&mut case.posed, &mut case.effort);
         match self {
-            Self::Contrast => posed.solution = Solution::Jump(value),
+            Self::Contrast => set_contrast(value, case),
             Self::Anisotropy => posed.shear.anisotropy = value,
             Self::Obliqueness => posed.shear.obliqueness = value,
             Self::Aspect => posed.grid.shape = Shape::Graded { aspect: value },
@@ -211,7 +141,45 @@ impl Axis {
                 (posed.grid.n, posed.solution) = (value as u32 / 2, Solution::Switching);
                 effort.ticks = 8;
             }
+            Self::MovingWall => (posed.grid.n, effort.ticks) = (value as u32 / 2, 8),
+            Self::Span => posed.solution = Solution::ThreeStates([1.0, 1.0 + value]),
+            Self::SpanBelow => posed.solution = Solution::ThreeStates([-1.0 - value, -1.0]),
+            Self::Ends | Self::Above => set_wall(self, value, case),
+            Self::Limit => posed.ends = Some([0.0, value * posed.solution.largest_flux()]),
+            Self::Least => posed.ends = Some([-value, 0.0]),
+            Self::Infinite => set_infinite(value, case),
         }
+    }
+}
+
+/// The jump of J, or of the wall.
+fn set_contrast(k: f64, case: &mut ExtremeCase) {
+    let solution = &mut case.posed.solution;
+    *solution = match *solution {
+        Solution::Wall { above, ends, .. } => Solution::Wall { above, ends, contrast: k },
+        _ => Solution::Jump(k),
+    };
+    // The flux of J grows like √k.
+    if let Some(ends) = &mut case.posed.ends {
+        *ends = ends.map(|end| end * k.sqrt());
+    }
+}
+
+fn set_wall(axis: Axis, value: f64, case: &mut ExtremeCase) {
+    let Solution::Wall { above, ends, contrast } = case.posed.solution else { return };
+    let (above, ends) = match axis {
+        Axis::Ends => (above, [-value, value]),
+        _ => (value, ends),
+    };
+    case.posed.solution = Solution::Wall { above, ends, contrast };
+    case.posed.sides = [Hold::Contact, Hold::Neumann, Hold::Dirichlet, Hold::Neumann];
+}
+
+fn set_infinite(which: f64, case: &mut ExtremeCase) {
+    if which < 0.0 {
+        case.posed.solution = Solution::Below;
+    } else if which == 0.0 {
+        case.posed.ends = Some([f64::NEG_INFINITY, f64::INFINITY]);
     }
 }
 

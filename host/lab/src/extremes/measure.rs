@@ -198,6 +198,7 @@ mod tests {
                 scales: Scales::ONE,
                 sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
                 split: None,
+                ends: None,
             };
             let problem = at_scale_one(&posed, posed.mesh())?;
             let solution = solve_directly(&problem)?;

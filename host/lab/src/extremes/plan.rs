@@ -26,6 +26,11 @@ pub struct AxisStudy {
 const A: Solution = Solution::Smooth { grazing: 0.0 };
 const H: Solution = Solution::Punch;
 const J: Solution = Solution::Jump(1.0);
+/// Limits in three states, with one of them, and where u is kept below ψ.
+const L: Solution = Solution::ThreeStates([-0.5, 1.0]);
+const HEATED: Solution = Solution::Wall { above: -1.0, ends: [-2.0, 3.0], contrast: 1.0 };
+const COOLED: Solution = Solution::Wall { above: 1.0, ends: [-2.0, 3.0], contrast: 1.0 };
+const B: Solution = Solution::Below;
 
 const fn study(
     axis: Axis,
@@ -42,7 +47,7 @@ const fn pair(axis: Axis, across: Axis, solution: Solution, cells: Cells) -> Axi
 }
 
 /// All of them, in the order of the report.
-pub const STUDIES: [AxisStudy; 38] = [
+pub const STUDIES: [AxisStudy; 62] = [
     study(Axis::Contrast, "triangles", J, 16, Cells::Triangles),
     study(Axis::Contrast, "quads", J, 16, Cells::Quads),
     study(Axis::Anisotropy, "A, triangles", A, 16, Cells::Triangles),
@@ -81,6 +86,30 @@ pub const STUDIES: [AxisStudy; 38] = [
     pair(Axis::Anisotropy, Axis::Aspect, H, Cells::Quads),
     pair(Axis::Length, Axis::Load, A, Cells::Triangles),
     pair(Axis::Shift, Axis::Aspect, A, Cells::Triangles),
+    study(Axis::Span, "L, triangles", L, 16, Cells::Triangles),
+    study(Axis::Span, "L, quads", L, 16, Cells::Quads),
+    study(Axis::SpanBelow, "L, mixed", L, 16, Cells::Mixed),
+    study(Axis::Ends, "heated wall", HEATED, 16, Cells::Triangles),
+    study(Axis::Ends, "cooled wall", COOLED, 16, Cells::Mixed),
+    study(Axis::Above, "wall", COOLED, 16, Cells::Triangles),
+    study(Axis::Limit, "A, triangles", A, 16, Cells::Triangles),
+    study(Axis::Limit, "A, quads", A, 16, Cells::Quads),
+    study(Axis::Least, "−A, triangles", B, 16, Cells::Triangles),
+    study(Axis::Infinite, "", A, 16, Cells::Triangles),
+    study(Axis::MovingWall, "", Solution::MovingWall([-2.0, 3.0]), 16, Cells::Triangles),
+    study(Axis::Load, "L, triangles", L, 16, Cells::Triangles),
+    study(Axis::FlushedLoad, "L", L, 16, Cells::Triangles),
+    study(Axis::Stiffness, "L", L, 16, Cells::Triangles),
+    study(Axis::Length, "L", L, 16, Cells::Triangles),
+    study(Axis::Aspect, "L, triangles", L, 16, Cells::Triangles),
+    study(Axis::Sweeps, "L", L, 16, Cells::Triangles),
+    pair(Axis::Span, Axis::Cells, L, Cells::Triangles),
+    pair(Axis::Span, Axis::Load, L, Cells::Triangles),
+    pair(Axis::Span, Axis::Sweeps, L, Cells::Quads),
+    pair(Axis::Span, Axis::Anisotropy, L, Cells::Triangles),
+    pair(Axis::Ends, Axis::Contrast, HEATED, Cells::Triangles),
+    pair(Axis::Ends, Axis::Sweeps, COOLED, Cells::Triangles),
+    pair(Axis::Limit, Axis::Contrast, J, Cells::Triangles),
 ];
 
 impl AxisStudy {
@@ -131,6 +160,7 @@ impl AxisStudy {
             scales: Scales::ONE,
             sides: [Hold::Contact, Hold::Dirichlet, Hold::Dirichlet, Hold::Dirichlet],
             split: None,
+            ends: None,
         }
     }
 }

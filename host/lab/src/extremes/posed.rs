@@ -106,6 +106,8 @@ pub struct Posed {
     pub sides: [Hold; 4],
     /// A curve of which a part alone has its condition.
     pub split: Option<Split>,
+    /// What σ·n may be on C, where it is not what the solution asks for.
+    pub ends: Option<[f64; 2]>,
 }
 
 /// The sides by name, with their outward normals.
@@ -177,11 +179,37 @@ impl Posed {
             (along_x, 0.0) => format!("{along_x:e}*({ux})"),
             _ => format!("({along_x:e}*({ux}) + {along_y:e}*({uy}))"),
         };
+        self.on_both_halves(sum)
+    }
+
+    /// k times as large left of x = 0.
+    fn on_both_halves(&self, text: String) -> String {
         let (x, k) = (self.scales.coordinate("x"), self.solution.contrast());
         if k == 1.0 {
-            return sum;
+            return text;
         }
-        format!("((0.5 + 0.5*sign({x})) + {k:e}*(0.5 - 0.5*sign({x})))*{sum}")
+        format!("((0.5 + 0.5*sign({x})) + {k:e}*(0.5 - 0.5*sign({x})))*{text}")
+    }
+
+    /// The ends of the flux on C, where they are not 0 and ∞.
+    fn limits(&self) -> String {
+        let Scales { length: c, load: s, stiffness: a, .. } = self.scales;
+        let text = |end: f64| {
+            // Loads next to infinity stay what they are: numbers.
+            let scaled = (s * a / c * end).clamp(-f64::MAX, f64::MAX);
+            match (end.is_finite(), self.ends) {
+                (true, None) => self.on_both_halves(format!("{scaled:e}")),
+                (true, Some(_)) => format!("{scaled:e}"),
+                (false, _) => end.to_string(),
+            }
+        };
+        match self.ends.unwrap_or(self.solution.ends()) {
+            [0.0, f64::INFINITY] => String::new(),
+            ends => {
+                let [least, most] = ends.map(text);
+                format!("\nflux = \"{least}\"\nlimit = \"{most}\"")
+            }
+        }
     }
 
     fn boundary(&self, name: &str, normal: [f64; 2], hold: Hold, texts: &Texts) -> String {
@@ -196,7 +224,7 @@ impl Posed {
                 let h = a / c * h;
                 format!("kind = \"robin\"\ncoefficient = \"{h:e}\"\nambient = \"{ambient}\"")
             }
-            Hold::Contact => "kind = \"contact\"".to_owned(),
+            Hold::Contact => format!("kind = \"contact\"{}", self.limits()),
             Hold::Pressed => {
                 let less = times(s * a / c, &format!("({flux} - 1)"));
                 format!("kind = \"contact\"\ngap = \"{given}\"\nflux = \"{less}\"")

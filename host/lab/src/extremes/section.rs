@@ -2,6 +2,7 @@
 
 use super::judge::Outcome;
 use super::record::{Record, Row};
+use super::remark::remark;
 use super::table::place;
 use signorini_draw::{Extremes, ExtremesStudy, Listing, OutcomeMap, Square, plain};
 
@@ -49,40 +50,6 @@ fn rates(cases: &[&Row]) -> Option<String> {
     Some(format!(
         "the error of ∇u falls with rate {of_u:.2}, that of the flux with rate {of_flux:.2}"
     ))
-}
-
-/// What the picture cannot say.
-fn remark(axis: &str, across: Option<&str>) -> &'static str {
-    match (axis.split(':').next().unwrap_or(axis), across) {
-        ("contrast", None) => "k of J(k): A is k left of x = 0 and 1 right of it",
-        ("anisotropy", None) => {
-            "κ of T(0, κ) with A = diag(κ, 1/κ): layers at C are κ times thinner than the domain"
-        }
-        ("obliqueness", None) => "s of T(s, 1)",
-        ("anisotropy", Some("obliqueness")) => {
-            "beyond s/κ = 2¹² in f32 and 2²⁶ in f64 the stored tensor is singular"
-        }
-        ("aspect ratio", None) => {
-            "width over height of the flattest cells; rows grow from C upwards"
-        }
-        ("slivers", None) => "flat cells with angles near 180°",
-        ("collapsed quads", None) => {
-            "one side over the others; 0 is a triangle with four corners, below it the cell crosses itself"
-        }
-        ("trapezoids", None) => "rows of a grid whose cells never become parallelograms",
-        ("grazing length", None) => "length of the part of C with neither force nor gap",
-        ("length of C", None) => "none, one edge, the lower side, the whole boundary",
-        ("length of D", None) => {
-            "none (contact alone holds the domain), one tiny edge, one side, three sides"
-        }
-        ("transfer coefficient", None) => "the upper side transfers, no side is held",
-        ("switching edges", None) => {
-            "ticks: every contact edge opens or closes from each to the next"
-        }
-        ("fixed relaxation", _) => "an ω from the scene's setting",
-        ("cells", None) => "beyond 10⁵ cells a solve is cut off after 3·10⁸ updates of unknowns",
-        _ => "",
-    }
 }
 
 /// Columns along the axis, a row a scalar.
@@ -159,8 +126,11 @@ fn abridged(count: u32) -> String {
 
 /// A place on an axis, as short as it can be told.
 fn tick(value: f64) -> String {
-    if (1.995..2.0).contains(&value) {
-        return format!("2−{}", tick(2.0 - value));
+    // Beside a whole number the difference counts.
+    let (whole, beyond) = (value.round(), value - value.round());
+    if (1.0..4.0).contains(&whole.abs()) && beyond != 0.0 && beyond.abs() <= 0.005 {
+        let sign = if beyond < 0.0 { "−" } else { "+" };
+        return format!("{}{sign}{}", tick(whole), tick(beyond.abs()));
     }
     // Too small for `plain`, whose powers of ten are normal numbers; those on the axes are powers of ten.
     let text = match value.is_subnormal() {

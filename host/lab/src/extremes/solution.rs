@@ -2,7 +2,9 @@
 //! makes of them.
 //!
 //! Contact on y = 0, n = (0, −1), ψ = q = 0. With U any of them, u(x, y) = U(x − s y, κ y) solves the problem
-//! of that A, det A = 1, with f = κ F: anisotropy κ and obliqueness s, exactly.
+//! of that A, det A = 1, with f = κ F: anisotropy κ and obliqueness s, exactly. σ·n on C is that of U.
+
+use super::limited;
 
 /// A solution for A = I, or for A = k left of x = 0 and 1 right of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +24,21 @@ pub enum Solution {
     Lifted,
     /// [`Solution::Pressed`] and [`Solution::Lifted`] + y²/2 in turn, from one whole t to the next.
     Switching,
+    /// [`Solution::Smooth`] negated: u is kept below ψ, by fluxes without a lower end.
+    Below,
+    /// A flux between lo and hi, all three states; see [`super::limited`].
+    ThreeStates([f64; 2]),
+    /// A wall with this u above, a flux between lo and hi, and A = k left of x = 0.
+    Wall {
+        /// u at y = 1
+        above: f64,
+        /// lo and hi; left of x = 0 they are k times as large.
+        ends: [f64; 2],
+        /// k
+        contrast: f64,
+    },
+    /// The same with 5 cos πt above and A = 1: at either end in turn.
+    MovingWall([f64; 2]),
 }
 
 /// u, ∇u and f as expressions.
@@ -70,7 +87,28 @@ impl Shear {
 impl Solution {
     /// k left of x = 0.
     pub fn contrast(self) -> f64 {
-        if let Self::Jump(k) = self { k } else { 1.0 }
+        match self {
+            Self::Jump(k) | Self::Wall { contrast: k, .. } => k,
+            _ => 1.0,
+        }
+    }
+
+    /// lo and hi of what σ·n may be on C, right of x = 0.
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Below => [f64::NEG_INFINITY, 0.0],
+            Self::ThreeStates(ends) | Self::Wall { ends, .. } | Self::MovingWall(ends) => ends,
+            _ => [0.0, f64::INFINITY],
+        }
+    }
+
+    /// What |σ·n| is nowhere above on C.
+    pub fn largest_flux(self) -> f64 {
+        match self {
+            // Left of x = 0 it is √k α r^{α − 1} with α < 2.
+            Self::Jump(k) => 2.0 * k.sqrt(),
+            _ => 1.0,
+        }
     }
 
     /// The expressions for A = I, J(k) aside; `x` and `y` are operands: names, or in parentheses.
@@ -86,7 +124,19 @@ impl Solution {
                 texts(format!("1 + ({x}^2 - {y}^2)/4"), [format!("{x}/2"), format!("-{y}/2")], "0")
             }
             Self::Switching => switching(x, y),
+            Self::Below => smooth(x, y, 0.0).negated(),
+            Self::ThreeStates(ends) => limited::three_states(x, y, ends),
+            Self::Wall { above, ends, .. } => limited::wall(y, &format!("{above:e}"), ends),
+            Self::MovingWall(ends) => limited::wall(y, "5*cos(pi*t)", ends),
         }
+    }
+}
+
+impl Texts {
+    /// −u
+    fn negated(self) -> Self {
+        let negative = |text: String| format!("-({text})");
+        Self { u: negative(self.u), gradient: self.gradient.map(negative), f: negative(self.f) }
     }
 }
 
@@ -144,82 +194,4 @@ fn switching(x: &str, y: &str) -> Texts {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use signorini_scene::expression::{Expression, Variables};
-    use signorini_tolerances::lab::{CONTACT, DERIVATIVE, DERIVATIVE_SECOND, JUMP};
-
-    const ALL: [Solution; 7] = [
-        Solution::Smooth { grazing: 0.25 },
-        Solution::Punch,
-        Solution::Jump(1e-3),
-        Solution::Jump(1e4),
-        Solution::Pressed,
-        Solution::Lifted,
-        Solution::Switching,
-    ];
-
-    fn parsed(text: &str) -> Expression {
-        Expression::parse(text, Variables::SpaceTime).unwrap_or_else(|e| panic!("{text}: {e}"))
-    }
-
-    /// Differences of u are its gradient, and those of the flux the load.
-    #[test]
-    fn solutions_solve_their_equation() {
-        let shears = [Shear::NONE, Shear { obliqueness: 0.5, anisotropy: 2.0 }];
-        for (solution, shear) in ALL.into_iter().zip(shears.into_iter().cycle()) {
-            let shear = if matches!(solution, Solution::Jump(_)) { Shear::NONE } else { shear };
-            let Texts { u, gradient, f } = shear.texts(solution, "x", "y");
-            let (u, f) = (parsed(&u), parsed(&f));
-            let gradient = gradient.map(|text| parsed(&text));
-            let [axx, axy, ayy] = shear.tensor();
-            for [x, y, t] in [[-0.7, 0.4, 0.0], [0.3, 0.2, 1.0], [0.9, 0.6, 0.0], [-0.2, 0.9, 1.0]]
-            {
-                let step = 1e-5;
-                let slope = |of: &Expression, [dx, dy]: [f64; 2]| {
-                    (of.eval(x + dx, y + dy, t) - of.eval(x - dx, y - dy, t)) / (2.0 * step)
-                };
-                let along = [[step, 0.0], [0.0, step]];
-                for (gradient, along) in gradient.iter().zip(along) {
-                    let error = gradient.eval(x, y, t) - slope(&u, along);
-                    DERIVATIVE.check(format_args!("{solution:?} at {x}, {y}"), error);
-                }
-                let second = |at: usize, along| slope(&gradient[at], along);
-                let divergence = axx * second(0, along[0])
-                    + axy * (second(0, along[1]) + second(1, along[0]))
-                    + ayy * second(1, along[1]);
-                let error = divergence + f.eval(x, y, t);
-                DERIVATIVE_SECOND.check(format_args!("{solution:?} at {x}, {y}"), error);
-            }
-        }
-    }
-
-    #[test]
-    fn contact_holds_on_the_lower_side() {
-        for solution in ALL {
-            let Texts { u, gradient: [_, slope], .. } = solution.texts("x", "y");
-            let (u, slope) = (parsed(&u), parsed(&slope));
-            for (x, t) in (-19..20).map(|k| (f64::from(k) / 20.0, f64::from(k & 1))) {
-                let k = if x < 0.0 { solution.contrast() } else { 1.0 };
-                let (gap, force) = (u.eval(x, 0.0, t), -k * slope.eval(x, 0.0, t));
-                let what = format!("{solution:?} at {x}");
-                CONTACT.check(&what, gap.min(0.0));
-                CONTACT.check(&what, force.min(0.0));
-                CONTACT.check(&what, gap * force);
-            }
-        }
-    }
-
-    #[test]
-    fn the_halves_of_a_jump_meet_whatever_its_size() {
-        for power in (-12..=12).step_by(3) {
-            let k = 10_f64.powi(power);
-            let Texts { u, gradient: [slope, _], .. } = Solution::Jump(k).texts("x", "y");
-            let (u, slope) = (parsed(&u), parsed(&slope));
-            let (left, right) = (u.eval(-1e-300, 0.5, 0.0), u.eval(1e-300, 0.5, 0.0));
-            JUMP.check_over(format_args!("k = {k:e}"), left - right, right.abs());
-            let (left, right) = (k * slope.eval(-1e-300, 0.5, 0.0), slope.eval(1e-300, 0.5, 0.0));
-            JUMP.check_over(format_args!("k = {k:e}"), left - right, right.abs());
-        }
-    }
-}
+mod tests;

@@ -5,6 +5,7 @@ mod conclude;
 mod direct;
 mod factored;
 mod ldlt;
+mod level;
 mod mixed;
 mod options;
 mod ran;
@@ -16,6 +17,7 @@ mod units;
 
 pub use auto::prefers_factor;
 pub use factored::Factored;
+pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;

@@ -27,10 +27,14 @@ pub fn choose(problem: &Problem) -> Result<Units> {
             units.u.log10(),
             units.conductivity.log10()
         );
-        return Err(InputError::new(message)
-            .file(problem.scene.file())
-            .hint("choose other units")
-            .into());
+        // Of two ends the smaller one in size is a load.
+        let hint = match problem.loads.spans.is_empty() {
+            true => "choose other units",
+            false => {
+                "choose other units; an end of the flux that nothing reaches is \"inf\" or \"-inf\""
+            }
+        };
+        return Err(InputError::new(message).file(problem.scene.file()).hint(hint).into());
     }
     // Normal numbers begin at 2^−1022, and fluxes are smaller than u.
     if u < -960 {

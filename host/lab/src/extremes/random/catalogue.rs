@@ -1,6 +1,7 @@
 //! Scenes with a solution of the catalogue: jumps, anisotropy, obliqueness and scales of any size.
 
 use super::dice::Random;
+use super::ends::span;
 use super::mesh::{self, MeshPlan, Regions};
 use super::posed::{Hold, Posed};
 use crate::extremes::grid::{Grid, Shape};
@@ -10,12 +11,18 @@ use signorini_scene::mesh::structured::Cells;
 
 /// Draws one.
 pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
-    let solution = match random.below(8) {
+    let solution = match random.below(12) {
         0..3 => Solution::Jump(random.log(1e-10, 1e10)),
         3 => Solution::Pressed,
         4 => Solution::Lifted,
         5 => Solution::Smooth { grazing: random.pick(&[0.0, 0.25, 1.0]) },
-        _ => Solution::Punch,
+        6..8 => Solution::Punch,
+        8 => Solution::Below,
+        9 => wall(random),
+        _ => {
+            let least = random.signed_log(1e-3, 10.0);
+            Solution::ThreeStates([least, least + span(random)])
+        }
     };
     let sides = sides(random, solution);
     let known = Known {
@@ -26,6 +33,7 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
         scales: scales(random),
         sides,
         split: None,
+        ends: None,
     };
     let plan = MeshPlan { regions: Regions::Halves, split: false, ..*plan };
     let mesh = known.scales.placed(mesh::draw(random, &plan).mesh);
@@ -38,8 +46,15 @@ pub(super) fn draw(random: &mut Random, plan: &MeshPlan) -> Posed {
     Posed { scene: known.scene(), mesh, hold, inputs: Vec::new() }
 }
 
+/// A wall in any state: its ends are below, beside or above what it asks for.
+fn wall(random: &mut Random) -> Solution {
+    let least = random.signed_log(1e-3, 10.0);
+    let ends = [least, least + span(random)];
+    Solution::Wall { above: random.signed_log(1e-3, 10.0), ends, contrast: random.log(1e-10, 1e10) }
+}
+
 fn shear(random: &mut Random, solution: Solution) -> Shear {
-    let is_jump = matches!(solution, Solution::Jump(_));
+    let is_jump = matches!(solution, Solution::Jump(_) | Solution::Wall { .. });
     if random.chance(0.5) {
         return Shear::NONE;
     }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use super::dice::Random;
+use super::ends::{Ends, span};
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, MeshPlan};
 use super::posed::{Hold, Posed};
@@ -130,6 +131,7 @@ impl Scene<'_> {
     }
 
     fn boundary(&mut self, name: &str, kind: &str, hold: Hold, value: &str, flux: f64) {
+        let ends = Ends::draw(self.random);
         let body = match kind {
             "dirichlet" => format!("value = \"{value}\""),
             "neumann" => {
@@ -137,7 +139,7 @@ impl Scene<'_> {
                 format!("flux = \"{}\"", self.function(share * flux, Rough::Jumping, 1e2))
             }
             "robin" => self.robin(flux),
-            _ => self.contact(hold, value, flux),
+            _ => self.contact(hold, value, flux, ends),
         };
         let _ = writeln!(self.text, "[boundary.{name}]\nkind = \"{kind}\"\n{body}");
         if self.moving && self.random.chance(0.3) {
@@ -145,9 +147,11 @@ impl Scene<'_> {
                 "dirichlet" => "value",
                 "robin" => "ambient",
                 "contact" if self.random.chance(0.5) => "gap",
+                "contact" if ends == Ends::Below => "limit",
+                "contact" if ends == Ends::Both && self.random.chance(0.5) => "limit",
                 _ => "flux",
             };
-            let size = if field == "flux" { flux } else { self.size };
+            let size = if matches!(field, "flux" | "limit") { flux } else { self.size };
             self.input(name, field, size);
         }
     }
@@ -163,21 +167,40 @@ impl Scene<'_> {
         format!("coefficient = \"{h:e}{factor}\"\nambient = \"{ambient}\"")
     }
 
-    /// ψ nowhere above u_D; where contact alone holds the domain, loads press it down.
-    fn contact(&mut self, hold: Hold, value: &str, flux: f64) -> String {
+    /// ψ nowhere above u_D where u may not be below it, and likewise below; where contact alone holds the domain, loads press it
+    /// against the ends.
+    fn contact(&mut self, hold: Hold, value: &str, flux: f64, ends: Ends) -> String {
         let depth = self.random.log(0.01, 1.0);
         let below = self.function(depth, Rough::Kinked, 1e2);
-        let size = self.size;
+        let (size, sign) = (self.size, if ends == Ends::Below { '+' } else { '-' });
         let gap = match hold {
-            Hold::Dirichlet => format!("{value}-{size:e}*abs({below})"),
+            Hold::Dirichlet => format!("{value}{sign}{size:e}*abs({below})"),
             _ => format!("{size:e}*{below}"),
         };
-        let q = match (hold, self.random.chance(0.5)) {
-            (Hold::Contact, _) => format!("{:e}", -flux * self.random.log(0.5, 50.0)),
+        let end = match (hold, self.random.chance(0.5)) {
+            (Hold::Contact, _) => {
+                let press = flux * self.random.log(0.5, 50.0);
+                format!("{:e}", if ends == Ends::Below { press } else { -press })
+            }
             (_, true) => self.function(flux, Rough::Jumping, 1e2),
             (_, false) => "0".to_owned(),
         };
-        format!("gap = \"{gap}\"\nflux = \"{q}\"")
+        let fluxes = match ends {
+            Ends::Above => format!("flux = \"{end}\""),
+            Ends::Below => format!("flux = \"-inf\"\nlimit = \"{end}\""),
+            Ends::Both => format!("flux = \"{end}\"\nlimit = \"{end}+{}\"", self.span(flux)),
+        };
+        format!("gap = \"{gap}\"\n{fluxes}")
+    }
+
+    /// hi − lo, nowhere negative.
+    fn span(&mut self, flux: f64) -> String {
+        let span = flux * span(self.random);
+        let factor = match self.random.chance(0.4) {
+            true => format!("*(1.2+tanh({}))", self.function(1.0, Rough::Kinked, 4.0)),
+            false => String::new(),
+        };
+        format!("{span:e}{factor}")
     }
 
     fn input(&mut self, of: &str, field: &str, size: f64) {

@@ -2,12 +2,14 @@
 //! ```text
 //!   f = −∇·(A∇u),   u_D = u,   g = σ·n,   u_ext = u + σ·n/h,   ψ = u − max(p, 0),   q = σ·n − max(−p, 0)
 //! ```
-//! u solves the problem, and contact is where p ≤ 0: kinked gaps and loads, curved ones, or none at all.
+//! u solves the problem, and contact is where p ≤ 0: kinked gaps and loads, curved ones, or none at all. Where the flux has
+//! two ends, u is above the gap for p > c, below it for p < −c, and at it between them, with any flux from one end to the other.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 use super::dice::Random;
+use super::ends::{Ends, span};
 use super::function::{Frame, Function, Rough};
 use super::mesh::{self, Drawn, MeshPlan, Outline, Regions};
 use super::posed::{Hold, Posed};
@@ -137,11 +139,29 @@ fn boundaries(
             (_, 3) => format!("kind = \"neumann\"\nflux = \"{flux}\""),
             _ => {
                 let p = Function::draw(random, Frame::RECTANGLE, rough, steepest).value();
-                let (gap, q) = (format!("{u}-max({p},0)"), format!("{flux}-max(-{p},0)"));
-                format!("kind = \"contact\"\ngap = \"{gap}\"\nflux = \"{q}\"")
+                format!("kind = \"contact\"\n{}", contact(random, u, &flux, &p))
             }
         };
         let _ = writeln!(scene, "[boundary.{}]\n{body}", curve.name);
     }
     hold
+}
+
+/// Contact on which p decides whether u is above, at or below the gap.
+fn contact(random: &mut Random, u: &str, flux: &str, p: &str) -> String {
+    match Ends::draw(random) {
+        Ends::Above => format!("gap = \"{u}-max({p},0)\"\nflux = \"{flux}-max(-{p},0)\""),
+        Ends::Below => {
+            format!("gap = \"{u}+max({p},0)\"\nflux = \"-inf\"\nlimit = \"{flux}+max(-{p},0)\"")
+        }
+        Ends::Both => {
+            // At the gap for |p| ≤ c.
+            let c = if random.chance(0.3) { 0.0 } else { random.log(0.01, 1.0) };
+            let [down, up] = [(); 2].map(|()| span(random));
+            format!(
+                "gap = \"{u}-max({p}-{c:e},0)+max(-{p}-{c:e},0)\"\n\
+                 flux = \"{flux}-{down:e}*max({c:e}-{p},0)\"\nlimit = \"{flux}+{up:e}*max({p}+{c:e},0)\""
+            )
+        }
+    }
 }

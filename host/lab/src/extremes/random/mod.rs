@@ -10,6 +10,7 @@ mod case;
 mod catalogue;
 mod data;
 mod dice;
+mod ends;
 mod function;
 mod made;
 mod measure;

@@ -1,8 +1,10 @@
 //! The complementarity residual of an answer, worked out cell by cell in f64: what a status is checked by.
 //!
 //! ```text
-//!   r_E = Σ_T (K_T u)_E + H_E u_E − b_E,    |r_E|/K_EE,    on C |min(u_E − ψ_E, r_E/K_EE)|
+//!   r_E = Σ_T (K_T u)_E + H_E u_E − b_E,    |r_E|/K_EE,    on C |e − x| with e = u_E − ψ_E, v = e − r_E/K_EE and
+//!   x = v + l/K_EE where that is positive, v + h/K_EE where that is negative, else 0
 //! ```
+//! l ≤ h are the ends of the flux less the one that b contains. Where h = ∞ that is |min(e, (r − l)/K)|.
 
 use signorini_kernel::Error as KernelError;
 
@@ -47,9 +49,14 @@ pub fn residual(problem: &Problem, u: &[f64]) -> Result<Residual, KernelError> {
     for (edge, b) in system.load().iter().enumerate() {
         let k = sums.diagonal[edge];
         let step = (sums.product[edge] - b) / k;
-        let gap = edge.checked_sub(counts.free).map(|at| u[edge] - problem.loads.gap[at]);
-        largest = largest.max(gap.map_or(step, |gap| gap.min(step)).abs());
-        rounding = rounding.max((sums.terms[edge] + b.abs()) / k * f64::EPSILON);
+        let contact = edge.checked_sub(counts.free).map(|at| {
+            let ends = ends(problem, at).map(|end| end / k);
+            left(u[edge] - problem.loads.gap[at], step, ends)
+        });
+        let [left, end] = contact.unwrap_or([step, 0.0]);
+        largest = largest.max(left.abs());
+        let terms = (sums.terms[edge] + b.abs()) / k + end.abs();
+        rounding = rounding.max(terms * f64::EPSILON);
         load = load.max(b.abs() / k);
     }
     let all = || u.iter().chain(&problem.loads.gap);
@@ -57,6 +64,22 @@ pub fn residual(problem: &Problem, u: &[f64]) -> Result<Residual, KernelError> {
         - all().fold(f64::INFINITY, |least, x| least.min(*x));
     let scale = range.max(load).max(f64::MIN_POSITIVE);
     Ok(Residual { scaled: largest / scale, rounding: rounding / scale })
+}
+
+/// Both ends of the flux of a contact edge, from the one that the load contains.
+pub(super) fn ends(problem: &Problem, contact: usize) -> [f64; 2] {
+    let span = problem.loads.law().spans().on(contact).length();
+    [span.min(0.0), span.max(0.0)]
+}
+
+/// What the law leaves of the opening and a step of u, and the end that it is for.
+fn left(opening: f64, step: f64, [least, most]: [f64; 2]) -> [f64; 2] {
+    let [above, below] = [least, most].map(|end| opening - step + end);
+    match (above > 0.0, below < 0.0) {
+        (true, _) => [step - least, least],
+        (_, true) => [step - most, most],
+        _ => [opening, 0.0],
+    }
 }
 
 struct Sums {

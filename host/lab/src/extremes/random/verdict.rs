@@ -3,7 +3,7 @@
 use super::attempt::{Attempt, rounding};
 use super::case::{RandomCase, Way};
 use super::measure::{IDENTITY, Measured};
-use super::residual::residual;
+use super::residual::{ends, residual};
 use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
 use signorini_solve::problem::EdgeKind;
@@ -92,23 +92,30 @@ fn status(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     broken("status", format!("{status}, scaled residual {residual:.3e} above {most:.3e}"))
 }
 
-/// τ·n ≥ q on C, and so is what is told of it.
+/// lo ≤ τ·n ≤ hi on C, and the force that is told, of τ·n − lo or hi − τ·n, is none that pulls.
 fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let (problem, answer) = (&attempt.problem, &attempt.answer);
     answer.bound?;
-    let tau = |edge: usize| answer.certified.tau[edge];
+    let free = problem.topology.counts.free;
     let contact = (0..problem.kinds.len()).filter(|&at| problem.kinds[at] == EdgeKind::Contact);
-    let pairs: Vec<_> = contact.map(tau).zip(problem.loads.contact_flux.iter().copied()).collect();
-    let sizes = || pairs.iter().map(|(tau, q)| tau.abs() + q.abs());
+    let on_edge = |edge: usize| {
+        let base = problem.loads.contact_flux[edge - free];
+        let [least, most] = ends(problem, edge - free).map(|end| base + end);
+        let finite = [least, most].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
+        let tau = answer.certified.tau[edge];
+        ([tau - least, most - tau], tau.abs() + finite[0].max(finite[1]))
+    };
+    let edges: Vec<_> = contact.map(on_edge).collect();
+    let sizes = || edges.iter().map(|&(_, size)| size);
     let (terms, largest) = (sizes().sum::<f64>(), sizes().fold(0.0, f64::max));
     let epsilon = rounding(case.effort.scalar);
     // Beside a large one a load may be below the smallest number of its scalar, and a jump of it misplaced.
     let lost = (f64::from(f32::MIN_POSITIVE) + JUMP) * largest;
-    let within = pairs.iter().zip(sizes());
-    let within = within.map(|((tau, q), size)| tau - q + FORCE * epsilon * size + lost);
+    let slack = |size: f64| FORCE * epsilon * size + lost;
+    let within = edges.iter().map(|([up, down], size)| up.min(*down) + slack(*size));
     let worst = within.fold(0.0, f64::min);
     if worst < 0.0 && case.effort.way != Way::Condensed {
-        return broken("force", format!("τ·n − q = {worst:.3e} on an edge"));
+        return broken("force", format!("τ·n is {worst:.3e} beyond its ends on an edge"));
     }
     let least = -(FORCE * epsilon + JUMP) * terms;
     if answer.force >= least {

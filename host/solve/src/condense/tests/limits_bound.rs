@@ -67,7 +67,7 @@ fn the_bound_holds_for_any_openings() -> Result<()> {
         || [grid(8, Cells::Triangles), grid(6, Cells::Quads), distorted(grid(6, Cells::Mixed))];
     for (unit, is_smooth) in [(1.0, false), (1e-9, false), (0.0, true)] {
         for mesh in meshes() {
-            let text = if is_smooth { three_states() } else { two_transitions(unit) };
+            let text = if is_smooth { three_states() } else { two_transitions([0.0, 1.5 * unit]) };
             let certified = Certified::new(&text, mesh)?;
             let form = certified.model.certificate.as_ref().expect("a form");
             assert!(is_smooth == (form.span_excess > 0.0), "{}", form.span_excess);

@@ -2,7 +2,9 @@
 
 mod auto;
 mod hard;
+mod level;
 mod limits;
+mod stops;
 
 use signorini_tolerances::solve::AGREEMENT;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,32 @@
+//! Ends of the flux of contact, drawn: on both sides or one, equal or far apart, varying along the boundary or not.
+
+use super::dice::Random;
+
+/// Which ends a contact boundary has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// A lower one alone: u ≥ ψ.
+    Above,
+    /// An upper one alone: u ≤ ψ.
+    Below,
+    /// Both: u on either side of ψ.
+    Both,
+}
+
+impl Ends {
+    /// Draws them.
+    pub(super) fn draw(random: &mut Random) -> Self {
+        random.pick(&[Self::Above, Self::Above, Self::Below, Self::Both, Self::Both])
+    }
+}
+
+/// hi − lo over the size of the flux: none, one that rounding swallows, near ones, far ones.
+pub(super) fn span(random: &mut Random) -> f64 {
+    match random.below(12) {
+        0 => 0.0,
+        1 => random.log(1e-17, 1e-6),
+        2 => random.log(1e2, 1e8),
+        3 => random.log(1e8, 1e30),
+        _ => random.log(0.01, 30.0),
+    }
+}
