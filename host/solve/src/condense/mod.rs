@@ -10,6 +10,9 @@
 //! linear in (p, x) but for the contact length, the error bound and what goes through contact edges: there
 //! ∫_E (τ·n − q) = max(r, 0) where v = 0, and 0 where v > 0.
 //!
+//! Where fluxes have limits, x has either sign, and r̂ is at the least end of its range where x > 0, at the greatest where
+//! x < 0, and between them where x = 0 (`ends`). Spans are linear in the inputs like loads (`spans`).
+//!
 //! ```text
 //!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► CondensedModel
 //!   chain (s on the boundary) ─┐                                       │                       ▲
@@ -19,6 +22,7 @@
 //! ```text
 //!   gap² = (|F(p, x, d)| + stability |δ|)² + Σ_corners excess(p) r̂
 //! ```
+//! (with limits what `bound` says instead of the second term, and x on any side that there is)
 //! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
 
 mod best;

@@ -1,9 +1,9 @@
 //! Contact whose flux has two ends, condensed: the answers and outputs of the full solver.
 
-use signorini_tolerances::solve::{CONDENSED, SAME_LIMITED};
+use signorini_tolerances::solve::CONDENSED;
 
 use super::*;
-use crate::condense::{CondensedModel, Measure, condense, modal};
+use crate::condense::{Measure, condense};
 use crate::fixtures::distorted;
 use crate::fixtures::limited::{drawn, wall};
 use crate::reference::ReferenceError;
@@ -182,67 +182,6 @@ fn walls_heat_as_the_full_model_does() -> Result<()> {
     Ok(())
 }
 
-/// An infinite limit is none, and one that is far away is like it.
-#[test]
-fn without_an_end_it_is_the_model_without_limits() -> Result<()> {
-    // An input of the flux would move an end.
-    let all = ALL.replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
-    let model = |ends: &str| -> Result<CondensedModel> {
-        condense(&on_grid(&all.replace("flux = \"-0.1*x^2\"", ends), grid(5, Cells::Mixed))?.1)
-    };
-    let without = condense(&on_grid(&all, grid(5, Cells::Mixed))?.1)?;
-    let infinite = model("flux = \"-0.1*x^2\"\nlimit = \"inf\"")?;
-    assert_eq!(format!("{without:?}"), format!("{infinite:?}"));
-    let far = model("flux = \"-0.1*x^2\"\nlimit = \"1e9\"")?;
-    assert!(far.is_limited());
-    for round in 0..4 {
-        let moved = without.defaults.iter().enumerate();
-        let p: Vec<f64> = moved
-            .map(|(at, p)| if at == 0 { 1.0 } else { p + 0.3 * scatter(7 * round + at) })
-            .collect();
-        let [x, other] = [&without, &far].map(|model| model.solve(&p).expect("a solution"));
-        x.iter().zip(&other).for_each(|(x, other)| SAME_LIMITED.check("opening", x - other));
-        // Openings that extrapolate to below the gap at a vertex cost as much with a huge limit.
-        let [a, b] =
-            [without.bound(&p, &x), far.bound(&p, &x)].map(|bound| bound.expect("a bound"));
-        SAME_LIMITED.check_relative("bound", a, b);
-    }
-    Ok(())
-}
-
-/// lo = hi is a Neumann boundary.
-#[test]
-fn equal_ends_are_a_given_flux() -> Result<()> {
-    let contact = ALL
-        .replace("flux = \"-0.1*x^2\"", "flux = \"-0.1*x^2\"\nlimit = \"-0.1*x^2\"")
-        .replace("[input.rain]\nof = \"contact\"", "[input.rain]\nof = \"right\"");
-    let (head, rest) = contact.split_once("[boundary.contact]\n").expect("contact");
-    let (_, rest) = rest.split_once("[input.depth]").expect("an input");
-    let (_, rest) = rest.split_once("[input.rain]").expect("another one");
-    let neumann = format!(
-        "{head}[boundary.contact]\nkind = \"neumann\"\nflux = \"-0.1*x^2\"\n[input.rain]{rest}"
-    )
-    .replace("[output.force]\nkind = \"force\"\n", "")
-    .replace("[output.length]\nkind = \"length\"\nof = \"contact\"\n", "");
-    let [one, other] = [(&contact, grid(5, Cells::Mixed)), (&neumann, grid(5, Cells::Mixed))]
-        .map(|(text, mesh)| on_grid(text, mesh).and_then(|(_, problem)| condense(&problem)));
-    let (one, other) = (one?, other?);
-    assert_eq!((one.contact, other.contact), (10, 0));
-    let x = one.solve(&one.defaults).expect("a solution");
-    let found = one.outputs(&one.defaults, &x);
-    let expected = other.outputs(&other.defaults, &[]);
-    // Outputs without force and length, depth being an input of the gap alone.
-    for (found, expected) in
-        [(0, 0), (1, 1), (2, 2), (5, 3), (7, 5)].map(|(a, b)| (found[a], expected[b]))
-    {
-        SAME_LIMITED.check("output", found.expect("a value") - expected.expect("a value"));
-    }
-    let bounds = [found[6], expected[4]].map(|bound| bound.expect("a bound"));
-    println!("bound with contact {} without {}", bounds[0], bounds[1]);
-    assert!(bounds[0] > 0.8 * bounds[1] && bounds[0] < 3.0 * bounds[1], "{bounds:?}");
-    Ok(())
-}
-
 /// A part that contact with limits alone holds: loads that its fluxes can balance.
 #[test]
 fn a_part_that_contact_with_limits_holds() -> Result<()> {
@@ -274,28 +213,5 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
         }
     }
     assert!(sums.iter().all(|&count| count > 0), "{sums:?}");
-    Ok(())
-}
-
-/// A model of modes has the same spans at every coefficient.
-#[test]
-fn modes_keep_their_limits() -> Result<()> {
-    let input = "[input.h]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 1.5\nrange = [-1.0, 100.0]\n";
-    let text = limited(ENDS[0], input)
-        .replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
-    let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
-    let (modes, _) = modal(&problem)?;
-    for value in [-1.0, 1.5, 30.0] {
-        let model = modes.at(value);
-        let x = model.solve(&model.defaults).expect("a solution");
-        let (_, solution, expected) = full_at(&problem, &model.defaults)?;
-        let found = model.outputs(&model.defaults, &x);
-        for ((found, expected), measure) in found.iter().zip(&expected).zip(&model.outputs) {
-            if *measure != Measure::Bound {
-                let off = found.expect("a value") - expected.expect("a value");
-                CONDENSED.check_over(format_args!("{measure:?}"), off, solution.largest_flux());
-            }
-        }
-    }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod equality;
 mod limits;
 mod limits_bound;
+mod limits_same;
 mod modes;
 mod rejected;
 
