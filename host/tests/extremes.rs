@@ -59,7 +59,7 @@ fn quads_that_collapse_keep_their_bound_until_they_are_refused() {
 
 #[test]
 fn grazing_and_switching_contact_keep_their_bound() {
-    for only in ["grazing", "switching"] {
+    for only in ["grazing", "switching edges"] {
         let found = cases(only);
         for case in &found {
             assert_eq!(case["outcome"], "correct", "{case}");
@@ -113,5 +113,24 @@ fn a_random_scene_can_be_had_alone() {
     assert_eq!(alone[1], all[4]);
     for name in ["scene.toml", "mesh.msh"] {
         assert!(folder.path().join("case-3").join(name).is_file(), "{name}");
+    }
+}
+
+/// Limits that nothing reaches change no digit, and such that hold everywhere leave a bound.
+#[test]
+fn limits_of_any_size_keep_their_bound() {
+    let infinite = cases("infinite end");
+    for scalar in ["f64", "f32"] {
+        assert_eq!(outcomes(&infinite, scalar), "ctc", "{scalar}");
+    }
+    let far = cases("greatest flux: A, triangles");
+    let ratio = |case: &Value| case["error_over_bound"].as_f64().expect("a ratio");
+    for case in &far {
+        assert_eq!(case["outcome"], "correct", "{case}");
+        GUARANTEE.check_at_most(case, ratio(case), 1.0);
+    }
+    for case in &cases("span of the flux: L, triangles") {
+        assert_eq!(case["outcome"], "correct", "{case}");
+        GUARANTEE.check_at_most(case, ratio(case), 1.0);
     }
 }

@@ -6,7 +6,7 @@
 //!   a wall:        t + σ (1 − y), the flux σ as near to −t as lo and hi let it be: Duvaut and Lions in one dimension
 //! ```
 
-use super::solution::Texts;
+use super::texts::Texts;
 
 /// u and σ·n = −∂u/∂y of all three states, with the r^{3/2} of both transitions.
 pub(super) fn three_states(x: &str, y: &str, [lo, hi]: [f64; 2]) -> Texts {

@@ -28,6 +28,7 @@ mod remark;
 pub mod section;
 mod solution;
 mod table;
+mod texts;
 mod watch;
 
 use std::time::{Duration, Instant};

@@ -11,7 +11,8 @@
 use std::fmt::Write;
 
 use super::grid::Grid;
-use super::solution::{Shear, Solution, Texts};
+use super::solution::{Shear, Solution};
+use super::texts::Texts;
 use signorini_scene::mesh::{Curve, Mesh};
 
 /// Factors that change numbers, not the problem.

@@ -5,6 +5,7 @@
 //! of that A, det A = 1, with f = κ F: anisotropy κ and obliqueness s, exactly. σ·n on C is that of U.
 
 use super::limited;
+use super::texts::Texts;
 
 /// A solution for A = I, or for A = k left of x = 0 and 1 right of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,17 +40,6 @@ pub enum Solution {
     },
     /// The same with 5 cos πt above and A = 1: at either end in turn.
     MovingWall([f64; 2]),
-}
-
-/// u, ∇u and f as expressions.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Texts {
-    /// u
-    pub u: String,
-    /// ∂u/∂x, ∂u/∂y
-    pub gradient: [String; 2],
-    /// −∇·(A∇u)
-    pub f: String,
 }
 
 /// A of a solution turned oblique.
@@ -129,14 +119,6 @@ impl Solution {
             Self::Wall { above, ends, .. } => limited::wall(y, &format!("{above:e}"), ends),
             Self::MovingWall(ends) => limited::wall(y, "5*cos(pi*t)", ends),
         }
-    }
-}
-
-impl Texts {
-    /// −u
-    fn negated(self) -> Self {
-        let negative = |text: String| format!("-({text})");
-        Self { u: negative(self.u), gradient: self.gradient.map(negative), f: negative(self.f) }
     }
 }
 

@@ -29,13 +29,18 @@ pub struct FreeLevel {
 impl FreeLevel {
     /// The sentence for people.
     pub fn sentence(&self) -> String {
-        let ([x, y], [down, up]) = (self.near, self.by);
+        let ([x, y], [down, up]) = (self.near, self.by.map(rounded));
         format!(
-            "more than one solution: u may be lower by up to {down:.6} or higher by up to {up:.6} throughout the connected part \
+            "more than one solution: u may be lower by up to {down} or higher by up to {up} throughout the connected part \
              of the mesh around ({x}, {y}), with the same flux. Contact with limits alone holds it, and nothing touches; a \
              Dirichlet or Robin boundary, or gaps that do not leave room between them, decide on the level"
         )
     }
+}
+
+/// To six digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 /// The parts of a converged solution whose level may move.

@@ -31,7 +31,8 @@ fn slab(f: &str, left: [&str; 3], right: [&str; 3]) -> Result<Problem> {
 #[test]
 fn a_level_between_two_gaps_is_free_and_told() -> Result<()> {
     let problem = slab("0", ["0.2", "-1", "0"], ["-0.1", "0", "1"])?;
-    for solver in [SolverKind::Kernel, SolverKind::Auto, SolverKind::Direct] {
+    // The reference's active set does not settle there, and says so.
+    for solver in [SolverKind::Kernel, SolverKind::Auto] {
         let found = solve(&problem, &Options { solver, ..Options::default() })?;
         let levels = free_levels(&problem, &found)?;
         let [level] = levels[..] else { panic!("{solver:?}: {levels:?}") };

@@ -9,7 +9,7 @@ use crate::solve::ScalarKind;
 use signorini_scene::error::Result;
 
 /// Sweeps after which a solve is stopped, and as many as it takes.
-const STOPS: [u32; 7] = [0, 1, 2, 5, 20, 100, 1_000_000];
+const STOPS: [u32; 5] = [0, 1, 5, 20, 1_000_000];
 /// Most that a converged bound is of the error, where that is no rounding.
 const SHARP: f64 = 1.02;
 /// Errors below this are rounding, in f64 and f32.
@@ -68,10 +68,7 @@ fn all() -> Vec<(String, String)> {
         [-2.0, -0.5],
         [-1.0, 1e6],
         [-1e6, 1.0],
-        [0.0, 0.0],
         [1.0, 1.0],
-        [-1.0, -1.0],
-        [1.0, 1.000_000_000_001],
         [-1.000_000_000_001, -1.0],
         [-1e-9, 1e-9],
     ];
@@ -88,7 +85,7 @@ fn all() -> Vec<(String, String)> {
 fn the_bound_holds_at_any_stop_for_all_signs_of_both_ends() -> Result<()> {
     let mut sharpest = 0.0_f64;
     for (ends, text) in all() {
-        for (name, mesh) in meshes(6) {
+        for (name, mesh) in meshes(4).into_iter().take(2) {
             let (scene, problem) = on_grid(&text, mesh)?;
             let exact = scene.exact.as_ref().expect("an exact solution");
             for (at, scalar) in [ScalarKind::F64, ScalarKind::F32].into_iter().enumerate() {
