@@ -176,8 +176,7 @@ impl Form {
                 return None;
             }
         }
-        // An infinite end is no flux: x is on a side that there is not.
-        square.is_finite().then(|| square.sqrt())
+        Some(square.sqrt())
     }
 
     /// What s pays on edges whose flux has limits for the side of the gap that u is not on, `tau` being within the law.

@@ -92,13 +92,11 @@ impl CondensedModel {
     }
 }
 
-/// The admissible r̂ of an edge that is nearest.
+/// The admissible r̂ of an edge that is nearest. An x on a side that there is not counts as on the other.
 pub(super) fn nearest(r: f64, x: f64, [least, greatest]: [f64; 2]) -> f64 {
-    if x > 0.0 {
-        least
-    } else if x < 0.0 {
-        greatest
-    } else {
-        r.max(least).min(greatest)
+    if x == 0.0 {
+        return r.max(least).min(greatest);
     }
+    let [own, other] = if x > 0.0 { [least, greatest] } else { [greatest, least] };
+    if own.is_finite() { own } else { other }
 }
