@@ -214,8 +214,9 @@ impl<R: Real> Form<'_, R> {
 
     /// By how much an entry of r can be off.
     fn uncertainty(&self, answer: &Candidate<R>) -> R {
-        let Candidate { inputs, x, .. } = *answer;
-        let largest = x.iter().fold(R::ZERO, |most, &x| most.or_larger(x));
+        let Candidate { inputs, x, ranges, .. } = *answer;
+        let size = |x: R| if ranges.are_limited() { x.magnitude() } else { x };
+        let largest = x.iter().fold(R::ZERO, |most, &x| most.or_larger(size(x)));
         let loads = self.largest_load.iter().zip(inputs);
         let loads = loads.fold(R::ZERO, |sum, (&b, p)| sum + b * p.magnitude());
         let terms = R::from_count((x.len() + inputs.len() + 4) as u32);

@@ -14,7 +14,6 @@ use signorini_solve::fixtures::{SMOOTH, distorted, full_at, on_grid, scatter, sc
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
-use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
 
 use super::super::{Baked, Controller, Work, source};
@@ -74,6 +73,12 @@ kind = "mean"
 of = "right"
 "#;
 
+/// The same, where contact pushes no harder than so much.
+fn limited() -> String {
+    let text = AIR.replace("gap = \"-0.3", "limit = \"0.4\"\ngap = \"-0.3");
+    text + "[output.saturated]\nkind = \"saturated\"\n"
+}
+
 /// Both ends, repetitions, jumps, and what lies between.
 fn coefficient(tick: usize) -> f64 {
     match tick % 6 {
@@ -97,11 +102,13 @@ fn with(text: &str, cells: Cells, setting: Setting) -> Result<Problem> {
 }
 
 /// Ticks against the direct solver on the mesh, and their bounds against those of a model of that coefficient.
-fn ticks(problem: &Problem, scalar: ScalarKind, allowed: Tolerance, name: &str) -> Result<()> {
+fn ticks(text: &str, setting: (Cells, Setting), scalar: ScalarKind, name: &str) -> Result<()> {
+    let allowed = if scalar == ScalarKind::F32 { MODAL_NARROW } else { MODAL };
+    let problem = &with(text, setting.0, setting.1)?;
     let (modes, _) = modal(problem, 0.0)?;
     engine::baked(problem, Some(scalar), |engine, found| {
         assert_eq!(found, name);
-        let (mut touching, mut open) = (0, 0);
+        let (mut touching, mut open, mut last) = (0, 0, 0.0);
         for tick in 0..24 {
             let values = inputs(tick);
             let p: Vec<f64> = std::iter::once(1.0).chain(values.iter().copied()).collect();
@@ -120,25 +127,29 @@ fn ticks(problem: &Problem, scalar: ScalarKind, allowed: Tolerance, name: &str) 
             }
             let active = answer.active.iter().filter(|active| **active).count();
             (touching, open) = (touching + active, open + answer.active.len() - active);
+            last += answer.outputs.last().copied().unwrap_or_default();
             if scalar == ScalarKind::F64 {
-                let fresh = condense(&stated(problem, &values)?)?;
+                let fresh = condense(&stated(text, problem, &values)?)?;
                 let x = fresh.solve(&p[..3]).expect("a solution");
                 let best = fresh.bound(&p[..3], &x).expect("a bound");
                 let bound = answer.bound.expect("a bound").total;
                 let x = modes.in_own_scale(values[2]).solve(&p).expect("a solution");
                 let of_host = modes.bound(values[2], &p, &x).expect("a bound");
-                MODAL_BOUND.check_relative(format_args!("tick {tick}"), bound, of_host);
+                // Where s may cross the gap, host and kernel move it by other amounts: both bounds hold.
+                if text == AIR {
+                    MODAL_BOUND.check_relative(format_args!("tick {tick}"), bound, of_host);
+                }
                 MODAL_BEST.check_relative(format_args!("tick {tick}"), bound, best);
             }
         }
-        assert!(touching > 5 && open > 5, "{touching} {open}");
+        assert!(touching > 5 && open > 5 && last != 0.0, "{touching} {open} {last}");
         Ok(())
     })
 }
 
 /// The scene with its coefficient as a number.
-fn stated(problem: &Problem, values: &[f64]) -> Result<Problem> {
-    let text = AIR.split("[input.h]").next().unwrap_or_default();
+fn stated(text: &str, problem: &Problem, values: &[f64]) -> Result<Problem> {
+    let text = text.split("[input.h]").next().unwrap_or_default();
     let coefficient = format!("coefficient = \"{}\"", 2.0 + values[2]);
     let fresh = scene(&text.replace("coefficient = \"2\"", &coefficient))?;
     let fresh = Problem::new(&fresh, problem.mesh.clone())?;
@@ -147,14 +158,18 @@ fn stated(problem: &Problem, values: &[f64]) -> Result<Problem> {
 
 #[test]
 fn ticks_follow_the_coefficient() -> Result<()> {
-    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
-        let problem = with(AIR, cells, Setting::default())?;
-        ticks(&problem, ScalarKind::F64, MODAL, "condensed by modes, exact method, f64")?;
-        ticks(&problem, ScalarKind::F32, MODAL_NARROW, "condensed by modes, exact method, f32")?;
+    let exact = "condensed by modes, exact method";
+    for text in [AIR, &limited()] {
+        for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+            let setting = (cells, Setting::default());
+            ticks(text, setting, ScalarKind::F64, &format!("{exact}, f64"))?;
+            ticks(text, setting, ScalarKind::F32, &format!("{exact}, f32"))?;
+        }
+        let sweeps = Setting { solver: Some(Method::Sweeps), ..Setting::default() };
+        let setting = (Cells::Triangles, sweeps);
+        ticks(text, setting, ScalarKind::F64, "condensed by modes, sweeps alone, f64")?;
     }
-    let sweeps = Setting { solver: Some(Method::Sweeps), ..Setting::default() };
-    let problem = with(AIR, Cells::Triangles, sweeps)?;
-    ticks(&problem, ScalarKind::F64, MODAL, "condensed by modes, sweeps alone, f64")
+    Ok(())
 }
 
 /// u = SMOOTH's for every h: u_ext = u + σ·n/h, and σ·n is an input that is set to 1/h.
@@ -279,6 +294,7 @@ fn modules_have_the_same_bits() -> Result<()> {
     same_bits::<f32>(AIR, exact, true, |x| x.to_bits().into())?;
     same_bits::<f64>(AIR, Work { pivots: Some(2), ..exact }, false, f64::to_bits)?;
     same_bits::<f64>(AIR, swept, true, f64::to_bits)?;
+    same_bits::<f32>(&limited(), exact, true, |x| x.to_bits().into())?;
     let linear = AIR.replace("kind = \"contact\"\ngap = ", "kind = \"dirichlet\"\nvalue = ");
     let linear = linear.replace("field = \"gap\"", "field = \"value\"");
     same_bits::<f32>(&linear.replace("kind = \"force\"", "kind = \"flux\""), swept, true, |x| {
