@@ -183,11 +183,12 @@ impl<R: Real> Form<'_, R> {
         z.iter_mut().zip(given).for_each(|(z, &given)| *z = given);
         let corrections = z.iter_mut().skip(inputs.len() + x.len());
         if answer.ranges.are_limited() {
-            let norms = self.factor.norms.iter().skip(inputs.len() + x.len());
-            for ((d, vertex), &norm) in corrections.zip(self.vertices).zip(norms) {
+            let first = inputs.len() + x.len();
+            for (at, (d, vertex)) in corrections.zip(self.vertices).enumerate() {
                 let [left, right] = vertex.terms(x);
+                let square = || self.factor.square(first + at);
                 let at = (vertex, x);
-                *d = price::correction(self.sides.baked(), answer.ranges, at, left + right, norm);
+                *d = price::correction(self.sides.baked(), answer.ranges, at, left + right, square);
             }
             return;
         }

@@ -29,6 +29,12 @@ pub struct Norm<R> {
 }
 
 impl<R: Real> Factor<'_, R> {
+    /// ‖F_j‖² of column `at`, from its entries.
+    pub(super) fn square(&self, at: usize) -> R {
+        let entries = self.columns.iter().skip(at * (at + 1) / 2).take(at + 1);
+        entries.fold(R::ZERO, |sum, &entry| sum + entry * entry)
+    }
+
     /// ‖Fz‖, with one scratch number a column.
     ///
     /// # Errors

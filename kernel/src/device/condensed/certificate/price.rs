@@ -17,13 +17,13 @@ use crate::index::read;
 use crate::real::Real;
 use crate::solve::dense::ranges::Ranges;
 
-/// d at a vertex whose openings say s − ψ = `opening`; `norm` is that of the column of d.
+/// d at a vertex whose openings say s − ψ = `opening`; `square` is the squared norm of the column of d.
 pub(super) fn correction<R: Real>(
     sides: Option<&Baked<R>>,
     ranges: Ranges<R>,
     (vertex, x): (&Vertex<R>, &[R]),
     opening: R,
-    norm: R,
+    square: impl Fn() -> R,
 ) -> R {
     let beside = || vertex.beside.iter().map(|&edge| usize::from(edge));
     let is_out = |edge: usize| {
@@ -36,7 +36,7 @@ pub(super) fn correction<R: Real>(
     let reach = |edge: usize| {
         let [least, most] = ranges.ends(edge);
         let price = (most - least) * read(sides.scale, edge);
-        if sides.excess > R::ZERO { R::INFINITY } else { price / (R::TWO * norm * norm) }
+        if sides.excess > R::ZERO { R::INFINITY } else { price / (R::TWO * square()) }
     };
     let moved = beside().fold(opening, |e, edge| {
         let x = read(x, edge);
