@@ -39,15 +39,13 @@ impl Plant {
     fn new(order: usize, draw: &mut Draw) -> Self {
         let mut rows = vec![vec![0.0; order]; order];
         let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(order)];
-        for i in 0..order {
-            for j in 0..=i {
-                let far = (i - j) as f64;
-                let entry = if i == j { 1.0 } else { -0.29 * draw.part() / (far * far) };
-                (rows[i][j], rows[j][i]) = (entry, entry);
-                for (i, j) in [(i, j), (j, i)].into_iter().filter(|(i, j)| j / SIDE <= i / SIDE) {
-                    let (row, column) = (i / SIDE, j / SIDE);
-                    blocks[row * (row + 1) / 2 + column][i % SIDE][j % SIDE] = entry;
-                }
+        for (i, j) in (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let far = (i - j) as f64;
+            let entry = if i == j { 1.0 } else { -0.29 * draw.part() / (far * far) };
+            (rows[i][j], rows[j][i]) = (entry, entry);
+            for (i, j) in [(i, j), (j, i)].into_iter().filter(|(i, j)| j / SIDE <= i / SIDE) {
+                let (row, column) = (i / SIDE, j / SIDE);
+                blocks[row * (row + 1) / 2 + column][i % SIDE][j % SIDE] = entry;
             }
         }
         let mut load = vec![0.0; padded(order)];

@@ -2,8 +2,9 @@
 
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_kernel::device::condensed::certificate::Candidate;
+use signorini_kernel::device::condensed::candidate::Candidate;
 use signorini_kernel::solve::dense::blocks::padded;
+use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::sor;
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::condense::{CondensedModel, condense};
@@ -56,7 +57,7 @@ fn sweep<R: Scalar>(bencher: &mut Bencher, condensate: &CondensedModel) {
         let matrix = model.matrix().expect("as many blocks as it takes");
         let load = vec![R::ONE; padded(condensate.contact)];
         let mut x = vec![R::ZERO; load.len()];
-        bencher.iter(|| sor::sweep(&matrix, &load, R::narrow(1.4), &mut x));
+        bencher.iter(|| sor::sweep(&matrix, Given::above(&load), R::narrow(1.4), &mut x));
     });
 }
 
@@ -78,7 +79,8 @@ fn bound<R: Scalar>(bencher: &mut Bencher, condensate: &CondensedModel) {
     let residual = condensate.residual(p, &x);
     let narrow = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect::<Vec<_>>();
     let [inputs, x, residual] = [p, &x, &residual].map(|numbers| narrow(numbers));
-    let answer = Candidate { inputs: &inputs, x: &x, residual: &residual };
+    let answer =
+        Candidate { inputs: &inputs, x: &x, residual: &residual, ranges: Given::above(&[]).ranges };
     baked::<R>(condensate, true).with_model(|model| {
         let form = model.certificate.as_ref().expect("the strip has a bound");
         let columns = inputs.len() + x.len() + form.vertices.len();
