@@ -69,7 +69,12 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
             self.transfer(patterns, inputs);
         }
         #[cfg(feature = "limited")]
-        super::ranges::check(self, base, patterns, inputs)?;
+        super::ranges::check(
+            self.spans,
+            [base.spans.lengths(), base.contact_flux],
+            patterns,
+            inputs,
+        )?;
         if features::CURVED {
             same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
             let sums = base.curved_sums.iter().zip(self.curved.iter_mut());

@@ -3,8 +3,7 @@
 //! Where inputs change them the base of every range is its lower end, if that is finite, and the span ∫(hi − lo) is linear in
 //! the inputs. Below 0 it leaves no flux. What rounding may leave there is 0: two ends that are equal for these inputs.
 
-use super::data::Base;
-use super::pattern::{Contribution, DataMemory, Pattern};
+use super::pattern::{Contribution, Pattern};
 use crate::error::{Array, Error};
 use crate::index::{Index, read};
 use crate::real::Real;
@@ -12,24 +11,25 @@ use crate::real::Real;
 /// Terms of a sum whose rounding is counted, in ε.
 const ROUNDINGS: u32 = 16;
 
-/// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it.
+/// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it. `first` holds the spans
+/// without inputs, `bases` the bases.
 ///
 /// # Errors
 /// [`Error::EmptyRange`] with the first such edge, [`Error::NotFinite`] where a span overflows.
 pub(super) fn check<R: Real, I: Index>(
-    data: &mut DataMemory<R, I>,
-    base: &Base<R, I>,
+    spans: &mut [R],
+    [first, bases]: [&[R]; 2],
     patterns: &[Pattern<R, I>],
     inputs: &[R],
 ) -> Result<(), Error> {
-    for (at, (span, &first)) in data.spans.iter_mut().zip(base.spans.lengths()).enumerate() {
+    for (at, (span, &first)) in spans.iter_mut().zip(first).enumerate() {
         if *span >= R::ZERO && span.finite() || !first.finite() {
             continue;
         }
         if !span.finite() {
             return Err(Error::NotFinite { of: Array::ContactSpans, at });
         }
-        let ends = read(base.contact_flux, at).magnitude() + first.magnitude();
+        let ends = read(bases, at).magnitude() + first.magnitude();
         let terms = patterns
             .iter()
             .zip(inputs)
@@ -56,6 +56,8 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
 mod tests {
     use super::*;
     use crate::bound::conforming::VertexData;
+    use crate::device::full::data::Base;
+    use crate::device::full::pattern::DataMemory;
     use crate::discrete::assembly::CellLoads;
     use crate::flux_range::Spans;
 
