@@ -43,6 +43,8 @@ table! {
         "a tableau of at most 24 edges";
     THREE_PHASES_SWEPT: "openings of either sign by sweeps against three phases", 1e-12,
         "sweeps end at 1e-15 of the load";
+    LIMITED_FORM: "bounds of drawn condensed answers with limits against the formulas, relative", 1e-7,
+        "means of parts of s − ψ by 20 000 points";
     CONDENSED: "complementarity of exact condensed solves in f64, over the largest opening", 1e-13,
         "a tableau of at most 33 edges";
     CONDENSED_NARROW: "complementarity of exact condensed solves in f32, over the largest opening", 1e-5,

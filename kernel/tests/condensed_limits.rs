@@ -1,0 +1,309 @@
+//! The bound of a condensed answer where fluxes have limits, on drawn forms: against the same written anew.
+//!
+//! ```text
+//!   (gap/U)² = (‖F z‖ + stability ‖δ‖)² + 2 Σ mean⁺ (τ − least) + mean⁻ (greatest − τ)
+//! ```
+#![allow(clippy::indexing_slicing)]
+
+use signorini_kernel::Error;
+use signorini_kernel::bound::verdict::{Certificate, Verdict};
+use signorini_kernel::device::condensed::candidate::Candidate;
+use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
+use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::sides::{Baked, ON_GAP, Sides};
+use signorini_kernel::flux_range::Spans;
+use signorini_kernel::solve::dense::ranges::Given;
+use signorini_tolerances::kernel::LIMITED_FORM;
+
+const INPUTS: usize = 2;
+/// Contact edges; the first begins at a corner, the last ends on the gap.
+const EDGES: usize = 5;
+const VERTICES: usize = 4;
+const COLUMNS: usize = INPUTS + EDGES + VERTICES;
+const UP: f64 = f64::INFINITY;
+const STABILITY: f64 = 1.25;
+
+/// Knuth's generator.
+struct Draw(u64);
+
+impl Draw {
+    fn part(&mut self) -> f64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn signed(&mut self) -> f64 {
+        2.0 * self.part() - 1.0
+    }
+
+    fn of<const N: usize>(&mut self, all: [f64; N]) -> f64 {
+        all[(self.part() * N as f64) as usize]
+    }
+}
+
+/// A form, and an answer to judge by it.
+struct Drawn {
+    columns: Vec<f64>,
+    vertices: Vec<Vertex<f64>>,
+    ends: [[u16; 2]; EDGES],
+    scale: [f64; EDGES],
+    excess: [f64; INPUTS],
+    span_excess: f64,
+    spans: [f64; EDGES],
+    p: [f64; INPUTS],
+    x: [f64; EDGES],
+    r: [f64; EDGES],
+    floating: Vec<f64>,
+}
+
+impl Drawn {
+    fn new(draw: &mut Draw) -> Self {
+        let vertex = |at: usize| {
+            let beside = [at as u16, at as u16 + 1];
+            Vertex { edges: beside, weights: [0.0; 2], beside }
+        };
+        let mut vertices: Vec<_> = (0..VERTICES).map(vertex).collect();
+        vertices.iter_mut().for_each(|of| of.weights = [0.5 + draw.part(), 0.5 + draw.part()]);
+        let end = |edge: usize| [edge.wrapping_sub(1), edge].map(|at| at as u16);
+        let mut ends: [[u16; 2]; EDGES] = std::array::from_fn(end);
+        ends[0][0] = VERTICES as u16;
+        ends[EDGES - 1][1] = ON_GAP;
+        let mut draw_all = |_: usize| draw.signed();
+        let r = std::array::from_fn(&mut draw_all);
+        let p = [1.0, draw.signed()];
+        let floats = draw.part() < 0.2;
+        Self {
+            columns: (0..COLUMNS * (COLUMNS + 1) / 2).map(|_| draw.signed()).collect(),
+            vertices,
+            ends,
+            scale: std::array::from_fn(|_| 0.5 + draw.part()),
+            excess: [draw.signed(), 0.2 * draw.signed()],
+            span_excess: draw.of([0.0, 0.0, 0.3]),
+            spans: std::array::from_fn(|_| draw.of([UP, -UP, 0.0, 0.4, -0.7, 3.0])),
+            p,
+            x: std::array::from_fn(|_| draw.of([0.0, 1.0, -1.0]) * (0.1 + draw.part())),
+            r,
+            floating: (0..if floats { EDGES } else { 0 }).map(|_| 0.5 + draw.part()).collect(),
+        }
+        .within_sides()
+    }
+
+    /// x is on a side that its edge has.
+    fn within_sides(mut self) -> Self {
+        for (x, &span) in self.x.iter_mut().zip(&self.spans) {
+            let is_out = *x < 0.0 && span == UP || *x > 0.0 && span == -UP;
+            *x = if is_out { -*x } else { *x };
+        }
+        self
+    }
+
+    fn ends_of(&self, edge: usize) -> [f64; 2] {
+        let span = self.spans[edge];
+        if span < 0.0 { [span, 0.0] } else { [0.0, span] }
+    }
+
+    fn certify(&self) -> Result<Verdict<f64>, Error> {
+        let norms: Vec<f64> = (0..COLUMNS).map(|_| 1.0).collect();
+        let largest = [0.0, 0.5];
+        let corners = [Corner { edge: 0, excess: &self.excess }];
+        let form = Form {
+            factor: Factor { columns: &self.columns, norms: &norms },
+            jump: None,
+            vertices: &self.vertices,
+            corners: &corners,
+            sides: Sides::new(Baked {
+                ends: &self.ends,
+                scale: &self.scale,
+                excess: self.span_excess,
+                largest: &largest,
+            }),
+            stability: STABILITY,
+            floating: &self.floating,
+            oscillation: &[0.0, 0.0],
+            row_sum: 2.0,
+            largest_load: &[1.0, 1.0],
+            unit: 1.0,
+        };
+        let ranges = Given::between(&[], Spans::new(&self.spans)?, &[]).ranges;
+        let answer = Candidate { inputs: &self.p, x: &self.x, residual: &self.r, ranges };
+        form.certify(&answer, &mut [0.0; COLUMNS], &mut [0.0; COLUMNS])
+    }
+
+    /// s − ψ at a vertex, and its d.
+    fn vertex(&self, at: usize) -> [f64; 2] {
+        let Vertex { edges, weights, beside } = self.vertices[at];
+        let beside = beside.map(usize::from);
+        let e =
+            weights[0] * self.x[usize::from(edges[0])] + weights[1] * self.x[usize::from(edges[1])];
+        let is_fixed = beside.iter().any(|&edge| {
+            let [least, most] = self.ends_of(edge);
+            self.x[edge] == 0.0 || e < 0.0 && most == UP || e > 0.0 && least == -UP
+        });
+        if is_fixed {
+            return [0.0, -e];
+        }
+        let j = INPUTS + EDGES + at;
+        let square: f64 = self.columns[j * (j + 1) / 2..][..=j].iter().map(|f| f * f).sum();
+        let mut moved = e;
+        for edge in beside {
+            let [least, most] = self.ends_of(edge);
+            let reach = match self.span_excess > 0.0 {
+                true => UP,
+                false => 0.5 * (most - least) * self.scale[edge] / square,
+            };
+            if self.x[edge] > 0.0 && moved < 0.0 {
+                moved = (moved + reach).min(0.0);
+            } else if self.x[edge] < 0.0 && moved > 0.0 {
+                moved = (moved - reach).max(0.0);
+            }
+        }
+        [moved, moved - e]
+    }
+
+    /// ‖F z‖
+    fn norm(&self) -> f64 {
+        let d = (0..VERTICES).map(|at| self.vertex(at)[1]);
+        let z = self.p.iter().chain(&self.x).copied().chain(d);
+        let mut rows = [0.0; COLUMNS];
+        for (j, z) in z.enumerate() {
+            let column = &self.columns[j * (j + 1) / 2..][..=j];
+            rows.iter_mut().zip(column).for_each(|(row, entry)| *row += entry * z);
+        }
+        rows.iter().map(|row| row * row).sum::<f64>().sqrt()
+    }
+
+    /// ‖δ‖; nothing where a surplus has no way out.
+    fn mended(&self) -> Option<f64> {
+        let delta = |edge: usize| {
+            let ([least, most], r) = (self.ends_of(edge), self.r[edge]);
+            match self.x[edge] {
+                0.0 => (r - most).max(0.0) - (least - r).max(0.0),
+                _ => r,
+            }
+        };
+        let square: f64 = (0..EDGES).map(|edge| delta(edge).powi(2)).sum();
+        if self.floating.is_empty() {
+            return Some(square.sqrt());
+        }
+        let total: f64 = (0..EDGES).map(|edge| delta(edge) * self.floating[edge]).sum();
+        let room = |edge: usize| {
+            let ([least, most], r) = (self.ends_of(edge), self.r[edge]);
+            if self.x[edge] == 0.0 { (r - least).min(most - r) * self.floating[edge] } else { 0.0 }
+        };
+        let out = (0..EDGES).max_by(|&a, &b| room(a).total_cmp(&room(b)))?;
+        let change = total.abs() / self.floating[out];
+        (room(out) > 0.0 && room(out) / self.floating[out] > change)
+            .then(|| (square + change * change).sqrt())
+    }
+
+    /// What crossing the gap costs; nothing where u_D is on a side that there is not.
+    fn price(&self) -> Option<f64> {
+        let corner = self.excess[0] * self.p[0] + self.excess[1] * self.p[1];
+        let mut sum = 0.0;
+        for edge in 0..EDGES {
+            let value = |end: u16| match usize::from(end) {
+                end if end < VERTICES => self.vertex(end)[0] * self.scale[edge],
+                VERTICES => corner,
+                _ => 0.0,
+            };
+            let ([a, b], [least, most]) = (self.ends[edge].map(value), self.ends_of(edge));
+            if a.min(b) < 0.0 && most == UP || a.max(b) > 0.0 && least == -UP {
+                return None;
+            }
+            // Means of both parts by many points.
+            let points = 20_000;
+            let at = |k: usize| a + (b - a) * (k as f64 + 0.5) / f64::from(points);
+            let mean = |sign: f64| {
+                let all = (0..points as usize).map(|k| (sign * at(k)).max(0.0));
+                all.sum::<f64>() / f64::from(points)
+            };
+            let tau = match self.x[edge] {
+                0.0 => self.r[edge].max(least).min(most),
+                x if x > 0.0 => least,
+                _ => most,
+            };
+            let is_lower = (tau - least).abs() <= (most - tau).abs();
+            let unseen = |is_nearest: bool| if is_nearest { 0.0 } else { self.span_excess };
+            if least.is_finite() {
+                sum += 2.0 * mean(1.0) * (tau - least + unseen(is_lower));
+            }
+            if most.is_finite() {
+                sum += 2.0 * mean(-1.0) * (most - tau + unseen(!is_lower));
+            }
+        }
+        Some(sum)
+    }
+}
+
+#[test]
+fn the_bound_is_that_of_the_formulas() -> Result<(), Error> {
+    let (mut draw, mut seen) = (Draw(5), [0; 3]);
+    for case in 0..3000 {
+        let drawn = Drawn::new(&mut draw);
+        let (price, mended) = (drawn.price(), drawn.mended());
+        match drawn.certify()? {
+            Verdict::Certified(Certificate { duality_gap, algebraic, rounding, total, .. }) => {
+                let (price, mended) = (price.expect("a side"), mended.expect("a way out"));
+                let gap = ((drawn.norm() + STABILITY * mended).powi(2) + price).sqrt();
+                LIMITED_FORM.check_relative(format_args!("{case}"), duality_gap, gap);
+                LIMITED_FORM.check_relative(format_args!("{case}"), algebraic, STABILITY * mended);
+                assert!(total >= gap && rounding > 0.0 && rounding < 1e-10 * gap, "{rounding}");
+                seen[0] += 1;
+            }
+            Verdict::BelowGap => {
+                assert_eq!(price, None, "{case}");
+                seen[1] += 1;
+            }
+            Verdict::Unpressed => {
+                assert_eq!(mended, None, "{case}");
+                seen[2] += 1;
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
+    Ok(())
+}
+
+/// What rounding hides grows with spans that r is compared with, and with those that inputs make.
+#[test]
+fn large_spans_count_in_the_rounding() -> Result<(), Error> {
+    let of = |change: &dyn Fn(&mut Drawn)| {
+        let mut drawn = Drawn::new(&mut Draw(5));
+        drawn.floating.clear();
+        drawn.span_excess = 0.0;
+        drawn.excess = [0.0; INPUTS];
+        drawn.spans = [1.0; EDGES];
+        drawn.x = [0.0, 0.5, -0.5, 0.0, 0.0];
+        change(&mut drawn);
+        Ok::<_, Error>(drawn.certify()?.certificate().map_or(0.0, |known| known.rounding))
+    };
+    let near = of(&|_| ())?;
+    // One at whose end u is counts, one that nobody reaches does not.
+    assert!(of(&|drawn| drawn.spans[2] = 1e6)? > 1e4 * near);
+    assert!(of(&|drawn| drawn.spans[0] = 1e6)? < 2.0 * near);
+    assert!(of(&|drawn| drawn.r[3] = 1e6)? > 1e4 * near);
+    assert!(of(&|drawn| drawn.p[1] = 1e6)? > 1e4 * near);
+    Ok(())
+}
+
+#[test]
+fn outputs_go_with_the_law() -> Result<(), Error> {
+    let (x, r, spans) =
+        ([1.0, -1.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.25, 2.0, 0.0], [1.0, 1.0, 1.0, 1.0, -0.5]);
+    let ranges = Given::between(&[], Spans::new(&spans)?, &[]).ranges;
+    let answer = Candidate { inputs: &[1.0], x: &x, residual: &r, ranges };
+    let weights = [1.0, 10.0, 100.0, 1000.0, 1e4];
+    let flux = Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights };
+    // τ = 0, 1, 0.25, 1 and 0.
+    assert_eq!(flux.value(&answer, None), Ok(10.0 + 25.0 + 1000.0));
+    let length = Measure::Length { always: 0.5, of_contact: &weights };
+    assert_eq!(length.value(&answer, None), Ok(1100.5));
+    let saturated = Measure::Saturated { always: 0.5, of_contact: &weights };
+    assert_eq!(saturated.value(&answer, None), Ok(10_010.5));
+    let short = Measure::Saturated { always: 0.0, of_contact: &[1.0] };
+    assert!(short.value(&answer, None).is_err());
+    Ok(())
+}
