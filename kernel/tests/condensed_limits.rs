@@ -10,10 +10,16 @@ use signorini_kernel::bound::verdict::{Certificate, Verdict};
 use signorini_kernel::device::condensed::candidate::Candidate;
 use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::device::condensed::factor::Factor;
+use signorini_kernel::device::condensed::method::Sweeps;
 use signorini_kernel::device::condensed::outputs::Measure;
 use signorini_kernel::device::condensed::sides::{Baked, ON_GAP, Sides};
+use signorini_kernel::device::condensed::spans::{SpanBuffer, SpanColumns};
+use signorini_kernel::device::condensed::{Condensed, Memory};
+use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::flux_range::Spans;
+use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::ranges::Given;
+use signorini_kernel::solve::dense::tableau::InitialTableau;
 use signorini_tolerances::kernel::LIMITED_FORM;
 
 const INPUTS: usize = 2;
@@ -305,5 +311,65 @@ fn outputs_go_with_the_law() -> Result<(), Error> {
     assert_eq!(saturated.value(&answer, None), Ok(10_010.5));
     let short = Measure::Saturated { always: 0.0, of_contact: &[1.0] };
     assert!(short.value(&answer, None).is_err());
+    Ok(())
+}
+
+/// Two edges that do not know of each other; the second input is added to the limit of the first one.
+fn supplied(spans: &[f64], supply: f64, buffer: &mut [f64; 8]) -> Result<[f64; 3], Error> {
+    let mut block = [[0.0; 8]; 8];
+    (block[0][0], block[1][1]) = (1.0, 1.0);
+    let mut load = [0.0; 16];
+    (load[0], load[1]) = (-3.0, -2.0);
+    let weights = [1.0, 10.0];
+    let model = Condensed {
+        contact: 2,
+        matrix: &[block],
+        x: &[],
+        start: InitialTableau { blocks: &[], exchanged: &[] },
+        load: &load,
+        limits: &[],
+        spans: SpanColumns::new(spans),
+        outputs: &[Measure::Flux { of_inputs: &[], of_contact: &[], of_reaction: &weights }],
+        certificate: None,
+        has_bound: false,
+    };
+    let [mut x, mut residual, mut scratch, mut load] = [[0.0; 8]; 4];
+    let iterate = Iterate {
+        x: &mut x,
+        residual: &mut residual,
+        scratch: &mut scratch,
+        open: &mut [false; 8],
+    };
+    let spans = SpanBuffer::new(buffer);
+    let mut memory = Memory { iterate, load: &mut load, spans, combination: &mut [], sum: &mut [] };
+    let mut sweeps = Sweeps { omega: 1.0, tolerance: 1e-15, most: 9 };
+    let inputs = [1.0, supply];
+    let report = model.tick(&inputs, &mut sweeps, &mut Deadline::never(), &mut memory)?;
+    let flux = model.output(0, &inputs, &memory, &report)?;
+    Ok([memory.iterate.x[0], memory.iterate.x[1], flux])
+}
+
+#[test]
+fn spans_follow_the_inputs() -> Result<(), Error> {
+    let mut spans = [0.0; 16];
+    (spans[0], spans[1], spans[8]) = (1.0, UP, 0.5);
+    let buffer = &mut [7.0; 8];
+    // x = b + m below the gap; the other edge touches with its r = 2.
+    assert_eq!(supplied(&spans, 1.0, buffer)?, [-1.5, 0.0, 21.5]);
+    assert_eq!((buffer[0], buffer[1]), (1.5, UP));
+    assert_eq!(supplied(&spans, 4.0, buffer)?, [0.0, 0.0, 23.0]);
+    assert_eq!(supplied(&spans, -2.0 - 4.0 * f64::EPSILON, buffer)?, [-3.0, 0.0, 20.0]);
+    let before = *buffer;
+    assert_eq!(supplied(&spans, -2.1, buffer), Err(Error::EmptyRange { contact: 0 }));
+    assert_eq!(*buffer, before);
+    // One column holds for all inputs, of either sign, and needs no room.
+    assert_eq!(supplied(&spans[..8], -9.0, buffer)?, [-2.0, 0.0, 21.0]);
+    assert_eq!(*buffer, before);
+    assert_eq!(SpanColumns::new(&spans).buffered(8), 8);
+    assert_eq!(SpanColumns::new(&spans[..8]).buffered(8), 0);
+    assert_eq!(
+        [spans.len(), 0].map(|n| SpanColumns::new(&spans[..n]).are_limited()),
+        [true, false]
+    );
     Ok(())
 }

@@ -30,7 +30,7 @@ coefficient = "3"
 ambient = "0"
 [boundary.right]
 kind = "contact"
-gap = "3"
+gap = "2 + y"
 flux = "-inf"
 limit = "0.5*y"
 [boundary.contact]
@@ -50,7 +50,7 @@ pattern = "1 - x"
 [input.wanted]
 of = "contact"
 field = "gap"
-pattern = "1"
+pattern = "(1 - x)/2"
 [output.power]
 kind = "flux"
 of = "contact"
@@ -74,7 +74,7 @@ of = "contact"
 fn with_supply() -> String {
     let fixed = HEATER.replace("6 - 3*x^2", "0").replace("value = \"2 - x/4\"", "value = \"2\"");
     fixed.replace(
-        "field = \"gap\"\npattern = \"1\"",
+        "field = \"gap\"\npattern = \"(1 - x)/2\"",
         "field = \"limit\"\npattern = \"3\"\ndefault = 1.0",
     )
 }
@@ -184,6 +184,9 @@ fn a_limit_below_the_flux_is_refused_and_nothing_changes() -> Result<()> {
     let refused = controller.tick(&[-3.0, 0.0, -1.0]).expect_err("−3 is below −1");
     assert!(matches!(refused, signorini_kernel::Error::EmptyRange { .. }), "{refused}");
     assert_eq!(controller.x(), x);
-    assert_eq!(controller.tick(&[-3.0, 0.0, 0.5]).expect("a tick").0, before.0);
+    let again = controller.tick(&[-3.0, 0.0, 0.5]).expect("a tick");
+    for (again, before) in again.0.iter().zip(&before.0) {
+        LIMITED_TICK_NARROW.check("after what was refused", f64::from(again - before));
+    }
     Ok(())
 }

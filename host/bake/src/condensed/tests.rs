@@ -125,7 +125,7 @@ coefficient = "4"
 ambient = "-1"
 [boundary.left]
 kind = "contact"
-gap = "0.1"
+gap = "-1/9"
 flux = "-inf"
 limit = "0"
 [boundary.right]
@@ -209,8 +209,14 @@ fn with_limits() -> Result<()> {
     for text in [
         LIMITED,
         &LIMITED
-            .replace("field = \"limit\"\npattern = \"0.3\"", "field = \"gap\"\npattern = \"0.01\"")
-            .replace("field = \"flux\"", "field = \"gap\"")
+            .replace(
+                "field = \"limit\"\npattern = \"0.3\"",
+                "field = \"gap\"\npattern = \"(1 + x)/99\"",
+            )
+            .replace(
+                "field = \"flux\"\npattern = \"0.1\"",
+                "field = \"gap\"\npattern = \"(1 + x)/9\"",
+            )
             .replace("limit = \"0\"\n[input", "limit = \"0.4\"\n[input"),
     ] {
         same_bits::<f32>(text, PIVOTS, true, |x| x.to_bits().into())?;
