@@ -33,3 +33,39 @@ impl<R: Real> Excess<R> {
         if is_below { [zero, flipped.mean()] } else { [self.mean(), zero] }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sides(ends: [f64; 2], bubble: f64) -> [f64; 2] {
+        Excess { ends, bubble }.sides()
+    }
+
+    #[test]
+    fn an_excess_of_one_sign_is_all_on_its_side() {
+        assert_eq!(sides([1.0, 3.0], 0.0), [2.0, 0.0]);
+        assert_eq!(sides([-3.0, -1.0], 0.0), [0.0, 2.0]);
+        assert_eq!(sides([-1.0, -3.0], 0.0), [0.0, 2.0]);
+        // 4t(1 − t) d has a mean of 2d/3.
+        assert_eq!(sides([1.0, 3.0], -0.75), [1.5, 0.0]);
+        assert_eq!(sides([-1.0, -3.0], 0.75), [0.0, 1.5]);
+        assert_eq!(sides([1.0, 0.0], -0.75), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn between_ends_on_the_gap_the_bubble_says_where_it_is() {
+        assert_eq!(sides([0.0, 0.0], 1.5), [1.0, 0.0]);
+        assert_eq!(sides([0.0, 0.0], -1.5), [0.0, 1.0]);
+        assert_eq!(sides([0.0, 0.0], 0.0), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn an_excess_that_crosses_the_gap_has_a_triangle_on_either_side() {
+        assert_eq!(sides([3.0, -1.0], 0.0), [1.125, 0.125]);
+        assert_eq!(sides([-1.0, 3.0], 0.0), [1.125, 0.125]);
+        assert_eq!(sides([-3.0, 1.0], 0.0), [0.125, 1.125]);
+        assert_eq!(sides([0.0, 2.0], 0.0), [1.0, 0.0]);
+        assert_eq!(sides([-2.0, 0.0], 0.0), [0.0, 1.0]);
+    }
+}
