@@ -55,7 +55,9 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         true => "SpanColumns::UNLIMITED",
         false => {
             let doc = "How far it is to the other end of each flux, by columns.";
-            numbers(&mut text, "SPANS", doc, &baked.spans);
+            // As Rust names what has no end.
+            let spans = array(&baked.spans, 4).replace("inf", "Scalar::INFINITY");
+            put(&mut text, "SPANS", doc, "Scalar", (baked.spans.len(), spans));
             "SpanColumns::new(&SPANS)"
         }
     };
