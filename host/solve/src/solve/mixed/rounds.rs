@@ -48,11 +48,12 @@ impl Rounds<'_> {
             },
             corrections: 0,
         };
+        let first = now.outcome.residual.largest;
         let unit = now.outcome.residual.scale().log2().round().exp2();
         let mut best = Best { largest: f64::INFINITY, sweeps: 0, corrections: 0 };
         let mut length = first_length(settings.relaxation);
         loop {
-            if let Some(status) = judge(&settings, &now, &mut best) {
+            if let Some(status) = judge(&settings, &now, first, &mut best) {
                 now.outcome.status = status;
                 return Ok(now);
             }
@@ -92,12 +93,15 @@ fn endless(relaxation: Relaxation<f64>) -> Settings<f32> {
     Settings { relaxation, max_sweeps: u32::MAX, ..Settings::default() }
 }
 
-fn judge(settings: &Settings<f64>, now: &Corrected, best: &mut Best) -> Option<Status> {
+fn judge(settings: &Settings<f64>, now: &Corrected, first: f64, best: &mut Best) -> Option<Status> {
     let Outcome { sweeps, residual, omega, .. } = now.outcome;
     if !(residual.largest.is_finite() && residual.range.is_finite()) {
         return Some(Status::NotFinite);
     }
-    if residual.largest <= goal(settings, &residual, omega) {
+    // An ω that is not the best tells less than the sweeps that it took.
+    let tail = sweeps_ahead(&now.outcome, first) * residual.largest;
+    let is_near = tail <= settings.accuracy * residual.scale().max(settings.scale);
+    if residual.largest <= goal(settings, &residual, omega) && is_near {
         return Some(Status::Converged);
     }
     if residual.largest < 0.875 * best.largest {
@@ -111,6 +115,13 @@ fn judge(settings: &Settings<f64>, now: &Corrected, best: &mut Best) -> Option<S
         return Some(Status::Stalled);
     }
     (sweeps >= settings.max_sweeps).then_some(Status::OutOfSweeps)
+}
+
+/// How much larger than the last step all those to come are, from how fast residuals have fallen since the `first`; 0 where
+/// that tells nothing. A sweep moves by up to ω < 2 times a residual.
+fn sweeps_ahead(now: &Outcome<f64>, first: f64) -> f64 {
+    let fallen = (first / now.residual.largest).ln();
+    if fallen > 0.0 { 2.0 * f64::from(now.sweeps) / fallen } else { 0.0 }
 }
 
 /// The largest step that is small enough.
