@@ -29,6 +29,7 @@ const VERTICES: usize = 4;
 const COLUMNS: usize = INPUTS + EDGES + VERTICES;
 const UP: f64 = f64::INFINITY;
 const STABILITY: f64 = 1.25;
+const ENERGY: f64 = 0.75;
 
 /// Knuth's generator.
 struct Draw(u64);
@@ -113,7 +114,7 @@ impl Drawn {
     fn certify(&self) -> Result<Verdict<f64>, Error> {
         let norms: Vec<f64> = (0..COLUMNS).map(|_| 1.0).collect();
         let largest = [0.0, 0.5];
-        let corners = [Corner { edge: 0, excess: &self.excess }];
+        let corners = [Corner { edge: 0, excess: &self.excess, energy: ENERGY }];
         let form = Form {
             factor: Factor { columns: &self.columns, norms: &norms },
             jump: None,
@@ -362,6 +363,13 @@ fn spans_follow_the_inputs() -> Result<(), Error> {
     let before = *buffer;
     assert_eq!(supplied(&spans, -2.1, buffer), Err(Error::EmptyRange { contact: 0 }));
     assert_eq!(*buffer, before);
+    // Rounding of (m + 4) terms, at an input where both products count.
+    let least = -2.0 - 11.0 * 2.0 * f64::EPSILON;
+    assert!(supplied(&spans, least, buffer).is_ok());
+    let beyond = -2.0 - 14.0 * 2.0 * f64::EPSILON;
+    assert_eq!(supplied(&spans, beyond, buffer), Err(Error::EmptyRange { contact: 0 }));
+    assert_eq!(supplied(&spans, 1.0, buffer)?, [-1.5, 0.0, 21.5]);
+    let before = *buffer;
     // One column holds for all inputs, of either sign, and needs no room.
     assert_eq!(supplied(&spans[..8], -9.0, buffer)?, [-2.0, 0.0, 21.0]);
     assert_eq!(*buffer, before);
@@ -421,7 +429,9 @@ impl Drawn {
             }
         };
         let of_sum = (n + m + 32.0) * 0.5 * epsilon * gap;
-        Some(of_norm + STABILITY * (n.sqrt() * uncertainty + hidden) + of_sum)
+        let of_corner = self.excess.iter().zip(&self.p).map(|(e, p)| (e * p).abs()).sum::<f64>();
+        let misplaced = (m + 8.0) * epsilon * of_corner * ENERGY;
+        Some(of_norm + STABILITY * (n.sqrt() * uncertainty + hidden) + of_sum + misplaced)
     }
 }
 

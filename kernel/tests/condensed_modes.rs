@@ -1,6 +1,7 @@
 //! Two contact edges and two modes of a coefficient, in numbers that are exact: against the same by hand.
 
 use signorini_kernel::Error;
+use signorini_kernel::bound::verdict::Verdict;
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::Sweeps;
 use signorini_kernel::device::condensed::modes::{ArrayModalStorage, Modal};
@@ -190,6 +191,48 @@ fn entries_above_0_are_left_out_where_none_should_be() -> Result<(), Error> {
         let [block] = model.matrix else { panic!("one block") };
         assert!((block[0][1] - expected).abs() < 1e-15 && block[0][1] == block[1][0], "{block:?}");
         assert!(block[0][0] > 1.7 && block[1][1] > 1.7);
+    }
+    Ok(())
+}
+
+/// An output of amplitude `k` times a factor. Before anything changes it is refused where it might overflow: x is at most
+/// ‖b‖/(64 ε), so that y is at most g (|β·p| + Σ|α| ‖b‖/(64 ε)).
+#[test]
+fn outputs_that_amplitudes_may_bring_to_overflow_are_refused() -> Result<(), Error> {
+    let (q, h) = (-0.75, 10.5);
+    let t = (h - 2.5) / 4.0;
+    let gain = NU.map(|nu| t / (1.0 + t * nu));
+    let given = BETA.map(|beta| beta[0] + beta[1] * q);
+    let load = [
+        1.0 - gain[0] * 0.5 * given[0],
+        0.5 + q - gain[0] * 0.25 * given[0] + gain[1] * 0.5 * given[1],
+    ];
+    let room = load[0].hypot(load[1]) / (64.0 * f64::EPSILON);
+    let of_alpha = [0.75, 0.5];
+    for k in 0..2 {
+        let most = gain[k] * (given[k].abs() + of_alpha[k] * room);
+        for (share, is_refused) in [(1.0 - 1e-9, false), (1.0 + 1e-9, true)] {
+            let mut of_inputs = [0.0; 5];
+            of_inputs[3 + k] = share * f64::MAX / most;
+            let outputs = [Measure::Linear { of_inputs: &of_inputs, of_contact: &[0.0; 2] }];
+            let modal = Modal { model: Condensed { outputs: &outputs, ..MODEL.model }, ..MODEL };
+            let set = Memory::new().storage.set(&modal, &[1.0, q, h]);
+            assert_eq!(set.is_err(), is_refused, "{k} {share}: {set:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_report_says_whether_a_bound_was_asked_for() -> Result<(), Error> {
+    for (has_bound, expected) in [(true, Verdict::NotAsked), (false, Verdict::Unavailable)] {
+        let modal = Modal { model: Condensed { has_bound, ..MODEL.model }, ..MODEL };
+        let mut storage = ArrayModalStorage::<f64, 8, 0, 1, 5>::zeros();
+        storage.set(&modal, &[1.0, 0.0, 3.5])?;
+        let (model, mut memory) = storage.at(&modal);
+        let mut sweeps = Sweeps { omega: 1.0, tolerance: 1e-9, most: 50 };
+        let report = modal.tick(&model, &mut sweeps, &mut Deadline::never(), &mut memory)?;
+        assert_eq!(report.verdict, expected);
     }
     Ok(())
 }

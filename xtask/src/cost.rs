@@ -50,12 +50,7 @@ const IMAGES: [Image; 5] = [
     },
     Image {
         bin: "limits",
-        kinds: &[
-            "f32 limited, n = 8",
-            "f32 limited, n = 16",
-            "f32 limited, n = 32",
-            "f32 limited, n = 64",
-        ],
+        kinds: &["limits, n = 8", "limits, n = 16", "limits, n = 32", "limits, n = 64"],
         last: "three phases, all stay there",
         features: &["limited"],
     },

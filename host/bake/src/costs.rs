@@ -55,7 +55,9 @@ impl Costs {
     pub(super) fn counted<R: Scalar>(&self, stage: &str, order: f64) -> Option<f64> {
         let of = |kind: String| self.0.get(BOARD, &kind, stage);
         let count = of(format!("{}, n = {order}", R::NAME));
-        let count = count.or_else(|| of(format!("{} limited, n = {order}", R::NAME)));
+        // Stages with limits were counted in f32.
+        let count =
+            count.or_else(|| of(format!("limits, n = {order}")).filter(|_| R::NAME == "f32"));
         count.map(|count| count * order * order)
     }
 

@@ -84,8 +84,11 @@ impl<R: Scalar> Model<R> {
         work: impl FnOnce(&Condensed<R>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let order = self.strip.order;
-        let corner =
-            |edge: usize, at: usize| Corner { edge: edge as u16, excess: &self.excess[at] };
+        let corner = |edge: usize, at: usize| Corner {
+            edge: edge as u16,
+            excess: &self.excess[at],
+            energy: R::ZERO,
+        };
         let corners = [corner(0, 0), corner(order - 1, 1)];
         let certificate = Form {
             jump: None,

@@ -62,7 +62,7 @@ pub fn of_any_arrays<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
         beside: [(); 2].map(|()| index(bytes)),
     };
     let vertices: Vec<_> = (0..bytes.below(4)).map(|_| vertex(bytes)).collect();
-    let corners = [Corner { edge: index(bytes), excess: &corner_excess }];
+    let corners = [Corner { edge: index(bytes), excess: &corner_excess, energy: bytes.real() }];
     let columns = m + n + vertices.len();
     let (entries, norms) = (bytes.reals::<R>(columns * (columns + 1) / 2), bytes.reals(columns));
     let (floating, oscillation) = (bytes.reals(n), bytes.reals(m));

@@ -265,8 +265,10 @@ impl<R: Scalar> Baked<R> {
     pub fn with_model<T>(&self, then: impl FnOnce(&Condensed<R>) -> T) -> T {
         let outputs: Vec<_> = self.outputs.iter().map(Output::measure).collect();
         let corners = self.bound.as_ref().map(|bound| &bound.corners[..]).unwrap_or_default();
-        let corners: Vec<_> =
-            corners.iter().map(|(edge, excess)| Corner { edge: *edge, excess }).collect();
+        let corners: Vec<_> = corners
+            .iter()
+            .map(|(edge, excess, energy)| Corner { edge: *edge, excess, energy: *energy })
+            .collect();
         let certificate = self.bound.as_ref().ok().map(|bound| bound.form(&corners));
         let Self { contact, matrix, load, limits, spans, .. } = self;
         let (x, start) = (&self.start.x, self.start.view());

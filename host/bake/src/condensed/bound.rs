@@ -21,7 +21,8 @@ pub(super) struct Bound<R> {
     pub factor: Columns<R>,
     pub jump: Option<Columns<R>>,
     pub vertices: Vec<Vertex<R>>,
-    pub corners: Vec<(u16, Vec<R>)>,
+    /// Edge, excess and energy, see [`Corner`].
+    pub corners: Vec<(u16, Vec<R>, R)>,
     /// Nothing where no flux has a limit.
     pub sides: Option<Ends<R>>,
     pub stability: R,
@@ -96,23 +97,15 @@ impl<R: Scalar> Bound<R> {
         let most = condensate.multiplier.iter().fold(f64::MIN_POSITIVE, |most, m| most.max(*m));
         let mut floating = vec![0.0; if form.floating.is_empty() { 0 } else { n }];
         form.floating.iter().for_each(|&at| floating[at] = condensate.multiplier[at] / most);
-        // The kernel takes u_D that rounding of its sum has put below ψ: by how much is weighed here, input by input.
-        let slack = f64::from(condensate.inputs as u32 + 8) * R::EPSILON.wide();
-        let of_corners = |j: usize| {
-            let moved = form.corners.iter().map(|corner| corner.excess[j].abs() * corner.energy);
-            slack * moved.sum::<f64>()
-        };
-        let oscillation = form.oscillation.iter().enumerate();
-        let oscillation: Vec<f64> = oscillation.map(|(j, osc)| osc + of_corners(j)).collect();
         Self {
             factor: Columns::new(&form.factor, &form.lost, order),
             jump: form.jump.as_ref().map(|jump| Columns::new(jump, &form.lost, order)),
             vertices: form.vertices.iter().map(vertex).collect(),
-            corners: form.corners.iter().map(|c| (c.edge as u16, narrow(&c.excess))).collect(),
+            corners: form.corners.iter().map(corner).collect(),
             sides: Ends::new(condensate, form),
             stability: R::narrow(form.stability),
             floating: narrow(&floating),
-            oscillation: narrow(&oscillation),
+            oscillation: narrow(&form.oscillation),
             row_sum: R::narrow(row_sums.fold(0.0, f64::max)),
             largest_load: condensate.load.iter().map(largest).map(R::narrow).collect(),
             unit: R::narrow(condensate.energy_unit),
@@ -142,4 +135,8 @@ fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
         weights: vertex.weights.map(R::narrow),
         beside: vertex.beside.map(|edge| edge as u16),
     }
+}
+
+fn corner<R: Scalar>(corner: &condense::Corner) -> (u16, Vec<R>, R) {
+    (corner.edge as u16, narrow(&corner.excess), R::narrow(2.0 * corner.energy))
 }

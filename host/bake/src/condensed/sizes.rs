@@ -112,7 +112,7 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     };
     let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();
     let bound = baked.bound.as_ref().map_or(0, |bound| {
-        let corners: usize = bound.corners.iter().map(|(_, excess)| excess.len() + 1).sum();
+        let corners: usize = bound.corners.iter().map(|(_, excess, _)| excess.len() + 2).sum();
         let form = |form: &Columns<R>| form.columns.len() + form.norms.len();
         let forms = form(&bound.factor) + bound.jump.as_ref().map_or(0, form);
         let sides = bound.sides.as_ref();

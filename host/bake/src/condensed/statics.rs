@@ -223,10 +223,10 @@ fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
         None => "Sides::UNLIMITED".to_owned(),
         Some(sides) => baked_sides(text, sides),
     };
-    let corners = bound.corners.iter().enumerate().map(|(at, (edge, excess))| {
+    let corners = bound.corners.iter().enumerate().map(|(at, (edge, excess, energy))| {
         let name = format!("CORNER_{at}");
         numbers(text, &name, "u_D above the gap at an end of the contact.", excess);
-        format!("Corner {{ edge: {edge}, excess: &{name} }}")
+        format!("Corner {{ edge: {edge}, excess: &{name}, energy: {energy:?} }}")
     });
     let corners: Vec<_> = corners.collect();
     format!(

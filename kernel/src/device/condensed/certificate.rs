@@ -61,6 +61,20 @@ pub struct Corner<'a, R> {
     pub edge: u16,
     /// (u_D − ψ) at its end as a linear form of the inputs, in the unit of 1/r.
     pub excess: &'a [R],
+    /// Twice what moving u_D there by a unit of that costs, in the unit of energy: s is moved so that rounding of the excess
+    /// leaves it on its side, and what holds for s then is off by as much on both sides.
+    pub energy: R,
+}
+
+impl<R: Real> Corner<'_, R> {
+    /// The excess, and what rounding may hide of it.
+    fn at(&self, inputs: &[R]) -> Result<[R; 2], Error> {
+        same_length(Array::Load, self.excess.len(), inputs.len())?;
+        let terms = self.excess.iter().zip(inputs);
+        let size = terms.fold(R::ZERO, |sum, (&e, &p)| sum + (e * p).magnitude());
+        let slack = R::from_count(inputs.len() as u32 + 8) * R::EPSILON * size;
+        Ok([dot(self.excess, inputs), slack])
+    }
 }
 
 /// The baked forms (borrowed). Columns of F stand for the inputs, the openings, then d.
@@ -135,13 +149,14 @@ impl<R: Real> Form<'_, R> {
             true => self.price(answer, z, uncertainty)?,
             false => self.corners(answer, uncertainty)?,
         };
-        let Some(corner) = price else { return Ok(Verdict::BelowGap) };
+        let Some([corner, misplaced]) = price else { return Ok(Verdict::BelowGap) };
         // Everything in the unit of energy, until the end: squares stay within the scalar's range.
         let algebraic = self.stability * mended.known;
         let first = norm.value + algebraic;
         let gap = (first * first + corner).rounded_sqrt().or_larger(first);
         let all = R::from_count(x.len() as u32).rounded_sqrt();
-        let hidden = norm.rounding + self.stability * (all * uncertainty + mended.hidden);
+        let hidden =
+            norm.rounding + self.stability * (all * uncertainty + mended.hidden) + misplaced;
         let sizes = self.oscillation.iter().zip(inputs);
         let oscillation = sizes.fold(R::ZERO, |sum, (&o, p)| sum + o * p.magnitude());
         // Sums of so many terms at most, none of which is negative.
@@ -246,15 +261,12 @@ impl<R: Real> Form<'_, R> {
         bears.then(|| Mended { known: (square + total * total).rounded_sqrt(), hidden })
     }
 
-    /// 2∫_C (τ·n − q)(s − ψ)
-    fn corners(&self, answer: &Candidate<R>, uncertainty: R) -> Result<Option<R>, Error> {
-        let mut sum = R::ZERO;
+    /// 2∫_C (τ·n − q)(s − ψ), and what rounding of u_D − ψ costs.
+    fn corners(&self, answer: &Candidate<R>, uncertainty: R) -> Result<Option<[R; 2]>, Error> {
+        let (mut sum, mut misplaced) = (R::ZERO, R::ZERO);
         for corner in self.corners {
-            same_length(Array::Load, corner.excess.len(), answer.inputs.len())?;
-            let excess = dot(corner.excess, answer.inputs);
-            let terms = corner.excess.iter().zip(answer.inputs);
-            let size = terms.fold(R::ZERO, |sum, (&e, &p)| sum + (e * p).magnitude());
-            let slack = R::from_count(answer.inputs.len() as u32 + 8) * R::EPSILON * size;
+            let [excess, slack] = corner.at(answer.inputs)?;
+            misplaced += slack * corner.energy;
             if !(excess >= -slack) {
                 return Ok(None);
             }
@@ -264,7 +276,7 @@ impl<R: Real> Form<'_, R> {
                 sum += flux * (excess.or_larger(R::ZERO) + slack);
             }
         }
-        Ok(Some(sum))
+        Ok(Some([sum, misplaced]))
     }
 }
 

@@ -115,6 +115,33 @@ mod tests {
         assert_eq!(spans([3.0, 1.0 + 100.0 * f64::EPSILON]), Err(Error::EmptyRange { contact: 1 }));
     }
 
+    /// Up to 16 ε of |lo₀|, |hi₀ − lo₀| and all that inputs move of both ends.
+    #[test]
+    fn rounding_is_counted_by_all_terms() {
+        let of = |bases: [f64; 2], first: [f64; 2], p: f64, span: f64| {
+            let shares = [
+                Contribution { at: 0, weight: 9.0 },
+                Contribution { at: 1, weight: -2.0 },
+                Contribution { at: 1, weight: 0.5 },
+            ];
+            let (fluxes, spans) = shares.split_at(2);
+            let pattern: Pattern<f64, u16> = Pattern::ContactRange { fluxes, spans };
+            let mut spans = [1.0, span];
+            check(&mut spans, [&first, &bases], &[pattern], &[p]).map(|()| spans)
+        };
+        let unit = 16.0 * f64::EPSILON;
+        for (bases, first, p, terms) in [
+            ([7.0, -3.0], [7.0, 0.5], 0.0, 3.5),
+            ([7.0, 0.25], [7.0, -2.0], 0.0, 2.25),
+            ([7.0, 0.0], [7.0, 0.0], -4.0, 10.0),
+        ] {
+            let within = of(bases, first, p, -0.999 * unit * terms);
+            assert_eq!(within, Ok([1.0, 0.0]), "{terms}");
+            let beyond = of(bases, first, p, -1.001 * unit * terms);
+            assert_eq!(beyond, Err(Error::EmptyRange { contact: 1 }), "{terms}");
+        }
+    }
+
     #[test]
     fn a_limit_below_the_least_flux_is_refused() {
         assert_eq!(at([-0.4, -1.0]), Err(Error::EmptyRange { contact: 0 }));

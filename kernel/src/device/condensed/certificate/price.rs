@@ -10,9 +10,8 @@
 use super::{Form, Mended, Vertex};
 use crate::bound::excess::Excess;
 use crate::device::condensed::candidate::Candidate;
-use crate::device::condensed::outputs::dot;
 use crate::device::condensed::sides::{Baked, ON_GAP};
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error};
 use crate::index::read;
 use crate::real::Real;
 use crate::solve::dense::ranges::Ranges;
@@ -97,15 +96,19 @@ impl<R: Real> Form<'_, R> {
         bears.then(|| Mended { known: (square + total * total).rounded_sqrt(), hidden })
     }
 
-    /// 2∫_C (s − ψ)⁺(τ·n − lo) + (ψ − s)⁺(hi − τ·n); nothing where a Dirichlet value is on a side that there is not.
+    /// 2∫_C (s − ψ)⁺(τ·n − lo) + (ψ − s)⁺(hi − τ·n), and what rounding of u_D − ψ costs; nothing where a Dirichlet value is on a
+    /// side that there is not.
     pub(super) fn price(
         &self,
         answer: &Candidate<R>,
         z: &[R],
         uncertainty: R,
-    ) -> Result<Option<R>, Error> {
+    ) -> Result<Option<[R; 2]>, Error> {
         let Some(sides) = self.sides.baked() else { return Ok(None) };
-        let mut sum = R::ZERO;
+        let (mut sum, mut misplaced) = (R::ZERO, R::ZERO);
+        for corner in self.corners {
+            misplaced += corner.at(answer.inputs)?[1] * corner.energy;
+        }
         for (edge, ends) in sides.ends.iter().enumerate() {
             let [a, b] = ends.map(|end| self.end(sides, (edge, end), answer, z));
             let Some(price) = price_of(sides, edge, answer, [a?, b?], uncertainty) else {
@@ -113,7 +116,7 @@ impl<R: Real> Form<'_, R> {
             };
             sum += price;
         }
-        Ok(Some(sum))
+        Ok(Some([sum, misplaced]))
     }
 
     /// s − ψ at an end of an edge in the unit of 1/r, and what rounding may hide of it.
@@ -135,13 +138,9 @@ impl<R: Real> Form<'_, R> {
             // s is what these numbers are: rounding of d is weighed elsewhere.
             return Ok([((left + right) + d) * scale, R::ZERO]);
         }
-        let corner = self.corners.get(end - self.vertices.len());
-        let excess = corner.map_or(&[][..], |corner| corner.excess);
-        same_length(Array::Load, excess.len(), inputs.len())?;
-        let terms = excess.iter().zip(inputs);
-        let size = terms.fold(R::ZERO, |sum, (&e, &p)| sum + (e * p).magnitude());
-        let slack = R::from_count(inputs.len() as u32 + 8) * R::EPSILON * size;
-        Ok([dot(excess, inputs), slack])
+        let at = end - self.vertices.len();
+        let stray = Error::OutOfRange { of: Array::Vertices, at };
+        self.corners.get(at).ok_or(stray)?.at(inputs)
     }
 }
 

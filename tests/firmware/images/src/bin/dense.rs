@@ -60,7 +60,9 @@ fn stages<R: Bits>(meter: &mut Meter, n: usize) -> Result<(), Error> {
     let residual = cut(&mut residual, n)?;
     let mut scratch = [R::ZERO; MOST];
     let scratch = cut(&mut scratch, n)?;
-    meter.count("sweep", "n²", n * n, || sor::sweep(&matrix, load, R::ONE, x).map(|_| ()))?;
+    meter.count("sweep", "n²", n * n, || {
+        sor::sweep(&matrix, Given::above(load), R::ONE, x).map(|_| ())
+    })?;
     let mut open = [false; MOST];
     let open = cut(&mut open, n)?;
     open.iter_mut().zip(&*x).for_each(|(open, x)| *open = *x > R::ZERO);

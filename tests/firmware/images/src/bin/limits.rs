@@ -31,10 +31,10 @@ fn main() -> ! {
     let Some(clock) = Clock::start() else { board::end(false) };
     board::run(|journal| {
         let mut meter = Meter::new(clock, journal);
-        let counted = stages(meter.kind("f32 limited, n = 8"), 8)
-            .and_then(|()| stages(meter.kind("f32 limited, n = 16"), 16))
-            .and_then(|()| stages(meter.kind("f32 limited, n = 32"), 32))
-            .and_then(|()| stages(meter.kind("f32 limited, n = 64"), 64));
+        let counted = stages(meter.kind("limits, n = 8"), 8)
+            .and_then(|()| stages(meter.kind("limits, n = 16"), 16))
+            .and_then(|()| stages(meter.kind("limits, n = 32"), 32))
+            .and_then(|()| stages(meter.kind("limits, n = 64"), 64));
         if counted.is_err() {
             board::end(false);
         }
