@@ -13,7 +13,6 @@ pub(crate) struct Excess<R> {
 
 impl<R: Real> Excess<R> {
     /// The mean where it is nowhere negative but for rounding: (e_a + e_b)/2 + 2d/3.
-    #[inline(always)]
     pub fn mean(&self) -> R {
         let [a, b] = self.ends.map(|e| e.or_larger(R::ZERO));
         let mean = R::HALF * (a + b) + R::TWO * R::THIRD * self.bubble;
@@ -21,7 +20,6 @@ impl<R: Real> Excess<R> {
     }
 
     /// The means of its positive and of its negative part; e_a²/(e_a − e_b)/2 of what crosses 0.
-    #[inline(always)]
     pub fn sides(&self) -> [R; 2] {
         let ([a, b], zero) = (self.ends, R::ZERO);
         if a < zero && b > zero || a > zero && b < zero {
