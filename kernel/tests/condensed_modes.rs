@@ -213,7 +213,7 @@ fn outputs_that_amplitudes_may_bring_to_overflow_are_refused() -> Result<(), Err
         let most = gain[k] * (given[k].abs() + of_alpha[k] * room);
         for (share, is_refused) in [(1.0 - 1e-9, false), (1.0 + 1e-9, true)] {
             let mut of_inputs = [0.0; 5];
-            of_inputs[3 + k] = share * f64::MAX / most;
+            of_inputs[3 + k] = share / most * f64::MAX;
             let outputs = [Measure::Linear { of_inputs: &of_inputs, of_contact: &[0.0; 2] }];
             let modal = Modal { model: Condensed { outputs: &outputs, ..MODEL.model }, ..MODEL };
             let set = Memory::new().storage.set(&modal, &[1.0, q, h]);
