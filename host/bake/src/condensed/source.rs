@@ -184,19 +184,20 @@ fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         false => format!("let Inputs {{ {} }} = inputs;", names.join(", ")),
     };
     let outputs = face.outputs().enumerate();
-    let outputs: Vec<_> = outputs.map(|(at, name)| format!("{name}: output({at})?")).collect();
-    let [before, solved, given] = set;
+    let [before, solved, of_answer] = set;
+    let value = |at: usize| of_answer.replace("NUMBER", &at.to_string());
+    let outputs: String =
+        outputs.map(|(at, name)| format!("            {name}: {}?,\n", value(at))).collect();
     format!(
         "{}        {pattern}
         let inputs = [{}];
 {before}        let mut method = {method};
-{solved}        let output = |number| {given};
-        let outputs = Outputs {{ {} }};
+{solved}        let outputs = Outputs {{
+{outputs}        }};
         Ok(Answer {{ outputs, report }})
 ",
         if baked.cold { "        self.reset();\n" } else { "" },
         listed.join(", "),
-        outputs.join(", "),
     )
 }
 
@@ -206,7 +207,7 @@ const PLAIN: [&str; 3] = [
     "        let mut memory = self.storage.memory(&data::SYSTEM);
         let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
 ",
-    "data::SYSTEM.output(number, &inputs, &memory, &report)",
+    "data::SYSTEM.output(NUMBER, &inputs, &memory, &report)",
 ];
 
 /// The same where a transfer coefficient changes; a tableau belongs to one of its values.
@@ -218,7 +219,7 @@ const MODAL: [&str; 3] = [
 ",
     "        let report = data::SYSTEM.tick(&model, &mut method, deadline, &mut memory)?;
 ",
-    "model.output(number, memory.inputs, &memory.shared, &report)",
+    "model.output(NUMBER, memory.inputs, &memory.shared, &report)",
 ];
 
 /// The same without a tableau.

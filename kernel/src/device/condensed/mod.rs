@@ -130,6 +130,7 @@ impl<R: Real> Condensed<'_, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length; no such output; a value that overflows.
+    #[inline(always)]
     pub fn output(
         &self,
         number: usize,
@@ -154,6 +155,8 @@ impl<R: Real> Condensed<'_, R> {
     }
 
     /// x within [`Condensed::limits`]: solutions are, a tick that was cut off need not be.
+    // Inlined, the matrix stays a constant of the controller's code, which then has no code for other orders.
+    #[inline(always)]
     fn hold_back(
         &self,
         matrix: &Blocks<R>,

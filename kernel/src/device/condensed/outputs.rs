@@ -54,6 +54,8 @@ impl<R: Real> Measure<'_, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length.
+    // Of a measure that is a constant of the controller's code its own kind is left, and none of the others.
+    #[inline(always)]
     pub fn value(
         &self,
         answer: &Candidate<R>,
@@ -110,6 +112,8 @@ fn pressed<R: Real>(weights: &[R], answer: &Candidate<R>) -> R {
     )
 }
 
+// Once for all measures: each that is inlined would bring it again.
+#[inline(never)]
 pub(super) fn dot<R: Real>(a: &[R], b: &[R]) -> R {
     a.iter().zip(b).fold(R::ZERO, |sum, (&a, &b)| sum + a * b)
 }
