@@ -63,6 +63,7 @@ struct Drawn {
     x: [f64; EDGES],
     r: [f64; EDGES],
     floating: Vec<f64>,
+    is_limited: bool,
 }
 
 impl Drawn {
@@ -93,8 +94,15 @@ impl Drawn {
             x: std::array::from_fn(|_| draw.of([0.0, 1.0, -1.0]) * (0.1 + draw.part())),
             r,
             floating: (0..if floats { EDGES } else { 0 }).map(|_| 0.5 + draw.part()).collect(),
+            is_limited: true,
         }
         .within_sides()
+    }
+
+    /// The same without a limit, as scenes without any have it.
+    fn unlimited(draw: &mut Draw) -> Self {
+        let drawn = Self::new(draw);
+        Self { spans: [UP; EDGES], span_excess: 0.0, is_limited: false, ..drawn }.within_sides()
     }
 
     /// x is on a side that its edge has.
@@ -115,17 +123,18 @@ impl Drawn {
         let norms: Vec<f64> = (0..COLUMNS).map(|_| 1.0).collect();
         let largest = [0.0, 0.5];
         let corners = [Corner { edge: 0, excess: &self.excess, energy: ENERGY }];
+        let baked = Baked {
+            ends: &self.ends,
+            scale: &self.scale,
+            excess: self.span_excess,
+            largest: &largest,
+        };
         let form = Form {
             factor: Factor { columns: &self.columns, norms: &norms },
             jump: None,
             vertices: &self.vertices,
             corners: &corners,
-            sides: Sides::new(Baked {
-                ends: &self.ends,
-                scale: &self.scale,
-                excess: self.span_excess,
-                largest: &largest,
-            }),
+            sides: if self.is_limited { Sides::new(baked) } else { Sides::UNLIMITED },
             stability: STABILITY,
             floating: &self.floating,
             oscillation: &[0.0, 0.0],
@@ -133,7 +142,8 @@ impl Drawn {
             largest_load: &[1.0, 1.0],
             unit: 1.0,
         };
-        let ranges = Given::between(&[], Spans::new(&self.spans)?, &[]).ranges;
+        let spans = if self.is_limited { Spans::new(&self.spans)? } else { Spans::UNLIMITED };
+        let ranges = Given::between(&[], spans, &[]).ranges;
         let answer = Candidate { inputs: &self.p, x: &self.x, residual: &self.r, ranges };
         form.certify(&answer, &mut [0.0; COLUMNS], &mut [0.0; COLUMNS])
     }
@@ -246,9 +256,16 @@ impl Drawn {
 
 #[test]
 fn the_bound_is_that_of_the_formulas() -> Result<(), Error> {
+    for is_limited in [true, false] {
+        bounds_are_those_of_the_formulas(is_limited)?;
+    }
+    Ok(())
+}
+
+fn bounds_are_those_of_the_formulas(is_limited: bool) -> Result<(), Error> {
     let (mut draw, mut seen) = (Draw(5), [0; 3]);
     for case in 0..3000 {
-        let drawn = Drawn::new(&mut draw);
+        let drawn = if is_limited { Drawn::new(&mut draw) } else { Drawn::unlimited(&mut draw) };
         let (price, mended) = (drawn.price(), drawn.mended());
         match drawn.certify()? {
             Verdict::Certified(Certificate { duality_gap, algebraic, rounding, total, .. }) => {
@@ -400,22 +417,11 @@ impl Drawn {
                 part(0) + part(1)
             })
             .sum();
+        let ulps = if self.is_limited { 4.0 } else { 2.0 };
         let of_norm = (used + 4.0) * 0.5 * epsilon * size
             + (order + 4.0) * 0.25 * epsilon * self.norm()
-            + 4.0 * epsilon * of_vertices;
-        let largest = self.x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let of_edge = |edge: usize| {
-            let [least, most] = self.ends_of(edge);
-            match self.x[edge] {
-                0.0 => self.r[edge].abs(),
-                x if x > 0.0 => least.abs(),
-                _ => most.abs(),
-            }
-        };
-        let compared = (0..EDGES).map(of_edge).fold(0.0, f64::max);
-        let loads = self.p[0].abs() + self.p[1].abs();
-        let sizes = 2.0 * largest + loads + 2.0 * compared + 0.5 * self.p[1].abs();
-        let uncertainty = (n + m + 4.0) * 0.5 * epsilon * sizes;
+            + ulps * epsilon * of_vertices;
+        let uncertainty = self.uncertainty();
         let hidden = match self.floating.is_empty() {
             true => 0.0,
             false => {
@@ -429,17 +435,42 @@ impl Drawn {
             }
         };
         let of_sum = (n + m + 32.0) * 0.5 * epsilon * gap;
-        let of_corner = self.excess.iter().zip(&self.p).map(|(e, p)| (e * p).abs()).sum::<f64>();
-        let misplaced = (m + 8.0) * epsilon * of_corner * ENERGY;
+        let misplaced = self.slack() * ENERGY;
         Some(of_norm + STABILITY * (n.sqrt() * uncertainty + hidden) + of_sum + misplaced)
+    }
+
+    /// By how much rounding may put u_D − ψ off.
+    fn slack(&self) -> f64 {
+        let size = self.excess.iter().zip(&self.p).map(|(e, p)| (e * p).abs()).sum::<f64>();
+        (INPUTS as f64 + 8.0) * f64::EPSILON * size
+    }
+
+    /// By how much an entry of r can be off.
+    fn uncertainty(&self) -> f64 {
+        let (n, m, epsilon) = (EDGES as f64, INPUTS as f64, f64::EPSILON);
+        let largest = self.x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let of_edge = |edge: usize| {
+            let [least, most] = self.ends_of(edge);
+            match self.x[edge] {
+                0.0 => self.r[edge].abs(),
+                x if x > 0.0 => least.abs(),
+                _ => most.abs(),
+            }
+        };
+        let compared = (0..EDGES).map(of_edge).fold(0.0, f64::max);
+        let loads = self.p[0].abs() + self.p[1].abs();
+        let of_spans = 2.0 * compared + 0.5 * self.p[1].abs();
+        let sizes = 2.0 * largest + loads + if self.is_limited { of_spans } else { 0.0 };
+        (n + m + 4.0) * 0.5 * epsilon * sizes
     }
 }
 
 #[test]
 fn what_rounding_hides_is_counted_part_by_part() -> Result<(), Error> {
     let (mut draw, mut seen) = (Draw(9), 0);
-    for case in 0..2000 {
-        let drawn = Drawn::new(&mut draw);
+    for case in 0..4000 {
+        let is_limited = case % 2 == 0;
+        let drawn = if is_limited { Drawn::new(&mut draw) } else { Drawn::unlimited(&mut draw) };
         let Verdict::Certified(Certificate { duality_gap, rounding, .. }) = drawn.certify()? else {
             continue;
         };
@@ -448,6 +479,62 @@ fn what_rounding_hides_is_counted_part_by_part() -> Result<(), Error> {
         seen += 1;
     }
     assert!(seen > 500, "{seen}");
+    Ok(())
+}
+
+/// With F = 0, edges that touch at their least flux but for rounding, and u_D − ψ beside the first of them.
+fn at_the_least_flux(excess: [f64; INPUTS]) -> Drawn {
+    let mut drawn = Drawn::new(&mut Draw(5));
+    drawn.columns.fill(0.0);
+    drawn.floating.clear();
+    (drawn.span_excess, drawn.spans) = (0.0, [1.0; EDGES]);
+    (drawn.x, drawn.r, drawn.p) = ([0.0; EDGES], [0.0; EDGES], [1.0, 1.0]);
+    drawn.excess = excess;
+    drawn
+}
+
+/// What rounding of r and of u_D − ψ may hide is charged where the formulas are 0.
+#[test]
+fn where_the_law_holds_rounding_alone_is_charged() -> Result<(), Error> {
+    let gap = |drawn: &Drawn| Ok::<_, Error>(drawn.certify()?.certificate().unwrap().duality_gap);
+    let check = |name: &str, drawn: &Drawn, square: f64| {
+        LIMITED_FORM.check_relative(name, gap(drawn)?.powi(2), square);
+        Ok::<_, Error>(())
+    };
+    // Above the gap r − lo is 0 but for twice its rounding, and rounding may bring u_D below at the other end.
+    let above = at_the_least_flux([0.75, -0.25]);
+    let (unsure, slack) = (2.0 * above.uncertainty(), above.slack());
+    let square = 2.0 * (0.25 + slack) * unsure + 2.0 * slack * (1.0 + unsure);
+    check("above", &above, square)?;
+    // On it, by terms that cancel, both sides are charged for what may be hidden.
+    let on = at_the_least_flux([0.75, -0.75]);
+    let (unsure, slack) = (2.0 * on.uncertainty(), on.slack());
+    check("on", &on, 2.0 * slack * unsure + 2.0 * slack * (1.0 + unsure))?;
+    // Where r is at hi it is the other way round.
+    let mut below = at_the_least_flux([-0.75, 0.25]);
+    below.r = [1.0; EDGES];
+    let (unsure, slack) = (2.0 * below.uncertainty(), below.slack());
+    let square = 2.0 * (0.25 + slack) * unsure + 2.0 * slack * (1.0 + unsure);
+    check("below", &below, square)?;
+    // Edges that do not touch have the flux of their side, and no other side where u_D is clearly on theirs.
+    for (x, corner) in [(0.5, 0.75), (-0.5, -0.75)] {
+        let mut open = at_the_least_flux([corner, 0.0]);
+        open.x = [x; EDGES];
+        open.ends[EDGES - 1][1] = open.ends[EDGES - 1][0];
+        assert_eq!(gap(&open)?, 0.0, "{x}");
+    }
+    Ok(())
+}
+
+/// What is mended leaves where there is room for it, rounding included.
+#[test]
+fn a_way_out_needs_room_for_what_rounding_may_hide() -> Result<(), Error> {
+    for (lacking, is_bounded) in [(1e-9, true), (0.0, false), (-1e-9, false)] {
+        let mut drawn = at_the_least_flux([0.75, -0.25]);
+        drawn.floating = vec![0.5; EDGES];
+        (drawn.x[1], drawn.r[1], drawn.r[3]) = (0.5, -0.25 + lacking, 0.25);
+        assert_eq!(drawn.certify()?.certificate().is_some(), is_bounded, "{lacking}");
+    }
     Ok(())
 }
 

@@ -3,9 +3,12 @@
 use signorini_kernel::Error;
 use signorini_kernel::bound::verdict::Verdict;
 use signorini_kernel::device::condensed::Condensed;
+use signorini_kernel::device::condensed::certificate::Form;
+use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::device::condensed::method::Sweeps;
 use signorini_kernel::device::condensed::modes::{ArrayModalStorage, Modal};
 use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_kernel::device::condensed::sides::Sides;
 use signorini_kernel::device::condensed::spans::SpanColumns;
 use signorini_kernel::device::condensed::storage::ArrayTableauStorage;
 use signorini_kernel::device::limits::Deadline;
@@ -195,6 +198,44 @@ fn entries_above_0_are_left_out_where_none_should_be() -> Result<(), Error> {
     Ok(())
 }
 
+/// F and F_π of ones on the diagonal: the bound is U ((1 + t) ‖z‖²)^½, z = (p, y, x).
+#[test]
+fn the_bound_is_that_of_both_forms() -> Result<(), Error> {
+    let mut columns = [0.0; 28];
+    (0..7).for_each(|j| columns[(j + 1) * (j + 2) / 2 - 1] = 1.0);
+    let ones = Factor { columns: &columns, norms: &[1.0; 7] };
+    let form = Form {
+        factor: ones,
+        jump: None,
+        vertices: &[],
+        corners: &[],
+        sides: Sides::UNLIMITED,
+        stability: 1.0,
+        floating: &[],
+        oscillation: &[0.0; 5],
+        row_sum: 2.0,
+        largest_load: &[1.0; 5],
+        unit: 8.0,
+    };
+    let certificate = Some(form);
+    let with_laws =
+        Modal { model: Condensed { certificate, ..MODEL.model }, laws: Some(ones), ..MODEL };
+    for (q, h) in [(0.0, 2.5), (0.5, 6.5), (-2.0, 18.5)] {
+        let mut storage = ArrayModalStorage::<f64, 8, 7, 1, 5>::zeros();
+        storage.set(&with_laws, &[1.0, q, h])?;
+        let (model, mut memory) = storage.at(&with_laws);
+        let mut sweeps = Sweeps { omega: 1.0, tolerance: 1e-16, most: 99 };
+        let report = with_laws.tick(&model, &mut sweeps, &mut Deadline::never(), &mut memory)?;
+        let x = &memory.shared.iterate.x[..2];
+        let square: f64 = memory.inputs.iter().chain(x).map(|z| z * z).sum();
+        let expected = 8.0 * ((1.0 + (h - 2.5) / 4.0) * square).sqrt();
+        let found = report.certificate().map(|known| known.duality_gap);
+        let is_near = |found: f64| (found / expected - 1.0).abs() < 1e-14;
+        assert!(found.is_some_and(is_near), "{q} {h}: {found:?} {expected}");
+    }
+    Ok(())
+}
+
 /// An output of amplitude `k` times a factor. Before anything changes it is refused where it might overflow: x is at most
 /// ‖b‖/(64 ε), so that y is at most g (|β·p| + Σ|α| ‖b‖/(64 ε)).
 #[test]
@@ -203,19 +244,25 @@ fn outputs_that_amplitudes_may_bring_to_overflow_are_refused() -> Result<(), Err
     let t = (h - 2.5) / 4.0;
     let gain = NU.map(|nu| t / (1.0 + t * nu));
     let given = BETA.map(|beta| beta[0] + beta[1] * q);
+    // The second mode knows of both edges: α = (⅛, −½).
+    let mut columns = LOAD;
+    columns[32] = 0.125;
     let load = [
-        1.0 - gain[0] * 0.5 * given[0],
+        1.0 - gain[0] * 0.5 * given[0] - gain[1] * 0.125 * given[1],
         0.5 + q - gain[0] * 0.25 * given[0] + gain[1] * 0.5 * given[1],
     ];
     let room = load[0].hypot(load[1]) / (64.0 * f64::EPSILON);
-    let of_alpha = [0.75, 0.5];
+    let of_alpha = [0.75, 0.625];
     for k in 0..2 {
         let most = gain[k] * (given[k].abs() + of_alpha[k] * room);
         for (share, is_refused) in [(1.0 - 1e-9, false), (1.0 + 1e-9, true)] {
             let mut of_inputs = [0.0; 5];
             of_inputs[3 + k] = share / most * f64::MAX;
             let outputs = [Measure::Linear { of_inputs: &of_inputs, of_contact: &[0.0; 2] }];
-            let modal = Modal { model: Condensed { outputs: &outputs, ..MODEL.model }, ..MODEL };
+            let modal = Modal {
+                model: Condensed { load: &columns, outputs: &outputs, ..MODEL.model },
+                ..MODEL
+            };
             let set = Memory::new().storage.set(&modal, &[1.0, q, h]);
             assert_eq!(set.is_err(), is_refused, "{k} {share}: {set:?}");
         }

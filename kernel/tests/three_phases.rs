@@ -35,13 +35,14 @@ struct Plant {
 }
 
 impl Plant {
-    /// Neighbours pull most; spans of either sign, infinite, 0, tiny and as large as loads.
+    /// Neighbours pull most, and some not at all; spans of either sign, infinite, 0, tiny and as large as loads.
     fn new(order: usize, draw: &mut Draw) -> Self {
         let mut rows = vec![vec![0.0; order]; order];
         let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(order)];
         for (i, j) in (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))) {
             let far = (i - j) as f64;
-            let entry = if i == j { 1.0 } else { -0.29 * draw.part() / (far * far) };
+            let pull = if draw.part() < 0.3 { 0.0 } else { -0.29 * draw.part() };
+            let entry = if i == j { 1.0 } else { pull / (far * far) };
             (rows[i][j], rows[j][i]) = (entry, entry);
             for (i, j) in [(i, j), (j, i)].into_iter().filter(|(i, j)| j / SIDE <= i / SIDE) {
                 let (row, column) = (i / SIDE, j / SIDE);

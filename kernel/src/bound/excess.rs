@@ -51,6 +51,13 @@ mod tests {
         assert_eq!(sides([1.0, 3.0], -0.75), [1.5, 0.0]);
         assert_eq!(sides([-1.0, -3.0], 0.75), [0.0, 1.5]);
         assert_eq!(sides([1.0, 0.0], -0.75), [0.0, 0.0]);
+        assert_eq!(sides([2.0, 2.0], -0.75), [1.5, 0.0]);
+        for (ends, of_positive) in [([0.0, 3.0], true), ([-3.0, 0.0], false), ([0.0, -3.0], false)]
+        {
+            let bubble = if of_positive { -0.75 } else { 0.75 };
+            let expected = if of_positive { [1.0, 0.0] } else { [0.0, 1.0] };
+            assert_eq!(sides(ends, bubble), expected, "{ends:?}");
+        }
     }
 
     #[test]

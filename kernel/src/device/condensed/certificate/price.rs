@@ -25,13 +25,9 @@ pub(super) fn correction<R: Real>(
     square: impl Fn() -> R,
 ) -> R {
     let beside = || vertex.beside.iter().map(|&edge| usize::from(edge));
-    let is_out = |edge: usize| {
-        let [least, most] = ranges.ends(edge);
-        read(x, edge) == R::ZERO
-            || opening < R::ZERO && !most.finite()
-            || opening > R::ZERO && !least.finite()
-    };
-    let Some(sides) = sides.filter(|_| !beside().any(is_out)) else { return -opening };
+    let touches = beside().any(|edge| read(x, edge) == R::ZERO);
+    let Some(sides) = sides.filter(|_| !touches) else { return -opening };
+    // Infinite towards a side that there is not: e goes back to 0.
     let reach = |edge: usize| {
         let [least, most] = ranges.ends(edge);
         let price = (most - least) * read(sides.scale, edge);

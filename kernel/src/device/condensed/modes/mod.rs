@@ -175,3 +175,37 @@ fn with_laws<R: Real>(own: Norm<R>, t: R, laws: Norm<R>) -> Result<Norm<R>, Erro
     let rounding = own.rounding + root * laws.rounding * (R::ONE + R::from_count(4) * R::EPSILON);
     Ok(Norm { value, rounding: rounding + few })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EPSILON: f64 = f64::EPSILON;
+
+    /// (3² + 4·2²)^½ = 5 at t = 4.
+    #[test]
+    fn laws_are_added_as_squares_and_their_rounding_as_it_is() -> Result<(), Error> {
+        let of = |of_own, t, of_laws| {
+            let own = Norm { value: 3.0, rounding: of_own };
+            with_laws(own, t, Norm { value: 2.0, rounding: of_laws })
+        };
+        let of_sum = 40.0 * EPSILON;
+        assert_eq!(of(0.0, 4.0, 0.0)?, Norm { value: 5.0, rounding: of_sum });
+        assert_eq!(of(1.0, 4.0, 0.0)?.rounding, 1.0 + of_sum);
+        let both = of(1.0, 4.0, 0.5)?.rounding;
+        assert!((both - (2.0 + 44.0 * EPSILON)).abs() <= 2.0 * EPSILON, "{both}");
+        // t below 0, by rounding, is 0.
+        assert_eq!(of(1.0, -0.25, 0.5)?, Norm { value: 3.0, rounding: 1.0 + 24.0 * EPSILON });
+        Ok(())
+    }
+
+    /// Squares that underflow are counted: (4 · TINY)^½.
+    #[test]
+    fn next_to_0_underflow_is_counted() -> Result<(), Error> {
+        let nothing = Norm { value: 0.0, rounding: 0.0 };
+        let lost = (4.0 * <f64 as Real>::TINY).sqrt();
+        let found = with_laws(nothing, 1.0, nothing)?;
+        assert!(found.value == 0.0 && (found.rounding / lost - 1.0).abs() < 1e-12, "{found:?}");
+        Ok(())
+    }
+}
