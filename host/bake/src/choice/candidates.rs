@@ -95,7 +95,7 @@ fn condensed_as<R: Scalar>(
 ) -> Result<Candidate<R>> {
     let condensate = origin.model();
     let unfit = unfit::<R>(scene);
-    let all = allowed(setting, condensate.contact, exact);
+    let all = allowed(setting, condensate, exact);
     let baked = match &origin.modes {
         Some(modes) => condensed::Baked::<R>::modal(modes, all, certified),
         None => condensed::Baked::<R>::new(condensate, all, certified),

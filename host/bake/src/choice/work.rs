@@ -43,10 +43,12 @@ pub(super) fn entries<R>(condensate: &CondensedModel, modes: Option<&Modes<R>>) 
     n * inputs + outputs.len() * (n + inputs) + of_modes
 }
 
-/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number.
-pub(super) fn allowed(setting: &Setting, contact: usize, exact: bool) -> Work {
+/// What a tick may do where nothing limits its time: the sweeps of the setting, where it has a number; exchanges as many as
+/// the proved worst case has at least, twice as many where edges have three sides.
+pub(super) fn allowed(setting: &Setting, model: &CondensedModel, exact: bool) -> Work {
+    let of_edge = if model.is_limited() { 4 } else { 2 };
     match exact {
-        true => Work { pivots: Some((2 * contact as u32).max(1)), sweeps: FALLBACK },
+        true => Work { pivots: Some((of_edge * model.contact as u32).max(1)), sweeps: FALLBACK },
         false => Work { pivots: None, sweeps: setting.sweeps.unwrap_or(MOST_SWEEPS) },
     }
 }
