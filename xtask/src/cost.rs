@@ -51,8 +51,8 @@ const IMAGES: [Image; 5] = [
     Image {
         bin: "limits",
         kinds: &["limits, n = 8", "limits, n = 16", "limits, n = 32", "limits, n = 64"],
-        last: "three phases, all stay there",
-        features: &["limited"],
+        last: "modes, a matrix of eight",
+        features: &["limited", "transfer"],
     },
     Image { bin: "functions", kinds: &["f32 libm", "f32 micromath"], last: "powf", features: &[] },
 ];

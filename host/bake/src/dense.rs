@@ -91,10 +91,9 @@ impl Price {
         let solve = match self.order {
             0 => 0.0,
             n => {
-                // Edges that leave their limit may end open, on a way without an exchange.
-                let ways = if self.is_limited { n as u32 } else { 0 };
                 2.0 * self.stage::<R>(costs, STAY)?
-                    + f64::from(exchanges + ways + 1) * self.each::<R>(costs)?
+                    + f64::from(exchanges + 1) * self.each::<R>(costs)?
+                    + self.ways::<R>(costs, n)?
             }
         };
         let columns = self.columns;
@@ -104,14 +103,28 @@ impl Price {
         Some(MARGIN * (self.given() + solve + follows + self.bound::<R>(costs, &all)?))
     }
 
-    /// The matrix for another value of the coefficient: a mode takes half a pass over it, as an exchange does with what comes
-    /// on top; two more for the matrix that it is added to, and for signs.
+    /// What limits add to exchanges in the worst case, or take off: two an edge belong to the third phase, and edges that leave
+    /// their limit may end open, on a way without an exchange. An exchange is more than half of what an edge takes that comes in.
+    fn ways<R: Scalar>(&self, costs: &Costs, order: usize) -> Option<f64> {
+        if !self.is_limited {
+            return Some(0.0);
+        }
+        let (each, comes) = (self.each::<R>(costs)?, self.per_edge::<R>(costs, COME)?);
+        let (edges, before) = (order as f64, (order + order / 2) as f64);
+        Some(edges * (each - 0.5 * comes) - before * (each - comes))
+    }
+
+    /// The matrix for another value of the coefficient.
     pub fn follows<R: Scalar>(&self, costs: &Costs) -> Option<f64> {
         if self.modes == 0 || self.order == 0 {
             return Some(0.0);
         }
-        let exchange = costs.of_dense::<R>("exchange", self.order)?;
-        Some((self.modes + 2) as f64 * self.each::<R>(costs).unwrap_or(exchange))
+        let [none, eight] = MATRIX.map(|stage| costs.of_dense::<R>(stage, self.order));
+        match none.zip(eight) {
+            Some((none, eight)) => Some(none + self.modes as f64 / 8.0 * (eight - none)),
+            // A mode takes half a pass, as an exchange does with what comes on top.
+            None => Some((self.modes + 2) as f64 * costs.of_dense::<R>("exchange", self.order)?),
+        }
     }
 
     /// Instructions of load, outputs and report.
@@ -131,9 +144,13 @@ impl Price {
     fn each<R: Scalar>(&self, costs: &Costs) -> Option<f64> {
         let [smallest, ..] = ORDERS;
         costs.counted::<R>(COME[0], smallest)?;
-        let of = |stage| self.stage::<R>(costs, stage);
-        let most = of(COME)?.max(of(FALL)?);
-        Some((most - 0.5 * of(STAY)?) / self.order as f64)
+        Some(self.per_edge::<R>(costs, COME)?.max(self.per_edge::<R>(costs, FALL)?))
+    }
+
+    /// What an edge takes of a stage in which all of them change.
+    fn per_edge<R: Scalar>(&self, costs: &Costs, stage: [&str; 2]) -> Option<f64> {
+        let all = self.stage::<R>(costs, stage)? - 0.5 * self.stage::<R>(costs, STAY)?;
+        Some(all / self.order as f64)
     }
 
     /// Instructions of a stage that was counted without limits and with them.
@@ -158,6 +175,7 @@ impl Price {
 const PRODUCT: &str = "product, half of x zero";
 const STAY: [&str; 2] = ["two phases, all edges stay open", "three phases, all stay there"];
 const COME: [&str; 2] = ["two phases, all edges come in", "three phases, all edges come in"];
+const MATRIX: [&str; 2] = ["modes, a matrix of none", "modes, a matrix of eight"];
 const FALL: [&str; 2] = ["two phases, all edges come in", "three phases, all to their limits"];
 
 impl Price {

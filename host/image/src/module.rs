@@ -79,7 +79,9 @@ impl Module {
     /// # Errors
     /// A build that fails.
     pub fn worst(&self, board: &Board) -> Result<PathBuf, String> {
-        self.linked("worst", board, &["worst"])
+        let follows = self.chosen.kernel_features.iter().any(|feature| feature == "transfer");
+        let bin = if follows { "worst_modes" } else { "worst" };
+        self.linked(bin, board, &[bin])
     }
 
     fn linked(&self, bin: &str, board: &Board, more: &[&str]) -> Result<PathBuf, String> {

@@ -37,13 +37,13 @@ table! {
         "ticks end at a share of 1e-9 of the bound";
     LIMITED_TICK_NARROW: "the same in f32", 1e-3,
         "rounding, and lengths that change by an edge where one is next to its limit";
-    LIMITED_BOUND: "bounds of condensed ticks with limits against those of the same answers, relative", 1e-10,
+    LIMITED_BOUND: "bounds of condensed ticks with limits against those of the same answers, relative", 1e-13,
         "the rounding part is in the first alone";
-    LIMITED_BOUND_NARROW: "bounds of condensed ticks with limits in f32 against those of the same answers, relative", 2e-3,
+    LIMITED_BOUND_NARROW: "bounds of condensed ticks with limits in f32 against those of the same answers, relative", 1e-4,
         "rounding of the forms and of the residuals";
     LIMITED_INPUT_TICK: "outputs of ticks with inputs of a limit against the direct solver, relative", 1e-8,
         "ticks end at a share of 1e-9 of the bound";
-    LIMITED_INPUT_TICK_NARROW: "the same of a limit's inputs in f32", 1e-3,
+    LIMITED_INPUT_TICK_NARROW: "the same of a limit's inputs in f32", 1e-4,
         "rounding, and lengths that change by an edge where one is next to its limit";
     LIMITED_DESK: "outputs of ticks on the desk against the direct solver, relative", 2e-2,
         "such a tick ends where a tenth of its error bound is left to sweeps";
@@ -53,9 +53,9 @@ table! {
         "ε = 1.2e-7 times the condition";
     TRANSFER_WARM: "outputs of warm solves with other coefficients against the direct solver", 1e-10,
         "the tolerance of a solve, 1e-13, times the condition";
-    MODAL: "outputs and u of a condensed tick by modes against the direct solver, over the largest", 1e-11,
+    MODAL: "outputs and u of a condensed tick by modes against the direct solver, over the largest", 1e-13,
         "rounding times a condition of 1000";
-    MODAL_NARROW: "models by modes in f32, the same", 3e-4,
+    MODAL_NARROW: "models by modes in f32, the same", 3e-5,
         "ε = 1.2e-7 times such a condition";
     MODAL_BOUND: "bound of a tick by modes against the host's for its exact solution, relative", 1e-9,
         "rounding";

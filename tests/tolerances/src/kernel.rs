@@ -41,9 +41,9 @@ table! {
         "a difference of numbers 10¹² times as large";
     THREE_SIDES: "complementarity of exchanges with three sides, over the load or 1", 1e-13,
         "a tableau of at most 24 edges";
-    THREE_PHASES_SWEPT: "openings of either sign by sweeps against three phases", 1e-12,
+    THREE_PHASES_SWEPT: "openings of either sign by sweeps against three phases", 1e-14,
         "sweeps end at 1e-15 of the load";
-    LIMITED_FORM: "bounds of drawn condensed answers with limits against the formulas, relative", 1e-7,
+    LIMITED_FORM: "bounds of drawn condensed answers with limits against the formulas, relative", 1e-8,
         "means of parts of s − ψ by 20 000 points";
     CONDENSED: "complementarity of exact condensed solves in f64, over the largest opening", 1e-13,
         "a tableau of at most 33 edges";

@@ -89,15 +89,15 @@ table! {
         "data are rounded to 1e-7, times the same";
     THREE_SIDES: "pivoting with three sides against the reference, relative to the largest x or 1", 5e-14,
         "rounding times the condition of matrices that are dominated by 1e-3 of their diagonal";
-    GUARANTEE_LIMITED: "how far an error is above the bound of condensed contact with limits, relative", 1e-3,
+    GUARANTEE_LIMITED: "how far an error is above the bound of condensed contact with limits, relative", 2e-5,
         "quadrature of the norms";
     IDENTITY_LIMITED: "bound of condensed contact with limits against the identity, relative, singular", 1e-3,
         "quadrature of the norms where contact ends within a cell";
-    SAME_LIMITED: "condensed contact with limits against another statement of it", 1e-11,
+    SAME_LIMITED: "condensed contact with limits against another statement of it", 1e-14,
         "two exact solves of one problem";
-    REDUCED_LIMITED: "openings and outputs with limits without edges that never change sides against those with all", 1e-12,
+    REDUCED_LIMITED: "openings and outputs with limits without edges that never change sides against those with all", 1e-13,
         "two exact solves of one problem";
-    REDUCED_LIMITED_BOUND: "how far the bound of such a model is below that with all edges, relative", 1e-10,
+    REDUCED_LIMITED_BOUND: "how far the bound of such a model is below that with all edges, relative", 1e-13,
         "rounding of the elimination";
     REACHED_INTERVAL: "ends of a proved interval beyond what corners reach, over its width", 1e-6,
         "ranges are widened by ε of f32";

@@ -23,7 +23,7 @@
 //!   gap² = (|F(p, x, d)| + stability |δ|)² + Σ_corners excess(p) r̂
 //! ```
 //! (with limits what `bound` says instead of the second term, and x on any side that there is)
-//! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that [`Form::correction`] chooses.
+//! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that `Form::correction` chooses.
 
 mod best;
 mod block;

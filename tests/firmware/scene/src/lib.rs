@@ -4,5 +4,7 @@
 pub mod figures;
 pub mod loads;
 pub mod play;
+#[cfg(feature = "worst")]
+pub mod worst;
 
 include!(concat!(env!("OUT_DIR"), "/module.rs"));

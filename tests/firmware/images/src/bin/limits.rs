@@ -1,9 +1,11 @@
-//! What exchanges in three phases cost, where fluxes have limits, for 8, 16, 32 and 64 contact edges.
+//! What exchanges in three phases cost, where fluxes have limits, for 8, 16, 32 and 64 contact edges; and a matrix that follows
+//! a transfer coefficient.
 //!
 //! ```text
 //!   nothing open ─► all open                    as without limits, with the ranges looked at
 //!   nothing open ─► all at their limits         each by a way of its own, with an exchange
 //!   all at their limits, nothing changes
+//!   S(t) of no mode and of eight
 //! ```
 //! In f32 alone: soft floats take more or less with their operands.
 #![no_std]
@@ -18,6 +20,7 @@ use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::solve::dense::blocks::{self, Blocks, SIDE};
+use signorini_kernel::solve::dense::outer::{add_outer, without_positive};
 use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::rule::Phases;
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
@@ -25,6 +28,8 @@ use signorini_kernel::solve::dense::{Iterate, pivoting};
 
 const MOST: usize = 64;
 const BLOCKS: usize = blocks::count(MOST);
+/// Modes of a coefficient.
+const MODES: usize = 8;
 
 #[entry]
 fn main() -> ! {
@@ -75,5 +80,16 @@ fn stages(meter: &mut Meter, n: usize) -> Result<(), Error> {
     meter.count("three phases, all edges come in", "n²", n * n, || solve(load, true))?;
     load.fill(-9.0);
     meter.count("three phases, all to their limits", "n²", n * n, || solve(load, true))?;
-    meter.count("three phases, all stay there", "n²", n * n, || solve(load, false))
+    meter.count("three phases, all stay there", "n²", n * n, || solve(load, false))?;
+    let alphas = [0.01; MODES * MOST];
+    let mut follow = |modes: usize| {
+        room.iter_mut().zip(own.iter()).for_each(|(room, own)| *room = *own);
+        add_outer(room, n, alphas.get(..modes * n).unwrap_or_default(), |k| {
+            1.0 / (1.0 + k as f32)
+        })?;
+        without_positive(room);
+        Ok(())
+    };
+    meter.count("modes, a matrix of none", "n²", n * n, || follow(0))?;
+    meter.count("modes, a matrix of eight", "n²", n * n, || follow(MODES))
 }
