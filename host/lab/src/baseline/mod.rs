@@ -16,6 +16,8 @@ mod condensed;
 pub mod conforming;
 mod contest;
 mod full;
+#[cfg(test)]
+mod limits;
 mod load_case;
 mod osqp;
 mod pivots;
