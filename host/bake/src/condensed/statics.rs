@@ -82,6 +82,24 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         }
         None => ["", "Condensed", "", ""].map(str::to_owned),
     };
+    let model = format!(
+        "Condensed {{
+        contact: super::CONTACT,
+        matrix: &MATRIX,
+        x: &START,
+        start: {start},
+        load: &LOAD,
+        limits: {limits},
+        spans: {spans},
+        outputs: &[{}],
+        certificate: {certificate},
+        has_bound: {},
+    }}",
+        names.iter().map(|name| format!("\n            {name},")).collect::<String>()
+            + "\n        ",
+        baked.has_bound,
+    );
+    let model = if baked.modes.is_some() { model.replace("\n    ", "\n        ") } else { model };
     format!(
         "
 /// The scene: what stays from tick to tick.
@@ -94,23 +112,9 @@ mod data {{
     use super::Scalar;
 {text}
     /// All of it.
-    pub static SYSTEM: {of}<'static, Scalar> = {before}Condensed {{
-        contact: super::CONTACT,
-        matrix: &MATRIX,
-        x: &START,
-        start: {start},
-        load: &LOAD,
-        limits: {limits},
-        spans: {spans},
-        outputs: &[{}],
-        certificate: {certificate},
-        has_bound: {},
-    }}{after};
+    pub static SYSTEM: {of}<'static, Scalar> = {before}{model}{after};
 }}
-",
-        names.iter().map(|name| format!("\n            {name},")).collect::<String>()
-            + "\n        ",
-        baked.has_bound,
+"
     )
 }
 

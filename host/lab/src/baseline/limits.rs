@@ -41,7 +41,8 @@ impl Rows {
 fn by_clarabel(matrix: &Matrix, load: &[f64], lower: &[f64], spans: &[f64]) -> Vec<f64> {
     let (n, free) = (load.len(), load.len() - lower.len());
     let (mut rows, mut costs) = (Rows::default(), Vec::new());
-    for (at, (&gap, &span)) in lower.iter().zip(spans).enumerate().filter(|(_, (_, m))| **m != 0.0) {
+    for (at, (&gap, &span)) in lower.iter().zip(spans).enumerate().filter(|(_, (_, m))| **m != 0.0)
+    {
         let sign = -span.signum();
         let mut row = vec![(free + at, sign)];
         if span.is_finite() {
@@ -68,8 +69,8 @@ fn by_clarabel(matrix: &Matrix, load: &[f64], lower: &[f64], spans: &[f64]) -> V
         tol_feas: tolerance,
         ..DefaultSettings::default()
     };
-    let mut solver =
-        DefaultSolver::new(&matrix, &q, &constraints, &rows.most, &cones, settings).expect("a cone");
+    let mut solver = DefaultSolver::new(&matrix, &q, &constraints, &rows.most, &cones, settings)
+        .expect("a cone");
     solver.solve();
     solver.solution.x[..n].to_vec()
 }
@@ -82,15 +83,20 @@ fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
         let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
         let parts = Parts::examine(&problem)?;
         let assembled = Assembled::<f64>::new(&problem).expect("arrays that fit");
-        let reduced = Reduced::new(&problem, &parts, &assembled, &assembled.start()).expect("spans");
+        let reduced =
+            Reduced::new(&problem, &parts, &assembled, &assembled.start()).expect("spans");
         let Reduced { row_ptr, col_idx, values, load, .. } = reduced;
         let (matrix, law) = (Matrix { row_ptr, col_idx, values }, assembled.law());
         let (lower, spans) = (law.lower(), law.spans().lengths());
         let found = by_clarabel(&matrix, &load, lower, spans);
-        let solution = solve(&problem, &Options { solver: SolverKind::Kernel, ..Options::default() })?;
+        let solution =
+            solve(&problem, &Options { solver: SolverKind::Kernel, ..Options::default() })?;
         let u = &solution.u[..load.len()];
         let states: Vec<_> = u[load.len() - lower.len()..].iter().zip(lower).collect();
-        assert!(states.iter().any(|(u, gap)| u < gap) && states.iter().any(|(u, gap)| u > gap), "{name}");
+        assert!(
+            states.iter().any(|(u, gap)| u < gap) && states.iter().any(|(u, gap)| u > gap),
+            "{name}"
+        );
         let size = u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
         for (at, (found, u)) in found.iter().zip(u).enumerate() {
             CLARABEL_LIMITED.check(format_args!("{name} {at}"), (found - u) / size);
