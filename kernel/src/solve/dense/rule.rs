@@ -17,7 +17,7 @@
 //! tableau goes back to where nothing is open: at most m/2 exchanges are lost, and n + n/2 is the worst case of all states.
 //!
 //! Where fluxes have limits, edges at the upper end stay there in both phases, whatever their x. Then none is below its
-//! least flux, and x is nowhere less than the solution. In a third phase x only falls, edge by edge ([`super::falling`]): an
+//! least flux, and x is nowhere less than the solution. In a third phase x only falls, edge by edge (`falling`): an
 //! open edge touches, a touching one reaches its limit, one at its limit with x > 0 leaves it, and may come back. That is
 //! two exchanges an edge at most, 3n + n/2 in all.
 
