@@ -102,7 +102,7 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     let columns = baked.columns();
     let tableau = match baked.solver() {
         Solver::Exchanges(_) | Solver::TwoPhases => {
-            (BLOCK * count(baked.contact) + 2 * n) * scalar + n
+            (BLOCK * count(baked.contact) + 2 * n + 1) * scalar + n
         }
         _ => 0,
     };
@@ -124,9 +124,10 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
     });
     let modes = baked.modes.as_ref();
     let followed =
-        modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count);
+        modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count + 2);
+    // A flag takes a number's room, as arrays end where a number may begin.
     Sizes {
-        ram: (4 * n + 2 * columns + baked.varying_spans() + followed) * scalar + n + tableau,
+        ram: (4 * n + 2 * columns + baked.varying_spans() + followed + 1) * scalar + n + tableau,
         flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + baked.spans.len() + outputs)
             * scalar
             + modes.map_or(0, Modes::numbers) * scalar
