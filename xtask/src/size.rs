@@ -25,7 +25,7 @@ struct Kind {
 }
 
 /// What is condensed, then what is solved on its mesh; the leanest first.
-const KINDS: [Kind; 9] = [
+const KINDS: [Kind; 10] = [
     Kind {
         what: "linear, condensed",
         scene: "tests/firmware/scenes/linear.toml",
@@ -55,6 +55,12 @@ const KINDS: [Kind; 9] = [
         scene: "meshes/scenes/slab.toml",
         model: "--condensed",
         most: 34 * 1024,
+    },
+    Kind {
+        what: "anti-icing, limits and modes",
+        scene: "meshes/scenes/antiicing.toml",
+        model: "--condensed",
+        most: 48 * 1024,
     },
     Kind {
         what: "levee, on triangles",

@@ -90,10 +90,10 @@ impl Price {
         costs.counted::<R>(STAY[0], smallest)?;
         let solve = match self.order {
             0 => 0.0,
-            n => {
+            _ => {
                 2.0 * self.stage::<R>(costs, STAY)?
                     + f64::from(exchanges + 1) * self.each::<R>(costs)?
-                    + self.ways::<R>(costs, n)?
+                    + self.ways::<R>(costs, exchanges)?
             }
         };
         let columns = self.columns;
@@ -103,15 +103,17 @@ impl Price {
         Some(MARGIN * (self.given() + solve + follows + self.bound::<R>(costs, &all)?))
     }
 
-    /// What limits add to exchanges in the worst case, or take off: two an edge belong to the third phase, and edges that leave
-    /// their limit may end open, on a way without an exchange. An exchange is more than half of what an edge takes that comes in.
-    fn ways<R: Scalar>(&self, costs: &Costs, order: usize) -> Option<f64> {
+    /// What limits add to so many exchanges in the worst case, or take off. Two an edge belong to the third phase, the others only
+    /// come in. An edge that leaves its limit may end open: a way without an exchange.
+    fn ways<R: Scalar>(&self, costs: &Costs, exchanges: u32) -> Option<f64> {
         if !self.is_limited {
             return Some(0.0);
         }
         let (each, comes) = (self.each::<R>(costs)?, self.per_edge::<R>(costs, COME)?);
-        let (edges, before) = (order as f64, (order + order / 2) as f64);
-        Some(edges * (each - 0.5 * comes) - before * (each - comes))
+        let way = each - costs.of_dense::<R>("exchange", self.order)?;
+        // The order counts padding: no fewer in the third phase than there are.
+        let before = exchanges.saturating_sub(2 * self.order as u32);
+        Some(self.order as f64 * way - f64::from(before) * (each - comes))
     }
 
     /// The matrix for another value of the coefficient.

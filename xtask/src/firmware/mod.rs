@@ -64,8 +64,8 @@ const TESTED: [(&str, &str, Option<u64>); 8] = [
     ("meshes/scenes/antiicing.toml", "--condensed", Some(350_000)),
 ];
 
-/// Scenes whose statement by `bake` is compared with the image: quads, triangles and outputs, the mesh itself.
-const EXPLAINED: [&str; 5] = ["slab", "levee", "strip", "levee-64", "strip-swept"];
+/// Scenes whose statement by `bake` is compared with the image: quads, triangles and outputs, the mesh itself, limits and modes.
+const EXPLAINED: [&str; 6] = ["slab", "levee", "strip", "levee-64", "strip-swept", "antiicing"];
 
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
 pub fn check(steps: &mut Steps) {

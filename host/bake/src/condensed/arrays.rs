@@ -150,9 +150,11 @@ impl<R: Scalar> Baked<R> {
         }
     }
 
-    /// What the record of sizes calls images with this solver. A matrix of a single block leaves out the loops over others.
+    /// What the record of sizes calls images like this one. A matrix of a single block leaves out the loops over others; limits
+    /// and modes are recorded together.
     pub fn kind(&self) -> &'static str {
         match self.solver() {
+            _ if self.is_limited() || self.modes.is_some() => ", limits and modes",
             Solver::Linear => "linear, condensed",
             Solver::Sweeps => ", condensed, swept",
             _ if self.has_jump() => ", condensed, on quads",

@@ -39,7 +39,7 @@ fn vectors(tick: &QuadraticLoads) -> [Vec<f64>; 2] {
     [&tick.load, &tick.lower].map(|vector| vector.iter().map(|entry| -entry).collect())
 }
 
-fn settings(tolerance: f64) -> DefaultSettings<f64> {
+pub(super) fn settings(tolerance: f64) -> DefaultSettings<f64> {
     DefaultSettings {
         verbose: false,
         max_threads: 1,

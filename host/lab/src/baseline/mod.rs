@@ -16,8 +16,6 @@ mod condensed;
 pub mod conforming;
 mod contest;
 mod full;
-#[cfg(test)]
-mod limits;
 mod load_case;
 mod osqp;
 mod pivots;

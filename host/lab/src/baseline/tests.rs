@@ -1,5 +1,7 @@
 //! Everybody agrees on small problems, and the record says so.
 
+mod limits;
+
 use signorini_tolerances::lab::{AS_BAKED, PIVOTING};
 use std::path::PathBuf;
 

@@ -130,6 +130,7 @@ impl<R: Real> Condensed<'_, R> {
     ///
     /// # Errors
     /// Arrays of the wrong length; no such output; a value that overflows.
+    // Inlined for a number that is a constant: [`Measure::value`].
     #[inline(always)]
     pub fn output(
         &self,

@@ -17,12 +17,12 @@ use signorini_board::journal::Journal;
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::method::TwoPhases;
 use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::dense::tableau::InitialTableau;
 use signorini_kernel::{Error, Real as _};
 
 use crate::loads::loads;
-use crate::scene::{CONTACT, Inputs, Scalar};
-use signorini_kernel::solve::dense::blocks::padded;
+use crate::scene::{CONTACT, INPUTS, Inputs, Scalar};
 
 /// At least so many ticks.
 const TICKS: u32 = 10_000;
@@ -48,7 +48,7 @@ pub trait Starts {
 }
 
 /// Tries ticks from starts of every kind, and tells what the worst took.
-pub fn search(journal: &mut Journal, controller: &mut impl Starts) {
+pub fn search<S: Starts>(journal: &mut Journal, controller: &mut S) {
     let Some(clock) = Clock::start() else { return };
     let empty = clock.measure(1, || black_box(())).unwrap_or(0);
     let sets = if CONTACT <= FEW { 1 << CONTACT } else { TICKS };
@@ -58,7 +58,7 @@ pub fn search(journal: &mut Journal, controller: &mut impl Starts) {
         for set in 0..sets {
             let Some(inputs) = inputs.next() else { return };
             let mut report = None;
-            let begun = controller.begin(inputs, &sides(controller, &mut draw, set));
+            let begun = controller.begin(inputs, &sides::<S>(&mut draw, set));
             let counts = clock.measure(1, || report = controller.tick(inputs).ok());
             let (Ok(()), Some(report), Some(counts)) = (begun, report, counts) else {
                 journal.text("a tick fails");
@@ -77,7 +77,7 @@ pub fn search(journal: &mut Journal, controller: &mut impl Starts) {
 }
 
 /// Sides of all edges: those of set `set` are open where there are few, of one that is drawn elsewhere.
-fn sides<S: Starts>(_: &S, draw: &mut Draw, set: u32) -> [Scalar; CONTACT] {
+fn sides<S: Starts>(draw: &mut Draw, set: u32) -> [Scalar; CONTACT] {
     let mut open = [false; CONTACT];
     if CONTACT <= FEW {
         open.iter_mut().enumerate().for_each(|(at, open)| *open = set >> at & 1 == 1);
@@ -101,6 +101,13 @@ fn draw_open(draw: &mut Draw, open: &mut [bool; CONTACT]) {
         let place = at as f32 / CONTACT as f32;
         *open = if is_arc { (first..=first + share).contains(&place) } else { part() < share };
     }
+}
+
+/// The constant 1 and the inputs.
+pub fn all(inputs: Inputs) -> [Scalar; INPUTS + 1] {
+    let mut all = [1.0; INPUTS + 1];
+    all.iter_mut().skip(1).zip(inputs.to_array()).for_each(|(all, input)| *all = input);
+    all
 }
 
 /// The tableau of these sides.

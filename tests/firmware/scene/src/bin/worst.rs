@@ -12,8 +12,8 @@ use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::device::ranges::check;
 use signorini_kernel::device::report::Report;
 use signorini_kernel::solve::dense::blocks::{count, padded};
-use signorini_scene::scene::{CONTACT, INPUTS, Inputs, OUTPUTS, SYSTEM, Scalar};
-use signorini_scene::worst::{Starts, exchange, search};
+use signorini_scene::scene::{CONTACT, Inputs, OUTPUTS, SYSTEM, Scalar};
+use signorini_scene::worst::{Starts, all, exchange, search};
 
 const PADDED: usize = padded(CONTACT);
 const COLUMNS: usize = match &SYSTEM.certificate {
@@ -51,10 +51,8 @@ impl Starts for Memory {
 
     #[inline(never)]
     fn tick(&mut self, inputs: Inputs) -> Result<Report<Scalar>, Error> {
-        let inputs = inputs.to_array();
-        check(&inputs, &Inputs::RANGES)?;
-        let mut all = [1.0; INPUTS + 1];
-        all.iter_mut().skip(1).zip(inputs).for_each(|(all, input)| *all = input);
+        check(&inputs.to_array(), &Inputs::RANGES)?;
+        let all = all(inputs);
         let mut method = self.tableau.two_phases(&SYSTEM)?;
         let mut memory = self.storage.memory(&SYSTEM);
         let report = SYSTEM.tick(&all, &mut method, &mut Deadline::never(), &mut memory)?;

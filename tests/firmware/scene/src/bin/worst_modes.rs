@@ -17,7 +17,7 @@ use signorini_kernel::device::ranges::check;
 use signorini_kernel::device::report::Report;
 use signorini_kernel::solve::dense::blocks::{count, padded};
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, OUTPUTS, SYSTEM, Scalar};
-use signorini_scene::worst::{Starts, exchange, search};
+use signorini_scene::worst::{Starts, all, exchange, search};
 
 const PADDED: usize = padded(CONTACT);
 const BLOCKS: usize = count(CONTACT);
@@ -43,13 +43,6 @@ fn main() -> ! {
         begun: 0,
     };
     run(|journal| search(journal, MEMORY))
-}
-
-/// The constant 1 and the inputs.
-fn all(inputs: Inputs) -> [Scalar; INPUTS + 1] {
-    let mut all = [1.0; INPUTS + 1];
-    all.iter_mut().skip(1).zip(inputs.to_array()).for_each(|(all, input)| *all = input);
-    all
 }
 
 impl Starts for Memory {

@@ -6,7 +6,7 @@
 //! Its multipliers are w = Ku − b between 0 and m_i. Without a finite m_i there is no s_i, and u_i ≥ ψ_i or u_i ≤ ψ_i.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, SupportedConeT};
 use std::path::PathBuf;
 
 use signorini_scene::error::Result;
@@ -16,7 +16,8 @@ use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::solve::{Options, Reduced, SolverKind, solve};
 use signorini_tolerances::lab::CLARABEL_LIMITED;
 
-use super::quadratic::Matrix;
+use super::super::clarabel::settings;
+use super::super::quadratic::Matrix;
 
 /// Rows A z ≤ b.
 #[derive(Default)]
@@ -58,17 +59,10 @@ fn by_clarabel(matrix: &Matrix, load: &[f64], lower: &[f64], spans: &[f64]) -> V
     starts.resize(all + 1, values.len());
     let q: Vec<f64> = load.iter().map(|b| -b).chain(costs).collect();
     let [of, columns] = rows.entries;
-    let (count, tolerance) = (rows.most.len(), 1e-12);
+    let (count, settings) = (rows.most.len(), settings(1e-12));
     let constraints = CscMatrix::new_from_triplets(count, all, of, columns, rows.values);
     let matrix = CscMatrix::new(all, all, starts, of_rows, values);
     let cones = [SupportedConeT::NonnegativeConeT(count)];
-    let settings = DefaultSettings {
-        verbose: false,
-        tol_gap_abs: tolerance,
-        tol_gap_rel: tolerance,
-        tol_feas: tolerance,
-        ..DefaultSettings::default()
-    };
     let mut solver = DefaultSolver::new(&matrix, &q, &constraints, &rows.most, &cones, settings)
         .expect("a cone");
     solver.solve();
