@@ -28,6 +28,7 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
 use signorini_solve::problem::{Approach, Lack, Problem, Property};
+use signorini_solve::ranges::follow::FollowedRanges;
 use signorini_solve::ranges::reduced::Reduced;
 use signorini_solve::ranges::sides::Sides;
 use signorini_solve::reference::ReferenceError;
@@ -139,6 +140,8 @@ pub struct Origin {
     pub has_all_edges: bool,
     /// Where an input changes a transfer coefficient, the modes of that; `whole` is the model at its least value then.
     pub modes: Option<ModalModel>,
+    /// What is proved of those for all values of the coefficient.
+    pub followed: Option<FollowedRanges>,
 }
 
 impl Origin {
@@ -154,12 +157,21 @@ impl Origin {
                 (whole, recovery, None)
             }
         };
-        let sides = Sides::new(&whole).map_err(|error| no_reference(&problem.scene, &error))?;
+        let failed = |error: ReferenceError| no_reference(&problem.scene, &error);
+        let followed = match &modes {
+            Some(modes) => FollowedRanges::new(modes).map_err(failed)?,
+            None => None,
+        };
+        let sides = match &followed {
+            Some(followed) => followed.sides.clone(),
+            None => Sides::new(&whole).map_err(failed)?,
+        };
         let reduced = match wanted.has_all_edges || modes.is_some() {
             true => None,
             false => Reduced::new(&whole, sides.clone()),
         };
-        Ok(Self { whole, recovery, sides, reduced, has_all_edges: wanted.has_all_edges, modes })
+        let has_all_edges = wanted.has_all_edges;
+        Ok(Self { whole, recovery, sides, reduced, has_all_edges, modes, followed })
     }
 
     /// The model that is baked.

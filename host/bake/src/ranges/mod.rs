@@ -21,6 +21,7 @@ use crate::choice::{Choice, Origin};
 use crate::table::table;
 use reach::Reach;
 use runs::runs;
+use signorini_scene::scene::Scene;
 use signorini_solve::functional::wanted;
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::interval::Interval;
@@ -28,7 +29,7 @@ use signorini_solve::ranges::largest::LargestBound;
 use signorini_solve::ranges::outputs::intervals;
 use signorini_solve::ranges::sides::EdgeSide;
 use signorini_solve::scalar::Scalar;
-use why::nothing_proved;
+use why::{coefficient, nothing_proved};
 
 pub use conflict::conflict;
 use counts::largest_bound;
@@ -37,7 +38,7 @@ pub use counts::{constants, declared, found};
 /// The section on ranges; empty for a full model, whose ticks need none.
 pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
     let Some((baked, origin)) = choice.condensed() else { return String::new() };
-    let mut text = format!("\nRanges of the inputs: {}\n", summary(origin));
+    let mut text = format!("\nRanges of the inputs: {}\n", summary(&problem.scene, origin));
     if let Some(why) = nothing_proved(&problem.scene, origin) {
         return text + &why + "\n";
     }
@@ -49,7 +50,7 @@ pub fn section<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> String {
 }
 
 /// How many edges are on which side, in a sentence.
-fn summary(origin: &Origin) -> String {
+fn summary(scene: &Scene, origin: &Origin) -> String {
     let contact = origin.whole.contact;
     if contact == 0 {
         return "nothing is in contact.".to_owned();
@@ -66,6 +67,10 @@ fn summary(origin: &Origin) -> String {
     let of_edges = format!(
         "of {contact} contact edges {open} are always open, {touching} always touch, {at_limit}{may_change} may change sides."
     );
+    if let Some(modes) = &origin.modes {
+        let name = coefficient(scene, modes);
+        return format!("{of_edges}\nThe model keeps all, since its matrix follows {name:?}.");
+    }
     match (origin.has_all_edges, beside) {
         (true, _) => format!("{of_edges}\n--full-edges keeps all of them."),
         (false, 0) if kept == 0 => format!("{of_edges}\nThe model keeps none."),
@@ -96,8 +101,11 @@ fn along_boundary(problem: &Problem, origin: &Origin) -> String {
 
 /// Where each output lies, and what of it was reached.
 fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
-    // Loads were finite when the sides were found.
-    let proved = intervals(&origin.whole, &origin.sides).ok().flatten().unwrap_or_default();
+    let proved = match &origin.followed {
+        Some(followed) => followed.outputs.clone(),
+        // Loads were finite when the sides were found.
+        None => intervals(&origin.whole, &origin.sides).ok().flatten().unwrap_or_default(),
+    };
     let head = ["output", "least", "largest", "least seen", "largest seen", "width", ""];
     let mut rows = vec![head.map(str::to_owned)];
     for ((output, proved), seen) in wanted(&problem.scene).iter().zip(proved).zip(&reach.outputs) {
@@ -115,6 +123,10 @@ fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
          The width is the proved one over that seen.",
         reach.inputs
     );
+    if let Some((modes, followed)) = origin.modes.as_ref().zip(origin.followed.as_ref()) {
+        let (name, pieces) = (coefficient(&problem.scene, modes), followed.pieces);
+        let _ = writeln!(text, "The range of {name:?} was cut into {pieces} pieces for it.");
+    }
     text
 }
 

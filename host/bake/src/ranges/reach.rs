@@ -55,8 +55,9 @@ fn inputs(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
 
 /// The outputs of the solution; none where there is no solution or for the bound.
 fn exact(origin: &Origin, inputs: &[f64]) -> Vec<Option<f64>> {
-    let model = origin.model();
     let p: Vec<f64> = std::iter::once(1.0).chain(inputs.iter().copied()).collect();
+    let followed = origin.modes.as_ref().map(|modes| modes.in_own_scale(p[modes.input]));
+    let model = followed.as_ref().unwrap_or(origin.model());
     match model.solve(&p) {
         Ok(x) => model.outputs(&p, &x),
         Err(_) => Vec::new(),

@@ -67,13 +67,16 @@ fn the_levee_touches_below_and_is_open_above() {
 
 #[test]
 fn outputs_reach_no_further_than_is_proved() {
-    for name in ["levee", "slab", "strip"] {
+    for name in ["levee", "slab", "strip", "antiicing"] {
         let problem = problem(name, |_| ());
         let choice = choice(&problem, false);
         let (baked, origin) = choice.condensed().expect("condensed");
         let reach = Reach::new(&problem, baked, origin);
         assert!(reach.inputs > 1000 && reach.bound.is_some_and(|bound| bound > 0.0), "{reach:?}");
-        let proved = intervals(&origin.whole, &origin.sides).expect("finite loads");
+        let proved = match &origin.followed {
+            Some(followed) => Some(followed.outputs.clone()),
+            None => intervals(&origin.whole, &origin.sides).expect("finite loads"),
+        };
         let proved = proved.expect("an enclosure");
         assert_eq!(proved.len(), reach.outputs.len());
         for (proved, seen) in proved.into_iter().zip(&reach.outputs) {
@@ -122,6 +125,14 @@ fn what_is_not_proved_has_a_reason() {
     assert!(text(&neither, false).contains("\"rain\", \"river\" have no range"));
     let said = text(&problem("membrane", |scene| scene.inputs.clear()), false);
     assert!(said.contains("contact alone holds a part"), "{said}");
+}
+
+#[test]
+fn a_matrix_that_follows_a_coefficient_is_told_of() {
+    let problem = problem("antiicing", |_| ());
+    let said = section(&problem, &choice(&problem, false));
+    let parts = ["keeps all, since its matrix follows \"airspeed\"", "64 pieces", "nose_skin"];
+    assert!(parts.iter().all(|part| said.contains(part)), "{said}");
 }
 
 #[test]

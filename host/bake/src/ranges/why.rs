@@ -2,6 +2,7 @@
 
 use crate::choice::Origin;
 use signorini_scene::scene::Scene;
+use signorini_solve::condense::ModalModel;
 use signorini_solve::ranges::split::Split;
 
 /// A sentence that names the inputs or the reason; nothing where something is proved.
@@ -16,17 +17,16 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
         ));
     }
     let whole = &origin.whole;
-    if let Some(modes) = &origin.modes {
-        let name = scene.inputs.get(modes.input - 1).map_or("", |input| &input.name.value);
-        return Some(format!(
-            "Nothing is proved: the matrix follows {name:?}, and sides are proved for one matrix."
-        ));
-    }
     if whole.contact == 0 || origin.sides.enclosure.is_some() {
         return None;
     }
     let reason = if !whole.held_by_contact.is_empty() {
         "contact alone holds a part of the domain, and its matrix is singular"
+    } else if let Some(modes) = &origin.modes {
+        let name = coefficient(scene, modes);
+        return Some(format!(
+            "Nothing is proved: the matrix follows {name:?}, and no enclosure was found for a piece of its range."
+        ));
     } else if Split::new(&whole.matrix, whole.contact).is_none() {
         "the contact edges' matrix without its positive entries off the diagonal is no M-matrix"
     } else if whole.is_limited() && has_positive_entries(&whole.matrix, whole.contact) {
@@ -35,6 +35,12 @@ pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {
         "the matrix of the edges that are always open is not positive definite to working precision"
     };
     Some(format!("Nothing is proved: {reason}."))
+}
+
+/// The name of the input that changes the coefficient.
+pub(super) fn coefficient<'s>(scene: &'s Scene, modes: &ModalModel) -> &'s str {
+    // The first input is the constant 1.
+    scene.inputs.get(modes.input - 1).map_or("", |input| &input.name.value)
 }
 
 /// Whether an entry off the diagonal pushes.

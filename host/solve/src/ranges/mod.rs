@@ -8,9 +8,11 @@
 //! All of it is proved: rounding of this machine is counted, and what cannot be told may change.
 
 mod affine;
+mod change;
 mod columns;
 mod crossed;
 pub mod enclosure;
+pub mod follow;
 pub mod interval;
 pub mod largest;
 pub mod outputs;

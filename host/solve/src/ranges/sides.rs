@@ -80,20 +80,20 @@ impl Sides {
         let is_bounded = inputs.iter().flatten().all(|end| end.is_finite());
         let is_held = model.held_by_contact.is_empty();
         let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
-        let Some(split) = split else { return Ok(Self::unproved(model, inputs)) };
+        let Some(split) = split else { return Ok(Self::unproved(model)) };
         let enclosure = match model.is_limited() {
             false => Some(Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?),
             true => Enclosure::between(&split, model, &inputs)?,
         };
-        let Some(enclosure) = enclosure else { return Ok(Self::unproved(model, inputs)) };
+        let Some(enclosure) = enclosure else { return Ok(Self::unproved(model)) };
         let mut sides = Self::proposed(model, enclosure, inputs);
         while sides.demote(model) {}
         Ok(sides)
     }
 
     /// Every edge may change.
-    fn unproved(model: &CondensedModel, inputs: Vec<[f64; 2]>) -> Self {
-        let n = model.contact;
+    pub(super) fn unproved(model: &CondensedModel) -> Self {
+        let (n, inputs) = (model.contact, widened(&model.ranges));
         let infinite = [f64::NEG_INFINITY, f64::INFINITY];
         let limits = (0..n).map(|at| there_is(model, at, infinite)).collect();
         Self {
@@ -106,7 +106,11 @@ impl Sides {
     }
 
     /// As the enclosure says.
-    fn proposed(model: &CondensedModel, enclosure: Enclosure, inputs: Vec<[f64; 2]>) -> Self {
+    pub(super) fn proposed(
+        model: &CondensedModel,
+        enclosure: Enclosure,
+        inputs: Vec<[f64; 2]>,
+    ) -> Self {
         let Enclosure { lo, hi, reaction } = &enclosure;
         let sizes = lo.iter().chain(hi).map(|x| x.abs());
         let largest = sizes.fold(0.0, f64::max);
@@ -149,7 +153,7 @@ impl Sides {
     /// were any.
     fn demote(&mut self, model: &CondensedModel) -> bool {
         let Some(reduction) = Reduction::new(model, self.partition()) else {
-            *self = Self::unproved(model, self.inputs.clone());
+            *self = Self::unproved(model);
             return false;
         };
         let unproved = reduction.unproved(model, &self.box_of(&reduction));
@@ -219,7 +223,7 @@ fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The box that any scalar rounds `ranges` into.
-fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
     ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
 }

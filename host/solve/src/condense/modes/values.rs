@@ -28,8 +28,8 @@ impl ModalModel {
         Some((own * own + delta * laws * laws).sqrt())
     }
 
-    /// δ/(1 + δν_k)
-    fn gains(&self, value: f64) -> Vec<f64> {
+    /// g_k = δ/(1 + δν_k)
+    pub fn gains(&self, value: f64) -> Vec<f64> {
         let delta = value - self.origin;
         self.compliance.iter().map(|nu| delta / (1.0 + delta * nu)).collect()
     }

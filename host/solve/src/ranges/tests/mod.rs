@@ -1,5 +1,6 @@
 //! Enclosures against solutions for loads drawn from the box.
 
+mod follow;
 mod limits;
 mod rounding;
 mod sides;
