@@ -2,6 +2,7 @@
 
 use super::bases::{all, corner};
 use super::*;
+use crate::mesh::gmsh::{parse, write};
 use crate::mesh::refine::{MOST_CELLS, refined};
 use crate::mesh::structured::{Cells, grid};
 
@@ -170,4 +171,13 @@ fn too_many_cells_are_refused() {
     assert_eq!(error, "the refined mesh would have 4194304 cells, expected at most 4000000");
     assert_eq!(hierarchy.mesh().cells(), marks.len());
     assert!(4 * marks.len() > MOST_CELLS);
+}
+
+#[test]
+fn every_round_is_written_and_read_back() {
+    rounds(Target::Random(6), 2, |what, _, hierarchy, _| {
+        let written = write::text(hierarchy.mesh());
+        let read = parse(written.as_bytes());
+        assert_eq!(read.as_ref().ok(), Some(hierarchy.mesh()), "{what}: {:?}", read.as_ref().err());
+    });
 }
