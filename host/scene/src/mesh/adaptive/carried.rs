@@ -18,8 +18,8 @@ pub struct Carried {
     /// For each cell the old cell in which its corners' mean lies. All of the cell lies there, unless the
     /// old cell was a piece of a closure.
     pub cells: Vec<u32>,
-    /// For each triangle and each side, from corner k to corner k + 1, the old cell that holds the side's middle:
-    /// one on the triangle's own side of it, where two do.
+    /// For each triangle and each side, from corner k to corner k + 1, the old cell that holds the side's middle.
+    /// Where several do it is one on this side of all edges, never one across a slit.
     pub triangle_sides: Vec<[u32; 3]>,
     /// The same for each quad.
     pub quad_sides: Vec<[u32; 4]>,

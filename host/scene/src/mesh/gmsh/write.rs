@@ -12,12 +12,12 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-use crate::mesh::{Curve, Mesh, Surface};
+use crate::mesh::{Curve, Mesh};
 
 /// The file's text.
 ///
 /// Groups without a cell or an edge are named in it, but belong to no element: who reads it does not find them. A
-/// name must have no line break and no blank at its ends; none that was read has.
+/// name must have no line break, and none that was read has. Gmsh itself ends a name at the first quote in it.
 pub fn text(mesh: &Mesh) -> String {
     let mut text = String::new();
     // Writing to a string does not fail.
@@ -26,10 +26,14 @@ pub fn text(mesh: &Mesh) -> String {
 }
 
 fn write_mesh(out: &mut String, mesh: &Mesh) -> fmt::Result {
-    let cells = Classes::of(mesh.cells(), mesh.surfaces.iter().map(|s| s.cells.iter().copied()));
+    let cells = Classes::of(
+        mesh.cells(),
+        mesh.surfaces.iter().map(|surface| surface.cells.iter().copied()),
+    );
     let lines = lines(&mesh.curves);
     let at = |edge: &[u32; 2]| lines.binary_search(edge).map_or(0, |at| at as u32);
-    let edges = Classes::of(lines.len(), mesh.curves.iter().map(|c| c.edges.iter().map(at)));
+    let edges =
+        Classes::of(lines.len(), mesh.curves.iter().map(|curve| curve.edges.iter().map(at)));
     out.push_str("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     write_names(out, mesh)?;
     write_entities(out, mesh, [&edges, &cells])?;
@@ -74,11 +78,10 @@ impl Classes {
 }
 
 fn write_names(out: &mut String, mesh: &Mesh) -> fmt::Result {
-    let curves = (1..).zip(&mesh.curves).map(|(tag, Curve { name, .. })| (1, tag, name));
-    let surfaces = (1..).zip(&mesh.surfaces).map(|(tag, Surface { name, .. })| (2, tag, name));
+    let curves = (1_u32..).zip(&mesh.curves).map(|(tag, curve)| (1, tag, &curve.name));
+    let surfaces = (1_u32..).zip(&mesh.surfaces).map(|(tag, surface)| (2, tag, &surface.name));
     writeln!(out, "$PhysicalNames\n{}", mesh.curves.len() + mesh.surfaces.len())?;
     for (dimension, tag, name) in curves.chain(surfaces) {
-        let tag: u32 = tag;
         writeln!(out, "{dimension} {tag} \"{name}\"")?;
     }
     out.push_str("$EndPhysicalNames\n");
@@ -94,8 +97,7 @@ fn write_entities(out: &mut String, mesh: &Mesh, classes: [&Classes; 2]) -> fmt:
     };
     let [x, y] = [0, 1].map(|axis| end(axis, f64::min));
     let [right, top] = [0, 1].map(|axis| end(axis, f64::max));
-    for tags in classes.into_iter().map(|classes| (1..).zip(&classes.tags)).flatten() {
-        let (entity, tags): (u32, &Vec<u32>) = tags;
+    for (entity, tags) in classes.into_iter().flat_map(|classes| (1_u32..).zip(&classes.tags)) {
         write!(out, "{entity} {x:?} {y:?} 0 {right:?} {top:?} 0 {}", tags.len())?;
         tags.iter().try_for_each(|tag| write!(out, " {tag}"))?;
         out.push_str(" 0\n");
