@@ -3,8 +3,10 @@
 use std::path::Path;
 use std::time::Duration;
 
-use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
+use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, Throughput};
+use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_solve::condense::condense;
 use signorini_solve::problem::Problem;
@@ -56,6 +58,25 @@ pub fn files(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(problem.topology.counts.unknowns() as u64));
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
             bencher.iter(|| gmsh::read(&scene.mesh.value));
+        });
+    }
+}
+
+/// A round of local refinement, a tenth of the cells marked; throughput counts the cells that come out, a million.
+pub fn refinement(criterion: &mut Criterion) {
+    let mut group = group(criterion, "local refinement");
+    for (kind, n) in [(Cells::Triangles, 400), (Cells::Quads, 500)] {
+        let before = Hierarchy::new(grid(n, kind)).expect("a mesh");
+        let marks: Vec<_> =
+            (0..before.mesh().cells()).map(|cell| cell.is_multiple_of(10)).collect();
+        let round = |hierarchy: &mut Hierarchy| {
+            hierarchy.refine(&marks).expect("a finer mesh");
+            hierarchy.mesh().cells()
+        };
+        let cells = round(&mut before.clone());
+        group.throughput(Throughput::Elements(cells as u64));
+        group.bench_function(BenchmarkId::new(format!("{kind:?}"), cells), |bencher| {
+            bencher.iter_batched_ref(|| before.clone(), round, BatchSize::PerIteration);
         });
     }
 }

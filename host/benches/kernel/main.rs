@@ -44,6 +44,7 @@ fn main() {
         host::stages(&mut stages);
     }
     host::files(&mut criterion);
+    host::refinement(&mut criterion);
     condensed::stages::<f64>(&mut criterion);
     condensed::stages::<f32>(&mut criterion);
     criterion.final_summary();

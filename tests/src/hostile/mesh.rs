@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::mesh::shape::{self, Orientation};
 use signorini_scene::mesh::{Mesh, check, cut, gmsh, pairing, refine};
 use signorini_scene::scene::Scene;
@@ -70,6 +71,23 @@ fn changed(mesh: &Mesh) {
     let fine = refine::refined(mesh).expect("few cells");
     assert_eq!(fine.cells(), 4 * mesh.cells());
     check::edges(&fine).expect("a mesh");
+    refined_in_part(mesh);
+}
+
+/// Every other cell refined, and of the new ones again: a mesh each time, unless rounding hides a cell.
+fn refined_in_part(mesh: &Mesh) {
+    let mut hierarchy = Hierarchy::new(mesh.clone()).expect("edges that were found before");
+    for _ in 0..3 {
+        let cells = hierarchy.mesh().cells();
+        let marks: Vec<_> = (0..cells).map(|cell| cell.is_multiple_of(2)).collect();
+        let Ok(carried) = hierarchy.refine(&marks) else { return };
+        let fine = hierarchy.mesh();
+        check::edges(fine).expect("a mesh");
+        oriented(fine);
+        assert_eq!(carried.cells.len(), fine.cells());
+        assert!(carried.cells.iter().all(|&cell| (cell as usize) < cells));
+        assert_eq!(gmsh::parse(gmsh::write::text(fine).as_bytes()).as_ref().ok(), Some(fine));
+    }
 }
 
 /// Held by the whole boundary, or with contact all along its first curve.

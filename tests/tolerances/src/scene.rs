@@ -1,8 +1,10 @@
 //! Comparisons in the tests of `host/scene`.
 
 table! {
-    MEASURE: "areas of surfaces and lengths of curves, before and after, relative", 5e-14,
-        "sums over hundreds of cells";
+    MEASURE: "areas of surfaces and lengths of curves, before and after, relative", 5e-15,
+        "sums over thousands of cells, by halves";
+    PLACE: "areas and edges of new cells in old ones, relative to the old ones", 1e-12,
+        "midpoints are rounded by ε of the size of the mesh, a hundred cells or more";
     DIGITS: "coordinates in text against binary files", 1e-15,
         "Gmsh prints 16 digits";
     VALUE: "values of expressions against another calculator, relative", 8.9e-16,

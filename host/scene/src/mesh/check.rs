@@ -5,7 +5,8 @@
 //! found by sorting, in O(n log n) whatever the mesh: a fan around one vertex costs no more than
 //! a grid.
 
-use super::Mesh;
+use super::{Curve, Mesh};
+use crate::error::{InputError, Result};
 
 /// Cells that meet in a way no plane mesh has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +63,7 @@ struct CellSide {
 /// The edges of the mesh, lower vertex first, ascending, if its cells meet as they may.
 ///
 /// Cells must be counterclockwise and without a repeated vertex.
-pub fn edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>, Fault> {
+pub fn edges(mesh: &Mesh) -> std::result::Result<Vec<[u32; 2]>, Fault> {
     let mut sides = Vec::with_capacity(3 * mesh.triangles.len() + 4 * mesh.quads.len());
     let triangles = mesh.triangles.iter().map(|cell| &cell[..]);
     let cells = triangles.chain(mesh.quads.iter().map(|cell| &cell[..]));
@@ -78,8 +79,31 @@ pub fn edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>, Fault> {
     sides.chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
 }
 
+/// The same for a mesh that no file names: cells and vertices go by number.
+///
+/// # Errors
+/// Cells that don't meet as they may.
+pub(super) fn numbered_edges(mesh: &Mesh) -> Result<Vec<[u32; 2]>> {
+    edges(mesh).map_err(|fault| {
+        let described = fault.describe(|cell| format!("cell {cell}"), |at| format!("vertex {at}"));
+        InputError::new(described).into()
+    })
+}
+
+/// Which of the edges an edge of a curve is.
+///
+/// # Errors
+/// None: no cell has it.
+pub(super) fn edge_number(edges: &[[u32; 2]], curve: &Curve, [a, b]: [u32; 2]) -> Result<u32> {
+    edges.binary_search(&[a.min(b), a.max(b)]).map(|edge| edge as u32).map_err(|_| {
+        let name = &curve.name;
+        let message = format!("curve `{name}`: no cell has the edge from {a} to {b}");
+        InputError::new(message).into()
+    })
+}
+
 /// The edge that these sides have in common.
-fn edge_of(sides: &[CellSide]) -> Result<[u32; 2], Fault> {
+fn edge_of(sides: &[CellSide]) -> std::result::Result<[u32; 2], Fault> {
     let edge = sides[0].edge;
     match sides {
         [a, b, c, ..] => Err(Fault::Branching { edge, cells: [a.cell, b.cell, c.cell] }),

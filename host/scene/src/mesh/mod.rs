@@ -1,6 +1,7 @@
 //! A mesh as it was read: coordinates in f64, cells by kind, physical groups by name.
 
 pub mod adapted;
+pub mod adaptive;
 pub mod check;
 pub mod coincident;
 pub mod cut;

@@ -8,7 +8,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::matching::matching;
-use super::shape::{Orientation, orientation};
+use super::shape::{Orientation, direction, orientation};
 use super::{Curve, Mesh};
 
 /// |cos θ| up to which a quad is taken: angles from 45° to 135°, bounds excluded whatever the rounding.
@@ -120,12 +120,4 @@ fn skew(corners: [[f64; 2]; 4]) -> f64 {
         (came[0] * goes[0] + came[1] * goes[1]).abs()
     };
     (0..4).map(cosine).fold(0.0, f64::max)
-}
-
-/// The unit vector from a point to another; scaled first, so that no square overflows or vanishes.
-fn direction(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
-    let way = [to[0] - from[0], to[1] - from[1]];
-    let way = way.map(|d| d / way[0].abs().max(way[1].abs()));
-    let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
-    way.map(|d| d / length)
 }

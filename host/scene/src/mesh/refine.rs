@@ -10,7 +10,7 @@
 //! z is the mean of the corners, where both lines between opposite midpoints meet: the quads remain
 //! strictly convex. Neighbours share midpoints, so the mesh remains conforming.
 
-use super::check::edges;
+use super::check::{edge_number, numbered_edges};
 use super::{Curve, Mesh};
 use crate::error::{InputError, Result};
 
@@ -28,17 +28,14 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh> {
             format!("the refined mesh would have {cells} cells, expected at most 4000000");
         return Err(InputError::new(message).hint("refine less often").into());
     }
-    let edges = edges(mesh).map_err(|fault| {
-        let described = fault.describe(|cell| format!("cell {cell}"), |at| format!("vertex {at}"));
-        InputError::new(described)
-    })?;
+    let edges = numbered_edges(mesh)?;
     let halves = Halves { vertices: mesh.vertices.len(), edges: &edges };
     let centre = |quad: usize| (halves.vertices + edges.len() + quad) as u32;
     let triangles = mesh.triangles.iter().flat_map(|&corners| halves.of_triangle(corners));
     let quads = mesh.quads.iter().enumerate();
     let quads = quads.flat_map(|(quad, &corners)| halves.of_quad(corners, centre(quad)));
-    let midpoints = edges.iter().map(|&ends| mean(mesh, ends));
-    let centres = mesh.quads.iter().map(|&corners| mean(mesh, corners));
+    let midpoints = edges.iter().map(|&ends| mean(&mesh.vertices, ends));
+    let centres = mesh.quads.iter().map(|&corners| mean(&mesh.vertices, corners));
     let origins: Vec<_> = (0..cells as u32).map(|cell| cell / 4).collect();
     Ok(Mesh {
         vertices: mesh.vertices.iter().copied().chain(midpoints).chain(centres).collect(),
@@ -49,9 +46,10 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh> {
     })
 }
 
-fn mean<const N: usize>(mesh: &Mesh, corners: [u32; N]) -> [f64; 2] {
+/// The mean of some of the vertices.
+pub(super) fn mean<const N: usize>(vertices: &[[f64; 2]], corners: [u32; N]) -> [f64; 2] {
     let share = 1.0 / N as f64;
-    let points = corners.map(|vertex| mesh.vertices[vertex as usize]);
+    let points = corners.map(|vertex| vertices[vertex as usize]);
     [0, 1].map(|axis| points.iter().map(|point| share * point[axis]).sum())
 }
 
@@ -67,7 +65,11 @@ impl Halves<'_> {
     /// The midpoint of an edge, if it is one.
     fn find(&self, [a, b]: [u32; 2]) -> Option<u32> {
         let edge = self.edges.binary_search(&[a.min(b), a.max(b)]).ok()?;
-        Some((self.vertices + edge) as u32)
+        Some(self.midpoint(edge as u32))
+    }
+
+    fn midpoint(&self, edge: u32) -> u32 {
+        self.vertices as u32 + edge
     }
 
     /// The midpoints of a cell's sides, the first between corners 0 and 1.
@@ -89,11 +91,7 @@ impl Halves<'_> {
     fn of_curve(&self, curve: &Curve) -> Result<Curve> {
         let mut edges = Vec::with_capacity(2 * curve.edges.len());
         for &[a, b] in &curve.edges {
-            let Some(middle) = self.find([a, b]) else {
-                let name = &curve.name;
-                let message = format!("curve `{name}`: no cell has the edge from {a} to {b}");
-                return Err(InputError::new(message).into());
-            };
+            let middle = self.midpoint(edge_number(self.edges, curve, [a, b])?);
             edges.extend([[a, middle], [b, middle]]);
         }
         edges.sort_unstable();

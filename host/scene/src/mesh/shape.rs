@@ -15,6 +15,14 @@ pub fn edge_length([a, b]: [[f64; 2]; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
+/// The unit vector from a point to another; scaled first, so that no square overflows or vanishes.
+pub(super) fn direction(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let way = way.map(|d| d / way[0].abs().max(way[1].abs()));
+    let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
+    way.map(|d| d / length)
+}
+
 /// The sense in which the corners of a convex cell are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Orientation {

@@ -1,5 +1,6 @@
 //! Meshes refined, paired and cut: what must stay, and what must come out.
 
+mod adaptive;
 mod pairing;
 mod refine;
 
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use super::check::edges;
 use super::gmsh::read;
 use super::shape::{Orientation, orientation};
-use super::{Mesh, Surface};
+use super::{Curve, Mesh, Surface};
 
 /// The files of this extension in a folder of standard scenes, in the order of their names.
 fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
@@ -45,27 +46,43 @@ fn points(mesh: &Mesh, cell: &[u32]) -> Vec<[f64; 2]> {
     cell.iter().map(|&vertex| mesh.vertices[vertex as usize]).collect()
 }
 
-/// The signed area by Gauss's formula.
+/// The signed area, by triangles at the first corner: far from the origin Gauss's formula loses digits.
 fn area(corners: &[[f64; 2]]) -> f64 {
-    let after = corners.iter().cycle().skip(1);
-    corners.iter().zip(after).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
+    let ways: Vec<_> =
+        corners.iter().map(|to| [to[0] - corners[0][0], to[1] - corners[0][1]]).collect();
+    ways.windows(2).map(|pair| pair[0][0] * pair[1][1] - pair[0][1] * pair[1][0]).sum::<f64>() / 2.0
+}
+
+/// The sum, by halves: its rounding grows with the logarithm of their number.
+fn total(terms: &[f64]) -> f64 {
+    match terms {
+        [] => 0.0,
+        &[term] => term,
+        _ => {
+            let (first, second) = terms.split_at(terms.len() / 2);
+            total(first) + total(second)
+        }
+    }
 }
 
 /// The areas of the surfaces, the lengths of the curves, and the area of the whole.
 fn measures(mesh: &Mesh) -> Vec<(String, f64)> {
     let areas: Vec<_> = cells(mesh).iter().map(|cell| area(&points(mesh, cell))).collect();
     let of_surface = |surface: &Surface| {
-        let area = surface.cells.iter().map(|&cell| areas[cell as usize]).sum();
-        (surface.name.clone(), area)
+        let own: Vec<_> = surface.cells.iter().map(|&cell| areas[cell as usize]).collect();
+        (surface.name.clone(), total(&own))
     };
     let of_edge = |edge: &[u32; 2]| {
         let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
         (a[0] - b[0]).hypot(a[1] - b[1])
     };
-    let curves =
-        mesh.curves.iter().map(|curve| (curve.name.clone(), curve.edges.iter().map(of_edge).sum()));
+    let of_curve = |curve: &Curve| {
+        let lengths: Vec<_> = curve.edges.iter().map(of_edge).collect();
+        (curve.name.clone(), total(&lengths))
+    };
+    let curves = mesh.curves.iter().map(of_curve);
     let surfaces = mesh.surfaces.iter().map(of_surface);
-    surfaces.chain(curves).chain([(String::new(), areas.iter().sum())]).collect()
+    surfaces.chain(curves).chain([(String::new(), total(&areas))]).collect()
 }
 
 /// The mesh keeps its contract, and everything in `before` has kept its size.

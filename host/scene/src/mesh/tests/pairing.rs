@@ -1,7 +1,6 @@
 //! Pairs and halves: the catalogue's grids into each other, and what keeps triangles apart.
 
 use super::*;
-use crate::mesh::Curve;
 use crate::mesh::cut::cut;
 use crate::mesh::pairing::paired;
 use crate::mesh::structured::{Cells, grid};

@@ -1,7 +1,6 @@
 //! Counts, sizes, the grid again, and what is refused.
 
 use super::*;
-use crate::mesh::Curve;
 use crate::mesh::adapted::adapted;
 use crate::mesh::refine::{MOST_CELLS, refined};
 use crate::mesh::structured::{Cells, grid};

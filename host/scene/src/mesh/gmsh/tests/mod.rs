@@ -6,6 +6,7 @@ mod inside;
 mod real;
 mod rejected;
 mod valid;
+mod written;
 
 use super::parse;
 use crate::mesh::Mesh;

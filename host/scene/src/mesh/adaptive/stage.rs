@@ -1,0 +1,93 @@
+//! One round's forest with the mesh that closure makes of it.
+
+use super::conforming::{self, Places, closed};
+use super::edges::{Edges, NONE};
+use super::forest::{Cell, Forest};
+use super::red::Grown;
+use crate::error::Result;
+use crate::mesh::check::{edge_number, numbered_edges};
+use crate::mesh::{Curve, Mesh};
+
+/// What a round begins with.
+#[derive(Debug, Clone)]
+pub(super) struct Stage {
+    pub(super) forest: Forest,
+    /// The edges of each curve.
+    curves: Vec<Vec<u32>>,
+    /// The edges that have a single cell.
+    pub(super) boundary: Vec<u32>,
+    pub(super) mesh: Mesh,
+    pub(super) places: Places,
+}
+
+impl Stage {
+    /// The base mesh, where each cell is its own root.
+    pub(super) fn first(base: &Mesh) -> Result<Self> {
+        let edges = numbered_edges(base)?;
+        let on_edges = |curve: &Curve| {
+            curve.edges.iter().map(|&ends| edge_number(&edges, curve, ends)).collect()
+        };
+        let curves = base.curves.iter().map(on_edges).collect::<Result<Vec<_>>>()?;
+        let triangles = roots(&edges, &base.triangles, 0);
+        let quads = roots(&edges, &base.quads, base.triangles.len() as u32);
+        let forest = Forest { edges: Edges::of(&edges), triangles, quads };
+        let alone = |(_, cells): &(u32, [u32; 2])| cells[1] == NONE;
+        let boundary = (0..).zip(forest.sharing()).filter(alone).map(|(edge, _)| edge).collect();
+        let (_, places) = closed(&base.vertices, &forest);
+        Ok(Self { forest, curves, boundary, mesh: base.clone(), places })
+    }
+
+    /// The next stage, and for each of its mesh's cells the cell of this forest that it lies in.
+    pub(super) fn next(&self, base: &Mesh, grown: Grown) -> Result<(Self, Vec<u32>)> {
+        let Grown { vertices, forest, parents } = grown;
+        let (pieces, places) = closed(&vertices, &forest);
+        let curves: Vec<_> = self.curves.iter().map(|curve| forest.edges.halved(curve)).collect();
+        let boundary = forest.edges.halved(&self.boundary);
+        let of_curve = |(curve, edges): (&Curve, &Vec<u32>)| {
+            let mut edges: Vec<_> = edges.iter().map(|&edge| forest.edges.ends(edge)).collect();
+            edges.sort_unstable();
+            Curve { name: curve.name.clone(), edges }
+        };
+        let mesh = Mesh {
+            vertices,
+            triangles: pieces.triangles,
+            quads: pieces.quads,
+            surfaces: Vec::new(),
+            curves: base.curves.iter().zip(&curves).map(of_curve).collect(),
+        };
+        conforming::check(&mesh)?;
+        let mut next = Self { forest, curves, boundary, mesh, places };
+        next.mesh.surfaces = base.inherited(&next.roots());
+        let families = next.of_cells(&parents);
+        Ok((next, families))
+    }
+
+    /// For each cell of the mesh the cell of the base mesh that it lies in.
+    pub(super) fn roots(&self) -> Vec<u32> {
+        let triangles = self.forest.triangles.iter().map(|cell| cell.root);
+        let quads = self.forest.quads.iter().map(|cell| cell.root);
+        self.of_cells(&triangles.chain(quads).collect::<Vec<_>>())
+    }
+
+    /// What is known of the forest's cells, for each cell of the mesh.
+    fn of_cells(&self, known: &[u32]) -> Vec<u32> {
+        let mut of_mesh = vec![0; self.mesh.cells()];
+        for (cell, &known) in (0..).zip(known) {
+            self.places.of(cell).for_each(|piece| of_mesh[piece as usize] = known);
+        }
+        of_mesh
+    }
+}
+
+/// Cells of the base mesh on its edges, numbered from `first`.
+fn roots<const N: usize>(edges: &[[u32; 2]], cells: &[[u32; N]], first: u32) -> Vec<Cell<N>> {
+    let cell = |(root, &corners): (u32, &[u32; N])| {
+        // The edges were made of these very sides.
+        let sides = std::array::from_fn(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % N]);
+            edges.binary_search(&[a.min(b), a.max(b)]).map_or(NONE, |edge| edge as u32)
+        });
+        Cell { corners, sides, root }
+    };
+    (first..).zip(cells).map(cell).collect()
+}

@@ -1,0 +1,151 @@
+//! Where the new mesh lies in the old one, checked by geometry alone.
+
+use signorini_tolerances::scene::PLACE;
+use std::collections::BTreeMap;
+
+use super::bases::all;
+use super::*;
+use crate::mesh::adaptive::{Carried, CarriedEdge};
+
+/// The old mesh, the new one, and what says how they lie in each other, over three rounds of every base mesh.
+fn each_round(check: impl Fn(&str, &Mesh, &Mesh, &Carried)) {
+    for (what, base) in all() {
+        let (mut hierarchy, mut draw) = (Hierarchy::new(base).expect("a mesh"), Draw(3));
+        for _ in 0..3 {
+            let before = hierarchy.mesh().clone();
+            let marks = Target::Random(6).marks(&before, &mut draw);
+            let carried = hierarchy.refine(&marks).expect("a finer mesh");
+            check(&what, &before, hierarchy.mesh(), &carried);
+        }
+    }
+}
+
+fn mean(points: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64)
+}
+
+/// The point lies in the polygon or on its sides: no wedge with a side is turned round.
+fn assert_holds(what: &str, polygon: &[[f64; 2]], point: [f64; 2]) {
+    let from = |to: &[f64; 2]| [to[0] - point[0], to[1] - point[1]];
+    let polygon: Vec<_> = polygon.iter().map(from).collect();
+    for (&p, &q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let wedge = area(&[p, q, [0.0; 2]]).min(0.0);
+        PLACE.check_over(what, wedge, area(&polygon));
+    }
+}
+
+#[test]
+fn old_cells_hold_the_middles_of_cells_and_sides() {
+    each_round(|what, old, new, carried| {
+        let old_cells: Vec<_> = cells(old).iter().map(|cell| points(old, cell)).collect();
+        let sides = carried.triangle_sides.iter().map(|sides| &sides[..]);
+        let sides = sides.chain(carried.quad_sides.iter().map(|sides| &sides[..]));
+        assert_eq!(carried.cells.len(), new.cells(), "{what}");
+        for ((cell, &holder), holders) in cells(new).iter().zip(&carried.cells).zip(sides) {
+            let cell = points(new, cell);
+            assert_holds(what, &old_cells[holder as usize], mean(&cell));
+            assert_eq!(holders.len(), cell.len(), "{what}");
+            for (k, &holder) in holders.iter().enumerate() {
+                let middle = mean(&[cell[k], cell[(k + 1) % cell.len()]]);
+                assert_holds(what, &old_cells[holder as usize], middle);
+            }
+        }
+    });
+}
+
+#[test]
+fn cells_of_a_mesh_without_pieces_hold_their_new_cells_whole() {
+    for (what, base) in all() {
+        let mut hierarchy = Hierarchy::new(base.clone()).expect("a mesh");
+        let marks = Target::Random(4).marks(&base, &mut Draw(5));
+        let carried = hierarchy.refine(&marks).expect("a finer mesh");
+        let mesh = hierarchy.mesh();
+        assert_eq!(carried.cells, hierarchy.roots(), "{what}");
+        let mut covered = vec![0.0; base.cells()];
+        for (cell, &holder) in cells(mesh).iter().zip(&carried.cells) {
+            let (cell, holder) = (points(mesh, cell), holder as usize);
+            let around = points(&base, &cells(&base)[holder]);
+            cell.iter().for_each(|&corner| assert_holds(&what, &around, corner));
+            covered[holder] += area(&cell);
+        }
+        for (cell, covered) in cells(&base).iter().zip(covered) {
+            PLACE.check_relative(&what, covered, area(&points(&base, cell)));
+        }
+    }
+}
+
+#[test]
+fn roots_are_covered_by_their_cells() {
+    for (what, base) in all() {
+        let (mut hierarchy, mut draw) = (Hierarchy::new(base.clone()).expect("a mesh"), Draw(6));
+        for _ in 0..3 {
+            let marks = Target::Random(6).marks(hierarchy.mesh(), &mut draw);
+            hierarchy.refine(&marks).expect("a finer mesh");
+        }
+        let mut covered = vec![0.0; base.cells()];
+        for (cell, root) in cells(hierarchy.mesh()).iter().zip(hierarchy.roots()) {
+            covered[root as usize] += area(&points(hierarchy.mesh(), cell));
+        }
+        for (cell, covered) in cells(&base).iter().zip(covered) {
+            PLACE.check_relative(&what, covered, area(&points(&base, cell)));
+        }
+    }
+}
+
+/// The cell of each boundary edge, and its side there.
+fn boundary(mesh: &Mesh) -> BTreeMap<[u32; 2], (usize, usize)> {
+    let mut found = BTreeMap::new();
+    for (at, cell) in cells(mesh).iter().enumerate() {
+        for (k, (&a, &b)) in cell.iter().zip(cell.iter().cycle().skip(1)).enumerate() {
+            let edge = [a.min(b), a.max(b)];
+            if found.insert(edge, (at, k)).is_some() {
+                found.remove(&edge);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn boundary_edges_lie_on_the_edges_that_they_name() {
+    each_round(|what, old, new, carried| {
+        let (old_boundary, new_boundary) = (boundary(old), boundary(new));
+        assert!(new_boundary.keys().eq(carried.boundary.iter().map(|of| &of.edge)), "{what}");
+        let mut lengths = BTreeMap::new();
+        for CarriedEdge { edge, origin } in &carried.boundary {
+            let length = |mesh: &Mesh| {
+                let ends = points(mesh, edge);
+                (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1])
+            };
+            *lengths.entry(*origin).or_insert(0.0) += length(new);
+            // The cell behind it is the one whose side the old edge was: no other lip of a slit.
+            let (cell, side) = new_boundary[edge];
+            let holder = match cell.checked_sub(new.triangles.len()) {
+                None => carried.triangle_sides[cell][side],
+                Some(quad) => carried.quad_sides[quad][side],
+            };
+            assert_eq!(holder as usize, old_boundary[origin].0, "{what}");
+            assert!(origin.iter().any(|end| edge.contains(end)), "{what}");
+        }
+        assert!(lengths.keys().eq(old_boundary.keys()), "{what}");
+        for (origin, length) in lengths {
+            let ends = points(old, &origin);
+            let whole = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
+            PLACE.check_relative(what, length, whole);
+        }
+    });
+}
+
+#[test]
+fn vertices_of_curves_stay_on_them() {
+    each_round(|what, old, new, carried| {
+        let origin: BTreeMap<_, _> =
+            carried.boundary.iter().map(|of| (of.edge, of.origin)).collect();
+        for (old, new) in old.curves.iter().zip(&new.curves) {
+            for edge in &new.edges {
+                let Some(origin) = origin.get(edge) else { continue };
+                assert!(old.edges.binary_search(origin).is_ok(), "{what}: {}", old.name);
+            }
+        }
+    });
+}
