@@ -8,6 +8,7 @@
 //! Integrals stand in [`quadrature`], errors against exact solutions in [`norms`] and [`energy_norm`], declared outputs in
 //! [`functional`] and [`outputs`].
 
+pub mod adaptive;
 pub mod certify;
 pub mod condense;
 pub mod energy_norm;

@@ -5,6 +5,7 @@ mod condense;
 mod export;
 mod extremes;
 mod honoured;
+mod levels;
 mod scene_arguments;
 mod solve;
 mod tick;

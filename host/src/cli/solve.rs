@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use super::levels;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::engine;
 use signorini_scene::error::{Error, InputError, Result};
@@ -9,6 +10,7 @@ use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{Precision, Setting};
+use signorini_solve::adaptive::{Goal, Wanted};
 use signorini_solve::energy_norm;
 use signorini_solve::field::CellField;
 use signorini_solve::norms::{Errors, of_solution};
@@ -30,6 +32,7 @@ Examples:
   signorini solve meshes/scenes/levee.toml
   signorini solve levee.toml --mesh finer.msh --solver direct --out /tmp/levee
   signorini solve levee.toml --scalar f32 --input rain=2e-8
+  signorini solve levee.toml --max-error 5%      refine where the error bound says, until it is below 5 %
 
 The [setting] of a scene is followed unless --solver, --tolerance or --max-sweeps is given: then of it cells, refine, \
 element and scalar hold, and a warning names the keys that give way. A fixed number of warm sweeps is solved as the tick \
@@ -57,6 +60,13 @@ pub struct Arguments {
     /// Most sweeps allowed [default: 1 000 000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_sweeps: Option<u32>,
+    /// Refine the mesh where the error bound says, until the bound is at most this: an energy norm, or with % a part of that of
+    /// the solution. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
+    #[arg(long, value_name = "E", value_parser = Goal::parse, allow_negative_numbers = true)]
+    max_error: Option<Goal>,
+    /// With --max-error: no mesh with more unknowns is solved on
+    #[arg(long, value_name = "N", requires = "max_error", default_value_t = 1_000_000)]
+    max_unknowns: usize,
 }
 
 pub(super) fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -71,11 +81,25 @@ impl Arguments {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
         self.check(&scene)?;
-        let mut problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
-        problem.warnings.extend(at_rest_warning(&scene));
+        let mesh = adapted::of_scene(&scene)?;
+        let (mut problem, solution, ended) = match self.max_error {
+            None => {
+                let mut problem = Problem::new(&scene, mesh)?;
+                problem.warnings.extend(at_rest_warning(&scene));
+                let unknowns = problem.topology.counts.unknowns();
+                let solution =
+                    waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
+                (problem, solution, None)
+            }
+            Some(goal) => {
+                let options = self.options(scene.setting.and_then(|setting| setting.scalar));
+                let wanted = Wanted { goal, most_unknowns: self.max_unknowns, options };
+                let (mut level, ended) = levels::refined(&scene, mesh, &wanted, &out)?;
+                level.problem.warnings.extend(at_rest_warning(&scene));
+                (level.problem, level.solution, Some(ended))
+            }
+        };
         warn(&problem.warnings);
-        let unknowns = problem.topology.counts.unknowns();
-        let solution = waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
         let levels = free_levels(&problem, &solution)?;
         let levels: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
         warn(&levels);
@@ -99,6 +123,9 @@ impl Arguments {
         }
         report(&problem, &solution, errors, norm);
         say(format_args!("  written to {}", out.display()));
+        if let Some(ended) = ended {
+            return Ok(levels::status(&ended));
+        }
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
             self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
@@ -143,7 +170,8 @@ impl Arguments {
 
     /// Whether the command line leaves how to solve to the scene.
     fn follows_setting(&self) -> bool {
-        self.solver.is_none() && self.tolerance.is_none() && self.max_sweeps.is_none()
+        let chosen = self.solver.is_some() || self.tolerance.is_some();
+        !chosen && self.max_sweeps.is_none() && self.max_error.is_none()
     }
 
     /// As the scene's setting says, where it has one and nothing else was asked for.
@@ -161,20 +189,25 @@ impl Arguments {
             let setting = Setting { scalar: scalar.or(own), ..setting };
             return engine::solve(&problem.with_setting(Some(setting)));
         }
+        solve(problem, &self.options(own))
+    }
+
+    /// As the command line says; `own` is the scalar of the scene's setting.
+    fn options(&self, own: Option<Precision>) -> Options {
         let single = own == Some(Precision::F32);
         let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
-        let options = Options {
+        Options {
             scalar,
             solver: self.solver(),
             tolerance: self.tolerance,
             to_the_floor: false,
             max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
-        };
-        solve(problem, &options)
+        }
     }
 }
 
-fn picture(problem: &Problem, solution: &Solution) -> String {
+/// `solution.vtu` of a solution.
+pub(super) fn picture(problem: &Problem, solution: &Solution) -> String {
     let mesh = &problem.mesh;
     let cells = 0..mesh.triangles.len() + mesh.quads.len();
     let fields: Vec<_> =

@@ -4,5 +4,6 @@ pub mod atomic;
 pub mod contact;
 pub mod digits;
 pub mod edges;
+pub mod pvd;
 pub mod summary;
 pub mod vtu;

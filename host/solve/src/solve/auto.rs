@@ -19,7 +19,8 @@ use signorini_kernel::discrete::rows;
 use signorini_kernel::solve::solver::Status;
 
 use super::{
-    Clock, Options, Ran, Result, Solution, Solved, by_kernel, conclude, direct, factored, unfit,
+    Clock, Options, Ran, Result, Solution, Solved, by_kernel, conclude, direct, factored, started,
+    unfit,
 };
 use crate::problem::{Approach, Assembled, Parts, Problem};
 use crate::scalar::Scalar;
@@ -43,9 +44,14 @@ pub fn prefers_factor(problem: &Problem) -> bool {
 
 /// The kernel's factor or the direct solver where a factor is less work, and sweeps where it is not or where
 /// neither has an answer.
-pub(super) fn in_f64(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+pub(super) fn in_f64(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
     if prefers_factor(problem) {
-        if let Some(found) = by_factor::<f64>(problem, parts, options)? {
+        if let Some(found) = by_factor::<f64>(problem, parts, options, start)? {
             return Ok(found);
         }
         // Who has no answer leaves it to the kernel to say why.
@@ -55,17 +61,22 @@ pub(super) fn in_f64(problem: &Problem, parts: &Parts, options: &Options) -> Res
             return Ok(found);
         }
     }
-    by_kernel::<f64>(problem, parts, options)
+    by_kernel::<f64>(problem, parts, options, start)
 }
 
 /// The same without the direct solver, which works in f64.
-pub(super) fn in_f32(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+pub(super) fn in_f32(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
     if prefers_factor(problem)
-        && let Some(found) = by_factor::<f32>(problem, parts, options)?
+        && let Some(found) = by_factor::<f32>(problem, parts, options, start)?
     {
         return Ok(found);
     }
-    by_kernel::<f32>(problem, parts, options)
+    by_kernel::<f32>(problem, parts, options, start)
 }
 
 /// The answer of the kernel's factor alone. Nothing where it cannot treat the problem, where a part is held by
@@ -74,6 +85,7 @@ pub(super) fn by_factor<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,
+    start: &[f64],
 ) -> Result<Option<Solution>> {
     if parts.counts.floating > 0 || Approach::Factor.lack_with(problem, parts.counts).is_some() {
         return Ok(None);
@@ -85,7 +97,7 @@ pub(super) fn by_factor<R: Scalar>(
     let system = assembled.system().map_err(&unfit)?;
     let diagonal = assembled.diagonal().map_err(&unfit)?;
     let assembly = clock.lap();
-    let mut u = assembled.start();
+    let mut u = started(&assembled, start);
     let mut low = vec![R::ZERO; u.len()];
     let settings = options.settings::<R>();
     let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low);

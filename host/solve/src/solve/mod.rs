@@ -50,20 +50,30 @@ pub use solution::centre_floating;
 /// # Errors
 /// No solution, numbers that the scalar type cannot hold, a singular matrix.
 pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
+    solve_from(problem, options, &[])
+}
+
+/// The same from a start: the mean of u over each unknown edge, such as a coarser mesh gives it. Empty, it is a cold start. The
+/// direct solver takes none.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let scaled = Scaled::new(problem, choose_units(problem)?)?;
-    let solution = solve_in_its_units(scaled.problem(), options)?;
+    let start: Vec<f64> = start.iter().map(|u| u / scaled.units.u).collect();
+    let solution = solve_in_its_units(scaled.problem(), options, &start)?;
     let units = scaled.units;
     let Some(other) = scaled.other() else { return Ok(solution) };
     Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
 }
 
-fn solve_in_its_units(problem: &Problem, options: &Options) -> Result<Solution> {
+fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
-        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(problem, &parts, options),
-        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options),
-        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options),
+        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(problem, &parts, options, start),
+        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(problem, &parts, options, start),
+        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options, start),
+        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options, start),
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
         (SolverKind::Direct, ScalarKind::F32) => {
             Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
@@ -90,7 +100,19 @@ fn overflow<R: Scalar>(scene: &Scene) -> Error {
         .into()
 }
 
-fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+/// u to begin with: what Dirichlet data and `start` say, and 0.
+fn started<R: Scalar>(assembled: &Assembled<R>, start: &[f64]) -> Vec<R> {
+    let mut u = assembled.start();
+    u.iter_mut().zip(start).for_each(|(u, &start)| *u = R::narrow(start));
+    u
+}
+
+fn by_kernel<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
     let unfit = unfit::<R>(&problem.scene);
     let mut clock = Clock::start();
     let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
@@ -99,7 +121,7 @@ fn by_kernel<R: Scalar>(problem: &Problem, parts: &Parts, options: &Options) -> 
     let diagonal = assembled.diagonal().map_err(&unfit)?;
     let assembly = clock.lap();
 
-    let mut u = assembled.start();
+    let mut u = started(&assembled, start);
     let mut low = vec![R::ZERO; u.len()];
     let iterate = if problem.mesh.quads.is_empty() {
         iterate::<R, { rows::TRIANGLES }>
