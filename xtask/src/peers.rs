@@ -11,6 +11,7 @@
 //! A tick is counted from b to x, starts where the last one ended, and the first is not counted.
 
 mod image;
+mod quadratic;
 mod reference;
 mod sources;
 
@@ -30,12 +31,14 @@ use sources::Sources;
 const RECORD: &str = "tests/firmware/peers.txt";
 
 /// The problems: a title, the scene, and whether edges that never change sides are left out.
-const PROBLEMS: [(&str, &str, bool); 5] = [
+const PROBLEMS: [(&str, &str, bool); 7] = [
     ("random loads on 16 edges", "contact-16", false),
     ("random loads on 32 edges", "contact-32", false),
     ("random loads on 64 edges", "contact-64", false),
     ("levee, all edges", "levee", false),
     ("levee, edges that may change", "levee", true),
+    ("random loads on 32 edges with limits", "limited-32", false),
+    ("heater mats of limited power, all edges", "antiicing", false),
 ];
 
 /// Ticks that are counted.
@@ -78,10 +81,11 @@ fn rows(scene: &str, is_reduced: bool, sources: &Sources) -> Result<String, Stri
     let folder = target_dir("firmware").join("peers").join(name);
     let header = condense(scene, is_reduced, &folder)?;
     let problem = Problem::read(&header)?;
+    let quadratic = quadratic::write(&problem, &folder)?;
     let solvers = [
-        ("kernel", image::kernel(&folder)?),
+        ("kernel", image::kernel(&folder, problem.is_limited())?),
         ("DAQP", image::peer("daqp", &sources.daqp(), &folder)?),
-        ("OSQP", image::peer("osqp", &sources.osqp(&header, &folder), &folder)?),
+        ("OSQP", image::peer("osqp", &sources.osqp(&quadratic, &folder), &folder)?),
     ];
     let mut text = String::new();
     for (name, measured) in solvers {

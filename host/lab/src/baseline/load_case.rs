@@ -2,7 +2,7 @@
 //!
 //! * A scene with inputs: these are drawn within a tenth of their defaults, as for its firmware.
 //! * One without: all its loads (f, u_D, g, ambient) take a factor c + s ξ, ξ in [−1, 1] across the domain, and
-//!   what contact asks for (ψ, q) another, c drawn from [0.9, 1.1] and s from [−0.4, 0.4]. One factor alone
+//!   what contact asks for (ψ, q, limits) another, c drawn from [0.9, 1.1] and s from [−0.4, 0.4]. One factor alone
 //!   would scale the answer and, without gap, leave the contact set.
 //! * A scene over time: its own t.
 
@@ -24,7 +24,7 @@ pub(super) struct LoadCase {
     pub time: f64,
     /// Of f, u_D, g and the ambient.
     pub loads: Factor,
-    /// Of ψ and q.
+    /// Of ψ, q and limits.
     pub contact: f64,
 }
 
@@ -109,7 +109,8 @@ impl LoadCase {
         given.for_each(|(at, value)| *value *= on_edge(first + at));
         loads.neumann.iter_mut().for_each(|record| record.flux *= on_edge(record.edge as usize));
         loads.robin.iter_mut().for_each(|record| record.ambient *= on_edge(record.edge as usize));
-        let of_contact = loads.gap.iter_mut().chain(&mut loads.contact_flux);
+        let of_contact =
+            loads.gap.iter_mut().chain(&mut loads.contact_flux).chain(&mut loads.spans);
         of_contact.for_each(|value| *value *= self.contact);
         Ok(loads)
     }

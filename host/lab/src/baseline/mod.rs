@@ -19,6 +19,7 @@ mod full;
 mod load_case;
 mod osqp;
 mod pivots;
+mod program;
 mod psor;
 mod quadratic;
 pub mod record;
