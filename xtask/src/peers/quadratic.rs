@@ -1,7 +1,7 @@
 //! The bounded quadratic problem that the peers are given, as a C header beside that of the condensed problem.
 //!
 //! ```text
-//!   minimise ½ zᵀH z − (F p)ᵀz   over lower ≤ z ≤ upper
+//!   minimise ½ zᵀH z − (F p)ᵀz   over least ≤ z ≤ most
 //!   no limits:  z = x              H = S      F = B          0 ≤ z
 //!   limits:     z = w = Sx − B p   H = S⁻¹    F = −S⁻¹B      min(0, m) ≤ z ≤ max(0, m)
 //! ```
@@ -27,18 +27,7 @@ pub fn write(problem: &Problem, folder: &Path) -> Result<PathBuf, String> {
 
 fn text(problem: &Problem) -> String {
     let is_dual = problem.is_limited();
-    let inverse = |b: &[f64]| problem.without_contact(b);
-    let (matrix, loads) = if is_dual {
-        let unit = |at| (0..problem.size()).map(|i| f64::from(u8::from(i == at))).collect();
-        let units: Vec<Vec<f64>> = (0..problem.size()).map(unit).collect();
-        let negative = |b: &Vec<f64>| inverse(b).iter().map(|x| -x).collect();
-        (
-            symmetric(units.iter().map(|unit| inverse(unit)).collect()),
-            problem.columns().iter().map(negative).collect(),
-        )
-    } else {
-        (problem.matrix().to_vec(), problem.columns().to_vec())
-    };
+    let (matrix, loads) = if is_dual { dual(problem) } else { primal(problem) };
     let ends: Vec<[f64; 2]> = (0..problem.size()).map(|at| problem.ends(at)).collect();
     let mut text = format!("#include <math.h>\n#define IS_DUAL {}\n", u8::from(is_dual));
     put(&mut text, "H", "N * N", &matrix.concat());
@@ -50,14 +39,25 @@ fn text(problem: &Problem) -> String {
     text
 }
 
+/// H by rows and F by columns.
+type Terms = (Vec<Vec<f64>>, Vec<Vec<f64>>);
+
+fn primal(problem: &Problem) -> Terms {
+    (problem.matrix().to_vec(), problem.columns().to_vec())
+}
+
+fn dual(problem: &Problem) -> Terms {
+    let size = problem.size();
+    let unit = |at: usize| (0..size).map(|i| f64::from(u8::from(i == at))).collect::<Vec<f64>>();
+    let inverse: Vec<_> = (0..size).map(|at| problem.without_contact(&unit(at))).collect();
+    let negative = |b: &Vec<f64>| problem.without_contact(b).iter().map(|x| -x).collect();
+    (symmetric(&inverse), problem.columns().iter().map(negative).collect())
+}
+
 /// The lower triangle on both sides: rounding has made them differ.
-fn symmetric(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    for i in 0..matrix.len() {
-        for j in 0..i {
-            matrix[j][i] = matrix[i][j];
-        }
-    }
-    matrix
+fn symmetric(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let entry = |i: usize, j: usize| matrix[i.max(j)][i.min(j)];
+    (0..matrix.len()).map(|i| (0..matrix.len()).map(|j| entry(i, j)).collect()).collect()
 }
 
 fn put(text: &mut String, name: &str, size: &str, numbers: &[f64]) {
