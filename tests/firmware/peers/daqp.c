@@ -4,19 +4,24 @@
 #include "api.h"
 #include "peer.h"
 #include "problem.h"
+#include "quadratic.h"
 #include "utils.h"
 
-static c_float f[N], upper[N], lower[N];
+static c_float linear[N], upper[N], lower[N];
 static DAQPProblem problem = {
-    .n = N, .m = N, .ms = N, .H = (c_float *)S, .f = f, .bupper = upper, .blower = lower,
+    .n = N, .m = N, .ms = N, .H = (c_float *)H, .f = linear, .bupper = upper, .blower = lower,
 };
 static DAQPSettings settings;
 static DAQPWorkspace workspace = {.settings = &settings};
-static DAQPResult result; /* no multipliers asked for */
+static DAQPResult result; /* multipliers where x is made of them */
+#if IS_DUAL
+static c_float z[N];
+#endif
 
 int set_up(void) {
     for (int i = 0; i < N; i++) {
-        upper[i] = DAQP_INF;
+        lower[i] = fmaxf(LEAST[i], -DAQP_INF);
+        upper[i] = fminf(MOST[i], DAQP_INF);
     }
     daqp_default_settings(&settings);
     /* The defaults are made for f64 and below the rounding of f32. Up to 1e-4 the counts stay. */
@@ -30,14 +35,25 @@ int set_up(void) {
     return setup_daqp(&problem, &workspace, NULL) < 0;
 }
 
-int solve(const float *b, float *x) {
+int solve(const float *f, float *x) {
     for (int i = 0; i < N; i++) {
-        f[i] = -b[i];
+        linear[i] = -f[i];
     }
     if (update_ldp(UPDATE_v, &workspace, &problem) < 0) {
         return 1;
     }
+#if IS_DUAL
+    result.x = z;
+    result.lam = x;
+#else
     result.x = x;
+#endif
     daqp_solve(&result, &workspace);
+#if IS_DUAL
+    /* Its multipliers are above 0 at upper bounds. */
+    for (int i = 0; i < N; i++) {
+        x[i] = -x[i];
+    }
+#endif
     return result.exitflag != EXIT_OPTIMAL;
 }

@@ -1,17 +1,18 @@
 /* Ticks with random inputs. Each line: counts of the clock, the bits of x.
  *
  *   @ heap 4096                    bytes that the set-up took
- *   215 3f800000 00000000 ...      40 instructions a count; from b to x, the load's sum left out
+ *   215 3f800000 00000000 ...      40 instructions a count; from f to x, the load's sum left out
  */
 #include <string.h>
 
 #include "board.h"
 #include "peer.h"
 #include "problem.h"
+#include "quadratic.h"
 
 enum { TICKS = 1000 };
 
-static float p[M], b[N], x[N];
+static float p[M], f[N], x[N];
 
 /* Uniform in [-1, 1): xorshift32 and its upper 24 bits. The same bits come from the board's `draw.rs`. */
 static float draw(void) {
@@ -22,12 +23,12 @@ static float draw(void) {
     return (float)((int32_t)(state >> 8) - (1 << 23)) * 0x1p-23f;
 }
 
-/* b = sum over j of p_j times column j. */
+/* f = sum over j of p_j times column j. */
 static void load(void) {
-    memset(b, 0, sizeof b);
+    memset(f, 0, sizeof f);
     for (int j = 0; j < M; j++) {
         for (int i = 0; i < N; i++) {
-            b[i] += p[j] * B[j * N + i];
+            f[i] += p[j] * F[j * N + i];
         }
     }
 }
@@ -76,14 +77,14 @@ int main(void) {
     /* Not counted: a controller starts once, at its default inputs. */
     memcpy(p, DEFAULTS, sizeof p);
     load();
-    int failed = solve(b, x);
+    int failed = solve(f, x);
     for (int k = 0; k < TICKS && !failed; k++) {
         for (int j = 1; j < M; j++) {
             p[j] = draw();
         }
         load();
         restart();
-        failed = solve(b, x);
+        failed = solve(f, x);
         uint32_t counts = elapsed();
         report(counts);
     }

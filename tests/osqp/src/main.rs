@@ -1,7 +1,7 @@
 //! OSQP on the problems that `signorini` sends, timed here by the same counter: one line of JSON with
 //! the problem, then a line for each solve. `host/lab/src/baseline/osqp.rs` has the other end.
 //!
-//! minimise ½ uᵀPu − bᵀu over u ≥ ψ on the last unknowns. Cold: set up and solved; warm: new b and ψ go
+//! minimise ½ zᵀPz + qᵀz over Cz ≥ r. Cold: set up and solved; warm: new q and r go
 //! into the workspace, and it starts from its last answer. Settings are OSQP's own but for the tolerance,
 //! the number of iterations, and a look every 5 of them or after each, so that it need not go on when it is done.
 
@@ -19,19 +19,26 @@ const MOST: u32 = 50_000;
 /// What OSQP takes for infinity.
 const INFINITY: f64 = 1e30;
 
+/// q and r.
 #[derive(Deserialize)]
 struct Tick {
-    load: Vec<f64>,
-    lower: Vec<f64>,
+    cost: Vec<f64>,
+    least: Vec<f64>,
 }
 
-/// P by columns of its upper triangle; bounds act on the last `contact` unknowns.
+/// A matrix by columns.
 #[derive(Deserialize)]
-struct Problem {
+struct Columns {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
-    contact: usize,
+}
+
+/// The upper triangle of P, and C.
+#[derive(Deserialize)]
+struct Given {
+    matrix: Columns,
+    constraints: Columns,
     ticks: Vec<Tick>,
 }
 
@@ -63,13 +70,13 @@ struct Answer {
     cycles: u64,
     iterations: u32,
     /// `None` where it has none.
-    u: Option<Vec<f64>>,
+    z: Option<Vec<f64>>,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut lines = std::io::stdin().lock().lines();
     let Some(first) = lines.next() else { return Err("no problem given".into()) };
-    let given: Problem = serde_json::from_str(&first?)?;
+    let given: Given = serde_json::from_str(&first?)?;
     let mut workspace = None;
     for line in lines {
         let question: Question = serde_json::from_str(&line?)?;
@@ -81,46 +88,47 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn solve(
-    given: &Problem,
+    given: &Given,
     question: &Question,
     workspace: &mut Option<Problem>,
 ) -> Result<Answer, Box<dyn std::error::Error>> {
     let tick = given.ticks.get(question.tick).ok_or("no such tick")?;
-    let cost: Vec<f64> = tick.load.iter().map(|b| -b).collect();
-    let (cycles, iterations, u) = match workspace.take().filter(|_| !question.cold) {
+    let (cycles, iterations, z) = match workspace.take().filter(|_| !question.cold) {
         Some(mut kept) => {
             let start = cycles::now();
-            kept.update_lin_cost(&cost);
-            kept.update_lower_bound(&tick.lower);
+            kept.update_lin_cost(&tick.cost);
+            kept.update_lower_bound(&tick.least);
             let answer = run(&mut kept, start);
             *workspace = Some(kept);
             answer
         }
         None => {
-            let (matrix, constraints) = (matrix(given), constraints(given));
-            let upper = vec![INFINITY; given.contact];
+            let count = tick.least.len();
+            let matrix = columns(&given.matrix, tick.cost.len());
+            let constraints = columns(&given.constraints, count);
+            let upper = vec![INFINITY; count];
             let settings = settings(question);
             let start = cycles::now();
             let mut fresh =
-                Problem::new(matrix, &cost, constraints, &tick.lower, &upper, &settings)?;
+                Problem::new(matrix, &tick.cost, constraints, &tick.least, &upper, &settings)?;
             let answer = run(&mut fresh, start);
             *workspace = Some(fresh);
             answer
         }
     };
-    Ok(Answer { cycles, iterations, u })
+    Ok(Answer { cycles, iterations, z })
 }
 
 fn run(problem: &mut Problem, start: u64) -> (u64, u32, Option<Vec<f64>>) {
     let status = problem.solve();
     let cycles = cycles::now().saturating_sub(start);
-    let u = match &status {
+    let z = match &status {
         osqp::Status::Solved(solution)
         | osqp::Status::SolvedInaccurate(solution)
         | osqp::Status::MaxIterationsReached(solution) => Some(solution.x().to_vec()),
         _ => None,
     };
-    (cycles, status.iter(), u)
+    (cycles, status.iter(), z)
 }
 
 fn settings(question: &Question) -> Settings {
@@ -137,26 +145,13 @@ fn settings(question: &Question) -> Settings {
         .polish(question.manner == Manner::Polished)
 }
 
-fn matrix(given: &Problem) -> CscMatrix<'_> {
-    let n = given.starts.len() - 1;
+/// As OSQP takes a matrix of so many rows.
+fn columns(given: &Columns, rows: usize) -> CscMatrix<'_> {
     CscMatrix {
-        nrows: n,
-        ncols: n,
+        nrows: rows,
+        ncols: given.starts.len() - 1,
         indptr: (&given.starts).into(),
         indices: (&given.rows).into(),
         data: (&given.values).into(),
-    }
-}
-
-/// One row a bound: 1 on its unknown.
-fn constraints(given: &Problem) -> CscMatrix<'static> {
-    let n = given.starts.len() - 1;
-    let free = n - given.contact;
-    CscMatrix {
-        nrows: given.contact,
-        ncols: n,
-        indptr: (0..=n).map(|column| column.saturating_sub(free)).collect(),
-        indices: (0..given.contact).collect(),
-        data: vec![1.0; given.contact].into(),
     }
 }

@@ -7,6 +7,8 @@ table! {
         "the same matrix in another order";
     PIVOTING: "algebraic error of exact solvers", 3e-15,
         "rounding alone";
+    PIVOTING_LIMITED: "algebraic error of exact solvers with limits, over the energy norm of the solution", 3e-13,
+        "exchanges may leave 48 roundings, and condensing materials whose conductivities differ by 178 loses a digit or two";
     CLARABEL_LIMITED: "u of contact with limits by Clarabel against the kernel's, over the largest", 1e-9,
         "an interior point ends at a gap of 1e-12, to which u goes with its square root";
     AS_BAKED: "matrix and load of the condensed problem against the baked one", 3e-13,

@@ -76,10 +76,12 @@ pub fn peer(name: &str, code: &Result<Code, String>, folder: &Path) -> Result<Me
 
 /// Builds and runs the kernel's image: `exact` takes the scene baked from the same problem, prints the same
 /// lines as the peers, and has its tick in a function `solve`.
-pub fn kernel(folder: &Path) -> Result<Measured, String> {
+pub fn kernel(folder: &Path, is_limited: bool) -> Result<Measured, String> {
     let (package, bins) = ("signorini-scene", &["exact"]);
     let scenes = folder.join("contact.rs");
-    let what = Build { package, bins, features: &["exact"], scenes: &scenes };
+    let features: &[&str] =
+        if is_limited { &["exact", "signorini-kernel/limited"] } else { &["exact"] };
+    let what = Build { package, bins, features, scenes: &scenes };
     let (mut command, built) = M4F.build(what)?;
     command.env("SIGNORINI_SCENE", &scenes);
     run(command)?;

@@ -1,7 +1,13 @@
 //! What the solvers should have found: the same problems in f64, by a primal-dual active set.
 //!
-//! Edges with x < 0 become active, active ones with (S x − b) < 0 inactive, until nothing changes: then
-//! all conditions hold, whatever path led there.
+//! ```text
+//!   x > 0:  w = min(0, m)      x = 0:  w between      x < 0:  w = max(0, m)      w = Sx − b,  m = ∞ without a limit
+//! ```
+//! An edge whose x has not the sign of its side touches next; one that touches with a w outside goes to the side of the end
+//! that it has passed. When nothing changes any more all conditions hold, whatever path led there.
+
+#[cfg(test)]
+mod tests;
 
 use std::fs;
 use std::path::Path;
@@ -13,6 +19,19 @@ pub struct Problem {
     s: Vec<Vec<f64>>,
     /// The load of each input, the constant part first.
     columns: Vec<Vec<f64>>,
+    /// m of each edge; nothing where all are ∞.
+    spans: Vec<f64>,
+}
+
+/// What an edge does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// x > 0, or may be.
+    Above,
+    /// x = 0.
+    Touching,
+    /// x < 0, or may be.
+    Below,
 }
 
 /// How far the answers to all ticks are from right, at most; both relative to max |x*| of the tick.
@@ -20,7 +39,8 @@ pub struct Problem {
 pub struct Deviation {
     /// max |x − x*|.
     pub error: f64,
-    /// max |min(x, S x − b)|: negative openings, negative forces, and products of both.
+    /// max |w − P(w − x)| with P the nearest w that is allowed: without limits |min(x, w)|, negative openings, negative
+    /// forces, and products of both.
     pub violation: f64,
 }
 
@@ -31,7 +51,7 @@ impl Problem {
         Self::parse(&text).ok_or_else(|| format!("{} is no condensed problem", header.display()))
     }
 
-    fn parse(text: &str) -> Option<Self> {
+    pub fn parse(text: &str) -> Option<Self> {
         let size: usize =
             text.split_once("#define N ")?.1.split_whitespace().next()?.parse().ok()?;
         let rows = |name| {
@@ -39,13 +59,44 @@ impl Problem {
             let whole = size > 0 && entries.len() % size == 0;
             whole.then(|| entries.chunks(size).map(<[f64]>::to_vec).collect::<Vec<_>>())
         };
-        let problem = Self { s: rows("S[")?, columns: rows("B[")? };
-        (problem.s.len() == size).then_some(problem)
+        // Only what does not change is a bound that peers are set up with.
+        let mut columns = rows("SPANS[").unwrap_or_default().into_iter();
+        let spans = columns.next().unwrap_or_default();
+        let is_constant = columns.flatten().all(|span| span == 0.0);
+        let problem = Self { s: rows("S[")?, columns: rows("B[")?, spans };
+        (problem.s.len() == size && is_constant).then_some(problem)
     }
 
     /// Contact edges.
     pub fn size(&self) -> usize {
         self.s.len()
+    }
+
+    /// S by rows.
+    pub fn matrix(&self) -> &[Vec<f64>] {
+        &self.s
+    }
+
+    /// B by columns.
+    pub fn columns(&self) -> &[Vec<f64>] {
+        &self.columns
+    }
+
+    /// Whether a flux has a limit.
+    pub fn is_limited(&self) -> bool {
+        !self.spans.is_empty()
+    }
+
+    /// The least and the largest w of an edge.
+    pub fn ends(&self, at: usize) -> [f64; 2] {
+        let span = self.spans.get(at).copied().unwrap_or(f64::INFINITY);
+        [span.min(0.0), span.max(0.0)]
+    }
+
+    /// The w that an x of this side has, on top of b: x is not 0 there.
+    fn end(&self, at: usize, side: Side) -> f64 {
+        let [least, most] = self.ends(at);
+        if side == Side::Below { most } else { least }
     }
 
     fn load(&self, inputs: &[f64]) -> Vec<f64> {
@@ -59,23 +110,56 @@ impl Problem {
         self.s.iter().zip(b).map(row).collect()
     }
 
-    /// The solution, found from the active edges given, which are left as they are in the end.
-    fn solve(&self, b: &[f64], active: &mut [bool]) -> Result<Vec<f64>, String> {
+    /// The solution, found from the sides given, which are left as they are in the end.
+    fn solve(&self, b: &[f64], sides: &mut [Side]) -> Result<Vec<f64>, String> {
         for _ in 0..100 {
-            let free: Vec<usize> = (0..self.size()).filter(|&i| !active[i]).collect();
+            let free: Vec<usize> =
+                (0..self.size()).filter(|&i| sides[i] != Side::Touching).collect();
+            let on_side = |(i, b): (usize, &f64)| b + self.end(i, sides[i]);
+            let loads: Vec<f64> = b.iter().enumerate().map(on_side).collect();
             let mut x = vec![0.0; self.size()];
-            for (&i, value) in free.iter().zip(self.solve_free(b, &free)) {
+            for (&i, value) in free.iter().zip(self.solve_free(&loads, &free)) {
                 x[i] = value;
             }
-            let r = self.residual(&x, b);
-            let next: Vec<bool> =
-                (0..x.len()).map(|i| if active[i] { r[i] >= 0.0 } else { x[i] < 0.0 }).collect();
-            if next == active {
+            let w = self.residual(&x, b);
+            let next: Vec<Side> =
+                (0..x.len()).map(|i| self.next(i, sides[i], [x[i], w[i]])).collect();
+            if next == sides {
                 return Ok(x);
             }
-            active.copy_from_slice(&next);
+            sides.copy_from_slice(&next);
         }
         Err("the reference finds no active set".to_owned())
+    }
+
+    /// The side to try next.
+    fn next(&self, at: usize, side: Side, [x, w]: [f64; 2]) -> Side {
+        let [least, most] = self.ends(at);
+        match side {
+            Side::Above if x < 0.0 => Side::Touching,
+            Side::Below if x > 0.0 => Side::Touching,
+            Side::Touching if w < least => Side::Above,
+            Side::Touching if w > most => Side::Below,
+            side => side,
+        }
+    }
+
+    /// By how much an edge violates its conditions, with a sign.
+    fn violation(&self, at: usize, [x, w]: [f64; 2]) -> f64 {
+        let [least, most] = self.ends(at);
+        if w - x < least {
+            w - least
+        } else if w - x > most {
+            w - most
+        } else {
+            x
+        }
+    }
+
+    /// S⁻¹b
+    pub fn without_contact(&self, b: &[f64]) -> Vec<f64> {
+        let all: Vec<usize> = (0..self.size()).collect();
+        self.solve_free(b, &all)
     }
 
     /// S x = b on the free edges, by Cholesky's factors L Lᵀ.
@@ -108,13 +192,13 @@ pub fn deviation<'a>(
     answers: impl Iterator<Item = &'a [f32]>,
 ) -> Result<Deviation, String> {
     let mut draw = Draw(0x2545_f491);
-    let mut active = vec![false; problem.size()];
+    let mut sides = vec![Side::Touching; problem.size()];
     let mut most = Deviation { error: 0.0, violation: 0.0 };
     for answer in answers {
         let others = (1..problem.columns.len()).map(|_| draw.next());
         let inputs: Vec<f64> = [1.0].into_iter().chain(others).collect();
         let b = problem.load(&inputs);
-        let exact = problem.solve(&b, &mut active)?;
+        let exact = problem.solve(&b, &mut sides)?;
         let x: Vec<f64> = answer.iter().copied().map(f64::from).collect();
         let finite = x.iter().all(|x| x.is_finite());
         if x.len() != exact.len() || !finite {
@@ -123,7 +207,9 @@ pub fn deviation<'a>(
         let scale = largest(exact.iter().copied()).max(f64::MIN_POSITIVE);
         let error = largest(x.iter().zip(&exact).map(|(x, exact)| x - exact)) / scale;
         let r = problem.residual(&x, &b);
-        let violation = largest(x.iter().zip(&r).map(|(x, r)| x.min(*r))) / scale;
+        let violations = x.iter().zip(&r).enumerate();
+        let violations = violations.map(|(i, (&x, &w))| problem.violation(i, [x, w]));
+        let violation = largest(violations) / scale;
         most.error = most.error.max(error);
         most.violation = most.violation.max(violation);
     }
@@ -158,39 +244,4 @@ fn array(text: &str, name: &str) -> Option<Vec<f64>> {
     let numbers = numbers.split(',').map(str::trim).filter(|number| !number.is_empty());
     let number = |text: &str| text.trim_end_matches(['f', 'F']).parse::<f32>().ok();
     numbers.map(|text| number(text).map(f64::from)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HEADER: &str = "#define N 2 /* edges */\n#define M 1\n\
-        static const float S[N*N] = {1.0f, -0.5f,\n -0.5f, 1.0f};\n\
-        static const float B[M*N] = {1.0f, -2.0f,};\n";
-
-    #[test]
-    fn one_edge_opens_and_one_stays() {
-        let problem = Problem::parse(HEADER).unwrap();
-        // x = (1, 0) and S x − b = (0, 1.5); without contact the second would be −2.
-        assert_eq!(problem.solve(&[1.0, -2.0], &mut [false; 2]), Ok(vec![1.0, 0.0]));
-        let right = deviation(&problem, [[1.0_f32, 0.0].as_slice()].into_iter());
-        assert_eq!(right, Ok(Deviation { error: 0.0, violation: 0.0 }));
-        let wrong = deviation(&problem, [[0.75_f32, -0.25].as_slice()].into_iter());
-        assert_eq!(wrong, Ok(Deviation { error: 0.25, violation: 0.25 }));
-    }
-
-    #[test]
-    fn both_edges_open() {
-        let problem = Problem::parse(HEADER).unwrap();
-        let x = problem.solve(&[1.0, 1.0], &mut [true; 2]).unwrap();
-        // Two divisions, each rounded once.
-        assert!(x.iter().all(|x| (x - 2.0).abs() <= 2.0 * f64::EPSILON), "{x:?}");
-    }
-
-    #[test]
-    fn what_is_no_problem_is_refused() {
-        assert_eq!(Problem::parse(""), None);
-        assert_eq!(Problem::parse(&HEADER.replace("N 2", "N 3")), None);
-        assert_eq!(Problem::parse(&HEADER.replace("1.0f", "one")), None);
-    }
 }

@@ -44,7 +44,7 @@ impl TimedSolver for ActiveSet<'_> {
                 Some(factor) => factor,
                 None => Factor::new(&quadratic.reference(tick))?,
             };
-            let solution = factor.solve(&data.load, &data.lower, guess)?;
+            let solution = factor.solve_between(&data.load, &data.lower, &data.spans, guess)?;
             Ok::<_, signorini_solve::reference::ReferenceError>((factor, solution))
         });
         let (factor, solution) = result.map_err(failed)?;

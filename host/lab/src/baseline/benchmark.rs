@@ -101,7 +101,7 @@ impl Benchmark<'_> {
             let osqp = move |manner| boxed(Osqp::new(program, quadratic, manner));
             manners.into_iter().map(move |(name, manner)| (name, osqp(manner)))
         });
-        once_with(|| ("Clarabel", boxed(Ok(Clarabel::new(quadratic))))).chain(programs)
+        once_with(|| ("Clarabel", boxed(Clarabel::new(quadratic)))).chain(programs)
     }
 
     fn sweeps<R: Scalar>(

@@ -5,7 +5,6 @@
 //! that distance from 2 to begin its search with. All grids are solved to the same residual; all of them
 //! and the prolongations are counted, the search for the coarse cells is not: it belongs to the meshes.
 
-use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::solve::prolongation::{Origin, prolong};
@@ -77,7 +76,7 @@ impl Level<'_> {
         omega: f64,
         tolerance: f64,
     ) -> std::result::Result<(f64, u32), KernelError> {
-        let system = self.system.with_data(&self.given.load, Law::above(&self.given.lower))?;
+        let system = self.system.with_data(&self.given.load, self.given.law()?)?;
         let unknowns = system.counts().unknowns();
         let mut fine = self.given.start.clone();
         if !self.origins.is_empty() {

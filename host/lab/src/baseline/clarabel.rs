@@ -1,7 +1,7 @@
 //! Clarabel, an interior-point method for cone programs.
 //!
 //! ```text
-//!   minimise ½ uᵀPu + qᵀu,  Au + s = b, s ≥ 0:   P = K, q = −b, A = −1 on the contact unknowns, b = −ψ
+//!   minimise ½ zᵀPz + qᵀz,  Az + s = b, s ≥ 0:   A = −C, b = −r, the rest as `program` has it
 //! ```
 //! An interior point cannot start from an old answer: warm, new q and b go into a solver whose memory,
 //! ordering and equilibration stand, and it iterates from its own start.
@@ -10,36 +10,37 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
 
 use super::failed;
-use super::quadratic::{Quadratic, QuadraticLoads};
+use super::program::{Columns, Program};
+use super::quadratic::Quadratic;
 use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
 use signorini_scene::error::Result;
 
 /// The solver on its problem.
 pub(super) struct Clarabel<'q> {
     quadratic: &'q Quadratic,
+    program: Program,
     matrix: CscMatrix<f64>,
     constraints: CscMatrix<f64>,
     solver: Option<DefaultSolver<f64>>,
 }
 
 impl<'q> Clarabel<'q> {
-    pub fn new(quadratic: &'q Quadratic) -> Self {
-        let (n, contact, free) = (quadratic.matrix.order(), quadratic.contact(), quadratic.free());
-        let (starts, rows, values) = quadratic.matrix.upper();
-        let ends = (0..=n).map(|column| column.saturating_sub(free)).collect();
-        let constraints =
-            CscMatrix::new(contact, n, ends, (0..contact).collect(), vec![-1.0; contact]);
-        let matrix = CscMatrix::new(n, n, starts, rows, values);
-        Self { quadratic, matrix, constraints, solver: None }
+    /// Takes the problem over.
+    ///
+    /// # Errors
+    /// As for [`Program::new`].
+    pub fn new(quadratic: &'q Quadratic) -> Result<Self> {
+        let program = Program::new(quadratic)?;
+        let columns = |rows, Columns { starts, rows: of, values }: Columns| {
+            CscMatrix::new(rows, starts.len() - 1, starts, of, values)
+        };
+        let matrix = columns(program.matrix.starts.len() - 1, program.matrix.clone());
+        let constraints = columns(program.count, program.constraints.negative());
+        Ok(Self { quadratic, program, matrix, constraints, solver: None })
     }
 }
 
-/// q and b.
-fn vectors(tick: &QuadraticLoads) -> [Vec<f64>; 2] {
-    [&tick.load, &tick.lower].map(|vector| vector.iter().map(|entry| -entry).collect())
-}
-
-pub(super) fn settings(tolerance: f64) -> DefaultSettings<f64> {
+fn settings(tolerance: f64) -> DefaultSettings<f64> {
     DefaultSettings {
         verbose: false,
         max_threads: 1,
@@ -54,8 +55,10 @@ pub(super) fn settings(tolerance: f64) -> DefaultSettings<f64> {
 
 impl TimedSolver for Clarabel<'_> {
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
-        let [q, b] = vectors(&self.quadratic.ticks[tick]);
-        let cones = [SupportedConeT::NonnegativeConeT(self.quadratic.contact())];
+        let tick = &self.quadratic.ticks[tick];
+        let q = self.program.cost(tick);
+        let b: Vec<f64> = self.program.least(tick).iter().map(|least| -least).collect();
+        let cones = [SupportedConeT::NonnegativeConeT(self.program.count)];
         let (matrix, constraints) = (&self.matrix, &self.constraints);
         let kept = self.solver.take().filter(|_| start == InitialGuess::Warm);
         let (cycles, solver) = counted(|| {
@@ -74,7 +77,9 @@ impl TimedSolver for Clarabel<'_> {
             Ok::<_, signorini_scene::error::Error>(solver)
         });
         let solver = solver?;
-        let (iterations, u) = (solver.solution.iterations, solver.solution.x.clone());
+        let mut u = solver.solution.x.clone();
+        u.truncate(tick.load.len());
+        let iterations = solver.solution.iterations;
         self.solver = Some(solver);
         Ok(Run { cycles, iterations, u })
     }

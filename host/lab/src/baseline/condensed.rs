@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   S = K_CC − K_CI K_II⁻¹ K_IC,   b̃ = b_C − K_CI K_II⁻¹ b_I,   x = (u_C − ψ)/d,   d_i = 1/√S_ii
-//!   minimise ½ xᵀŜx − b̂ᵀx over x ≥ 0,   Ŝ_ij = d_i S_ij d_j,   b̂ = d (b̃ − Sψ)
+//!   minimise ½ xᵀŜx − b̂ᵀx over x ≥ 0,   Ŝ_ij = d_i S_ij d_j,   b̂ = d (b̃ − Sψ),   m̂ = d m
 //! ```
 //! S comes from the reference factorisation, so that loads may be any: [`signorini_solve::condense`] takes patterns
 //! with inputs, and its matrix and loads are these, in the same order along the boundary. ‖x − x*‖_Ŝ is the energy distance of the full fields.
@@ -35,11 +35,20 @@ pub(super) fn condensed(
     for (tick, condensed) in full.ticks.iter().zip(condensed_loads(full)?) {
         let product = |i: usize| (0..n).map(|j| schur[(i, j)] * tick.lower[edges[j]]).sum::<f64>();
         let load = (0..n).map(|i| d[i] * (condensed[edges[i]] - product(i))).collect();
-        ticks.push(QuadraticLoads { load, lower: vec![0.0; n] });
+        let spans = match tick.spans.is_empty() {
+            true => Vec::new(),
+            false => (0..n).map(|i| d[i] * tick.span(edges[i])).collect(),
+        };
+        ticks.push(QuadraticLoads { load, lower: vec![0.0; n], spans });
     }
     let openings = full.answers.iter().zip(&full.ticks).map(|(u, tick)| {
-        let opening = |i: usize| u[free + edges[i]] - tick.lower[edges[i]];
-        (0..n).map(|i| (opening(i) / d[i]).max(0.0)).collect()
+        let opening = |i: usize| (u[free + edges[i]] - tick.lower[edges[i]]) / d[i];
+        let allowed = |i: usize| match tick.span(edges[i]) {
+            f64::INFINITY => opening(i).max(0.0),
+            f64::NEG_INFINITY => opening(i).min(0.0),
+            _ => opening(i),
+        };
+        (0..n).map(allowed).collect()
     });
     let answers = openings.collect();
     let held = edges.iter().map(|&edge| full.floating.get(edge) == Some(&true));
@@ -51,7 +60,7 @@ pub(super) fn condensed(
         multiplier: d.iter().map(|d| 1.0 / d).collect(),
         opening: d,
         load: vec![ticks[0].load.clone()],
-        spans: Vec::new(),
+        spans: Some(ticks[0].spans.clone()).filter(|spans| !spans.is_empty()).into_iter().collect(),
         limits: Vec::new(),
         defaults: vec![1.0],
         ranges: vec![[1.0, 1.0]],

@@ -30,6 +30,7 @@ impl<'p, R: Scalar> Full<'p, R> {
             ticks.push(TickLoads {
                 load: system.load().to_vec(),
                 lower: system.law().lower().to_vec(),
+                spans: system.law().spans().lengths().to_vec(),
                 dirichlet: assembled.dirichlet().to_vec(),
                 start: assembled.start(),
             });
@@ -55,7 +56,9 @@ pub(super) fn quadratic(
         assembled.set_loads(&moment.integrate(problem)?).map_err(failed)?;
         let reduced = Reduced::new(problem, parts, &assembled, &assembled.start());
         let Reduced { row_ptr, col_idx, values, load, floating: held } = reduced.map_err(failed)?;
-        ticks.push(QuadraticLoads { load, lower: assembled.law().lower().to_vec() });
+        let law = assembled.law();
+        let (lower, spans) = (law.lower().to_vec(), law.spans().lengths().to_vec());
+        ticks.push(QuadraticLoads::new(load, lower, spans));
         (matrix, floating) = (Matrix { row_ptr, col_idx, values }, held);
     }
     Quadratic::new(matrix, floating, ticks)

@@ -1,8 +1,9 @@
 //! What changes from tick to tick.
 //!
-//! * A scene with inputs: these are drawn within a tenth of their defaults, as for its firmware.
+//! * A scene with inputs: these are drawn within a tenth of their defaults, as for its firmware. One of a transfer coefficient
+//!   stays at its default: it changes the matrix, and all ticks have one.
 //! * One without: all its loads (f, u_D, g, ambient) take a factor c + s ξ, ξ in [−1, 1] across the domain, and
-//!   what contact asks for (ψ, q) another, c drawn from [0.9, 1.1] and s from [−0.4, 0.4]. One factor alone
+//!   what contact asks for (ψ, q, limits) another, c drawn from [0.9, 1.1] and s from [−0.4, 0.4]. One factor alone
 //!   would scale the answer and, without gap, leave the contact set.
 //! * A scene over time: its own t.
 
@@ -10,7 +11,7 @@ use std::sync::Arc;
 
 use signorini_bake::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Field, Scene};
 use signorini_solve::problem::{Loads, Problem};
 
 /// The tilt of loads at most, over the tenth by which inputs are drawn: less would leave the contact set of
@@ -24,7 +25,7 @@ pub(super) struct LoadCase {
     pub time: f64,
     /// Of f, u_D, g and the ambient.
     pub loads: Factor,
-    /// Of ψ and q.
+    /// Of ψ, q and limits.
     pub contact: f64,
 }
 
@@ -81,7 +82,9 @@ impl LoadCase {
         let drawn = drawn::<f64>(&spaces, ticks).map(|values| {
             let mut moment = here.clone();
             let inputs = Arc::make_mut(&mut moment.scene).inputs.iter_mut();
-            inputs.zip(values).for_each(|(input, value)| input.default = value);
+            let of_loads = inputs.zip(values);
+            let of_loads = of_loads.filter(|(input, _)| input.field.value != Field::Coefficient);
+            of_loads.for_each(|(input, value)| input.default = value);
             moment
         });
         drawn.collect()
@@ -109,7 +112,8 @@ impl LoadCase {
         given.for_each(|(at, value)| *value *= on_edge(first + at));
         loads.neumann.iter_mut().for_each(|record| record.flux *= on_edge(record.edge as usize));
         loads.robin.iter_mut().for_each(|record| record.ambient *= on_edge(record.edge as usize));
-        let of_contact = loads.gap.iter_mut().chain(&mut loads.contact_flux);
+        let of_contact =
+            loads.gap.iter_mut().chain(&mut loads.contact_flux).chain(&mut loads.spans);
         of_contact.for_each(|value| *value *= self.contact);
         Ok(loads)
     }

@@ -19,6 +19,7 @@ mod full;
 mod load_case;
 mod osqp;
 mod pivots;
+mod program;
 mod psor;
 mod quadratic;
 pub mod record;
@@ -51,8 +52,8 @@ const SHARE: f64 = 0.01;
 /// why, and how long condensing takes.
 ///
 /// Warm ticks have inputs within a tenth of their defaults; a scene without inputs has its loads multiplied
-/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q) by another 1 ± 0.1. In
-/// most scenes the contact set moves by that.
+/// by 1 ± 0.1 and tilted by ± 0.4 across the domain, and what contact asks for (ψ, q, limits) by another 1 ± 0.1.
+/// In most scenes the contact set moves by that.
 ///
 /// # Errors
 /// A problem without a solution. A problem that the others cannot treat, or a solver that fails, is a remark.

@@ -4,10 +4,11 @@
 //! runs inside a checkout. One line of JSON hands the problem over, then one line asks for each solve and
 //! one answers:
 //! ```text
-//!   → {"starts", "rows", "values", "contact", "ticks": [{"load", "lower"}, …]}
+//!   → {"matrix": {"starts", "rows", "values"}, "constraints": the same, "ticks": [{"cost", "least"}, …]}
 //!   → {"tick", "cold", "tolerance", "manner"}
-//!   ← {"cycles", "iterations", "u" or null}
+//!   ← {"cycles", "iterations", "z" or null}
 //! ```
+//! The problem is the one of `program`.
 
 use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -20,6 +21,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::failed;
+use super::program::{Columns, Program};
 use super::quadratic::Quadratic;
 use super::timed_solver::{InitialGuess, Run, TimedSolver};
 use crate::checkout::root;
@@ -52,18 +54,16 @@ fn build() -> std::result::Result<PathBuf, String> {
 }
 
 #[derive(Serialize)]
-struct Data<'a> {
-    load: &'a [f64],
-    lower: &'a [f64],
+struct Data {
+    cost: Vec<f64>,
+    least: Vec<f64>,
 }
 
 #[derive(Serialize)]
 struct Problem<'a> {
-    starts: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-    contact: usize,
-    ticks: Vec<Data<'a>>,
+    matrix: &'a Columns,
+    constraints: &'a Columns,
+    ticks: Vec<Data>,
 }
 
 #[derive(Serialize)]
@@ -93,7 +93,7 @@ struct OsqpAnswer {
     cycles: f64,
     iterations: u32,
     /// `None` where it has none.
-    u: Option<Vec<f64>>,
+    z: Option<Vec<f64>>,
 }
 
 /// Longer than any answer takes by a factor of thousands (the longest in the record is 0.06 s): who is silent that long hangs.
@@ -103,6 +103,8 @@ const LIMIT: Duration = Duration::from_secs(300);
 pub(super) struct Osqp {
     manner: Manner,
     limit: Duration,
+    /// How many entries of z are u.
+    unknowns: usize,
     child: Mutex<Child>,
     questions: BufWriter<ChildStdin>,
     answers: BufReader<ChildStdout>,
@@ -127,11 +129,13 @@ impl Osqp {
             return Err(failed("OSQP's process has no pipes"));
         };
         let (questions, answers) = (BufWriter::new(questions), BufReader::new(answers));
-        let mut osqp = Self { manner, limit, child: Mutex::new(child), questions, answers };
-        let (starts, rows, values) = quadratic.matrix.upper();
+        let (unknowns, child) = (quadratic.matrix.order(), Mutex::new(child));
+        let mut osqp = Self { manner, limit, unknowns, child, questions, answers };
+        let all = Program::new(quadratic)?;
         let ticks = quadratic.ticks.iter();
-        let ticks = ticks.map(|tick| Data { load: &tick.load, lower: &tick.lower }).collect();
-        let problem = Problem { starts, rows, values, contact: quadratic.contact(), ticks };
+        let ticks = ticks.map(|tick| Data { cost: all.cost(tick), least: all.least(tick) });
+        let (matrix, constraints) = (&all.matrix, &all.constraints);
+        let problem = Problem { matrix, constraints, ticks: ticks.collect() };
         within(limit, &osqp.child, || say(&mut osqp.questions, &problem))?;
         Ok(osqp)
     }
@@ -177,9 +181,10 @@ impl TimedSolver for Osqp {
             let mut line = String::new();
             answers.read_line(&mut line).map(|_| line).map_err(failed)
         })?;
-        let OsqpAnswer { cycles, iterations, u } =
+        let OsqpAnswer { cycles, iterations, z } =
             serde_json::from_str(&line).map_err(|error| failed(format!("OSQP: {error}")))?;
-        let u = u.ok_or_else(|| failed(format!("no answer after {iterations} iterations")))?;
+        let mut u = z.ok_or_else(|| failed(format!("no answer after {iterations} iterations")))?;
+        u.truncate(self.unknowns);
         Ok(Run { cycles, iterations, u })
     }
 

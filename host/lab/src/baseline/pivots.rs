@@ -3,6 +3,7 @@
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::device::condensed::method::{Method, Pivots as Exchanges, SolveSummary};
 use signorini_kernel::device::limits::Deadline;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::solve::dense::ranges::Given;
@@ -23,6 +24,8 @@ const WORK: Work = Work { pivots: Some(100_000), sweeps: 100_000 };
 pub(super) struct Pivots<R: Scalar> {
     baked: Baked<R>,
     loads: Vec<Vec<R>>,
+    /// Nothing in a tick without limits.
+    spans: Vec<Vec<R>>,
     x: Vec<R>,
     residual: Vec<R>,
     scratch: Vec<R>,
@@ -37,14 +40,15 @@ impl<R: Scalar> Pivots<R> {
         let baked = Baked::new(condensate, WORK, false).map_err(failed)?;
         let n = padded(condensate.contact);
         let zeros = || vec![R::ZERO; n];
-        let narrowed = |tick: &QuadraticLoads| {
-            let mut load: Vec<R> = tick.load.iter().map(|&b| R::narrow(b)).collect();
-            load.resize(n, R::ZERO);
-            load
+        let narrowed = |numbers: &[f64]| {
+            let mut numbers: Vec<R> = numbers.iter().map(|&number| R::narrow(number)).collect();
+            numbers.resize(if numbers.is_empty() { 0 } else { n }, R::ZERO);
+            numbers
         };
         Ok(Self {
             baked,
-            loads: ticks.iter().map(narrowed).collect(),
+            loads: ticks.iter().map(|tick| narrowed(&tick.load)).collect(),
+            spans: ticks.iter().map(|tick| narrowed(&tick.spans)).collect(),
             x: zeros(),
             residual: zeros(),
             scratch: zeros(),
@@ -61,7 +65,8 @@ impl<R: Scalar> Pivots<R> {
         tick: usize,
         start: InitialGuess,
     ) -> std::result::Result<(f64, SolveSummary), KernelError> {
-        let Self { baked, loads, x, residual, scratch, open, blocks, exchanged, columns } = self;
+        let Self { baked, loads, spans, x, residual, scratch, open, blocks, exchanged, columns } =
+            self;
         let (sweeps, [column, next]) = (baked.sweeps, columns);
         let nothing = vec![false; exchanged.len()];
         baked.with_model(|model| {
@@ -76,7 +81,8 @@ impl<R: Scalar> Pivots<R> {
                 let iterate = Iterate { x, residual, scratch, open };
                 let most = WORK.pivots.unwrap_or(0);
                 let mut method = Exchanges { tableau, start: begin, most, sweeps };
-                method.solve(&matrix, Given::above(&loads[tick]), iterate, &mut Deadline::never())
+                let given = Given::between(&loads[tick], Spans::baked(&spans[tick], R::ZERO), &[]);
+                method.solve(&matrix, given, iterate, &mut Deadline::never())
             });
             progress.map(|progress| (cycles, progress))
         })

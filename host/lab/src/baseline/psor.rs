@@ -3,6 +3,7 @@
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{Row, Rows};
 use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::flux_range::Spans;
 use signorini_kernel::solve::Relaxation;
 use signorini_kernel::solve::solver::{Outcome, Settings, Solver};
 
@@ -21,10 +22,22 @@ const TRIAL: f64 = 1e-6;
 pub(super) struct TickLoads<R> {
     pub load: Vec<R>,
     pub lower: Vec<R>,
+    /// How far it is to the other end of each flux; nothing where none has a limit.
+    pub spans: Vec<R>,
     /// Given values, behind the unknowns in u.
     pub dirichlet: Vec<R>,
     /// Where a cold start begins.
     pub start: Vec<R>,
+}
+
+impl<R: Scalar> TickLoads<R> {
+    /// The law on the contact edges.
+    ///
+    /// # Errors
+    /// Spans that are no numbers.
+    pub fn law(&self) -> std::result::Result<Law<'_, R>, signorini_kernel::Error> {
+        Ok(Law::above(&self.lower).with_spans(Spans::new(&self.spans)?))
+    }
 }
 
 /// Sweeps over rows of `WIDTH` entries.
@@ -75,8 +88,8 @@ impl<'a, R: Scalar, const WIDTH: usize> Psor<'a, R, WIDTH> {
 impl<R: Scalar, const WIDTH: usize> TimedSolver for Psor<'_, R, WIDTH> {
     fn run(&mut self, tick: usize, start: InitialGuess, tolerance: f64) -> Result<Run> {
         let given = &self.ticks[tick];
-        let system =
-            self.system.with_data(&given.load, Law::above(&given.lower)).map_err(failed)?;
+        let law = given.law().map_err(failed)?;
+        let system = self.system.with_data(&given.load, law).map_err(failed)?;
         let relaxation = self.relaxation(start);
         let unknowns = system.counts().unknowns();
         let (rows, u) = (&mut self.rows, &mut self.u);

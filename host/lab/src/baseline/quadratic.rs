@@ -2,7 +2,10 @@
 //!
 //! ```text
 //!   minimise ½ uᵀKu − b(t)ᵀu   over u_i ≥ ψ_i(t) on the last n_c unknowns,   t = 0, 1, 2, …
+//!                              with limits at the cost m_i(t) max(ψ_i − u_i, 0) instead
 //! ```
+//! m_i ≥ 0 is how far it is from the least flux, which b contains, to the limit; where there is no least flux m_i = −∞, and
+//! u_i ≤ ψ_i.
 //! Their answers are known beforehand, from the host's active set at full accuracy: the error of a
 //! solver is ‖u − u*‖_K, which is the energy distance ‖A^½∇_h(u − u*)‖ of the fields.
 
@@ -35,6 +38,27 @@ pub(super) struct QuadraticLoads {
     pub load: Vec<f64>,
     /// ψ of the contact unknowns, which come last.
     pub lower: Vec<f64>,
+    /// m of the contact unknowns; nothing where all are ∞.
+    pub spans: Vec<f64>,
+}
+
+impl QuadraticLoads {
+    /// With spans of either sign, those of the ends that `load` contains; where such an end is the limit and the other one
+    /// finite, the load contains that one afterwards.
+    pub fn new(mut load: Vec<f64>, lower: Vec<f64>, mut spans: Vec<f64>) -> Self {
+        let free = load.len() - lower.len();
+        for (load, span) in load[free..].iter_mut().zip(&mut spans) {
+            if *span < 0.0 && span.is_finite() {
+                (*load, *span) = (*load + *span, -*span);
+            }
+        }
+        Self { load, lower, spans }
+    }
+
+    /// m of a contact unknown.
+    pub fn span(&self, contact: usize) -> f64 {
+        self.spans.get(contact).copied().unwrap_or(f64::INFINITY)
+    }
 }
 
 impl Matrix {
@@ -92,7 +116,7 @@ impl Quadratic {
         let mut quadratic = Self { matrix, ticks, answers: Vec::new(), floating };
         let factor = Factor::new(&quadratic.reference(0)).map_err(failed)?;
         for tick in &quadratic.ticks {
-            match factor.solve(&tick.load, &tick.lower, None) {
+            match factor.solve_between(&tick.load, &tick.lower, &tick.spans, None) {
                 Ok(solution) => quadratic.answers.push(solution.u),
                 Err(error) if quadratic.answers.is_empty() => return Err(failed(error)),
                 Err(_) => break,
@@ -117,7 +141,7 @@ impl Quadratic {
             col_idx: &self.matrix.col_idx,
             values: &self.matrix.values,
             load: &self.ticks[tick].load,
-            spans: &[],
+            spans: &self.ticks[tick].spans,
             lower: &self.ticks[tick].lower,
             floating: &self.floating,
         }

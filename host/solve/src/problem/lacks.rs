@@ -130,8 +130,10 @@ impl Approach {
                 FullModel | Modes | Tick | Factor | Baselines => None,
             },
             Property::Limit => match self {
-                Export | Baselines => Some(two_sides),
-                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks => None,
+                Export => Some(two_sides),
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Baselines => {
+                    None
+                }
             },
         }
     }
@@ -209,8 +211,7 @@ fn changes_matrix(problem: &Problem, message: &str) -> InputError {
 /// Contact with two sides.
 fn two_sides(problem: &Problem) -> InputError {
     let scene = &problem.scene;
-    let message =
-        "the flux of contact has a limit, which test data and other solvers know nothing of";
+    let message = "the flux of contact has a limit, which test data know nothing of";
     let refusal = match scene.limited() {
         Some(boundary) => scene.error(&boundary.name, message),
         None => InputError::new(message).file(&scene.path),

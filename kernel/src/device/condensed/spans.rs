@@ -140,9 +140,10 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         Ok(())
     }
 
-    /// The spans that [`SpanColumns::combine`] has worked out last.
+    /// The spans that the last tick with this `buffer` has worked out, or those that no input changes; `padded` is
+    /// [`crate::solve::dense::blocks::padded`] of the contact edges.
     #[inline(always)]
-    pub(super) fn of<'s>(&self, padded: usize, buffer: &'s SpanBuffer<'_, R>) -> Spans<'s, R>
+    pub fn of<'s>(&self, padded: usize, buffer: &'s SpanBuffer<'_, R>) -> Spans<'s, R>
     where
         'a: 's,
     {

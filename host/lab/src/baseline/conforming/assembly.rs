@@ -91,7 +91,7 @@ pub(super) fn data(
     let mut start = vec![mean; counts.free];
     start.extend(&lower);
     start.extend(&dirichlet);
-    Ok(TickLoads { load, lower, dirichlet, start })
+    Ok(TickLoads { load, lower, spans: Vec::new(), dirichlet, start })
 }
 
 fn add_source(

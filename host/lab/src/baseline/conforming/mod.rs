@@ -21,7 +21,7 @@ use super::psor::{Psor, TickLoads};
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use super::timed_solver::Contest;
 use crate::baseline::record::{Baseline, PointError};
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
 use signorini_solve::problem::{EdgeKind, Parts, Problem};
 use vertices::Vertices;
 
@@ -46,12 +46,15 @@ impl Conforming {
     /// The scene of `problem` as it stands on its triangles.
     ///
     /// # Errors
-    /// Data that are not finite; a problem without a solution.
+    /// Data that are not finite; a problem without a solution; a flux with a limit.
     pub fn new(problem: &Problem) -> Result<Self> {
         Self::over(problem, &[LoadCase::at(&problem.scene, problem.time)])
     }
 
     pub(super) fn over(problem: &Problem, moments: &[LoadCase]) -> Result<Self> {
+        if problem.scene.limited().is_some() {
+            return Err(InputError::new("fluxes with limits are left out").into());
+        }
         let mut problem = Problem::new(&problem.scene, mesh::cut(&problem.mesh))?;
         problem.set_time(moments[0].time)?;
         let vertices = Vertices::of(&problem);
@@ -67,8 +70,10 @@ impl Conforming {
         let ticks = ticks?;
         let (reduced, loads) = reduce(&matrix, vertices.counts.unknowns(), &ticks);
         let data = loads.into_iter().zip(&ticks);
-        let data =
-            data.map(|(load, given)| QuadraticLoads { load, lower: given.lower.clone() }).collect();
+        let quadratic = |(load, given): (Vec<f64>, &TickLoads<f64>)| {
+            QuadraticLoads::new(load, given.lower.clone(), Vec::new())
+        };
+        let data = data.map(quadratic).collect();
         let parts = Parts::examine(&problem)?;
         let floating = floating(&problem, &parts, &vertices)?;
         let (quadratic, _) = Quadratic::new(reduced, floating, data)?;

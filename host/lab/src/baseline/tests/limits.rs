@@ -1,100 +1,123 @@
-//! Clarabel on problems whose fluxes have limits: it agrees with the kernel.
-//!
-//! ```text
-//!   minimise ½ uᵀKu − bᵀu + Σ |m_i| s_i   over s_i ≥ 0,     m_i > 0:  u_i + s_i ≥ ψ_i     m_i < 0:  u_i − s_i ≤ ψ_i
-//! ```
-//! Its multipliers are w = Ku − b between 0 and m_i. Without a finite m_i there is no s_i, and u_i ≥ ψ_i or u_i ≤ ψ_i.
+//! Everybody on problems whose fluxes have limits: answers are those of the kernel's solve, and of each other.
 
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSolver, IPSolver, SupportedConeT};
 use std::path::PathBuf;
 
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::solve::{Options, Reduced, SolverKind, solve};
-use signorini_tolerances::lab::CLARABEL_LIMITED;
+use signorini_solve::problem::{Parts, Problem};
+use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
 
-use super::super::clarabel::settings;
-use super::super::quadratic::Matrix;
+use super::super::benchmark::Benchmark;
+use super::super::clarabel::Clarabel;
+use super::super::condensed::condensed;
+use super::super::discretisation_error;
+use super::super::full::quadratic;
+use super::super::load_case::LoadCase;
+use super::super::program::Program;
+use super::super::quadratic::{Matrix, Quadratic, QuadraticLoads};
+use super::super::timed_solver::{InitialGuess, TimedSolver};
 
-/// Rows A z ≤ b.
-#[derive(Default)]
-struct Rows {
-    entries: [Vec<usize>; 2],
-    values: Vec<f64>,
-    most: Vec<f64>,
+fn problem(name: &str) -> Result<Problem> {
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
+    let scene = Scene::read(&root.join(format!("{name}.toml")))?;
+    Problem::new(&scene, gmsh::read(&scene.mesh.value)?)
 }
 
-impl Rows {
-    fn push(&mut self, row: &[(usize, f64)], most: f64) {
-        for &(column, value) in row {
-            self.entries[0].push(self.most.len());
-            self.entries[1].push(column);
-            self.values.push(value);
-        }
-        self.most.push(most);
+/// The unknowns one by one, relative to the largest.
+fn check(name: &str, found: &[f64], u: &[f64]) {
+    assert_eq!(found.len(), u.len(), "{name}");
+    let size = u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    for (at, (found, u)) in found.iter().zip(u).enumerate() {
+        CLARABEL_LIMITED.check(format_args!("{name} {at}"), (found - u) / size);
     }
-}
-
-/// u of the unknowns, by Clarabel; `lower` and `spans` are those of the last of them.
-fn by_clarabel(matrix: &Matrix, load: &[f64], lower: &[f64], spans: &[f64]) -> Vec<f64> {
-    let (n, free) = (load.len(), load.len() - lower.len());
-    let (mut rows, mut costs) = (Rows::default(), Vec::new());
-    for (at, (&gap, &span)) in lower.iter().zip(spans).enumerate().filter(|(_, (_, m))| **m != 0.0)
-    {
-        let sign = -span.signum();
-        let mut row = vec![(free + at, sign)];
-        if span.is_finite() {
-            let slack = n + costs.len();
-            costs.push(span.abs());
-            row.push((slack, -1.0));
-            rows.push(&[(slack, -1.0)], 0.0);
-        }
-        rows.push(&row, sign * gap);
-    }
-    let all = n + costs.len();
-    let (mut starts, of_rows, values) = matrix.upper();
-    starts.resize(all + 1, values.len());
-    let q: Vec<f64> = load.iter().map(|b| -b).chain(costs).collect();
-    let [of, columns] = rows.entries;
-    let (count, settings) = (rows.most.len(), settings(1e-12));
-    let constraints = CscMatrix::new_from_triplets(count, all, of, columns, rows.values);
-    let matrix = CscMatrix::new(all, all, starts, of_rows, values);
-    let cones = [SupportedConeT::NonnegativeConeT(count)];
-    let mut solver = DefaultSolver::new(&matrix, &q, &constraints, &rows.most, &cones, settings)
-        .expect("a cone");
-    solver.solve();
-    solver.solution.x[..n].to_vec()
 }
 
 #[test]
 fn clarabel_agrees_where_fluxes_have_limits() -> Result<()> {
-    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
     for name in ["limits/l-tri", "limits/l-quad", "scenes/antiicing"] {
-        let scene = Scene::read(&root.join(format!("{name}.toml")))?;
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
-        let parts = Parts::examine(&problem)?;
-        let assembled = Assembled::<f64>::new(&problem).expect("arrays that fit");
-        let reduced =
-            Reduced::new(&problem, &parts, &assembled, &assembled.start()).expect("spans");
-        let Reduced { row_ptr, col_idx, values, load, .. } = reduced;
-        let (matrix, law) = (Matrix { row_ptr, col_idx, values }, assembled.law());
-        let (lower, spans) = (law.lower(), law.spans().lengths());
-        let found = by_clarabel(&matrix, &load, lower, spans);
+        let problem = problem(name)?;
+        let here = [LoadCase::at(&problem.scene, problem.time)];
+        let (full, factor) = quadratic(&problem, &Parts::examine(&problem)?, &here)?;
         let solution =
             solve(&problem, &Options { solver: SolverKind::Kernel, ..Options::default() })?;
-        let u = &solution.u[..load.len()];
-        let states: Vec<_> = u[load.len() - lower.len()..].iter().zip(lower).collect();
+        let u = &solution.u[..full.matrix.order()];
+        let states: Vec<_> = u[full.free()..].iter().zip(&full.ticks[0].lower).collect();
         assert!(
             states.iter().any(|(u, gap)| u < gap) && states.iter().any(|(u, gap)| u > gap),
             "{name}"
         );
-        let size = u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-        for (at, (found, u)) in found.iter().zip(u).enumerate() {
-            CLARABEL_LIMITED.check(format_args!("{name} {at}"), (found - u) / size);
-        }
+        check(name, &full.answers[0], u);
+        check(name, &Clarabel::new(&full)?.run(0, InitialGuess::Cold, 1e-12)?.u, u);
+        let (condensed, _) = condensed(&problem, &full, &factor)?;
+        let found = Clarabel::new(&condensed)?.run(0, InitialGuess::Cold, 1e-12)?.u;
+        check(name, &found, &condensed.answers[0]);
     }
+    Ok(())
+}
+
+/// Answers are compared inside, as without limits.
+#[test]
+fn all_solvers_follow_limits_from_tick_to_tick() -> Result<()> {
+    for name in ["limits/l-tri", "scenes/antiicing"] {
+        let (problem, mut notes) = (problem(name)?, Vec::new());
+        let moments = LoadCase::drawn(&problem, 3);
+        let (full, _) = quadratic(&problem, &Parts::examine(&problem)?, &moments)?;
+        let size = full.distance(0, &vec![0.0; full.matrix.order()]);
+        let found = Benchmark {
+            problem: &problem,
+            moments: &moments,
+            target: 1e-2 * discretisation_error(&problem, &mut notes)?,
+            osqp: None,
+            coarser: &[],
+        }
+        .hold(&mut notes)?;
+        assert!(found.iter().all(|b| b.algebraic_error <= b.target), "{name}: {found:?}");
+        // Sweeps in two scalars, each with two ω, the active set with and without its factor, Clarabel; and condensed
+        // Clarabel and exchanges in two scalars: all of them cold and warm.
+        assert_eq!(found.len(), 2 * 10, "{name}: {found:?}");
+        let left_out = notes.iter().filter(|note| !note.starts_with("condensing"));
+        let left_out: Vec<_> = left_out.collect();
+        assert_eq!(left_out, ["conforming P1: fluxes with limits are left out"], "{name}");
+        let exact = found.iter().filter(|b| b.solver == "kernel pivoting f64");
+        exact.for_each(|b| PIVOTING_LIMITED.check_over(name, b.algebraic_error, size));
+    }
+    Ok(())
+}
+
+/// K = (2, −1; −1, 2) with both unknowns in contact.
+fn small(spans: [f64; 2]) -> Result<Quadratic> {
+    let mut matrix = Matrix::new();
+    matrix.push_row([(0, 2.0), (1, -1.0)].into_iter());
+    matrix.push_row([(0, -1.0), (1, 2.0)].into_iter());
+    let tick = QuadraticLoads::new(vec![-3.0, 1.0], vec![0.0, -1.0], spans.to_vec());
+    Ok(Quadratic::new(matrix, Vec::new(), vec![tick])?.0)
+}
+
+#[test]
+fn a_slack_stands_where_there_is_a_limit() -> Result<()> {
+    let quadratic = small([1.5, f64::NEG_INFINITY])?;
+    let program = Program::new(&quadratic)?;
+    // u₁ + s ≥ 0,  −u₂ ≥ 1,  s ≥ 0.
+    assert_eq!(program.constraints.starts, [0, 1, 2, 4]);
+    assert_eq!(program.constraints.rows, [0, 1, 0, 2]);
+    assert_eq!(program.constraints.values, [1.0, -1.0, 1.0, 1.0]);
+    assert_eq!(program.matrix.starts, [0, 1, 3, 3]);
+    let tick = &quadratic.ticks[0];
+    assert_eq!(program.cost(tick), [3.0, -1.0, 1.5]);
+    assert_eq!(program.least(tick), [0.0, 1.0, 0.0]);
+    // At its limit 2u₁ − u₂ = −3 + 1.5; the other one touches, with λ₂ = 1.25 − 2 − 1 < 0.
+    assert_eq!(quadratic.answers[0], [-1.25, -1.0]);
+    Ok(())
+}
+
+#[test]
+fn a_limit_in_the_load_changes_ends() -> Result<()> {
+    // b₁ = −3 with −1.5 to the other end is b₁ = −4.5 with 1.5.
+    let tick = &small([-1.5, 0.0])?.ticks[0];
+    assert_eq!((&tick.load[..], &tick.spans[..]), (&[-4.5, 1.0][..], &[1.5, 0.0][..]));
+    // A given flux has neither row nor slack.
+    assert_eq!(Program::new(&small([-1.5, 0.0])?)?.count, 2);
     Ok(())
 }

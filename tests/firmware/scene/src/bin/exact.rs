@@ -22,6 +22,9 @@ use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SYSTEM};
 const PADDED: usize = padded(CONTACT);
 const TICKS: u32 = 1000;
 
+/// The peers know of limits that stay alone.
+const _: () = assert!(SYSTEM.spans.buffered(PADDED) == 0);
+
 /// x, loads and the tableau.
 struct Memory {
     storage: ArrayStorage<f32, PADDED, 0>,
@@ -72,6 +75,7 @@ fn load(inputs: &[f32; INPUTS], memory: &mut Memory) {
 fn solve(memory: &mut Memory) -> Result<(), Error> {
     let matrix = SYSTEM.matrix()?;
     let lent = memory.storage.memory(&SYSTEM);
+    let given = Given::between(lent.load, SYSTEM.spans.of(PADDED, &lent.spans), &[]);
     let mut method = memory.tableau.two_phases(&SYSTEM)?;
-    method.solve(&matrix, Given::above(lent.load), lent.iterate, &mut Deadline::never()).map(|_| ())
+    method.solve(&matrix, given, lent.iterate, &mut Deadline::never()).map(|_| ())
 }
