@@ -315,9 +315,6 @@ fn committed_recommendations_keep_their_promise() {
     assert!(kept >= 30, "{kept}");
 }
 
-/// Studied once a condensed model takes its limits: without one half of the settings are refused.
-const NOT_STUDIED: [&str; 1] = ["antiicing"];
-
 #[test]
 fn every_standard_scene_is_in_the_record() {
     let mut scenes = Vec::new();
@@ -329,7 +326,6 @@ fn every_standard_scene_is_in_the_record() {
             }
         }
     }
-    scenes.retain(|name| !NOT_STUDIED.contains(&name.as_str()));
     scenes.sort();
     for target in ["host", "m4f"] {
         let record = recorded(target);

@@ -77,6 +77,8 @@ table! {
         "quadrature of lifts in triangles";
     MODES_OUTPUTS: "outputs of a model of modes against the direct solver, over the largest flux", 1e-13,
         "rounding times the condition of the mesh";
+    CARRIED: "an affine u carried to a finer mesh, its mean over an edge", 2e-12,
+        "a residual of 1e-13 of the range of u, 6, times the condition of a small mesh";
     TRANSFER: "a wall with a transfer coefficient that an input sets, against its resistances in series", 3e-12,
         "u is affine, and exact in the elements: sweeps end at 4√n ε = 1e-14 of its size 2, times the condition of a small mesh, 100";
     DUVAUT: "a wall above a heater with a limit, against its closed form", 1e-11,

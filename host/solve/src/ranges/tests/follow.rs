@@ -132,7 +132,7 @@ fn solutions_outputs_and_sides_are_enclosed() -> Result<()> {
                     found.pieces
                 );
                 // Of force, flux and mean, where they move at all; lengths are seen at few edges.
-                let is_sharp = |&width: &f64| width < 1.2 || width > 1e9;
+                let is_sharp = |&width: &f64| !(1.2..=1e9).contains(&width);
                 assert!(widths[..3].iter().all(is_sharp), "{widths:?}");
                 sides.iter().zip(&mut counts).for_each(|(count, sum)| *sum += count);
             }
