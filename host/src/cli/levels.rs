@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::solve::picture;
+use super::picture::picture;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;

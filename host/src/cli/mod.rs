@@ -6,6 +6,7 @@ mod export;
 mod extremes;
 mod honoured;
 mod levels;
+mod picture;
 mod scene_arguments;
 mod solve;
 mod tick;

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::levels;
+use super::picture::picture;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::engine;
 use signorini_scene::error::{Error, InputError, Result};
@@ -12,14 +13,13 @@ use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::adaptive::{Goal, Wanted};
 use signorini_solve::energy_norm;
-use signorini_solve::field::CellField;
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::contact::contact;
 use signorini_solve::output::digits::{percent_above, rounded, supported};
 use signorini_solve::output::edges::edges_csv;
 use signorini_solve::output::summary::Summary;
-use signorini_solve::output::vtu::{Field, contact_vtu, vtu};
+use signorini_solve::output::vtu::contact_vtu;
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -204,23 +204,6 @@ impl Arguments {
             max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
         }
     }
-}
-
-/// `solution.vtu` of a solution.
-pub(super) fn picture(problem: &Problem, solution: &Solution) -> String {
-    let mesh = &problem.mesh;
-    let cells = 0..mesh.triangles.len() + mesh.quads.len();
-    let fields: Vec<_> =
-        cells.map(|cell| CellField::new(problem, cell, &solution.u, &solution.flux)).collect();
-    vtu(&Field {
-        vertices: &mesh.vertices,
-        triangles: &mesh.triangles,
-        quads: &mesh.quads,
-        cell_u: &fields.iter().map(CellField::mean).collect::<Vec<_>>(),
-        cell_flux: &fields.iter().map(CellField::middle_flux).collect::<Vec<_>>(),
-        region: &problem.binding.materials,
-        vertex_u: &solution.certified.vertices,
-    })
 }
 
 fn report(

@@ -17,7 +17,7 @@ const EVEN: f64 = 0.2;
 /// What refinement takes of the square of a smooth cell's indicator.
 const TAKEN: f64 = 0.75;
 /// The least part of the cells that a level marks, so that few levels are solved: all together cost little more than the last.
-const FEWEST: f64 = 0.1;
+const FEWEST: f64 = 0.03;
 /// The same of a level that is to be the last.
 const FEWEST_AT_LAST: f64 = 0.02;
 /// The goal is aimed at from below, since not all cells are smooth.
