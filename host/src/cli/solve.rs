@@ -62,7 +62,7 @@ pub struct Arguments {
     max_sweeps: Option<u32>,
     /// Refine the mesh where the error bound says, until the bound is at most this: an energy norm, or with % a part of that of
     /// the solution. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
-    #[arg(long, value_name = "E", value_parser = Goal::parse, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", value_parser = Goal::parse, allow_hyphen_values = true)]
     max_error: Option<Goal>,
     /// With --max-error: no mesh with more unknowns is solved on
     #[arg(long, value_name = "N", requires = "max_error", default_value_t = 1_000_000)]

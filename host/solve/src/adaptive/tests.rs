@@ -93,8 +93,9 @@ gradient = [\"({q}-{p})/sqrt(2)\", \"(-{q}-{p})/sqrt(2)\"]
 
 #[test]
 fn the_bound_falls_as_it_would_without_the_corner() {
-    for cells in KINDS {
-        let goal = Goal::Part(0.012);
+    // Quads are better than triangles, and take longer to show their rate.
+    for (cells, part) in KINDS.into_iter().zip([0.012, 0.008, 0.012]) {
+        let goal = Goal::Part(part);
         let (levels, last, stop) = levels(&singular(), corner(4, cells), &wanted(goal));
         assert_eq!(stop, Stop::Reached);
         let rates: Vec<f64> = levels.iter().map(|[n, bound]| bound * n.sqrt()).collect();
