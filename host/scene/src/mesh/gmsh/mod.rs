@@ -6,7 +6,7 @@
 //! The sections may come in any order after `$MeshFormat`; those of no interest are passed over.
 //! Points are ignored, lines matter in a physical curve only, vertices without a cell are dropped,
 //! clockwise cells are turned round. A cell listed once for each of its physical surfaces is one
-//! cell; listed twice for the same one it is an error. [`write`](self::write) makes a file of a mesh.
+//! cell; listed twice for the same one it is an error. [`mod@write`] makes a file of a mesh.
 
 mod build;
 mod cells;
