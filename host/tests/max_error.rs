@@ -64,13 +64,49 @@ fn what_is_not_reached_has_status_3_and_all_files() {
     let output = solve(&levee(), folder.path(), &["--max-error", "1%", "--max-unknowns", "2500"]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("more than 2500 unknowns") && said.contains("--max-unknowns"), "{said}");
+    assert!(
+        said.contains("the next mesh has") && said.contains("--max-unknowns allows less"),
+        "{said}"
+    );
     let rows = levels(folder.path());
     let unknowns: usize = rows[rows.len() - 1][1].parse().expect("a number");
     assert!(unknowns <= 2500, "{rows:?}");
+    let summary = text(&folder.path().join("summary.json"));
+    assert!(summary.contains("--max-unknowns allows less"), "{summary}");
     for name in ["edges.csv", "summary.json", "solution.vtu", "refined.msh", "levels.pvd"] {
         assert!(folder.path().join(name).exists(), "{name}");
     }
+}
+
+/// Ctrl-C ends it after the level at hand, with the files of that.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_the_files_of_its_last_level() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path();
+    // Levels of an earlier run that went further.
+    std::fs::create_dir_all(out.join("levels")).expect("a folder");
+    (0..40).for_each(|at| {
+        std::fs::write(out.join(format!("levels/{at:02}.vtu")), "").expect("a file")
+    });
+    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+    command.arg("solve").arg(levee()).arg("--out").arg(out).args(["--max-error", "0.01%"]);
+    command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
+    let child = command.spawn().expect("the binary runs");
+    while std::fs::metadata(out.join("levels/02.vtu")).expect("a file").len() == 0 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let stop = Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+    assert!(stop.expect("kill").success());
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("interrupted"), "{said}");
+    let (rows, [total, _]) = (levels(out), bounds(out));
+    let last: f64 = rows[rows.len() - 1][3].parse().expect("a number");
+    assert_eq!(last, total);
+    let files = std::fs::read_dir(out.join("levels")).expect("a folder").count();
+    assert_eq!(files, rows.len());
 }
 
 #[test]

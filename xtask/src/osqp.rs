@@ -4,6 +4,7 @@
 
 use std::process::{Command, ExitCode};
 
+use crate::steps::Steps;
 use crate::wide::widened;
 use signorini_image::cargo::{cargo, run, target_dir};
 use signorini_image::toolchain::output;
@@ -38,6 +39,11 @@ pub fn command(arguments: &[&str]) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Studies leave OSQP out where it cannot be built, and go on: here that is a failure.
+pub fn check(steps: &mut Steps) {
+    steps.check("the program that times OSQP", || build(false).map(drop));
 }
 
 fn build(is_wide: bool) -> Result<String, String> {

@@ -3,8 +3,8 @@
 use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
 use crate::{
-    audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, ranks, sanitize,
-    seen, size,
+    audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, ranks,
+    sanitize, seen, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 
@@ -42,6 +42,7 @@ pub fn run(steps: &mut Steps) {
     oldest::run(steps);
     no_std::run(steps);
     sanitize::run(steps);
+    osqp::check(steps);
     steps.check("formatting, tests/fuzz", || {
         run_cargo(cargo(&["fmt", "--manifest-path", fuzz::MANIFEST, "--check"]))
     });

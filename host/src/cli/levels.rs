@@ -8,11 +8,12 @@ use super::picture::picture;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
-use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
+use signorini_solve::adaptive::{Level, Stall, Stop, Wanted, refined_until};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::digits::percent_above;
 use signorini_solve::output::pvd::{Frame, pvd};
-use signorini_solve::progress::{say, waiting, warn};
+use signorini_solve::progress::{say, waiting};
+use signorini_solve::solve::Solution;
 
 /// Solves level after level, says a line for each, and writes their files into `out`: `levels.csv`, `levels.pvd`, a VTU each, and
 /// the last mesh as `refined.msh`.
@@ -36,11 +37,10 @@ pub(super) fn refined(
             "seconds",
         ])
         .map_err(failed)?;
-    say(format_args!("{}", scene.title));
     let look = |level: &Level| {
         say(format_args!("{}", line(level)));
         table.write_record(record(level)).map_err(failed)?;
-        let name = format!("levels/{:02}.vtu", level.number);
+        let name = vtu_of(level.number);
         let bytes = picture(&level.problem, &level.solution).into_bytes();
         write_atomically(&out.join(&name), &bytes)?;
         frames.push(Frame { time: level.number as f64, file: name });
@@ -51,8 +51,19 @@ pub(super) fn refined(
     write_atomically(&out.join("levels.csv"), &text)?;
     write_atomically(&out.join("levels.pvd"), pvd(&frames).as_bytes())?;
     write_atomically(&out.join("refined.msh"), write::text(&found.0.problem.mesh).as_bytes())?;
-    say_why(&found.0, &found.1, wanted);
+    remove_from(out, found.0.number + 1)?;
     Ok(found)
+}
+
+/// The file of a level, seen from the folder.
+fn vtu_of(level: usize) -> String {
+    format!("levels/{level:02}.vtu")
+}
+
+/// Levels that an earlier run has left behind.
+fn remove_from(out: &Path, level: usize) -> Result<()> {
+    let left = (level..).map(|level| out.join(vtu_of(level))).take_while(|file| file.exists());
+    left.into_iter().try_for_each(|file| std::fs::remove_file(&file).map_err(Error::io(&file)))
 }
 
 /// The exit status: 3 where the goal was not reached.
@@ -90,28 +101,30 @@ fn record(level: &Level) -> [String; 7] {
     ]
 }
 
-/// What ended it, where that is not the goal.
-fn say_why(level: &Level, stop: &Stop, wanted: &Wanted) {
-    let why = match stop {
-        Stop::Reached => return,
-        Stop::TooLarge => format!(
-            "the bound is above what was asked for: a finer mesh would have more than {} unknowns. Give more by --max-unknowns",
-            wanted.most_unknowns
-        ),
-        Stop::Stalled(stall) => format!(
-            "the bound no longer falls: most of it is {}, near ({}, {})",
-            stall.term.sentence(),
-            stall.at[0],
-            stall.at[1]
-        ),
-        Stop::NoBound => format!(
-            "nothing says where to refine: {}",
-            level.solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string)
-        ),
+/// What ended it with this solution, where that is not the goal.
+pub(super) fn why(stop: &Stop, solution: &Solution) -> Option<String> {
+    const ABOVE: &str = "the error bound is above what was asked for";
+    Some(match stop {
+        Stop::Reached => return None,
+        Stop::TooLarge(unknowns) => {
+            format!(
+                "{ABOVE}: the next mesh has {unknowns} unknowns, and --max-unknowns allows less"
+            )
+        }
+        Stop::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),
+        Stop::Stalled(Stall { term, at: [x, y] }) => {
+            let term = term.sentence();
+            format!("{ABOVE}, and no longer falls: most of it is {term}, near ({x:.6}, {y:.6})")
+        }
+        Stop::NoBound => {
+            let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
+            format!("nothing says where to refine: {reason}")
+        }
         Stop::Unsolved => "the solver stopped before its tolerance".to_owned(),
-        Stop::Interrupted => format!("interrupted: these are the files of level {}", level.number),
-    };
-    warn(&[why]);
+        Stop::Interrupted => {
+            format!("{ABOVE}: interrupted, and these are the files of the last level")
+        }
+    })
 }
 
 /// Becomes true with Ctrl-C, which ends the work after the level at hand; a second one ends the program.

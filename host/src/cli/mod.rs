@@ -1,5 +1,6 @@
 //! The command line.
 
+mod answer;
 mod bake;
 mod condense;
 mod export;

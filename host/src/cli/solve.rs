@@ -1,31 +1,23 @@
 //! `signorini solve`: one scene, its files.
 
+use std::path::Path;
+
 use clap::Args;
 
+use super::answer::Answer;
 use super::levels;
-use super::picture::picture;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::engine;
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{InputError, Result};
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::adaptive::{Goal, Wanted};
 use signorini_solve::energy_norm;
-use signorini_solve::norms::{Errors, of_solution};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::output::contact::contact;
-use signorini_solve::output::digits::{percent_above, rounded, supported};
-use signorini_solve::output::edges::edges_csv;
-use signorini_solve::output::summary::Summary;
-use signorini_solve::output::vtu::contact_vtu;
-use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{
-    FreeLevel, Options, ScalarKind, Solution, SolverKind, free_levels, solve,
-};
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -64,7 +56,7 @@ pub struct Arguments {
     /// the solution. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", value_parser = Goal::parse, allow_hyphen_values = true)]
     max_error: Option<Goal>,
-    /// With --max-error: no mesh with more unknowns is solved on
+    /// With --max-error: no refined mesh with more unknowns is solved on
     #[arg(long, value_name = "N", requires = "max_error", default_value_t = 1_000_000)]
     max_unknowns: usize,
 }
@@ -81,55 +73,42 @@ impl Arguments {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
         self.check(&scene)?;
-        let mesh = adapted::of_scene(&scene)?;
-        let (mut problem, solution, ended) = match self.max_error {
-            None => {
-                let mut problem = Problem::new(&scene, mesh)?;
-                problem.warnings.extend(at_rest_warning(&scene));
-                let unknowns = problem.topology.counts.unknowns();
-                let solution =
-                    waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
-                (problem, solution, None)
-            }
-            Some(goal) => {
-                let options = self.options(scene.setting.and_then(|setting| setting.scalar));
-                let wanted = Wanted { goal, most_unknowns: self.max_unknowns, options };
-                let (mut level, ended) = levels::refined(&scene, mesh, &wanted, &out)?;
-                level.problem.warnings.extend(at_rest_warning(&scene));
-                (level.problem, level.solution, Some(ended))
-            }
+        let answer = match self.max_error {
+            None => self.on_its_mesh(&scene)?,
+            Some(goal) => self.refined(&scene, goal, &out)?,
         };
-        warn(&problem.warnings);
-        let levels = free_levels(&problem, &solution)?;
-        let levels: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
-        warn(&levels);
-        problem.warnings.extend(levels);
-        let errors = of_solution(&problem, &solution)?;
-        let declared = outputs(&problem, &solution)?;
-        let norm = energy_norm::of_solution(&problem, &solution)?;
-        let asked = self.solver.unwrap_or(SolverKind::Auto);
-        let summary = Summary::new(&problem, asked, &solution, errors, norm, declared);
-        let files = [
-            (
-                "edges.csv",
-                edges_csv(&problem, &solution).map_err(|error| Error::Check(error.to_string()))?,
-            ),
-            ("solution.vtu", picture(&problem, &solution).into_bytes()),
-            ("contact.vtu", contact_vtu(&contact(&problem, &solution)).into_bytes()),
-            ("summary.json", summary.json().into_bytes()),
-        ];
-        for (name, bytes) in files {
-            write_atomically(&out.join(name), &bytes)?;
-        }
-        report(&problem, &solution, errors, norm);
+        answer.write(self.solver.unwrap_or(SolverKind::Auto), &out)?;
         say(format_args!("  written to {}", out.display()));
-        if let Some(ended) = ended {
-            return Ok(levels::status(&ended));
-        }
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
             self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
-        Ok(if solution.converged() || prescribed { 0 } else { 3 })
+        Ok(match answer.stop {
+            Some(stop) => levels::status(&stop),
+            None if answer.solution.converged() || prescribed => 0,
+            None => 3,
+        })
+    }
+
+    fn on_its_mesh(&self, scene: &Scene) -> Result<Answer> {
+        let mut problem = Problem::new(scene, adapted::of_scene(scene)?)?;
+        problem.warnings.extend(at_rest_warning(scene));
+        warn(&problem.warnings);
+        let unknowns = problem.topology.counts.unknowns();
+        let solution = waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
+        let energy_norm = energy_norm::of_solution(&problem, &solution)?;
+        say(format_args!("{}", scene.title));
+        Answer::new(problem, solution, energy_norm, None)
+    }
+
+    fn refined(&self, scene: &Scene, goal: Goal, out: &Path) -> Result<Answer> {
+        say(format_args!("{}", scene.title));
+        let options = self.options(scene.setting.and_then(|setting| setting.scalar));
+        let wanted = Wanted { goal, most_unknowns: self.max_unknowns, options };
+        let (level, stop) = levels::refined(scene, adapted::of_scene(scene)?, &wanted, out)?;
+        let mut problem = level.problem;
+        problem.warnings.extend(at_rest_warning(scene));
+        warn(&problem.warnings);
+        Answer::new(problem, level.solution, level.energy_norm, Some(stop))
     }
 
     /// A number of sweeps is for who sweeps.
@@ -204,54 +183,4 @@ impl Arguments {
             max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
         }
     }
-}
-
-fn report(
-    problem: &Problem,
-    solution: &Solution,
-    errors: Option<Errors>,
-    energy_norm: Option<f64>,
-) {
-    let counts = problem.topology.counts;
-    say(format_args!("{}", problem.scene.title));
-    say(format_args!(
-        "  {} unknowns, {} of {} contact edges active",
-        counts.unknowns(),
-        solution.contact_active,
-        counts.contact
-    ));
-    say(format_args!("  {}", solution.ending()));
-    let digits = supported(solution.relative_bound(energy_norm));
-    say(format_args!(
-        "  contact force {}, contact length {}",
-        rounded(solution.contact_force, digits, solution.largest_flux()),
-        rounded(solution.contact_length, digits.max(3), 0.0)
-    ));
-    report_bound(solution, energy_norm);
-    if let Some(errors) = errors {
-        say(format_args!(
-            "  true errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}, ‖A^½∇(u − u_h)‖ {:.5e}",
-            errors.h1, errors.l2, errors.flux, errors.energy
-        ));
-    }
-}
-
-/// How wrong each of the two functions can be, or why nobody knows.
-fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
-    let Some(bound) = solution.bound else {
-        let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
-        return say(format_args!("  no error bound: {reason}"));
-    };
-    let part = |of: f64| match energy_norm {
-        Some(norm) if norm > 0.0 => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
-        _ => "‖A^½∇s‖ is 0".to_owned(),
-    };
-    say(format_args!("  error bounds in the energy norm, guaranteed:"));
-    say(format_args!(
-        "    continuous s (solution.vtu) with flux τ: {:.2e}, {}; unfinished iterations {:.0e} of it",
-        bound.total,
-        part(bound.total),
-        bound.algebraic
-    ));
-    say(format_args!("    edge means u_h (edges.csv): {:.2e}, {}", bound.of_u, part(bound.of_u)));
 }

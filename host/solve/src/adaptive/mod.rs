@@ -25,7 +25,6 @@ use crate::solve::{Options, Solution, solve_from};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adaptive::Hierarchy;
-use signorini_scene::mesh::refine::MOST_CELLS;
 use signorini_scene::scene::Scene;
 use stall::History;
 
@@ -34,7 +33,7 @@ use stall::History;
 pub struct Wanted {
     /// What the bound is to be below.
     pub goal: Goal,
-    /// No mesh with more unknowns is solved on.
+    /// No refined mesh with more unknowns is solved on.
     pub most_unknowns: usize,
     /// How each level is solved.
     pub options: Options,
@@ -51,7 +50,7 @@ pub struct Level {
     pub solution: Solution,
     /// ‖A^½∇s‖ with the part of transfer laws; none where there is no bound.
     pub energy_norm: Option<f64>,
-    /// From the mesh to the bound.
+    /// From the mesh to the bound and this norm.
     pub seconds: f64,
 }
 
@@ -60,8 +59,10 @@ pub struct Level {
 pub enum Stop {
     /// The bound is below the goal.
     Reached,
-    /// The next mesh would have more unknowns than are allowed, or more cells than any may.
-    TooLarge,
+    /// The next mesh has so many unknowns, more than are allowed.
+    TooLarge(usize),
+    /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
+    Finest(String),
     /// The bound no longer falls.
     Stalled(Stall),
     /// There is no bound to go by.
@@ -73,7 +74,7 @@ pub enum Stop {
 }
 
 /// Solves `scene` on `mesh` and on refinements of it until the goal is reached; `look` sees every level, and ends it by `false`.
-/// The last level, why it is the last, and its mesh.
+/// The last level, with its mesh, and why it is the last.
 ///
 /// # Errors
 /// As for [`crate::solve::solve`] on any of the meshes; what `look` fails with.
@@ -85,45 +86,61 @@ pub fn refined_until(
 ) -> Result<(Level, Stop)> {
     let mut hierarchy = Hierarchy::new(mesh)?;
     let (mut start, mut number, mut history) = (Vec::new(), 0, History::default());
-    let mut problem = Problem::new(scene, hierarchy.mesh().clone())?;
+    let mut posed = Posed::new(scene, &hierarchy)?;
     loop {
-        let level = Level::solved(number, problem, wanted, &start)?;
+        let level = posed.solved(number, wanted, &start)?;
         let goes_on = look(&level)?;
-        let stop = match &level.solution.bound {
-            _ if !level.solution.converged() => Some(Stop::Unsolved),
-            None => Some(Stop::NoBound),
-            Some(bound) if wanted.goal.is_met(bound.total, level.energy_norm) => {
-                Some(Stop::Reached)
-            }
-            Some(_) if !goes_on => Some(Stop::Interrupted),
-            Some(_) => history.stalled(&level)?.map(Stop::Stalled),
-        };
-        if let Some(stop) = stop {
+        if let Some(stop) = level.ended(wanted, goes_on, &mut history)? {
             return Ok((level, stop));
         }
         stage("marking and refining cells");
         let squares = indicators::squares(&level.problem, &level.solution)?;
         let marked = marking::marked(&squares, wanted.goal.of(&level));
-        if hierarchy.mesh().cells() + 3 * marked.iter().filter(|&&is| is).count() > MOST_CELLS {
-            return Ok((level, Stop::TooLarge));
+        let carried = match hierarchy.refine(&marked) {
+            Ok(carried) => carried,
+            Err(why) => return Ok((level, Stop::Finest(why.to_string()))),
+        };
+        posed = Posed::new(scene, &hierarchy)?;
+        let unknowns = posed.problem.topology.counts.unknowns();
+        if unknowns > wanted.most_unknowns {
+            return Ok((level, Stop::TooLarge(unknowns)));
         }
-        let carried = hierarchy.refine(&marked)?;
-        problem = Problem::new(scene, hierarchy.mesh().clone())?;
-        if problem.topology.counts.unknowns() > wanted.most_unknowns {
-            return Ok((level, Stop::TooLarge));
-        }
-        start = carry::start(&level, &problem, &carried);
+        start = carry::start(&level, &posed.problem, &carried);
         number += 1;
     }
 }
 
 impl Level {
-    fn solved(number: usize, problem: Problem, wanted: &Wanted, start: &[f64]) -> Result<Self> {
+    /// Why no level follows it, apart from meshes.
+    fn ended(&self, wanted: &Wanted, goes_on: bool, history: &mut History) -> Result<Option<Stop>> {
+        Ok(match &self.solution.bound {
+            _ if !self.solution.converged() => Some(Stop::Unsolved),
+            None => Some(Stop::NoBound),
+            Some(bound) if wanted.goal.is_met(bound.total, self.energy_norm) => Some(Stop::Reached),
+            Some(_) if !goes_on => Some(Stop::Interrupted),
+            Some(_) => history.stalled(self)?.map(Stop::Stalled),
+        })
+    }
+}
+
+/// The scene on a mesh, before it is solved.
+struct Posed {
+    problem: Problem,
+    clock: Instant,
+}
+
+impl Posed {
+    fn new(scene: &Scene, hierarchy: &Hierarchy) -> Result<Self> {
         let clock = Instant::now();
+        Ok(Self { problem: Problem::new(scene, hierarchy.mesh().clone())?, clock })
+    }
+
+    fn solved(self, number: usize, wanted: &Wanted, start: &[f64]) -> Result<Level> {
+        let Self { problem, clock } = self;
         stage(&format!("level {number}, {} unknowns", problem.topology.counts.unknowns()));
         let solution = solve_from(&problem, &wanted.options, start)?;
         let energy_norm = energy_norm::of_solution(&problem, &solution)?;
         let seconds = clock.elapsed().as_secs_f64();
-        Ok(Self { number, problem, solution, energy_norm, seconds })
+        Ok(Level { number, problem, solution, energy_norm, seconds })
     }
 }

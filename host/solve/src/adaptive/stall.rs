@@ -36,7 +36,7 @@ pub enum Term {
 }
 
 impl Term {
-    /// Its name in `summary.json`, with what it is.
+    /// What it is, in words.
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Gap => "the gap between s and τ, as where data jump inside cells",

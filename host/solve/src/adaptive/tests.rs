@@ -154,17 +154,17 @@ fn a_start_is_the_old_solution_on_the_new_mesh() {
     for cells in KINDS {
         let mut hierarchy =
             Hierarchy::new(with_four_sides(distorted(grid(3, cells)))).expect("one");
-        let mut problem = Problem::new(&scene, hierarchy.mesh().clone()).expect("a problem");
+        let mut posed = Posed::new(&scene, &hierarchy).expect("a problem");
         let goal = wanted(Goal::Energy(1e-9));
         for number in 0..4 {
-            let level = Level::solved(number, problem, &goal, &[]).expect("a solution");
+            let level = posed.solved(number, &goal, &[]).expect("a solution");
             let marked: Vec<bool> =
                 (0..level.problem.cells()).map(|cell| cell % 7 == number).collect();
             let carried = hierarchy.refine(&marked).expect("finer");
-            problem = Problem::new(&scene, hierarchy.mesh().clone()).expect("a problem");
-            let start = carry::start(&level, &problem, &carried);
+            posed = Posed::new(&scene, &hierarchy).expect("a problem");
+            let start = carry::start(&level, &posed.problem, &carried);
             for (edge, start) in start.iter().enumerate() {
-                let [a, b] = problem.segment(edge);
+                let [a, b] = posed.problem.segment(edge);
                 let exact = 1.0 + (a[0] + b[0]) - 0.5 * (a[1] + b[1]);
                 CARRIED.check(format_args!("{cells:?}, edge {edge}"), start - exact);
             }
@@ -196,7 +196,7 @@ fn every_end_is_told() {
     let mesh = || with_four_sides(grid(4, Cells::Mixed));
     let ended = |scene: &Scene, wanted: &Wanted| levels(scene, mesh(), wanted).2;
     let few = Wanted { most_unknowns: 300, ..wanted(Goal::Part(1e-3)) };
-    assert_eq!(ended(&smooth, &few), Stop::TooLarge);
+    assert!(matches!(ended(&smooth, &few), Stop::TooLarge(301..)));
     let (levels, _, stop) = levels(&affine(), mesh(), &wanted(Goal::Energy(1e-17)));
     let Stop::Stalled(stall) = stop else { panic!("{stop:?}: {levels:?}") };
     assert!(matches!(stall.term, Term::Rounding | Term::Algebraic), "{stall:?}");

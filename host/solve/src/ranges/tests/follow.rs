@@ -3,15 +3,11 @@
 use super::super::enclosure::Enclosure;
 use super::super::follow::FollowedRanges;
 use super::super::interval::Interval;
-use super::super::sides::EdgeSide;
-use super::{drawn, scatter};
+use super::{ALL, drawn, is_there, scatter};
 use crate::condense::{ModalModel, modal};
 use crate::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-
-const ALL: [EdgeSide; 4] =
-    [EdgeSide::Open, EdgeSide::Touching, EdgeSide::Saturated, EdgeSide::MayChange];
 
 /// Warm below, cold air above that moves: the middle of the contact boundary is warmed least.
 fn scene(limit: &str, air: [f64; 2], transfer: [f64; 2]) -> String {
@@ -69,16 +65,6 @@ kind = \"saturated\"
 ",
         air[0], transfer[0]
     )
-}
-
-/// Whether x is where its edge always is.
-fn is_there(side: EdgeSide, x: f64) -> bool {
-    match side {
-        EdgeSide::Open => x > 0.0,
-        EdgeSide::Touching => x == 0.0,
-        EdgeSide::Saturated => x < 0.0,
-        EdgeSide::MayChange => true,
-    }
 }
 
 /// Every solution and output of drawn inputs lies where it is proved to; how wide intervals of outputs are beside what was seen.

@@ -6,15 +6,12 @@ use super::super::largest::LargestBound;
 use super::super::outputs::intervals;
 use super::super::reduced::Reduced;
 use super::super::sides::{EdgeSide, Sides};
-use super::{drawn, matrix, scatter};
+use super::{ALL, drawn, is_there, matrix, scatter};
 use crate::condense::{CondensedModel, Measure, condense};
 use crate::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_tolerances::solve::{REDUCED_LIMITED, REDUCED_LIMITED_BOUND};
-
-const ALL: [EdgeSide; 4] =
-    [EdgeSide::Open, EdgeSide::Touching, EdgeSide::Saturated, EdgeSide::MayChange];
 
 /// Springs whose loads an input moves, with ends of all kinds; where they `vary` the last input moves spans as well.
 fn model(case: u64, vary: bool) -> CondensedModel {
@@ -82,16 +79,6 @@ fn inputs(model: &CondensedModel, count: usize, seed: u64) -> Vec<Vec<f64>> {
         p
     });
     corners.into_iter().chain(points.collect::<Vec<_>>()).collect()
-}
-
-/// Whether x is where its edge always is.
-fn is_there(side: EdgeSide, x: f64) -> bool {
-    match side {
-        EdgeSide::Open => x > 0.0,
-        EdgeSide::Touching => x == 0.0,
-        EdgeSide::Saturated => x < 0.0,
-        EdgeSide::MayChange => true,
-    }
 }
 
 #[test]

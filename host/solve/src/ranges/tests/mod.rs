@@ -9,10 +9,25 @@ mod twice;
 use faer::MatRef;
 
 use super::enclosure::{Enclosure, LoadBox};
+use super::sides::EdgeSide;
 use super::split::Split;
 use crate::reference::minimise;
 
 mod outputs;
+
+/// All sides, in the order in which tests count them.
+const ALL: [EdgeSide; 4] =
+    [EdgeSide::Open, EdgeSide::Touching, EdgeSide::Saturated, EdgeSide::MayChange];
+
+/// Whether x is where its edge always is.
+fn is_there(side: EdgeSide, x: f64) -> bool {
+    match side {
+        EdgeSide::Open => x > 0.0,
+        EdgeSide::Touching => x == 0.0,
+        EdgeSide::Saturated => x < 0.0,
+        EdgeSide::MayChange => true,
+    }
+}
 
 /// Numbers in [0, 1), as Knuth's generator draws them.
 fn scatter(seed: u64) -> impl FnMut() -> f64 {

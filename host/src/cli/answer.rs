@@ -1,0 +1,114 @@
+//! What `signorini solve` tells of a solution: files, lines, warnings.
+
+use std::path::Path;
+
+use super::levels;
+use super::picture::picture;
+use signorini_scene::error::{Error, Result};
+use signorini_solve::adaptive::Stop;
+use signorini_solve::norms::{Errors, of_solution};
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::output::contact::contact;
+use signorini_solve::output::digits::{percent_above, rounded, supported};
+use signorini_solve::output::edges::edges_csv;
+use signorini_solve::output::summary::Summary;
+use signorini_solve::output::vtu::contact_vtu;
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::{say, warn};
+use signorini_solve::solve::{FreeLevel, Solution, SolverKind, free_levels};
+
+/// A solution and what is told of it.
+pub(super) struct Answer {
+    problem: Problem,
+    pub solution: Solution,
+    energy_norm: Option<f64>,
+    /// Why the last level is the last, where levels were asked for.
+    pub stop: Option<Stop>,
+}
+
+impl Answer {
+    /// With warnings of what is seen in the solution alone.
+    pub fn new(
+        mut problem: Problem,
+        solution: Solution,
+        energy_norm: Option<f64>,
+        stop: Option<Stop>,
+    ) -> Result<Self> {
+        let levels = free_levels(&problem, &solution)?;
+        let mut warnings: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
+        warnings.extend(stop.as_ref().and_then(|stop| levels::why(stop, &solution)));
+        warn(&warnings);
+        problem.warnings.extend(warnings);
+        Ok(Self { problem, solution, energy_norm, stop })
+    }
+
+    /// Writes the files of a solve, and says what is in them.
+    pub fn write(&self, asked: SolverKind, out: &Path) -> Result<()> {
+        let Self { problem, solution, energy_norm, .. } = self;
+        let errors = of_solution(problem, solution)?;
+        let declared = outputs(problem, solution)?;
+        let summary = Summary::new(problem, asked, solution, errors, *energy_norm, declared);
+        let edges = edges_csv(problem, solution);
+        let files = [
+            ("edges.csv", edges.map_err(|error| Error::Check(error.to_string()))?),
+            ("solution.vtu", picture(problem, solution).into_bytes()),
+            ("contact.vtu", contact_vtu(&contact(problem, solution)).into_bytes()),
+            ("summary.json", summary.json().into_bytes()),
+        ];
+        for (name, bytes) in files {
+            write_atomically(&out.join(name), &bytes)?;
+        }
+        report(problem, solution, errors, *energy_norm);
+        Ok(())
+    }
+}
+
+fn report(
+    problem: &Problem,
+    solution: &Solution,
+    errors: Option<Errors>,
+    energy_norm: Option<f64>,
+) {
+    let counts = problem.topology.counts;
+    say(format_args!(
+        "  {} unknowns, {} of {} contact edges active",
+        counts.unknowns(),
+        solution.contact_active,
+        counts.contact
+    ));
+    say(format_args!("  {}", solution.ending()));
+    let digits = supported(solution.relative_bound(energy_norm));
+    say(format_args!(
+        "  contact force {}, contact length {}",
+        rounded(solution.contact_force, digits, solution.largest_flux()),
+        rounded(solution.contact_length, digits.max(3), 0.0)
+    ));
+    report_bound(solution, energy_norm);
+    if let Some(errors) = errors {
+        say(format_args!(
+            "  true errors: |u − u_h|₁ {:.5e}, ‖u − u_h‖ {:.5e}, ‖σ − σ_h‖ {:.5e}, ‖A^½∇(u − u_h)‖ {:.5e}",
+            errors.h1, errors.l2, errors.flux, errors.energy
+        ));
+    }
+}
+
+/// How wrong each of the two functions can be, or why nobody knows.
+fn report_bound(solution: &Solution, energy_norm: Option<f64>) {
+    let Some(bound) = solution.bound else {
+        let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
+        return say(format_args!("  no error bound: {reason}"));
+    };
+    let part = |of: f64| match energy_norm {
+        Some(norm) if norm > 0.0 => format!("{} % of ‖A^½∇s‖", percent_above(of / norm)),
+        _ => "‖A^½∇s‖ is 0".to_owned(),
+    };
+    say(format_args!("  error bounds in the energy norm, guaranteed:"));
+    say(format_args!(
+        "    continuous s (solution.vtu) with flux τ: {:.2e}, {}; unfinished iterations {:.0e} of it",
+        bound.total,
+        part(bound.total),
+        bound.algebraic
+    ));
+    say(format_args!("    edge means u_h (edges.csv): {:.2e}, {}", bound.of_u, part(bound.of_u)));
+}
