@@ -33,6 +33,9 @@ of a controller that has run.
 `auto` sweeps on small meshes and takes a factor on large ones, by an estimate of the work; --max-sweeps asks for \
 sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
 
+/// Unknowns of a refined mesh at most, unless more are allowed.
+const MOST_UNKNOWNS: usize = 1_000_000;
+
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", signorini_scene::expression::vocabulary()))]
@@ -52,13 +55,13 @@ pub struct Arguments {
     /// Most sweeps allowed [default: 1 000 000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_sweeps: Option<u32>,
-    /// Refine the mesh where the error bound says, until the bound is at most this: an energy norm, or with % a part of that of
-    /// the solution. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
+    /// Refine the mesh where the error bound says, until the bound is at most this: in the unit of the energy norm, or with % a
+    /// part of the solution's. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
     #[arg(long, value_name = "E", value_parser = Goal::parse, allow_hyphen_values = true)]
     max_error: Option<Goal>,
-    /// With --max-error: no refined mesh with more unknowns is solved on
-    #[arg(long, value_name = "N", requires = "max_error", default_value_t = 1_000_000)]
-    max_unknowns: usize,
+    /// With --max-error: most unknowns of a refined mesh [default: 1 000 000]
+    #[arg(long, value_name = "N", requires = "max_error")]
+    max_unknowns: Option<usize>,
 }
 
 pub(super) fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -103,7 +106,8 @@ impl Arguments {
     fn refined(&self, scene: &Scene, goal: Goal, out: &Path) -> Result<Answer> {
         say(format_args!("{}", scene.title));
         let options = self.options(scene.setting.and_then(|setting| setting.scalar));
-        let wanted = Wanted { goal, most_unknowns: self.max_unknowns, options };
+        let wanted =
+            Wanted { goal, most_unknowns: self.max_unknowns.unwrap_or(MOST_UNKNOWNS), options };
         let (level, stop) = levels::refined(scene, adapted::of_scene(scene)?, &wanted, out)?;
         let mut problem = level.problem;
         problem.warnings.extend(at_rest_warning(scene));
