@@ -60,8 +60,8 @@ const LEVELS: u32 = 3;
 const RULES: [(u32, usize); 4] = [(1, 4), (1, 7), (4, 8), (16, 8)];
 /// Points a direction for the energy of one answer.
 const POINTS: usize = 7;
-/// Panels a direction of a cell beside an exact solution, where one does not seem enough.
-const PANELS: u32 = 4;
+/// Panels a direction of a cell beside an exact solution: more and more while kinks and layers inside cells seem to take them.
+const PANELS: [u32; 3] = [1, 4, 24];
 
 /// |gap/identity − 1| up to which the integrals of the exact solution are trusted.
 pub const IDENTITY: f64 = 2e-3;
@@ -118,10 +118,11 @@ impl Held<'_> {
         };
         if let Some(exact) = &problem.scene.exact {
             let by = |panels| distance_on(panels, exact, problem, &own.admissible);
-            let mut distance = by(1)?;
-            // Kinks and layers inside cells take more points.
-            if self.is_off(&distance) {
-                distance = by(PANELS)?;
+            let mut distance = by(PANELS[0])?;
+            for more in &PANELS[1..] {
+                if self.is_off(&distance) {
+                    distance = by(*more)?;
+                }
             }
             found.combined = distance.combined;
             found.of_u = errors(exact, problem, own.u, &self.answer.flux)?.energy;

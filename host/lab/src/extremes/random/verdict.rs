@@ -1,12 +1,15 @@
 //! What an answer breaks of what it promises.
 
+use std::iter;
+
 use super::attempt::{Attempt, rounding};
 use super::case::{RandomCase, Way};
 use super::measure::{IDENTITY, Measured};
 use super::residual::{ends, residual};
 use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
-use signorini_solve::problem::EdgeKind;
+use signorini_scene::error::Result;
+use signorini_solve::problem::Problem;
 use signorini_solve::solve::ScalarKind;
 
 /// The identity is asked for where the gap is above so many times its rounding.
@@ -92,20 +95,42 @@ fn status(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     broken("status", format!("{status}, scaled residual {residual:.3e} above {most:.3e}"))
 }
 
+/// ∫lo and ∫hi of every contact edge as the solver has them: those of a full tick are sums over its inputs, each of which is
+/// integrated alone, and where the rule for edge data does not resolve them differ by what it misses.
+fn flux_ends(case: &RandomCase, problem: &Problem) -> Result<Vec<[f64; 2]>> {
+    let counts = problem.topology.counts;
+    if case.effort.way != Way::Full || problem.scene.inputs.is_empty() {
+        let ends = |at| ends(problem, at).map(|end| problem.loads.contact_flux[at] + end);
+        return Ok((0..counts.contact).map(ends).collect());
+    }
+    let mut sums = vec![[0.0; 2]; counts.contact];
+    let weights = problem.scene.inputs.iter().map(|input| input.default);
+    for (term, weight) in iter::once(1.0).chain(weights).enumerate() {
+        let of_term = problem.range_term(term)?;
+        for ([base, span], (flux, length)) in
+            sums.iter_mut().zip(of_term.fluxes.iter().zip(&of_term.spans))
+        {
+            *base += weight * flux;
+            *span += weight * length;
+        }
+    }
+    Ok(sums.into_iter().map(|[base, span]| [base + span.min(0.0), base + span.max(0.0)]).collect())
+}
+
 /// lo ≤ τ·n ≤ hi on C, and the force that is told, of τ·n − lo or hi − τ·n, is none that pulls.
 fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let (problem, answer) = (&attempt.problem, &attempt.answer);
     answer.bound?;
-    let free = problem.topology.counts.free;
-    let contact = (0..problem.kinds.len()).filter(|&at| problem.kinds[at] == EdgeKind::Contact);
-    let on_edge = |edge: usize| {
-        let base = problem.loads.contact_flux[edge - free];
-        let [least, most] = ends(problem, edge - free).map(|end| base + end);
+    let ranges = match flux_ends(case, problem) {
+        Ok(ranges) => ranges,
+        Err(why) => return broken("force", why.to_string()),
+    };
+    let on_edge = |(edge, [least, most]): (usize, [f64; 2])| {
         let finite = [least, most].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
         let tau = answer.certified.tau[edge];
         ([tau - least, most - tau], tau.abs() + finite[0].max(finite[1]))
     };
-    let edges: Vec<_> = contact.map(on_edge).collect();
+    let edges: Vec<_> = (problem.topology.counts.free..).zip(ranges).map(on_edge).collect();
     let sizes = || edges.iter().map(|&(_, size)| size);
     let (terms, largest) = (sizes().sum::<f64>(), sizes().fold(0.0, f64::max));
     let epsilon = rounding(case.effort.scalar);
