@@ -58,6 +58,41 @@ fn the_last_level_meets_the_goal_and_its_mesh_gives_it_again() {
     REFINED.check_relative("the bound on refined.msh", bounds(&again)[0], total);
 }
 
+/// The levee with a setting of its own, in a folder.
+fn with_setting(folder: &Path, setting: &str) -> std::path::PathBuf {
+    let mesh = levee().with_file_name("levee.msh");
+    let scene = text(&levee()).replace("mesh = \"levee.msh\"", &format!("mesh = {mesh:?}"));
+    let path = folder.join("scene.toml");
+    std::fs::write(&path, format!("{scene}\n[setting]\n{setting}\n")).expect("a scene");
+    path
+}
+
+#[test]
+fn a_promised_error_gives_every_command_the_same_mesh() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = with_setting(folder.path(), "error = \"25%\"");
+    let out = folder.path().join("out");
+    let commands: [&[&str]; 3] =
+        [&["solve", "--out", "OUT"], &["bake", "-o", "OUT.rs"], &["tick", "--ticks", "2"]];
+    let notes = commands.map(|words| {
+        let word = |word: &&str| word.replace("OUT", &out.to_string_lossy());
+        let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+        command.arg(words[0]).arg(&scene).args(words[1..].iter().map(word));
+        let output = command.output().expect("the binary runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{words:?}: {said}");
+        let note = said.lines().find(|line| line.starts_with("note: the mesh was refined to"));
+        note.unwrap_or_else(|| panic!("{words:?}: {said}")).to_owned()
+    });
+    assert!(notes.iter().all(|note| *note == notes[0]), "{notes:?}");
+    assert!(notes[0].contains("for all 1004 inputs tried"), "{}", notes[0]);
+    let [_, relative] = bounds(&out);
+    assert!(relative <= 0.25, "{relative}");
+    let more = solve(&scene, &out, &["--max-error", "30%"]);
+    let said = String::from_utf8_lossy(&more.stderr).into_owned();
+    assert!(said.contains("takes the place of setting.error"), "{said}");
+}
+
 #[test]
 fn what_is_not_reached_has_status_3_and_all_files() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -65,14 +100,15 @@ fn what_is_not_reached_has_status_3_and_all_files() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(
-        said.contains("the next mesh has") && said.contains("--max-unknowns allows less"),
+        said.contains("the next mesh has")
+            && said.contains("more than are allowed (--max-unknowns)"),
         "{said}"
     );
     let rows = levels(folder.path());
     let unknowns: usize = rows[rows.len() - 1][1].parse().expect("a number");
     assert!(unknowns <= 2500, "{rows:?}");
     let summary = text(&folder.path().join("summary.json"));
-    assert!(summary.contains("--max-unknowns allows less"), "{summary}");
+    assert!(summary.contains("more than are allowed (--max-unknowns)"), "{summary}");
     for name in ["edges.csv", "summary.json", "solution.vtu", "refined.msh", "levels.pvd"] {
         assert!(folder.path().join(name).exists(), "{name}");
     }

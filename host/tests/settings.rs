@@ -39,6 +39,7 @@ const COMMANDS: [(&str, &[&str]); 8] = [
 const FOLLOWED: &[(&str, [bool; 8])] = &[
     //                                              solve  direct sweeps bake   baked  tick   export condense
     ("refine = 1",                                  [true,  true,  true,  true,  true,  true,  true,  true ]),
+    ("error = '40%'",                               [true,  true,  true,  true,  true,  true,  true,  true ]),
     ("cells = 'quads'",                             [true,  true,  true,  true,  true,  true,  true,  true ]),
     ("cells = 'quads'\nelement = 'nonparametric'",  [true,  true,  true,  true,  true,  true,  true,  true ]),
     ("scalar = 'f32'",                              [true,  false, true,  true,  true,  true,  true,  true ]),

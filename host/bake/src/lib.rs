@@ -20,7 +20,6 @@ pub mod engine;
 pub mod explain;
 pub mod export;
 pub mod full;
-pub mod inputs;
 mod item;
 pub mod module_api;
 pub mod range;

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::inputs;
 use super::item::{Item, braced, from_array, items, names, structure, to_array};
 use super::text::{code, prose};
 use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::functional::wanted;
+use signorini_solve::inputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 

@@ -4,8 +4,8 @@ use signorini_kernel::device::report::Ended;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
 use super::dense::Done;
-use super::inputs::{InputSpace, drawn};
 use super::{condensed, full};
+use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::scalar::Scalar;
 
 /// Ticks of a trial after the first.

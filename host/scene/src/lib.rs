@@ -9,6 +9,7 @@
 
 pub mod error;
 pub mod expression;
+pub mod goal;
 pub mod mesh;
 pub mod scene;
 pub mod setting;

@@ -3,6 +3,7 @@
 //! ```toml
 //! [setting]
 //! refine = 1            # uniform refinements of the scene's mesh                    [0]
+//! error = "5%"          # instead: refined where the error bound says, until it is at most this, for all inputs tried  [none]
 //! cells = "quads"       # triangles: quads are cut; quads: triangles are paired      [as in the mesh]
 //! element = "parametric" # or nonparametric: full rates of u_h on quads of any shape  [parametric]
 //! scalar = "f32"        # f32, f64, or f32+f64: sweeps in f32, residuals in f64      [f64; bake: f32]
@@ -15,10 +16,11 @@
 //! share = 0.1           # sweep until this share of the bound is left to sweeps      [0.01]
 //! certificate = true    # the error bound                                            [true]
 //! ```
-//! `sweeps` and `share` exclude each other, and a factor excludes both. Without `model`, a key that means something to
+//! `refine` and `error` exclude each other, so do `sweeps` and `share`, and a factor excludes both. Without `model`, a key that means something to
 //! the full one alone asks for that, and so does `solver = "sweeps"`; `solver = "exact"` asks for the condensed one. The
 //! bound is left out where `certificate = false` says so, and nowhere else. The file reads them in [`crate::scene`].
 
+use crate::goal::Goal;
 use serde::{Deserialize, Serialize};
 use signorini_kernel::discrete::element::QuadElement;
 
@@ -28,6 +30,9 @@ use signorini_kernel::discrete::element::QuadElement;
 pub struct Setting {
     /// Uniform refinements of the scene's mesh.
     pub refine: u32,
+    /// What the error bound is to be at most: the mesh is refined where the bound says. Excludes `refine`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<Goal>,
     /// The cells that the mesh is brought to before it is refined; `None` leaves them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<CellKind>,
@@ -63,6 +68,7 @@ impl Default for Setting {
     fn default() -> Self {
         Self {
             refine: 0,
+            error: None,
             cells: None,
             element: QuadElement::Parametric,
             scalar: None,

@@ -1,8 +1,13 @@
 //! The inputs of a controller: their ranges in its scalar, and values drawn from them for trials.
 
+use crate::scalar::Scalar;
 use signorini_kernel::device::ranges::clamp;
 use signorini_scene::scene::{Input, Scene};
-use signorini_solve::scalar::Scalar;
+
+/// Inputs that are tried beside the corners of their ranges.
+const DRAWN: usize = 1000;
+/// Inputs of which all corners are tried; of more, those that are drawn.
+const CORNERS: usize = 8;
 
 /// Where values of an input are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +28,18 @@ impl InputSpace {
     /// Within a tenth of `default`.
     pub fn near(default: f64) -> Self {
         Self { default, range: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+
+    /// The ends of its range; where there is none, a tenth of the default off it, as [`drawn`] has them.
+    fn ends(&self) -> [f64; 2] {
+        let [lo, hi] = self.range;
+        match lo.is_finite() && hi.is_finite() {
+            true => self.range,
+            false => {
+                let by = if self.default == 0.0 { 0.1 } else { 0.1 * self.default.abs() };
+                [self.default - by, self.default + by]
+            }
+        }
     }
 
     /// The value of `tick` that 32 random bits stand for, in the arithmetic of the device: on a mesh another last digit of an
@@ -61,6 +78,22 @@ pub fn drawn<R: Scalar>(spaces: &[InputSpace], ticks: usize) -> impl Iterator<It
         };
         spaces.iter().map(value).collect()
     })
+}
+
+/// All corners of the ranges where inputs are few; none without inputs.
+pub fn corners(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
+    let few = (1..=CORNERS).contains(&spaces.len());
+    let corner = |bits: usize| {
+        let end = |(at, space): (usize, &InputSpace)| space.ends()[(bits >> at) & 1];
+        spaces.iter().enumerate().map(end).collect()
+    };
+    (0..if few { 1_usize << spaces.len() } else { 0 }).map(corner).collect()
+}
+
+/// The corners, then the defaults and [`drawn`] values, 1000 in all; nothing without inputs.
+pub fn corners_and_drawn(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
+    let drawn = drawn(spaces, DRAWN - 1).filter(|_| !spaces.is_empty());
+    corners(spaces).into_iter().chain(drawn).collect()
 }
 
 /// The ranges in the scalar of the target; none where no input has one.

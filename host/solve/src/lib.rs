@@ -16,6 +16,7 @@ pub mod field;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 pub mod functional;
+pub mod inputs;
 pub mod norms;
 pub mod output;
 pub mod outputs;

@@ -18,6 +18,11 @@ pub fn warn(warnings: &[String]) {
     }
 }
 
+/// Writes to standard error what is no warning.
+pub fn note(what: &impl std::fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "note: {what}");
+}
+
 thread_local! {
     /// The spinner of [`waiting`] on this thread, with its message.
     static SPINNER: RefCell<Option<(ProgressBar, String)>> = const { RefCell::new(None) };

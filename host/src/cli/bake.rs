@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::posed::problem_of;
 use super::{scene_at, write_beside};
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::setting;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::adapted;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -86,7 +86,7 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
-        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        let problem = problem_of(&scene)?;
         warn(&problem.warnings);
         let Emitted { source, chosen } = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => self.module::<f32>(&problem)?,
@@ -138,6 +138,7 @@ mod tests {
 
     use super::*;
     use signorini_bake::compiled::printed;
+    use signorini_scene::mesh::adapted;
 
     /// What stands in the help below `In the firmware:`, without its margin.
     fn example() -> Vec<&'static str> {

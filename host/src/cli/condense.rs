@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::honoured::Command;
+use super::posed::problem_of;
 use super::{scene_at, write_beside};
 use signorini_bake::choice::reduced;
 use signorini_bake::condensed::header;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::adapted;
 use signorini_solve::condense::condense;
-use signorini_solve::problem::Problem;
 use signorini_solve::progress::warn;
 
 const EXAMPLES: &str = "\
@@ -40,7 +39,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
         Command::Condense.check(&scene, false)?;
-        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        let problem = problem_of(&scene)?;
         warn(&problem.warnings);
         let model = if self.reduced { reduced(&problem)? } else { condense(&problem)? };
         let text = header(&scene, &model);

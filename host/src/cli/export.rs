@@ -5,14 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::honoured::Command;
+use super::posed::problem_of;
 use super::write_beside;
 use signorini_bake::export::export;
 use signorini_bake::setting;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
-use signorini_solve::problem::Problem;
 use signorini_solve::progress::warn;
 use signorini_solve::solve::ScalarKind;
 
@@ -47,7 +46,7 @@ impl Arguments {
             scene.set_input(input)?;
         }
         Command::Export.check(&scene, self.scalar.is_some())?;
-        let mut problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        let mut problem = problem_of(&scene)?;
         problem.warnings.extend(at_rest_warning(&scene));
         warn(&problem.warnings);
         let text = match setting::scalar(&scene, self.scalar)? {

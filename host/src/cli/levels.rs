@@ -8,12 +8,11 @@ use super::picture::picture;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
-use signorini_solve::adaptive::{Level, Stall, Stop, Wanted, refined_until};
+use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::digits::percent_above;
 use signorini_solve::output::pvd::{Frame, pvd};
 use signorini_solve::progress::{say, waiting};
-use signorini_solve::solve::Solution;
 
 /// Solves level after level, says a line for each, and writes their files into `out`: `levels.csv`, `levels.pvd`, a VTU each, and
 /// the last mesh as `refined.msh`.
@@ -72,7 +71,7 @@ pub(super) fn status(stop: &Stop) -> u8 {
 }
 
 fn line(level: &Level) -> String {
-    let unknowns = level.problem.topology.counts.unknowns();
+    let unknowns = level.unknowns();
     let bound = match (level.solution.bound, relative(level)) {
         (Some(bound), Some(part)) => {
             format!("error bound {:.3e}, {} %", bound.total, percent_above(part))
@@ -92,39 +91,13 @@ fn record(level: &Level) -> [String; 7] {
     let solution = &level.solution;
     [
         level.number.to_string(),
-        level.problem.topology.counts.unknowns().to_string(),
+        level.unknowns().to_string(),
         solution.sweeps.to_string(),
         number(solution.bound.map(|bound| bound.total)),
         number(relative(level)),
         solution.contact_force.to_string(),
         level.seconds.to_string(),
     ]
-}
-
-/// What ended it with this solution, where that is not the goal.
-pub(super) fn why(stop: &Stop, solution: &Solution) -> Option<String> {
-    const ABOVE: &str = "the error bound is above what was asked for";
-    Some(match stop {
-        Stop::Reached => return None,
-        Stop::TooLarge(unknowns) => {
-            format!(
-                "{ABOVE}: the next mesh has {unknowns} unknowns, and --max-unknowns allows less"
-            )
-        }
-        Stop::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),
-        Stop::Stalled(Stall { term, at: [x, y] }) => {
-            let term = term.sentence();
-            format!("{ABOVE}, and no longer falls: most of it is {term}, near ({x:.6}, {y:.6})")
-        }
-        Stop::NoBound => {
-            let reason = solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
-            format!("nothing says where to refine: {reason}")
-        }
-        Stop::Unsolved => "the solver stopped before its tolerance".to_owned(),
-        Stop::Interrupted => {
-            format!("{ABOVE}: interrupted, and these are the files of the last level")
-        }
-    })
 }
 
 /// Becomes true with Ctrl-C, which ends the work after the level at hand; a second one ends the program.

@@ -6,14 +6,16 @@ use clap::Args;
 
 use super::answer::Answer;
 use super::levels;
+use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::engine;
 use signorini_scene::error::{InputError, Result};
+use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{Precision, Setting};
-use signorini_solve::adaptive::{Goal, Wanted};
+use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted};
 use signorini_solve::energy_norm;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
@@ -32,9 +34,6 @@ of a controller that has run.
 
 `auto` sweeps on small meshes and takes a factor on large ones, by an estimate of the work; --max-sweeps asks for \
 sweeps. What solved the scene is printed, and stands in summary.json as `solver_used`.";
-
-/// Unknowns of a refined mesh at most, unless more are allowed.
-const MOST_UNKNOWNS: usize = 1_000_000;
 
 /// Arguments of `solve`.
 #[derive(Debug, Args)]
@@ -57,7 +56,7 @@ pub struct Arguments {
     max_sweeps: Option<u32>,
     /// Refine the mesh where the error bound says, until the bound is at most this: in the unit of the energy norm, or with % a
     /// part of the solution's. (`trade --max-error` is about the true error.) Writes refined.msh, levels.csv and levels.pvd too
-    #[arg(long, value_name = "E", value_parser = Goal::parse, allow_hyphen_values = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<Goal>,
     /// With --max-error: most unknowns of a refined mesh [default: 1 000 000]
     #[arg(long, value_name = "N", requires = "max_error")]
@@ -93,7 +92,7 @@ impl Arguments {
     }
 
     fn on_its_mesh(&self, scene: &Scene) -> Result<Answer> {
-        let mut problem = Problem::new(scene, adapted::of_scene(scene)?)?;
+        let mut problem = problem_of(scene)?;
         problem.warnings.extend(at_rest_warning(scene));
         warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
@@ -143,7 +142,10 @@ impl Arguments {
             let error = InputError::new(format!("setting.scalar: {why}")).file(scene.file());
             return Err(error.hint("give --scalar, or leave out --solver").into());
         }
-        let keys = setting.of_method();
+        let mut keys = setting.of_method();
+        if self.max_error.is_some() && setting.error.is_some() {
+            keys.push("error");
+        }
         if !keys.is_empty() {
             let keys: Vec<_> = keys.iter().map(|key| format!("setting.{key}")).collect();
             eprintln!("warning: the command line takes the place of {}", keys.join(", "));

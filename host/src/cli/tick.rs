@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::honoured::Command;
+use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::tick::baked::replay;
 use signorini_bake::tick::columns::ticks_csv;
 use signorini_bake::tick::{Budget, TickRecord, log, picture, play, schedule};
 use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
 use signorini_solve::output::atomic::write_atomically;
@@ -80,7 +81,7 @@ impl Arguments {
             Some(path) => log::read(path, &scene)?,
             None => schedule::moments(&scene, self.ticks)?,
         };
-        let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+        let problem = problem_of(&scene)?;
         let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, gmsh::read(mesh)?));
         let coarse = coarse.transpose()?;
         warn(&problem.warnings);

@@ -7,13 +7,13 @@ use super::{Candidate, Model, Origin};
 use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::dense::{Done, Price};
-use crate::inputs::InputSpace;
 use crate::setting::checked;
 use crate::{condensed, trial};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, Setting};
 use signorini_solve::condense::CondensedModel;
+use signorini_solve::inputs::InputSpace;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::unfit;
 

@@ -14,10 +14,10 @@ use super::output::Output;
 use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
-use crate::inputs::ranges;
 use signorini_image::chosen::WorstCase;
 use signorini_scene::setting::{Omega, Setting, Start as From};
 use signorini_solve::condense::{CondensedModel, ModalModel};
+use signorini_solve::inputs::ranges;
 use signorini_solve::ranges::split::Split;
 use signorini_solve::scalar::Scalar;
 

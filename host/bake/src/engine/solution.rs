@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use super::{TickSolution, completed, with};
-use crate::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Start};
+use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::problem::{Parts, Problem};
 use signorini_solve::solve::{ScalarKind, Seconds, Solution};
 

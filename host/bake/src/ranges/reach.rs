@@ -2,15 +2,10 @@
 
 use crate::choice::Origin;
 use crate::condensed::{Baked, Controller};
-use crate::inputs::{InputSpace, drawn};
+use signorini_solve::inputs::{InputSpace, corners_and_drawn};
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::interval::Interval;
 use signorini_solve::scalar::Scalar;
-
-/// Inputs drawn.
-const DRAWN: usize = 1000;
-/// Inputs of which all corners are tried; of more, those that are drawn.
-const CORNERS: usize = 8;
 
 /// What was seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +23,7 @@ pub(super) struct Reach {
 impl Reach {
     /// What the exact solution reaches, and the controller's bound: it is ticked with the same inputs.
     pub fn new<R: Scalar>(problem: &Problem, baked: &Baked<R>, origin: &Origin) -> Self {
-        let all = inputs(&InputSpace::of(&problem.scene));
+        let all = corners_and_drawn(&InputSpace::of(&problem.scene));
         let nothing = Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
         let mut outputs = vec![None; origin.model().outputs.len()];
         for inputs in &all {
@@ -40,17 +35,6 @@ impl Reach {
         let unbounded = baked.without_bound().unwrap_or("no tick had one").to_owned();
         Self { inputs: all.len(), outputs, bound: bound(baked, &all), unbounded }
     }
-}
-
-/// The corners, then what is drawn.
-fn inputs(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
-    let corners = if spaces.len() <= CORNERS { 1_usize << spaces.len() } else { 0 };
-    let corner = |bits: usize| {
-        let end = |(at, space): (usize, &InputSpace)| space.range[(bits >> at) & 1];
-        spaces.iter().enumerate().map(end).collect()
-    };
-    let drawn = drawn(spaces, if spaces.is_empty() { 0 } else { DRAWN - 1 });
-    (0..corners).map(corner).filter(|_| !spaces.is_empty()).chain(drawn).collect()
 }
 
 /// The outputs of the solution; none where there is no solution or for the bound.

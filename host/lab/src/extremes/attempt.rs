@@ -9,9 +9,10 @@ use super::grid::msh;
 use signorini_bake::engine;
 use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::{Mesh, adapted};
+use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
+use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::certify::{CertifiedFields, ErrorBound};
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, solve, status_name};
@@ -56,7 +57,7 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
     write(&path, case.posed.scene() + &setting(case))?;
     write(&mesh, msh(&case.posed.mesh()))?;
     let scene = Scene::read(&path)?;
-    let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+    let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     if case.effort.ticks > 0 {
         return ticks(case, &scene, problem);
     }

@@ -10,15 +10,15 @@ use super::panel::panel;
 use crate::cycles;
 use signorini_draw::ScenePanel;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
+use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 /// Solves the scene at `path` three times and compares.
 pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
     let scene = Scene::read(path)?;
-    let problem = Problem::new(&scene, adapted::of_scene(&scene)?)?;
+    let problem = Problem::new(&scene, mesh_of_scene(&scene)?.mesh)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let direct = Options { solver: SolverKind::Direct, ..Options::default() };
     let reference = solve(&problem, &direct)?;

@@ -8,8 +8,8 @@ use super::bound::Certified;
 use super::checks::Check;
 use signorini_draw::{self as report, SweepPlot, TableRow};
 use signorini_scene::error::Result;
-use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
+use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, solve};
 use signorini_solve::threads::on_two_threads;
@@ -58,7 +58,7 @@ pub fn run(plans: &[CutOffPlan], done: impl Fn() + Sync) -> Result<Vec<CutOff>> 
 impl CutOffPlan {
     fn run(&self) -> Result<CutOff> {
         let (name, scene) = (self.name.clone(), &self.scene);
-        let problem = Problem::new(scene, adapted::of_scene(scene)?)?;
+        let problem = Problem::new(scene, mesh_of_scene(scene)?.mesh)?;
         let converged = solve(&problem, &Options::default())?;
         let energy = converged.energy(&problem);
         let (mut stops, mut checks) = (Vec::new(), Vec::new());

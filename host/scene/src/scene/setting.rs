@@ -6,10 +6,12 @@ use toml::de::DeValue;
 use super::entry::Entry;
 use super::table::Table;
 use crate::error::{InputError, Result};
+use crate::goal::Goal;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "refine",
+    "error",
     "cells",
     "element",
     "scalar",
@@ -49,6 +51,7 @@ pub(super) fn read_setting(table: &Table) -> Result<Setting> {
     let default = Setting::default();
     let setting = Setting {
         refine: read(table, "refine", |entry| entry.whole(0..=FINEST))?.unwrap_or(default.refine),
+        error: read(table, "error", goal)?,
         cells: choice(table, "cells", &CELLS)?,
         element: choice(table, "element", &ELEMENTS)?.unwrap_or(default.element),
         scalar: choice(table, "scalar", &SCALARS)?,
@@ -87,6 +90,15 @@ fn omega(entry: &Entry) -> Result<Omega> {
     }
 }
 
+fn goal(entry: &Entry) -> Result<Goal> {
+    let found = match &entry.at.value {
+        DeValue::String(text) => text.parse().ok(),
+        _ => entry.number().ok().filter(|&most| most > 0.0).map(Goal::Energy),
+    };
+    let expected = || entry.expected("a number > 0, such as 0.01, or a part such as \"5%\"");
+    found.ok_or_else(|| expected().into())
+}
+
 /// The error that the value of `key` does not go with another.
 fn error(table: &Table, key: &str, message: &str) -> InputError {
     table.get(key).map_or_else(|| table.absent(key), |entry| entry.error(message))
@@ -100,6 +112,12 @@ fn contradiction(setting: &Setting) -> Option<(&'static str, &'static str, &'sta
     let factored = setting.solver == Some(Method::Factor);
     let full_only = "remove it, or take model = \"full\"";
     let rules = [
+        (
+            setting.error.is_some() && setting.refine > 0,
+            "refine",
+            "excludes `error`, which says how fine the mesh becomes",
+            "remove one of them",
+        ),
         (
             sweeps.is_some() && share.is_some(),
             "share",

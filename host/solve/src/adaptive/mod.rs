@@ -3,18 +3,20 @@
 //! ```text
 //!   mesh ─► solve from the start ─► bound ≤ goal? ─► indicators ─► marked cells ─► finer mesh, start carried over ─► …
 //! ```
-//! The bound decides, not an estimate. Where it stalls, [`Stop::Stalled`] says which of its terms does, and where.
+//! The bound decides, not an estimate. Where it falls slowly, all cells are refined in the next round; where it stalls nevertheless,
+//! [`Stop::Stalled`] says which of its terms does, and where.
 
 mod carry;
-mod goal;
+mod for_inputs;
+mod history;
 mod indicators;
 mod marking;
-mod stall;
+mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use goal::Goal;
-pub use stall::{Stall, Term};
+pub use for_inputs::{MeshOfScene, Promise, mesh_of_scene};
+pub use stop::{Stall, Stop, Term};
 
 use std::time::Instant;
 
@@ -22,11 +24,12 @@ use crate::energy_norm;
 use crate::problem::Problem;
 use crate::progress::stage;
 use crate::solve::{Options, Solution, solve_from};
+use history::History;
 use signorini_scene::error::Result;
+use signorini_scene::goal::Goal;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::scene::Scene;
-use stall::History;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy)]
@@ -54,24 +57,8 @@ pub struct Level {
     pub seconds: f64,
 }
 
-/// Why the last level is the last.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Stop {
-    /// The bound is below the goal.
-    Reached,
-    /// The next mesh has so many unknowns, more than are allowed.
-    TooLarge(usize),
-    /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
-    Finest(String),
-    /// The bound no longer falls.
-    Stalled(Stall),
-    /// There is no bound to go by.
-    NoBound,
-    /// The solver stopped before its tolerance.
-    Unsolved,
-    /// Whoever looks at each level asked for it.
-    Interrupted,
-}
+/// Unknowns of a refined mesh at most, unless more are allowed.
+pub const MOST_UNKNOWNS: usize = 1_000_000;
 
 /// Solves `scene` on `mesh` and on refinements of it until the goal is reached; `look` sees every level, and ends it by `false`.
 /// The last level, with its mesh, and why it is the last.
@@ -90,12 +77,17 @@ pub fn refined_until(
     loop {
         let level = posed.solved(number, wanted, &start)?;
         let goes_on = look(&level)?;
-        if let Some(stop) = level.ended(wanted, goes_on, &mut history)? {
+        let bound = level.solution.bound.map_or(f64::NAN, |bound| bound.total);
+        history.push(level.unknowns(), bound);
+        if let Some(stop) = level.ended(wanted.goal, goes_on, &history)? {
             return Ok((level, stop));
         }
         stage("marking and refining cells");
         let squares = indicators::squares(&level.problem, &level.solution)?;
-        let marked = marking::marked(&squares, wanted.goal.of(&level));
+        let marked = match history.is_slow() {
+            true => vec![true; squares.len()],
+            false => marking::marked(&squares, wanted.goal.most(level.energy_norm)),
+        };
         let carried = match hierarchy.refine(&marked) {
             Ok(carried) => carried,
             Err(why) => return Ok((level, Stop::Finest(why.to_string()))),
@@ -111,14 +103,39 @@ pub fn refined_until(
 }
 
 impl Level {
+    /// Solves `problem`, in work since `clock` was started, from a start or from nothing.
+    fn solved(
+        number: usize,
+        problem: Problem,
+        clock: Instant,
+        options: &Options,
+        start: &[f64],
+    ) -> Result<Self> {
+        let solution = solve_from(&problem, options, start)?;
+        let energy_norm = energy_norm::of_solution(&problem, &solution)?;
+        let seconds = clock.elapsed().as_secs_f64();
+        Ok(Self { number, problem, solution, energy_norm, seconds })
+    }
+
+    /// The bound over what it is to be at most; none where there is no bound.
+    fn ratio(&self, goal: Goal) -> Option<f64> {
+        self.solution.bound.map(|bound| goal.ratio(bound.total, self.energy_norm))
+    }
+
+    /// Unknown edges of its mesh.
+    pub fn unknowns(&self) -> usize {
+        self.problem.topology.counts.unknowns()
+    }
+
     /// Why no level follows it, apart from meshes.
-    fn ended(&self, wanted: &Wanted, goes_on: bool, history: &mut History) -> Result<Option<Stop>> {
-        Ok(match &self.solution.bound {
+    fn ended(&self, goal: Goal, goes_on: bool, history: &History) -> Result<Option<Stop>> {
+        Ok(match self.ratio(goal) {
             _ if !self.solution.converged() => Some(Stop::Unsolved),
             None => Some(Stop::NoBound),
-            Some(bound) if wanted.goal.is_met(bound.total, self.energy_norm) => Some(Stop::Reached),
+            Some(..=1.0) => Some(Stop::Reached),
             Some(_) if !goes_on => Some(Stop::Interrupted),
-            Some(_) => history.stalled(self)?.map(Stop::Stalled),
+            Some(_) if history.is_stalled() => Some(Stop::Stalled(Stall::of(self)?)),
+            Some(_) => None,
         })
     }
 }
@@ -136,11 +153,7 @@ impl Posed {
     }
 
     fn solved(self, number: usize, wanted: &Wanted, start: &[f64]) -> Result<Level> {
-        let Self { problem, clock } = self;
-        stage(&format!("level {number}, {} unknowns", problem.topology.counts.unknowns()));
-        let solution = solve_from(&problem, &wanted.options, start)?;
-        let energy_norm = energy_norm::of_solution(&problem, &solution)?;
-        let seconds = clock.elapsed().as_secs_f64();
-        Ok(Level { number, problem, solution, energy_norm, seconds })
+        stage(&format!("level {number}, {} unknowns", self.problem.topology.counts.unknowns()));
+        Level::solved(number, self.problem, self.clock, &wanted.options, start)
     }
 }

@@ -19,8 +19,8 @@ use signorini_kernel::discrete::rows;
 use signorini_kernel::solve::solver::Status;
 
 use super::{
-    Clock, Options, Ran, Result, Solution, Solved, by_kernel, conclude, direct, factored, started,
-    unfit,
+    Clock, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude, direct,
+    factored, started, unfit,
 };
 use crate::problem::{Approach, Assembled, Parts, Problem};
 use crate::scalar::Scalar;
@@ -50,7 +50,7 @@ pub(super) fn in_f64(
     options: &Options,
     start: &[f64],
 ) -> Result<Solution> {
-    if prefers_factor(problem) {
+    if options.solver == SolverKind::Factor || prefers_factor(problem) {
         if let Some(found) = by_factor::<f64>(problem, parts, options, start)? {
             return Ok(found);
         }
@@ -71,7 +71,7 @@ pub(super) fn in_f32(
     options: &Options,
     start: &[f64],
 ) -> Result<Solution> {
-    if prefers_factor(problem)
+    if (options.solver == SolverKind::Factor || prefers_factor(problem))
         && let Some(found) = by_factor::<f32>(problem, parts, options, start)?
     {
         return Ok(found);

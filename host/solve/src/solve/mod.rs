@@ -53,8 +53,8 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
     solve_from(problem, options, &[])
 }
 
-/// The same from a start: the mean of u over each unknown edge, such as a coarser mesh gives it. Empty, it is a cold start. The
-/// direct solver takes none.
+/// The same from a start: the mean of u over each unknown edge, such as a coarser mesh or other data give it. Entries of Dirichlet
+/// edges are ignored: there the problem's own data hold. Empty, it is a cold start. The direct solver takes none.
 ///
 /// # Errors
 /// As for [`solve`].
@@ -70,8 +70,12 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
 fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
-        (SolverKind::Auto, ScalarKind::F64) => auto::in_f64(problem, &parts, options, start),
-        (SolverKind::Auto, ScalarKind::F32) => auto::in_f32(problem, &parts, options, start),
+        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F64) => {
+            auto::in_f64(problem, &parts, options, start)
+        }
+        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F32) => {
+            auto::in_f32(problem, &parts, options, start)
+        }
         (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options, start),
         (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options, start),
         (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
@@ -102,8 +106,9 @@ fn overflow<R: Scalar>(scene: &Scene) -> Error {
 
 /// u to begin with: what Dirichlet data and `start` say, and 0.
 fn started<R: Scalar>(assembled: &Assembled<R>, start: &[f64]) -> Vec<R> {
+    let unknowns = assembled.edges().counts().unknowns();
     let mut u = assembled.start();
-    u.iter_mut().zip(start).for_each(|(u, &start)| *u = R::narrow(start));
+    u.iter_mut().take(unknowns).zip(start).for_each(|(u, &start)| *u = R::narrow(start));
     u
 }
 

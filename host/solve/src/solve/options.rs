@@ -35,6 +35,10 @@ pub enum SolverKind {
     Auto,
     /// The kernel's projected SOR, and its factor where that does not end.
     Kernel,
+    /// The kernel's factor, and its sweeps where that has no answer: for many solves on one mesh, where what sweeps would take is
+    /// not known.
+    #[value(skip)]
+    Factor,
     /// The host's active set on one sparse Cholesky factorisation (f64).
     Direct,
 }

@@ -1,8 +1,8 @@
 //! The worst case that is proved: no tick exceeds it.
 
 use signorini_bake::condensed::{Baked, Controller};
-use signorini_bake::inputs::{InputSpace, drawn};
 use signorini_kernel::device::report::Ended;
+use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::scalar::Scalar;
 
 use super::Pair;

@@ -5,6 +5,7 @@ use std::path::Path;
 use signorini_kernel::discrete::element::QuadElement;
 
 use super::{LEVEE, SMALL, hint, parse};
+use crate::goal::Goal;
 use crate::scene::Scene;
 use crate::setting::{CellKind, MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
@@ -25,6 +26,7 @@ fn every_key_is_read_and_what_is_left_out_is_the_default() {
         solver = 'sweeps'\nstart = 'cold'\nomega = 1.5\nshare = 0.25\ncertificate = true";
     let expected = Setting {
         refine: 2,
+        error: None,
         cells: Some(CellKind::Quads),
         element: QuadElement::Nonparametric,
         scalar: Some(Precision::F32),
@@ -65,6 +67,8 @@ fn what_is_written_is_read_again() {
         Setting { sweeps: Some(12), certificate: false, ..condensed },
         Setting { scalar: Some(Precision::Mixed), share: Some(0.1), ..Setting::default() },
         Setting { element: QuadElement::Nonparametric, ..Setting::default() },
+        Setting { error: Some(Goal::Part(0.05)), ..Setting::default() },
+        Setting { error: Some(Goal::Energy(1e-3)), ..condensed },
         Setting { refine: 6, cells: Some(CellKind::Triangles), ..Setting::default() },
         Setting { solver: Some(Method::Factor), ..Setting::default() },
         Setting { solver: Some(Method::Exact), ..condensed },
@@ -84,6 +88,18 @@ const WRONG: &[(&str, &str)] = &[
     (
         "refine = 1.0",
         "6: setting.refine: expected a whole number from 0 to 6, found the number 1.0",
+    ),
+    (
+        "error = 0",
+        "6: setting.error: expected a number > 0, such as 0.01, or a part such as \"5%\", found the number 0",
+    ),
+    (
+        "error = '5 percent'",
+        "6: setting.error: expected a number > 0, such as 0.01, or a part such as \"5%\", found the text \"5 percent\"",
+    ),
+    (
+        "error = '5%'\nrefine = 1",
+        "7: setting.refine: excludes `error`, which says how fine the mesh becomes",
     ),
     ("cells = 'hexagons'", "6: setting.cells: `hexagons` is not one of: triangles, quads"),
     ("cells = 4", "6: setting.cells: expected a text, found the number 4"),

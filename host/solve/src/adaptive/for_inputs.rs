@@ -1,0 +1,269 @@
+//! One mesh for all inputs of a controller: refined until the error bound is small enough for every input that is tried.
+//!
+//! ```text
+//!   the defaults, all corners of the ranges ─► bounds ─► all ≤ goal? ─► 1000 inputs drawn from the ranges ─► all ≤ goal ─► this mesh
+//!                                                │ no                       │ the worst that are not join the first
+//!                                                ▼                          ▼
+//!                                 a cell's indicator is the largest of all that are above the goal ─► refined
+//! ```
+//! The bound of every solve is guaranteed. That inputs between those tried have one as small is not: `bake` proves a largest bound
+//! over the whole box where it can.
+
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::time::Instant;
+
+use super::history::History;
+use super::{Level, MOST_UNKNOWNS, Stall, Stop, carry, indicators, marking};
+use crate::inputs::{InputSpace, corners, corners_and_drawn};
+use crate::problem::Problem;
+use crate::progress::stage;
+use crate::solve::{Options, SolverKind};
+use crate::threads::on_two_threads;
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::goal::Goal;
+use signorini_scene::mesh::adaptive::{Carried, Hierarchy};
+use signorini_scene::mesh::{Mesh, adapted};
+use signorini_scene::scene::Scene;
+
+/// Of inputs that are drawn and above the goal, how many join those that every level is solved for.
+const JOINING: usize = 4;
+/// Inputs that are drawn and tried before the worst of them may end the trial of a mesh.
+const BATCH: usize = 50;
+
+/// The mesh that a setting asks for.
+#[derive(Debug)]
+pub struct MeshOfScene {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What holds on it, where the setting has an `error`.
+    pub promise: Option<Promise>,
+}
+
+/// That the bound is small enough for all inputs tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Promise {
+    /// What the bound is at most.
+    pub goal: Goal,
+    /// The largest bound over what it was to be.
+    pub largest: f64,
+    /// Inputs tried.
+    pub inputs: usize,
+    /// Unknowns of the mesh.
+    pub unknowns: usize,
+}
+
+impl fmt::Display for Promise {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        let Self { goal, largest, inputs, unknowns } = self;
+        let part = 100.0 * largest;
+        write!(to, "the mesh was refined to {unknowns} unknowns: ")?;
+        match inputs {
+            1 => {
+                write!(to, "the error bound is {part:.0} % of the {goal} that setting.error allows")
+            }
+            _ => write!(
+                to,
+                "for all {inputs} inputs tried, corners of the ranges among them, the error bound is at most {part:.0} % of the \
+                 {goal} that setting.error allows"
+            ),
+        }
+    }
+}
+
+/// The mesh of the scene's file as its setting asks for: brought to cells of one kind, and refined so many times, or until its
+/// error bound is small enough for the inputs' defaults and ranges, at time 0.
+///
+/// # Errors
+/// A file that is no mesh; a refinement too fine; an error that no mesh reaches, with the inputs and the reason.
+pub fn mesh_of_scene(scene: &Scene) -> Result<MeshOfScene> {
+    let mesh = adapted::of_scene(scene)?;
+    match scene.setting.and_then(|setting| setting.error) {
+        None => Ok(MeshOfScene { mesh, promise: None }),
+        Some(goal) => for_inputs(scene, mesh, goal),
+    }
+}
+
+/// Refines `mesh` until the bound meets the goal for all inputs tried.
+fn for_inputs(scene: &Scene, mesh: Mesh, goal: Goal) -> Result<MeshOfScene> {
+    let mut hierarchy = Hierarchy::new(mesh)?;
+    let mut trial = Trial::new(scene, goal);
+    let mut history = History::default();
+    let mut carried = None;
+    loop {
+        let problem = Problem::new(scene, hierarchy.mesh().clone())?;
+        let unknowns = problem.topology.counts.unknowns();
+        trial.check_size(unknowns)?;
+        let largest = trial.solve(&problem, carried.as_ref())?;
+        if largest <= 1.0 {
+            let promise = Promise { goal, largest, inputs: trial.tried(), unknowns };
+            return Ok(MeshOfScene { mesh: hierarchy.mesh().clone(), promise: Some(promise) });
+        }
+        history.push(unknowns, largest);
+        let marked = trial.marked(&history)?;
+        carried = Some(hierarchy.refine(&marked).map_err(|why| trial.finest(&why.to_string()))?);
+    }
+}
+
+/// Inputs on one mesh after another.
+struct Trial<'a> {
+    scene: &'a Scene,
+    goal: Goal,
+    options: Options,
+    /// The corners of the ranges, and what is drawn.
+    inputs: Vec<Vec<f64>>,
+    /// Those that every mesh is solved for: the defaults, the corners, and the worst of the others so far.
+    followed: Vec<Followed>,
+}
+
+/// Values of the inputs, and the solution with them on the last mesh.
+struct Followed {
+    values: Vec<f64>,
+    level: Option<Level>,
+}
+
+impl<'a> Trial<'a> {
+    fn new(scene: &'a Scene, goal: Goal) -> Self {
+        let spaces = InputSpace::of(scene);
+        let defaults = spaces.iter().map(|space| space.default).collect();
+        let values = std::iter::once(defaults).chain(corners(&spaces));
+        let followed = values.map(|values| Followed { values, level: None }).collect();
+        let options = Options { solver: SolverKind::Factor, ..Options::default() };
+        Self { scene, goal, options, inputs: corners_and_drawn(&spaces), followed }
+    }
+
+    fn tried(&self) -> usize {
+        self.inputs.len().max(1)
+    }
+
+    /// Solves for the inputs that are followed, each from its last solution. Where all of them meet the goal, the others are tried,
+    /// and the worst that do not are followed from now on. The largest bound over what it is to be.
+    fn solve(&mut self, problem: &Problem, carried: Option<&Carried>) -> Result<f64> {
+        stage(&format!("{} unknowns", problem.topology.counts.unknowns()));
+        let followed = |of: &Followed| {
+            let start = |problem: &Problem| match (&of.level, carried) {
+                (Some(level), Some(carried)) => carry::start(level, problem, carried),
+                _ => Vec::new(),
+            };
+            self.level(problem, &of.values, start)
+        };
+        let levels = on_two_threads(&self.followed, followed, || ())?;
+        for (of, level) in self.followed.iter_mut().zip(levels) {
+            of.level = Some(level);
+        }
+        let largest = self.followed.iter().try_fold(0.0, |most, of| self.larger(most, of))?;
+        if largest > 1.0 { Ok(largest) } else { self.try_others(problem, largest) }
+    }
+
+    /// The largest bound over what it is to be, once inputs are tried that are not followed yet.
+    fn try_others(&mut self, problem: &Problem, mut largest: f64) -> Result<f64> {
+        let start = self.followed[0].level.as_ref().map_or(&[][..], |level| &level.solution.u);
+        let mut above = Vec::new();
+        for batch in self.inputs.chunks(BATCH) {
+            let tried = |values: &Vec<f64>| {
+                let level = self.level(problem, values, |_| start.to_vec())?;
+                Ok(Followed { values: values.clone(), level: Some(level) })
+            };
+            for of in on_two_threads(batch, tried, || ())? {
+                let ratio = self.larger(0.0, &of)?;
+                largest = largest.max(ratio);
+                above.extend((ratio > 1.0).then_some((ratio, of)));
+            }
+            if !above.is_empty() {
+                break;
+            }
+        }
+        above.sort_by(|a, b| b.0.total_cmp(&a.0));
+        self.followed.extend(above.into_iter().take(JOINING).map(|(_, of)| of));
+        Ok(largest)
+    }
+
+    fn level(
+        &self,
+        problem: &Problem,
+        values: &[f64],
+        start: impl Fn(&Problem) -> Vec<f64>,
+    ) -> Result<Level> {
+        let clock = Instant::now();
+        let problem = problem.with_inputs(values)?;
+        let start = start(&problem);
+        Level::solved(0, problem, clock, &self.options, &start)
+    }
+
+    /// The bound over what it is to be, or `most` where that is more.
+    fn larger(&self, most: f64, of: &Followed) -> Result<f64> {
+        let Some(level) = &of.level else { return Ok(most) };
+        match level.ratio(self.goal) {
+            _ if !level.solution.converged() => Err(self.failed(level, &Stop::Unsolved)),
+            Some(ratio) => Ok(most.max(ratio)),
+            None => Err(self.failed(level, &Stop::NoBound)),
+        }
+    }
+
+    /// The cells to refine, by the largest indicator of all inputs that are above the goal; all where the bound falls slowly.
+    fn marked(&self, history: &History) -> Result<Vec<bool>> {
+        let above: Vec<&Level> = self.levels().filter(|level| self.is_above(level)).collect();
+        if let (true, Some(worst)) = (history.is_stalled(), self.worst()) {
+            return Err(self.failed(worst, &Stop::Stalled(Stall::of(worst)?)));
+        }
+        let mut largest = vec![0.0_f64; above.first().map_or(0, |level| level.problem.cells())];
+        if history.is_slow() {
+            return Ok(vec![true; largest.len()]);
+        }
+        for level in above {
+            let unit = self.goal.most(level.energy_norm).powi(2);
+            let squares = indicators::squares(&level.problem, &level.solution)?;
+            for (most, square) in largest.iter_mut().zip(squares) {
+                *most = most.max(square / unit);
+            }
+        }
+        Ok(marking::marked(&largest, 1.0))
+    }
+
+    fn levels(&self) -> impl Iterator<Item = &Level> {
+        self.followed.iter().filter_map(|of| of.level.as_ref())
+    }
+
+    fn is_above(&self, level: &Level) -> bool {
+        level.ratio(self.goal).is_some_and(|ratio| ratio > 1.0)
+    }
+
+    fn worst(&self) -> Option<&Level> {
+        let ratio = |level: &Level| level.ratio(self.goal).unwrap_or(f64::INFINITY);
+        self.levels().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
+    }
+
+    /// Refuses a mesh with too many unknowns.
+    fn check_size(&self, unknowns: usize) -> Result<()> {
+        match self.worst() {
+            Some(worst) if unknowns > MOST_UNKNOWNS => {
+                Err(self.failed(worst, &Stop::TooLarge(unknowns)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn finest(&self, why: &str) -> Error {
+        let stop = Stop::Finest(why.to_owned());
+        self.worst().map_or_else(|| InputError::new(why).into(), |worst| self.failed(worst, &stop))
+    }
+
+    /// That no mesh was found, for the inputs of this level.
+    fn failed(&self, level: &Level, stop: &Stop) -> Error {
+        let why = match stop {
+            Stop::TooLarge(unknowns) => {
+                format!("the next mesh has {unknowns} unknowns, more than {MOST_UNKNOWNS}")
+            }
+            stop => stop.why(&level.solution).unwrap_or_default(),
+        };
+        let inputs = level.problem.scene.inputs.iter();
+        let with: Vec<String> =
+            inputs.map(|input| format!("{} = {}", input.name.value, input.default)).collect();
+        let with = if with.is_empty() { String::new() } else { format!(", {}", with.join(", ")) };
+        let message = format!("setting.error = {:?}{with}: {why}", self.goal.to_string());
+        let hint = "allow a larger error, or declare narrower ranges";
+        InputError::new(message).file(self.scene.file()).hint(hint).into()
+    }
+}

@@ -1,0 +1,110 @@
+//! Why levels end.
+
+use super::Level;
+use super::indicators::{oscillations, squares};
+use crate::certify::cell::Cell;
+use crate::solve::Solution;
+use signorini_scene::error::Result;
+
+/// Why the last level is the last.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stop {
+    /// The bound is below the goal.
+    Reached,
+    /// The next mesh has so many unknowns, more than are allowed.
+    TooLarge(usize),
+    /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
+    Finest(String),
+    /// The bound no longer falls.
+    Stalled(Stall),
+    /// There is no bound to go by.
+    NoBound,
+    /// The solver stopped before its tolerance.
+    Unsolved,
+    /// Whoever looks at each level asked for it.
+    Interrupted,
+}
+
+impl Stop {
+    /// What ended it with this solution, in words; nothing where that is the goal.
+    pub fn why(&self, solution: &Solution) -> Option<String> {
+        const ABOVE: &str = "the error bound is above what was asked for";
+        Some(match self {
+            Self::Reached => return None,
+            Self::TooLarge(unknowns) => {
+                format!(
+                    "{ABOVE}: the next mesh has {unknowns} unknowns, more than are allowed (--max-unknowns)"
+                )
+            }
+            Self::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),
+            Self::Stalled(Stall { term, at: [x, y] }) => {
+                let term = term.sentence();
+                format!("{ABOVE}, and no longer falls: most of it is {term}, near ({x:.6}, {y:.6})")
+            }
+            Self::NoBound => {
+                let reason =
+                    solution.no_bound.as_ref().map_or_else(String::new, ToString::to_string);
+                format!("nothing says where to refine: {reason}")
+            }
+            Self::Unsolved => "the solver stopped before its tolerance".to_owned(),
+            Self::Interrupted => {
+                format!("{ABOVE}: interrupted, and these are the files of the last level")
+            }
+        })
+    }
+}
+
+/// Which term of the bound no longer falls, and where it is largest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stall {
+    /// The largest term of the bound.
+    pub term: Term,
+    /// The middle of the cell in which it is largest.
+    pub at: [f64; 2],
+}
+
+/// A term of the error bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Term {
+    /// What s and τ are apart.
+    Gap,
+    /// What f, g and q leave out.
+    Oscillation,
+    /// What rounding can have hidden.
+    Rounding,
+    /// What the solver left.
+    Algebraic,
+}
+
+impl Term {
+    /// What it is, in words.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Self::Gap => "the gap between s and τ, as where data jump inside cells",
+            Self::Oscillation => "the oscillation of data that the mesh does not resolve",
+            Self::Rounding => "rounding",
+            Self::Algebraic => "what the solver left unfinished",
+        }
+    }
+}
+
+impl Stall {
+    /// The largest term of a level's bound, and the cell that has most of it.
+    pub(super) fn of(level: &Level) -> Result<Self> {
+        let Level { problem, solution, .. } = level;
+        let bound = solution.bound.unwrap_or_default();
+        let terms = [
+            (Term::Gap, (bound.duality_gap.powi(2) - bound.algebraic.powi(2)).max(0.0).sqrt()),
+            (Term::Oscillation, 2.0 * bound.oscillation),
+            (Term::Rounding, bound.rounding),
+            (Term::Algebraic, bound.algebraic),
+        ];
+        let (term, _) = terms.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(terms[0]);
+        let of_cells = match term {
+            Term::Oscillation => oscillations(problem)?,
+            Term::Gap | Term::Rounding | Term::Algebraic => squares(problem, solution)?,
+        };
+        let largest = (0..of_cells.len()).max_by(|&a, &b| of_cells[a].total_cmp(&of_cells[b]));
+        Ok(Self { term, at: Cell::of(problem, largest.unwrap_or(0)).middle() })
+    }
+}

@@ -1,0 +1,14 @@
+//! A scene on the mesh that its setting asks for.
+
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::adaptive::{MeshOfScene, mesh_of_scene};
+use signorini_solve::problem::Problem;
+use signorini_solve::progress::{note, waiting};
+
+/// The problem; what holds on a refined mesh is said.
+pub(super) fn problem_of(scene: &Scene) -> Result<Problem> {
+    let MeshOfScene { mesh, promise } = waiting("refining the mesh", || mesh_of_scene(scene))?;
+    promise.iter().for_each(note);
+    Problem::new(scene, mesh)
+}
