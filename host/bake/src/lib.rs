@@ -22,6 +22,7 @@ pub mod export;
 pub mod full;
 mod item;
 pub mod module_api;
+pub mod promise;
 pub mod range;
 pub mod ranges;
 pub mod setting;

@@ -4,16 +4,19 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::posed::problem_of;
+use super::posed::promised_problem_of;
 use super::{scene_at, write_beside};
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
+use signorini_bake::promise;
 use signorini_bake::setting;
 use signorini_scene::error::Result;
+use signorini_scene::goal::Goal;
 use signorini_scene::setting::ModelKind;
+use signorini_solve::adaptive::Promise;
 use signorini_solve::problem::Problem;
-use signorini_solve::progress::{say, waiting, warn};
+use signorini_solve::progress::{note, say, waiting, warn};
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
 
@@ -28,6 +31,10 @@ and win over the scene's [setting]. A full model is solved by sweeps or by a fac
 a condensed one by exchanges to the exact solution, where they are proved to end, else by these \
 or by sweeps to a tolerance: whichever takes fewer instructions for inputs drawn from their \
 ranges. setting.solver asks for one of them: sweeps, factor, exact.
+
+With error = \"5%\" in [setting] the mesh is refined first, until the error bound is that small for \
+the default inputs, all corners of their ranges and 1000 inputs drawn from them. An error without \
+% may be proved for all inputs within their ranges; which it is, is said.
 
 Where inputs declare range = [lo, hi], contact edges that never change sides within these ranges \
 are proved to be so, and taken out of a condensed model; --full-edges keeps them. --explain lists \
@@ -86,12 +93,19 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
-        let problem = problem_of(&scene)?;
+        let (problem, promise) = promised_problem_of(&scene)?;
+        let promise = promise.as_ref();
         warn(&problem.warnings);
         let Emitted { source, chosen } = match setting::scalar(&scene, self.scalar)? {
-            ScalarKind::F32 => self.module::<f32>(&problem)?,
-            ScalarKind::F64 => self.module::<f64>(&problem)?,
+            ScalarKind::F32 => self.module::<f32>(&problem, promise)?,
+            ScalarKind::F64 => self.module::<f64>(&problem, promise)?,
         };
+        if let Some(promise) = promise {
+            note(&of_the_box(
+                promise.goal,
+                chosen.ranges.and_then(|ranges| ranges.largest_error_bound),
+            ));
+        }
         write_beside(&scene, "-o", &self.output, &source)?;
         if let Some(file) = &self.json {
             // Numbers, names and flags: nothing here can fail.
@@ -104,7 +118,7 @@ impl Arguments {
 
 impl Arguments {
     /// The module; what there is to say of it is said.
-    fn module<R: Scalar>(&self, problem: &Problem) -> Result<Emitted> {
+    fn module<R: Scalar>(&self, problem: &Problem, promise: Option<&Promise>) -> Result<Emitted> {
         let kind = match (self.full, self.condensed) {
             (true, _) => Some(ModelKind::Full),
             (_, true) => Some(ModelKind::Condensed),
@@ -115,6 +129,9 @@ impl Arguments {
         let unknowns = problem.topology.counts.unknowns();
         let choice =
             waiting(&format!("baking {unknowns} unknowns"), || Choice::<R>::new(problem, wanted))?;
+        if let Some(promise) = promise {
+            promise::check(&problem.scene, &choice, promise)?;
+        }
         if problem
             .scene
             .target
@@ -132,6 +149,27 @@ impl Arguments {
     }
 }
 
+/// Whether a promised error holds for all inputs within their ranges, and not only for those tried.
+fn of_the_box(goal: Goal, proved: Option<f64>) -> String {
+    match (goal, proved) {
+        (Goal::Energy(most), Some(proved)) if proved <= most => {
+            format!(
+                "setting.error is proved for all inputs within their ranges: no solution of the model has an error bound above \
+                 {proved:.3e}, what a tick rounds apart"
+            )
+        }
+        (Goal::Energy(_), Some(proved)) => format!(
+            "setting.error holds for the inputs tried; for all within their ranges an error bound of {proved:.3e} is proved"
+        ),
+        (Goal::Energy(_), None) => {
+            "setting.error holds for the inputs tried; nothing is proved of others".to_owned()
+        }
+        (Goal::Part(_), _) => "setting.error holds for the inputs tried: a part of each solution's energy norm is not proved for \
+             others, as an error without % may be"
+            .to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -144,6 +182,15 @@ mod tests {
     fn example() -> Vec<&'static str> {
         let (_, lines) = EXAMPLES.split_once("In the firmware:\n").expect("an example");
         lines.lines().map(|line| line.trim_start()).collect()
+    }
+
+    #[test]
+    fn a_promise_says_for_which_inputs_it_holds() {
+        let goal = Goal::Energy(0.01);
+        assert!(of_the_box(goal, Some(0.01)).contains("is proved for all inputs within"));
+        assert!(of_the_box(goal, Some(0.02)).contains("2.000e-2 is proved"));
+        assert!(of_the_box(goal, None).contains("nothing is proved"));
+        assert!(of_the_box(Goal::Part(0.05), Some(0.01)).contains("not proved"));
     }
 
     fn levee() -> String {

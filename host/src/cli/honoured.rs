@@ -1,7 +1,8 @@
 //! The keys of `[setting]` that a command cannot follow: it refuses them instead of answering for another setting.
 //!
 //! ```text
-//!   refine, cells, element    every command: they are the mesh and its basis
+//!   refine, cells, element,
+//!   error                      every command: they are the mesh and its basis
 //!   scalar                    every command; f32+f64 solve and trade alone, f64 no C header
 //!   the rest                  solve, bake, trade, tick --baked
 //! ```

@@ -1,15 +1,19 @@
 //! `signorini trade`: speed against accuracy, measured.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use signorini_lab::checkout::root;
 use signorini_lab::trade::campaign::{Campaign, Ended};
 use signorini_lab::trade::front::{Goal, Tolerance};
+use signorini_lab::trade::promised;
 use signorini_lab::trade::shard::Shard;
 use signorini_lab::trade::table::text;
 use signorini_lab::trade::target::Target;
-use signorini_scene::error::{InputError, Result};
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::progress::{say, steps, warn};
 
 const EXAMPLES: &str = "\
@@ -17,6 +21,7 @@ Examples:
   signorini trade meshes/scenes/levee.toml
   signorini trade meshes/scenes/levee.toml --target m4f --budget-cycles 100000
   signorini trade bar.toml --max-error 1% --out out/bar
+  signorini trade bar.toml --promise 20%,10%,5%        which firmware such an error takes
   signorini trade scenes/*.toml --shard 2/4
 
 A study plans up to 60 settings of a scene (number format, mesh, cells, sweeps, start, ω, model, bound), measures each, \
@@ -50,6 +55,15 @@ pub struct Arguments {
     /// Leave out the other solvers and the study of micromath
     #[arg(long)]
     no_peers: bool,
+    /// Instead: the firmware that these errors take for all inputs, on a mesh refined where its bound asks for it and on one
+    /// refined everywhere; promised.txt
+    #[arg(
+        long,
+        value_name = "E,E,…",
+        value_delimiter = ',',
+        conflicts_with_all = ["budget_cycles", "max_error", "target", "no_peers", "shard"]
+    )]
+    promise: Vec<signorini_scene::goal::Goal>,
     /// This process's share of the cases, i of n
     #[arg(long, value_name = "i/n")]
     shard: Option<Shard>,
@@ -64,6 +78,9 @@ fn budget(text: &str) -> std::result::Result<f64, String> {
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
+        if !self.promise.is_empty() {
+            return self.promised();
+        }
         let wish = Goal { budget: self.budget_cycles, error: self.max_error };
         if self.no_peers && self.scenes.is_empty() && self.out.is_none() {
             let message =
@@ -100,6 +117,39 @@ impl Arguments {
             ));
         }
         refused(&trades, &wish).map(|refused| refused.max(status))
+    }
+}
+
+impl Arguments {
+    /// The table of each scene; without a scene that of the standard ones, which is the record.
+    fn promised(&self) -> Result<u8> {
+        let is_record = self.scenes.is_empty();
+        let standard = |name: &&str| Ok(root()?.join(format!("meshes/scenes/{name}.toml")));
+        let scenes = match is_record {
+            true => promised::STANDARD.iter().map(standard).collect::<Result<_>>()?,
+            false => self.scenes.clone(),
+        };
+        let file = match (&self.out, is_record) {
+            (Some(folder), _) => folder.join("promised.txt"),
+            (None, true) => root()?.join(promised::RECORD),
+            (None, false) => PathBuf::from("out/promised.txt"),
+        };
+        let bar = steps(2 * self.promise.len() * scenes.len());
+        let mut tables = Vec::new();
+        for path in &scenes {
+            let scene = Scene::read(path)?;
+            bar.set_message(scene.title.clone());
+            let taken = promised::of_scene(&scene, &self.promise, &mut || bar.inc(1))?;
+            tables.push(promised::text(&scene.title, &taken));
+        }
+        bar.finish_and_clear();
+        let text = tables.join("\n");
+        say(&text);
+        let folder = file.parent().unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+        write_atomically(&file, text.as_bytes())?;
+        say(format_args!("written to {}", file.display()));
+        Ok(0)
     }
 }
 

@@ -6,7 +6,8 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::{Mesh, gmsh};
 use signorini_scene::scene::Scene;
-use signorini_scene::setting::CellKind;
+use signorini_scene::setting::{CellKind, Setting};
+use signorini_solve::adaptive::mesh_of_scene;
 use signorini_solve::problem::Problem;
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
@@ -39,6 +40,15 @@ impl Meshes {
             if self.own.triangles.is_empty() { CellKind::Triangles } else { CellKind::Quads };
         let other = adapted(self.own.clone(), Some(kind), 0)?;
         Ok((other.triangles.len() != self.own.triangles.len()).then_some(kind))
+    }
+
+    /// On the mesh that `setting` asks for, which may be refined until its error is small enough.
+    pub fn of_setting(&mut self, setting: &Setting) -> Result<Problem> {
+        let problem = match setting.error {
+            Some(_) => Problem::new(&self.scene, mesh_of_scene(&self.scene)?.mesh)?,
+            None => self.problem(setting.cells, setting.refine)?.clone(),
+        };
+        Ok(problem.with_setting(Some(*setting)))
     }
 
     pub fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {

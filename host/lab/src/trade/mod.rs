@@ -24,6 +24,7 @@ mod meshes;
 pub mod mpi;
 pub mod picture;
 pub mod plan;
+pub mod promised;
 pub mod record;
 pub mod records;
 pub mod reference;

@@ -268,7 +268,7 @@ impl Study {
         meshes: &mut Meshes,
         truth: &ReferenceSolution,
     ) -> Result<MeasuredSetting> {
-        let problem = meshes.problem(setting.cells, setting.refine)?.with_setting(Some(*setting));
+        let problem = meshes.of_setting(setting)?;
         let mut point = measure::measure(&problem, truth)?;
         if let Some(board) = self.target.board() {
             match board::measure(&problem, &board, &self.module(&point.name))? {

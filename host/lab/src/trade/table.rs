@@ -35,7 +35,7 @@ pub fn text(trade: &Trade) -> String {
 }
 
 /// The table, an arrow before the row that stands out.
-fn lines(listing: &Listing) -> String {
+pub(super) fn lines(listing: &Listing) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     let mut header = listing.header.clone();

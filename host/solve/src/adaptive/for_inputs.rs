@@ -33,6 +33,26 @@ const JOINING: usize = 4;
 /// Inputs that are drawn and tried before the worst of them may end the trial of a mesh.
 const BATCH: usize = 50;
 
+/// Which cells of a mesh are refined while its bound is too large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refining {
+    /// Those that hold most of it; all where that brings little.
+    Marked,
+    /// All.
+    Everywhere,
+}
+
+/// What a mesh is to hold for all inputs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Promised {
+    /// What the bound is to be at most.
+    pub goal: Goal,
+    /// How it is to get there.
+    pub refining: Refining,
+    /// No refined mesh with more unknowns is tried.
+    pub most_unknowns: usize,
+}
+
 /// The mesh that a setting asks for.
 #[derive(Debug)]
 pub struct MeshOfScene {
@@ -49,22 +69,31 @@ pub struct Promise {
     pub goal: Goal,
     /// The largest bound over what it was to be.
     pub largest: f64,
-    /// Inputs tried.
-    pub inputs: usize,
     /// Unknowns of the mesh.
     pub unknowns: usize,
+    /// For all inputs tried, what the bound may be; the inputs are empty where the scene has none.
+    pub allowed: Vec<Allowed>,
+}
+
+/// What the bound may be for some inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Allowed {
+    /// Values of the inputs.
+    pub inputs: Vec<f64>,
+    /// In the unit of ‖A^½∇u‖.
+    pub bound: f64,
 }
 
 impl fmt::Display for Promise {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
-        let Self { goal, largest, inputs, unknowns } = self;
+        let Self { goal, largest, unknowns, allowed } = self;
         let part = 100.0 * largest;
         write!(to, "the mesh was refined to {unknowns} unknowns: ")?;
-        match inputs {
+        match allowed.len() {
             1 => {
                 write!(to, "the error bound is {part:.0} % of the {goal} that setting.error allows")
             }
-            _ => write!(
+            inputs => write!(
                 to,
                 "for all {inputs} inputs tried, corners of the ranges among them, the error bound is at most {part:.0} % of the \
                  {goal} that setting.error allows"
@@ -82,14 +111,23 @@ pub fn mesh_of_scene(scene: &Scene) -> Result<MeshOfScene> {
     let mesh = adapted::of_scene(scene)?;
     match scene.setting.and_then(|setting| setting.error) {
         None => Ok(MeshOfScene { mesh, promise: None }),
-        Some(goal) => for_inputs(scene, mesh, goal),
+        Some(goal) => {
+            let (refining, most_unknowns) = (Refining::Marked, MOST_UNKNOWNS);
+            let promised = Promised { goal, refining, most_unknowns };
+            let (mesh, promise) = promised_mesh(scene, mesh, promised)?;
+            Ok(MeshOfScene { mesh, promise: Some(promise) })
+        }
     }
 }
 
-/// Refines `mesh` until the bound meets the goal for all inputs tried.
-fn for_inputs(scene: &Scene, mesh: Mesh, goal: Goal) -> Result<MeshOfScene> {
+/// Refines `mesh` until the bound meets the goal for all inputs tried; that mesh, and what holds on it.
+///
+/// # Errors
+/// As for [`mesh_of_scene`].
+pub fn promised_mesh(scene: &Scene, mesh: Mesh, promised: Promised) -> Result<(Mesh, Promise)> {
+    let goal = promised.goal;
     let mut hierarchy = Hierarchy::new(mesh)?;
-    let mut trial = Trial::new(scene, goal);
+    let mut trial = Trial::new(scene, promised);
     let mut history = History::default();
     let mut carried = None;
     loop {
@@ -98,8 +136,8 @@ fn for_inputs(scene: &Scene, mesh: Mesh, goal: Goal) -> Result<MeshOfScene> {
         trial.check_size(unknowns)?;
         let largest = trial.solve(&problem, carried.as_ref())?;
         if largest <= 1.0 {
-            let promise = Promise { goal, largest, inputs: trial.tried(), unknowns };
-            return Ok(MeshOfScene { mesh: hierarchy.mesh().clone(), promise: Some(promise) });
+            let promise = Promise { goal, largest, unknowns, allowed: trial.allowed };
+            return Ok((hierarchy.mesh().clone(), promise));
         }
         history.push(unknowns, largest);
         let marked = trial.marked(&history)?;
@@ -110,12 +148,14 @@ fn for_inputs(scene: &Scene, mesh: Mesh, goal: Goal) -> Result<MeshOfScene> {
 /// Inputs on one mesh after another.
 struct Trial<'a> {
     scene: &'a Scene,
-    goal: Goal,
+    promised: Promised,
     options: Options,
     /// The corners of the ranges, and what is drawn.
     inputs: Vec<Vec<f64>>,
     /// Those that every mesh is solved for: the defaults, the corners, and the worst of the others so far.
     followed: Vec<Followed>,
+    /// What was found of all inputs on the last mesh.
+    allowed: Vec<Allowed>,
 }
 
 /// Values of the inputs, and the solution with them on the last mesh.
@@ -125,17 +165,20 @@ struct Followed {
 }
 
 impl<'a> Trial<'a> {
-    fn new(scene: &'a Scene, goal: Goal) -> Self {
+    fn new(scene: &'a Scene, promised: Promised) -> Self {
         let spaces = InputSpace::of(scene);
         let defaults = spaces.iter().map(|space| space.default).collect();
         let values = std::iter::once(defaults).chain(corners(&spaces));
         let followed = values.map(|values| Followed { values, level: None }).collect();
         let options = Options { solver: SolverKind::Factor, ..Options::default() };
-        Self { scene, goal, options, inputs: corners_and_drawn(&spaces), followed }
-    }
-
-    fn tried(&self) -> usize {
-        self.inputs.len().max(1)
+        Self {
+            scene,
+            promised,
+            options,
+            inputs: corners_and_drawn(&spaces),
+            followed,
+            allowed: Vec::new(),
+        }
     }
 
     /// Solves for the inputs that are followed, each from its last solution. Where all of them meet the goal, the others are tried,
@@ -161,6 +204,10 @@ impl<'a> Trial<'a> {
     fn try_others(&mut self, problem: &Problem, mut largest: f64) -> Result<f64> {
         let start = self.followed[0].level.as_ref().map_or(&[][..], |level| &level.solution.u);
         let mut above = Vec::new();
+        self.allowed = match self.inputs.is_empty() {
+            true => self.followed.iter().filter_map(|of| self.allowed_for(of)).collect(),
+            false => Vec::new(),
+        };
         for batch in self.inputs.chunks(BATCH) {
             let tried = |values: &Vec<f64>| {
                 let level = self.level(problem, values, |_| start.to_vec())?;
@@ -169,6 +216,7 @@ impl<'a> Trial<'a> {
             for of in on_two_threads(batch, tried, || ())? {
                 let ratio = self.larger(0.0, &of)?;
                 largest = largest.max(ratio);
+                self.allowed.extend(self.allowed_for(&of));
                 above.extend((ratio > 1.0).then_some((ratio, of)));
             }
             if !above.is_empty() {
@@ -178,6 +226,11 @@ impl<'a> Trial<'a> {
         above.sort_by(|a, b| b.0.total_cmp(&a.0));
         self.followed.extend(above.into_iter().take(JOINING).map(|(_, of)| of));
         Ok(largest)
+    }
+
+    fn allowed_for(&self, of: &Followed) -> Option<Allowed> {
+        let bound = self.promised.goal.most(of.level.as_ref()?.energy_norm);
+        Some(Allowed { inputs: of.values.clone(), bound })
     }
 
     fn level(
@@ -195,7 +248,7 @@ impl<'a> Trial<'a> {
     /// The bound over what it is to be, or `most` where that is more.
     fn larger(&self, most: f64, of: &Followed) -> Result<f64> {
         let Some(level) = &of.level else { return Ok(most) };
-        match level.ratio(self.goal) {
+        match level.ratio(self.promised.goal) {
             _ if !level.solution.converged() => Err(self.failed(level, &Stop::Unsolved)),
             Some(ratio) => Ok(most.max(ratio)),
             None => Err(self.failed(level, &Stop::NoBound)),
@@ -209,11 +262,11 @@ impl<'a> Trial<'a> {
             return Err(self.failed(worst, &Stop::Stalled(Stall::of(worst)?)));
         }
         let mut largest = vec![0.0_f64; above.first().map_or(0, |level| level.problem.cells())];
-        if history.is_slow() {
+        if history.is_slow() || self.promised.refining == Refining::Everywhere {
             return Ok(vec![true; largest.len()]);
         }
         for level in above {
-            let unit = self.goal.most(level.energy_norm).powi(2);
+            let unit = self.promised.goal.most(level.energy_norm).powi(2);
             let squares = indicators::squares(&level.problem, &level.solution)?;
             for (most, square) in largest.iter_mut().zip(squares) {
                 *most = most.max(square / unit);
@@ -227,18 +280,18 @@ impl<'a> Trial<'a> {
     }
 
     fn is_above(&self, level: &Level) -> bool {
-        level.ratio(self.goal).is_some_and(|ratio| ratio > 1.0)
+        level.ratio(self.promised.goal).is_some_and(|ratio| ratio > 1.0)
     }
 
     fn worst(&self) -> Option<&Level> {
-        let ratio = |level: &Level| level.ratio(self.goal).unwrap_or(f64::INFINITY);
+        let ratio = |level: &Level| level.ratio(self.promised.goal).unwrap_or(f64::INFINITY);
         self.levels().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
     }
 
     /// Refuses a mesh with too many unknowns.
     fn check_size(&self, unknowns: usize) -> Result<()> {
         match self.worst() {
-            Some(worst) if unknowns > MOST_UNKNOWNS => {
+            Some(worst) if unknowns > self.promised.most_unknowns => {
                 Err(self.failed(worst, &Stop::TooLarge(unknowns)))
             }
             _ => Ok(()),
@@ -254,7 +307,10 @@ impl<'a> Trial<'a> {
     fn failed(&self, level: &Level, stop: &Stop) -> Error {
         let why = match stop {
             Stop::TooLarge(unknowns) => {
-                format!("the next mesh has {unknowns} unknowns, more than {MOST_UNKNOWNS}")
+                format!(
+                    "the next mesh has {unknowns} unknowns, more than {}",
+                    self.promised.most_unknowns
+                )
             }
             stop => stop.why(&level.solution).unwrap_or_default(),
         };
@@ -262,7 +318,7 @@ impl<'a> Trial<'a> {
         let with: Vec<String> =
             inputs.map(|input| format!("{} = {}", input.name.value, input.default)).collect();
         let with = if with.is_empty() { String::new() } else { format!(", {}", with.join(", ")) };
-        let message = format!("setting.error = {:?}{with}: {why}", self.goal.to_string());
+        let message = format!("setting.error = {:?}{with}: {why}", self.promised.goal.to_string());
         let hint = "allow a larger error, or declare narrower ranges";
         InputError::new(message).file(self.scene.file()).hint(hint).into()
     }

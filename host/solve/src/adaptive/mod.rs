@@ -15,7 +15,9 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use for_inputs::{MeshOfScene, Promise, mesh_of_scene};
+pub use for_inputs::{
+    Allowed, MeshOfScene, Promise, Promised, Refining, mesh_of_scene, promised_mesh,
+};
 pub use stop::{Stall, Stop, Term};
 
 use std::time::Instant;

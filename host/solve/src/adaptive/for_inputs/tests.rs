@@ -13,6 +13,10 @@ fn levee(error: &str) -> Scene {
     Scene::parse(&format!("{text}\n[setting]\nerror = \"{error}\"\n"), &file).expect("a scene")
 }
 
+fn marked(goal: Goal) -> Promised {
+    Promised { goal, refining: Refining::Marked, most_unknowns: MOST_UNKNOWNS }
+}
+
 /// Numbers in (0, 1) without a pattern.
 fn scatter(at: usize) -> f64 {
     ((at as f64 * 12.9898 + 0.3).sin() * 43_758.545_3).rem_euclid(1.0)
@@ -24,7 +28,7 @@ fn other_inputs_meet_it_too() {
     let MeshOfScene { mesh, promise } = mesh_of_scene(&scene).expect("a mesh");
     let promise = promise.expect("what holds on it");
     println!("{promise}");
-    assert!(promise.largest <= 1.0 && promise.inputs == 1004, "{promise:?}");
+    assert!(promise.largest <= 1.0 && promise.allowed.len() == 1004, "{promise:?}");
     let problem = Problem::new(&scene, mesh).expect("a problem");
     assert_eq!(problem.topology.counts.unknowns(), promise.unknowns);
     let spaces = InputSpace::of(&scene);
@@ -51,20 +55,20 @@ fn without_inputs_it_is_the_mesh_of_the_same_goal() {
     let scene = scene(SMOOTH).expect("a scene");
     let mesh = || with_four_sides(grid(4, Cells::Mixed));
     let goal = Goal::Part(0.05);
-    let found = for_inputs(&scene, mesh(), goal).expect("a mesh");
+    let (found, promise) = promised_mesh(&scene, mesh(), marked(goal)).expect("a mesh");
     let options = Options { solver: SolverKind::Auto, ..Options::default() };
     let wanted = super::super::Wanted { goal, most_unknowns: MOST_UNKNOWNS, options };
     let (last, stop) =
         super::super::refined_until(&scene, mesh(), &wanted, |_| Ok(true)).expect("a solution");
-    assert_eq!((stop, found.promise.expect("one").inputs), (Stop::Reached, 1));
-    assert_eq!(found.mesh, *last.problem.mesh);
+    assert_eq!((stop, promise.allowed.len()), (Stop::Reached, 1));
+    assert_eq!(found, *last.problem.mesh);
 }
 
 #[test]
 fn an_error_that_no_mesh_has_is_refused_with_the_reason() {
     let jump = SMOOTH.replace("value = \"x^2*y + y^2 + x^3\"", "value = \"5 + sign(x - 0.3)\"");
     let mesh = with_four_sides(grid(4, Cells::Mixed));
-    let error = for_inputs(&scene(&jump).expect("a scene"), mesh, Goal::Part(0.1));
+    let error = promised_mesh(&scene(&jump).expect("a scene"), mesh, marked(Goal::Part(0.1)));
     let error = error.expect_err("u_D jumps").to_string();
     assert!(error.contains("setting.error = \"10%\""), "{error}");
     assert!(error.contains("nothing says where to refine"), "{error}");

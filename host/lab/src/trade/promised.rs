@@ -1,0 +1,148 @@
+//! What firmware a promised error takes: on the mesh refined where its bound asks for it, and on the mesh refined everywhere.
+//!
+//! ```text
+//!   scene, error ─► smallest mesh of either kind whose bound is small enough for all inputs tried ─► model ─► bytes, instructions
+//! ```
+//! The model is the one that `bake` chooses where a device has room for anything, in f32.
+
+use std::fmt::Write;
+
+use super::digits::grouped;
+use super::table::lines;
+use signorini_bake::choice::{Candidate, Choice, Wanted};
+use signorini_bake::promise;
+use signorini_draw::Listing;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::goal::Goal;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_solve::adaptive::{Promise, Promised, Refining, promised_mesh};
+use signorini_solve::problem::Problem;
+
+/// Unknowns beyond which no mesh is tried: each is solved a thousand times.
+const MOST_UNKNOWNS: usize = 50_000;
+
+/// The scenes of the record, and where it is, from the root of the checkout.
+pub const STANDARD: [&str; 5] = ["levee", "slab", "strip", "pit", "antiicing"];
+/// See [`STANDARD`].
+pub const RECORD: &str = "host/benches/trade/promised.txt";
+
+/// What a promised error takes on a mesh of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Taken {
+    /// What the bound is at most.
+    pub goal: Goal,
+    /// Which cells were refined.
+    pub refining: Refining,
+    /// What it takes, or why there is no such firmware.
+    pub found: std::result::Result<Firmware, String>,
+}
+
+/// A controller for the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Firmware {
+    /// What holds on the mesh.
+    pub promise: Promise,
+    /// Edges of its contact boundary.
+    pub contact: usize,
+    /// The model, in a few words.
+    pub model: String,
+    /// Bytes.
+    pub ram: u64,
+    /// Bytes.
+    pub flash: u64,
+    /// Of the longest tick of its trial.
+    pub instructions: Option<f64>,
+}
+
+/// What each of these errors takes, on both kinds of meshes.
+///
+/// # Errors
+/// A scene that is wrong whatever its mesh.
+pub fn of_scene(scene: &Scene, goals: &[Goal], done: &mut dyn FnMut()) -> Result<Vec<Taken>> {
+    let mut scene = scene.clone().at_rest();
+    // What the device has room for is no limit here, and the error is the one asked for.
+    scene.target = None;
+    if let Some(setting) = &mut scene.setting {
+        setting.error = None;
+    }
+    let mut all = Vec::new();
+    for &goal in goals {
+        for refining in [Refining::Marked, Refining::Everywhere] {
+            let found = match firmware(&scene, goal, refining) {
+                Ok(firmware) => Ok(firmware),
+                Err(Error::Input(error)) => Err(error.message().to_owned()),
+                Err(error) => return Err(error),
+            };
+            all.push(Taken { goal, refining, found });
+            done();
+        }
+    }
+    Ok(all)
+}
+
+fn firmware(scene: &Scene, goal: Goal, refining: Refining) -> Result<Firmware> {
+    let promised = Promised { goal, refining, most_unknowns: MOST_UNKNOWNS };
+    let (mesh, promise) = promised_mesh(scene, adapted::of_scene(scene)?, promised)?;
+    let problem = Problem::new(scene, mesh)?;
+    let choice = Choice::<f32>::new(&problem, Wanted::default())?;
+    promise::check(scene, &choice, &promise)?;
+    let Candidate { name, needs, .. } = &choice.candidates[choice.chosen];
+    Ok(Firmware {
+        promise,
+        contact: problem.topology.counts.contact,
+        model: name.clone(),
+        ram: needs.ram,
+        flash: needs.flash,
+        instructions: needs.ticks[1],
+    })
+}
+
+/// The table of one scene, for the terminal and for the record.
+pub fn text(title: &str, all: &[Taken]) -> String {
+    let header = [
+        "error",
+        "refined",
+        "unknowns",
+        "contact",
+        "bound/error",
+        "RAM",
+        "flash",
+        "instructions",
+        "model",
+    ];
+    let mut notes = String::new();
+    let mut rows = Vec::new();
+    for Taken { goal, refining, found } in all {
+        let refined = match refining {
+            Refining::Marked => "where needed",
+            Refining::Everywhere => "everywhere",
+        };
+        let mut row = vec![goal.to_string(), refined.to_owned()];
+        match found {
+            Ok(found) => row.extend(found.cells()),
+            Err(why) => {
+                row.extend(["–"; 7].map(str::to_owned));
+                let _ = writeln!(notes, "{goal}, refined {refined}: {why}");
+            }
+        }
+        rows.push(row);
+    }
+    let header = header.map(str::to_owned).to_vec();
+    format!("{title}\n{}{notes}", lines(&Listing { header, rows, marked: None }))
+}
+
+impl Firmware {
+    fn cells(&self) -> [String; 7] {
+        let Self { promise, contact, model, ram, flash, instructions } = self;
+        [
+            grouped(promise.unknowns as u64),
+            grouped(*contact as u64),
+            format!("{:.2}", promise.largest),
+            grouped(*ram),
+            grouped(*flash),
+            instructions.map_or("–".to_owned(), |count| grouped(count as u64)),
+            model.clone(),
+        ]
+    }
+}
