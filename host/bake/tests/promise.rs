@@ -1,0 +1,41 @@
+//! A controller keeps a promised error in its own scalar, or is refused with the inputs at which it does not.
+
+use signorini_bake::choice::{Choice, Wanted};
+use signorini_bake::promise::check;
+use signorini_scene::goal::Goal;
+use signorini_scene::mesh::adapted;
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
+use signorini_solve::adaptive::{Allowed, Promise};
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, solve};
+
+/// That the bound of the levee is at most `times` what a solve in f64 finds, with these inputs.
+fn promise(problem: &Problem, times: f64) -> Promise {
+    let allowed = [[0.0, 0.0], [5.0, -1.0], [2.0, 0.5]].map(|inputs| {
+        let at = problem.with_inputs(&inputs).expect("inputs of its ranges");
+        let found = solve(&at, &Options::default()).expect("a solution");
+        Allowed { inputs: inputs.to_vec(), bound: times * found.bound.expect("a bound").total }
+    });
+    let unknowns = problem.topology.counts.unknowns();
+    Promise { goal: Goal::Part(0.3), largest: 1.0, unknowns, allowed: allowed.to_vec() }
+}
+
+#[test]
+fn every_model_keeps_it_or_is_refused() {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes/levee.toml");
+    let mut scene = Scene::read(&path).expect("the levee");
+    scene.target = None;
+    let mesh = adapted::of_scene(&scene).expect("a mesh");
+    let problem = Problem::new(&scene, mesh).expect("a problem");
+    for model in [ModelKind::Condensed, ModelKind::Full] {
+        let choice = Choice::<f32>::new(&problem, Wanted::model(model)).expect("a model");
+        // The bound in f32 is a little above that in f64; a share of sweeps is not cut off here.
+        check(&scene, &choice, &promise(&problem, 1.05)).expect("kept");
+        let refused = check(&scene, &choice, &promise(&problem, 0.9)).expect_err("not kept");
+        let text = refused.to_string();
+        assert!(text.contains("setting.error = \"30%\", rain = "), "{text}");
+        assert!(text.contains("a tick in f32"), "{text}");
+    }
+}
