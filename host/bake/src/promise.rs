@@ -1,6 +1,6 @@
 //! Whether the controller keeps a promised error: its own bound, in its scalar, for the inputs that the mesh was refined for.
 //!
-//! A mesh is refined by solves in f64. What a tick rounds, or its setting leaves to sweeps, comes on top.
+//! A mesh is refined by solves in f64. What a tick rounds, its setting leaves to sweeps, or a condensed model leaves out, comes on top.
 
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
@@ -44,14 +44,14 @@ pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) ->
         values.map(|(input, value)| format!(", {} = {value}", input.name.value)).collect();
     let Worst { bound, allowed } = worst;
     let message = format!(
-        "setting.error = {:?}{with}: the error bound of a tick in {} is {bound:.3e}, {:.3e} are allowed; on this mesh of {} unknowns \
-         only rounding and unfinished sweeps are left",
+        "setting.error = {:?}{with}: the error bound of a tick in {} is {bound:.3e}, {:.3e} are allowed; that of the mesh of {} unknowns is \
+         small enough, and rounding, unfinished sweeps or what the model leaves out add too much",
         promise.goal.to_string(),
         R::NAME,
         allowed.bound,
         promise.unknowns,
     );
-    let hint = "allow a larger error, a smaller share of it to sweeps, or take scalar = \"f64\"";
+    let hint = "take scalar = \"f64\" in [setting], or ask for a slightly smaller error, whose mesh is finer";
     Err(InputError::new(message).file(scene.file()).hint(hint).into())
 }
 

@@ -3,7 +3,8 @@
 //! ```text
 //!   scene, error ─► smallest mesh of either kind whose bound is small enough for all inputs tried ─► model ─► bytes, instructions
 //! ```
-//! The model is the one that `bake` chooses where a device has room for anything, in f32.
+//! The model is the one that `bake` chooses where a device has room for anything: in f32, and in f64 where rounding in f32 would break
+//! the promise.
 
 use std::fmt::Write;
 
@@ -18,6 +19,7 @@ use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{Promise, Promised, Refining, promised_mesh};
 use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
 
 /// Unknowns beyond which no mesh is tried: each is solved a thousand times.
 const MOST_UNKNOWNS: usize = 50_000;
@@ -85,13 +87,20 @@ fn firmware(scene: &Scene, goal: Goal, refining: Refining) -> Result<Firmware> {
     let promised = Promised { goal, refining, most_unknowns: MOST_UNKNOWNS };
     let (mesh, promise) = promised_mesh(scene, adapted::of_scene(scene)?, promised)?;
     let problem = Problem::new(scene, mesh)?;
-    let choice = Choice::<f32>::new(&problem, Wanted::default())?;
-    promise::check(scene, &choice, &promise)?;
+    match baked::<f32>(&problem, &promise) {
+        Err(Error::Input(_)) => baked::<f64>(&problem, &promise),
+        found => found,
+    }
+}
+
+fn baked<R: Scalar>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
+    let choice = Choice::<R>::new(problem, Wanted::default())?;
+    promise::check(&problem.scene, &choice, promise)?;
     let Candidate { name, needs, .. } = &choice.candidates[choice.chosen];
     Ok(Firmware {
-        promise,
+        promise: promise.clone(),
         contact: problem.topology.counts.contact,
-        model: name.clone(),
+        model: format!("{}, {name}", R::NAME),
         ram: needs.ram,
         flash: needs.flash,
         instructions: needs.ticks[1],

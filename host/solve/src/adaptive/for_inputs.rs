@@ -28,6 +28,9 @@ use signorini_scene::mesh::adaptive::{Carried, Hierarchy};
 use signorini_scene::mesh::{Mesh, adapted};
 use signorini_scene::scene::Scene;
 
+/// The part of the goal down to which the bound is brought: a controller's own bound is up to some per cent above that of the mesh,
+/// by rounding, by sweeps that it leaves, and by what a condensed model leaves out.
+const MARGIN: f64 = 0.95;
 /// Of inputs that are drawn and above the goal, how many join those that every level is solved for.
 const JOINING: usize = 4;
 /// Inputs that are drawn and tried before the worst of them may end the trial of a mesh.
@@ -135,7 +138,7 @@ pub fn promised_mesh(scene: &Scene, mesh: Mesh, promised: Promised) -> Result<(M
         let unknowns = problem.topology.counts.unknowns();
         trial.check_size(unknowns)?;
         let largest = trial.solve(&problem, carried.as_ref())?;
-        if largest <= 1.0 {
+        if largest <= MARGIN {
             let promise = Promise { goal, largest, unknowns, allowed: trial.allowed };
             return Ok((hierarchy.mesh().clone(), promise));
         }
@@ -197,7 +200,7 @@ impl<'a> Trial<'a> {
             of.level = Some(level);
         }
         let largest = self.followed.iter().try_fold(0.0, |most, of| self.larger(most, of))?;
-        if largest > 1.0 { Ok(largest) } else { self.try_others(problem, largest) }
+        if largest > MARGIN { Ok(largest) } else { self.try_others(problem, largest) }
     }
 
     /// The largest bound over what it is to be, once inputs are tried that are not followed yet.
@@ -217,7 +220,7 @@ impl<'a> Trial<'a> {
                 let ratio = self.larger(0.0, &of)?;
                 largest = largest.max(ratio);
                 self.allowed.extend(self.allowed_for(&of));
-                above.extend((ratio > 1.0).then_some((ratio, of)));
+                above.extend((ratio > MARGIN).then_some((ratio, of)));
             }
             if !above.is_empty() {
                 break;
@@ -266,7 +269,7 @@ impl<'a> Trial<'a> {
             return Ok(vec![true; largest.len()]);
         }
         for level in above {
-            let unit = self.promised.goal.most(level.energy_norm).powi(2);
+            let unit = (MARGIN * self.promised.goal.most(level.energy_norm)).powi(2);
             let squares = indicators::squares(&level.problem, &level.solution)?;
             for (most, square) in largest.iter_mut().zip(squares) {
                 *most = most.max(square / unit);
@@ -280,7 +283,7 @@ impl<'a> Trial<'a> {
     }
 
     fn is_above(&self, level: &Level) -> bool {
-        level.ratio(self.promised.goal).is_some_and(|ratio| ratio > 1.0)
+        level.ratio(self.promised.goal).is_some_and(|ratio| ratio > MARGIN)
     }
 
     fn worst(&self) -> Option<&Level> {
