@@ -31,7 +31,7 @@ same command goes on where it was.
 With --random N whole scenes are drawn instead: materials, loads, conditions, cells, solver, scalar and a limit on sweeps. \
 Each is measured against its exact solution or a finer solve that counts with its own bound. Leaves random.json (counts, \
 the largest ratios, all that is broken), random.csv (a line a case) and the scene and mesh of every case that breaks a \
-promise. 20 000 cases take about half an hour.
+promise. 20 000 cases take about an hour.
 
 Exit status 0 where nothing is worse than certified-poor or refused with a typed error, else 1.";
 
