@@ -63,6 +63,29 @@ fn the_page_quotes_the_record_of_random_scenes() {
 }
 
 #[test]
+fn the_page_on_benchmarks_has_rows_of_the_record_of_promises() {
+    let (page, record) = (read("docs/benchmarks.md"), read("host/benches/trade/promised.txt"));
+    let (_, section) = page.split_once("## The firmware that an error takes").expect("a section");
+    let (_, table) = section.split_once("```text\n").expect("a table");
+    let (table, _) = table.split_once("```").expect("its end");
+    let rows: Vec<&str> = table.lines().filter(|line| !line.is_empty()).collect();
+    let kept: Vec<&str> = record.lines().collect();
+    assert!(rows.len() > 15, "{rows:?}");
+    let foreign: Vec<_> = rows.iter().filter(|row| !kept.contains(row)).collect();
+    assert!(foreign.is_empty(), "not in the record: {foreign:?}");
+    // The anti-icing slab at 20 % on the front page.
+    let readme = read("README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let (_, slab) = record.split_once("Anti-icing slab as it is built").expect("the slab");
+    for row in slab.lines().filter(|line| line.trim_start().starts_with("20%")) {
+        // Columns stand two spaces apart, groups of digits one.
+        let cells: Vec<&str> = row.split("  ").map(str::trim).filter(|x| !x.is_empty()).collect();
+        for at in [2, 6, 7] {
+            assert!(readme.contains(cells[at]), "README.md lacks {}: {cells:?}", cells[at]);
+        }
+    }
+}
+
+#[test]
 fn the_page_quotes_the_record_of_fuzzing() {
     let record = read("tests/fuzz/record.txt");
     // target, executions, edges, corpus, found, date

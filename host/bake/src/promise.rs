@@ -51,7 +51,7 @@ pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) ->
         allowed.bound,
         promise.unknowns,
     );
-    let hint = "take scalar = \"f64\" in [setting], or ask for a slightly smaller error, whose mesh is finer";
+    let hint = "take model = \"full\" or scalar = \"f64\" in [setting], or ask for a smaller error, whose mesh is finer";
     Err(InputError::new(message).file(scene.file()).hint(hint).into())
 }
 
