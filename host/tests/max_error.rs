@@ -72,8 +72,11 @@ fn a_promised_error_gives_every_command_the_same_mesh() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = with_setting(folder.path(), "error = \"25%\"");
     let out = folder.path().join("out");
-    let commands: [&[&str]; 3] =
-        [&["solve", "--out", "OUT"], &["bake", "-o", "OUT.rs"], &["tick", "--ticks", "2"]];
+    let commands: [&[&str]; 3] = [
+        &["solve", "--out", "OUT"],
+        &["bake", "-o", "OUT.rs"],
+        &["tick", "--ticks", "2", "--out", "OUT"],
+    ];
     let notes = commands.map(|words| {
         let word = |word: &&str| word.replace("OUT", &out.to_string_lossy());
         let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
