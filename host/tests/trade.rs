@@ -243,11 +243,28 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
 }
 
 #[test]
+fn a_promised_error_has_its_firmware_in_the_folder_of_the_scene() {
+    let bench = Bench::new();
+    let (status, stdout, stderr) = bench.trade("promised", &["--promise", "60%,30%"]);
+    assert_eq!(status, 0, "{stderr}");
+    let table = std::fs::read_to_string(bench.path("promised/promised.txt")).expect("a table");
+    assert!(stdout.contains(&table), "{stdout}");
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split_whitespace().collect()).collect();
+    let unknowns = |row: &[&str]| row.iter().skip(1).find_map(|cell| cell.parse::<usize>().ok());
+    let [coarse, fine] = ["60%", "30%"].map(|error| {
+        let of = rows.iter().find(|row| row[0] == error).expect(error);
+        unknowns(of).unwrap_or_else(|| panic!("{table}"))
+    });
+    assert!(coarse <= fine, "{table}");
+}
+
+#[test]
 fn wrong_words_are_named() {
     let bench = Bench::new();
     for (more, part) in [
-        (&["--shard", "3/2"][..], "--shard"),
-        (&["--max-error", "-1%"], "expected a positive number"),
+        (&["--promise", "5%", "--target", "m4f"][..], "--promise"),
+        (&["--shard", "3/2"], "--shard"),
+        (&["--max-error", "-1%"], "expected a number > 0"),
         (&["--budget-cycles", "0"], "--budget-cycles"),
         (&["--target", "m3"], "m3"),
     ] {

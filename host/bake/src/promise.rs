@@ -2,6 +2,8 @@
 //!
 //! A mesh is refined by solves in f64. What a tick rounds, its setting leaves to sweeps, or a condensed model leaves out, comes on top.
 
+use std::cell::Cell;
+
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
 use crate::choice::{Choice, Model};
@@ -14,82 +16,88 @@ use signorini_solve::scalar::Scalar;
 /// Updates of unknowns after which the ticks of a full model end.
 const UPDATES: f64 = 1e9;
 
-/// The input at which a tick's bound is largest, over what it may be.
+/// A tick with some inputs, and its bound; infinite where it has none.
 #[derive(Debug, Clone, Copy)]
-struct Worst<'a> {
+struct Tick<'a> {
     allowed: &'a Allowed,
     bound: f64,
 }
 
-impl Worst<'_> {
+impl Tick<'_> {
+    /// The bound over what it may be; 0 where it is 0.
     fn ratio(&self) -> f64 {
-        self.bound / self.allowed.bound
+        if self.bound == 0.0 { 0.0 } else { self.bound / self.allowed.bound }
     }
 }
 
-/// Refuses a controller whose bound exceeds `promise` for any of the inputs that it was made for; a model without a bound has none
-/// to keep.
+/// Refuses a controller whose bound exceeds `promise` for any of the inputs that it was made for, or that has none there; without
+/// `certificate` it promises nothing. How many inputs it was ticked with: those that a full model has the time for.
 ///
 /// # Errors
 /// The bound that it has instead, with the inputs.
-pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> Result<()> {
-    let worst = match &choice.candidates[choice.chosen].model {
+pub fn check<R: Scalar>(scene: &Scene, choice: &Choice<R>, promise: &Promise) -> Result<usize> {
+    if scene.setting.is_some_and(|setting| !setting.certificate) {
+        return Ok(0);
+    }
+    let ticks = match &choice.candidates[choice.chosen].model {
         Model::Condensed(baked) => of_condensed(baked, &promise.allowed),
         Model::Full(baked) if baked.has_quads() => of_full::<R, QUADS>(baked, &promise.allowed),
         Model::Full(baked) => of_full::<R, TRIANGLES>(baked, &promise.allowed),
     };
-    let Some(worst) = worst.filter(|worst| worst.ratio() > 1.0) else { return Ok(()) };
-    let values = scene.inputs.iter().zip(&worst.allowed.inputs);
+    let worst = ticks.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
+    match worst.filter(|worst| worst.ratio() > 1.0) {
+        None => Ok(ticks.len()),
+        Some(worst) => Err(not_kept::<R>(scene, promise, worst).into()),
+    }
+}
+
+fn not_kept<R: Scalar>(scene: &Scene, promise: &Promise, worst: &Tick) -> InputError {
+    let Tick { bound, allowed } = worst;
+    let values = scene.inputs.iter().zip(&allowed.inputs);
     let with: String =
         values.map(|(input, value)| format!(", {} = {value}", input.name.value)).collect();
-    let Worst { bound, allowed } = worst;
+    let has = match bound.is_finite() {
+        true => format!("the error bound of a tick in {} is {bound:.3e}", R::NAME),
+        false => format!("a tick in {} has no error bound", R::NAME),
+    };
     let message = format!(
-        "setting.error = {:?}{with}: the error bound of a tick in {} is {bound:.3e}, {:.3e} are allowed; that of the mesh of {} unknowns is \
-         small enough, and rounding, unfinished sweeps or what the model leaves out add too much",
+        "setting.error = {:?}{with}: {has}, {:.3e} are allowed; that of the mesh of {} unknowns is small enough, and rounding, \
+         unfinished sweeps or what the model leaves out add too much",
         promise.goal.to_string(),
-        R::NAME,
         allowed.bound,
         promise.unknowns,
     );
     let hint = "take model = \"full\" or scalar = \"f64\" in [setting], or ask for a smaller error, whose mesh is finer";
-    Err(InputError::new(message).file(scene.file()).hint(hint).into())
+    InputError::new(message).file(scene.file()).hint(hint)
 }
 
-fn of_condensed<'a, R: Scalar>(
-    baked: &condensed::Baked<R>,
-    all: &'a [Allowed],
-) -> Option<Worst<'a>> {
+fn of_condensed<'a, R: Scalar>(baked: &condensed::Baked<R>, all: &'a [Allowed]) -> Vec<Tick<'a>> {
     let mut controller = condensed::Controller::new(baked);
-    worst(all, |inputs| Some(controller.tick(inputs).ok()?.1.certificate()?.total.wide()))
+    let bound = |inputs: &[R]| Some(controller.tick(inputs).ok()?.1.certificate()?.total.wide());
+    ticks(all, bound).collect()
 }
 
 fn of_full<'a, R: Scalar, const WIDTH: usize>(
     baked: &full::Baked<R>,
     all: &'a [Allowed],
-) -> Option<Worst<'a>> {
+) -> Vec<Tick<'a>> {
     let mut controller = full::Controller::<R, WIDTH>::new(baked);
-    let mut updates = 0.0;
-    worst(all, |inputs| {
-        if updates > UPDATES {
-            return None;
-        }
+    let updates = Cell::new(0.0);
+    let bound = |inputs: &[R]| {
         let (_, report) = controller.tick(inputs).ok()?;
-        updates += f64::from(report.sweeps) * baked.unknowns() as f64;
+        updates.set(updates.get() + f64::from(report.sweeps) * baked.unknowns() as f64);
         Some(report.verdict.certificate()?.total.wide())
-    })
+    };
+    ticks(all, bound).take_while(|_| updates.get() <= UPDATES).collect()
 }
 
-/// The largest of the bounds that ticks with all of these inputs have, one after the other.
-fn worst<R: Scalar>(
-    all: &[Allowed],
-    mut tick: impl FnMut(&[R]) -> Option<f64>,
-) -> Option<Worst<'_>> {
-    let of_tick = |allowed: &'_ Allowed| {
+/// Ticks with all of these inputs, one after the other.
+fn ticks<'a, R: Scalar>(
+    all: &'a [Allowed],
+    mut bound: impl FnMut(&[R]) -> Option<f64>,
+) -> impl Iterator<Item = Tick<'a>> {
+    all.iter().map(move |allowed| {
         let inputs: Vec<R> = allowed.inputs.iter().map(|&input| R::narrow(input)).collect();
-        tick(&inputs)
-    };
-    let bounds: Vec<_> = all.iter().map(of_tick).collect();
-    let found = all.iter().zip(bounds);
-    let found = found.filter_map(|(allowed, bound)| Some(Worst { allowed, bound: bound? }));
-    found.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+        Tick { allowed, bound: bound(&inputs).unwrap_or(f64::INFINITY) }
+    })
 }

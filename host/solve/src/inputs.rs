@@ -4,8 +4,6 @@ use crate::scalar::Scalar;
 use signorini_kernel::device::ranges::clamp;
 use signorini_scene::scene::{Input, Scene};
 
-/// Inputs that are tried beside the corners of their ranges.
-const DRAWN: usize = 1000;
 /// Inputs of which all corners are tried; of more, those that are drawn.
 const CORNERS: usize = 8;
 
@@ -88,12 +86,6 @@ pub fn corners(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
         spaces.iter().enumerate().map(end).collect()
     };
     (0..if few { 1_usize << spaces.len() } else { 0 }).map(corner).collect()
-}
-
-/// The corners, then the defaults and [`drawn`] values, 1000 in all; nothing without inputs.
-pub fn corners_and_drawn(spaces: &[InputSpace]) -> Vec<Vec<f64>> {
-    let drawn = drawn(spaces, DRAWN - 1).filter(|_| !spaces.is_empty());
-    corners(spaces).into_iter().chain(drawn).collect()
 }
 
 /// The ranges in the scalar of the target; none where no input has one.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::levels;
 use super::picture::picture;
 use signorini_scene::error::{Error, Result};
 use signorini_solve::adaptive::Stop;
@@ -36,7 +37,7 @@ impl Answer {
     ) -> Result<Self> {
         let levels = free_levels(&problem, &solution)?;
         let mut warnings: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
-        warnings.extend(stop.as_ref().and_then(|stop| stop.why(&solution)));
+        warnings.extend(stop.as_ref().and_then(|stop| levels::why(stop, &solution)));
         warn(&warnings);
         problem.warnings.extend(warnings);
         Ok(Self { problem, solution, energy_norm, stop })

@@ -130,7 +130,13 @@ impl Arguments {
         let choice =
             waiting(&format!("baking {unknowns} unknowns"), || Choice::<R>::new(problem, wanted))?;
         if let Some(promise) = promise {
-            promise::check(&problem.scene, &choice, promise)?;
+            let (ticked, all) =
+                (promise::check(&problem.scene, &choice, promise)?, promise.allowed.len());
+            if ticked < all {
+                note(&format!(
+                    "the controller's own bound was tried with {ticked} of these {all} inputs"
+                ));
+            }
         }
         if problem
             .scene

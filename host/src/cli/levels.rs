@@ -13,6 +13,7 @@ use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::digits::percent_above;
 use signorini_solve::output::pvd::{Frame, pvd};
 use signorini_solve::progress::{say, waiting};
+use signorini_solve::solve::Solution;
 
 /// Solves level after level, says a line for each, and writes their files into `out`: `levels.csv`, `levels.pvd`, a VTU each, and
 /// the last mesh as `refined.msh`.
@@ -63,6 +64,12 @@ fn vtu_of(level: usize) -> String {
 fn remove_from(out: &Path, level: usize) -> Result<()> {
     let left = (level..).map(|level| out.join(vtu_of(level))).take_while(|file| file.exists());
     left.into_iter().try_for_each(|file| std::fs::remove_file(&file).map_err(Error::io(&file)))
+}
+
+/// Why the levels ended, with the option that ended them; nothing where that is the goal.
+pub(super) fn why(stop: &Stop, solution: &Solution) -> Option<String> {
+    let option = if matches!(stop, Stop::TooLarge { .. }) { " (--max-unknowns)" } else { "" };
+    stop.why(solution).map(|why| why + option)
 }
 
 /// The exit status: 3 where the goal was not reached.

@@ -6,12 +6,13 @@ use clap::Args;
 
 use signorini_lab::checkout::root;
 use signorini_lab::trade::campaign::{Campaign, Ended};
-use signorini_lab::trade::front::{Goal, Tolerance};
+use signorini_lab::trade::front::Wish;
 use signorini_lab::trade::promised;
 use signorini_lab::trade::shard::Shard;
 use signorini_lab::trade::table::text;
 use signorini_lab::trade::target::Target;
 use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::goal::Goal;
 use signorini_scene::scene::Scene;
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::progress::{say, steps, warn};
@@ -45,7 +46,7 @@ pub struct Arguments {
     budget_cycles: Option<f64>,
     /// The largest energy error, absolute or (with %) as a part of the solution's energy norm
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    max_error: Option<Tolerance>,
+    max_error: Option<Goal>,
     /// Whose cost decides: this machine's, or that of an emulated Cortex-M4F or M7 [default: host]
     #[arg(long, value_enum)]
     target: Option<Target>,
@@ -63,7 +64,7 @@ pub struct Arguments {
         value_delimiter = ',',
         conflicts_with_all = ["budget_cycles", "max_error", "target", "no_peers", "shard"]
     )]
-    promise: Vec<signorini_scene::goal::Goal>,
+    promise: Vec<Goal>,
     /// This process's share of the cases, i of n
     #[arg(long, value_name = "i/n")]
     shard: Option<Shard>,
@@ -81,7 +82,7 @@ impl Arguments {
         if !self.promise.is_empty() {
             return self.promised();
         }
-        let wish = Goal { budget: self.budget_cycles, error: self.max_error };
+        let wish = Wish { budget: self.budget_cycles, error: self.max_error };
         if self.no_peers && self.scenes.is_empty() && self.out.is_none() {
             let message =
                 "--no-peers without a scene: the record of the standard scenes has all solvers";
@@ -121,40 +122,53 @@ impl Arguments {
 }
 
 impl Arguments {
-    /// The table of each scene; without a scene that of the standard ones, which is the record.
+    /// The table of each scene in its folder; without a scene those of the standard ones in the record.
     fn promised(&self) -> Result<u8> {
-        let is_record = self.scenes.is_empty();
-        let standard = |name: &&str| Ok(root()?.join(format!("meshes/scenes/{name}.toml")));
-        let scenes = match is_record {
-            true => promised::STANDARD.iter().map(standard).collect::<Result<_>>()?,
-            false => self.scenes.clone(),
-        };
-        let file = match (&self.out, is_record) {
-            (Some(folder), _) => folder.join("promised.txt"),
-            (None, true) => root()?.join(promised::RECORD),
-            (None, false) => PathBuf::from("out/promised.txt"),
-        };
-        let bar = steps(2 * self.promise.len() * scenes.len());
-        let mut tables = Vec::new();
-        for path in &scenes {
-            let scene = Scene::read(path)?;
-            bar.set_message(scene.title.clone());
-            let taken = promised::of_scene(&scene, &self.promise, &mut || bar.inc(1))?;
-            tables.push(promised::text(&scene.title, &taken));
+        if self.scenes.is_empty() {
+            let scene = |name: &&str| Ok(root()?.join(format!("meshes/scenes/{name}.toml")));
+            let scenes: Vec<_> = promised::STANDARD.iter().map(scene).collect::<Result<_>>()?;
+            let tables: Vec<_> =
+                scenes.iter().map(|path| self.table(path)).collect::<Result<_>>()?;
+            let file = match &self.out {
+                Some(folder) => folder.join(promised::FILE),
+                None => root()?.join(promised::RECORD),
+            };
+            return written(&file, &tables.join("\n"));
         }
-        bar.finish_and_clear();
-        let text = tables.join("\n");
-        say(&text);
-        let folder = file.parent().unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
-        write_atomically(&file, text.as_bytes())?;
-        say(format_args!("written to {}", file.display()));
+        for path in &self.scenes {
+            let name = path.file_stem().unwrap_or_default();
+            let folder = match &self.out {
+                Some(out) if self.scenes.len() == 1 => out.clone(),
+                out => out.as_deref().unwrap_or(Path::new("out")).join(name),
+            };
+            written(&folder.join(promised::FILE), &self.table(path)?)?;
+        }
         Ok(0)
+    }
+
+    /// That of one scene, which is said as well.
+    fn table(&self, path: &Path) -> Result<String> {
+        let scene = Scene::read(path)?;
+        let bar = steps(2 * self.promise.len());
+        bar.set_message(scene.title.clone());
+        let taken = promised::of_scene(&scene, &self.promise, &mut || bar.inc(1));
+        bar.finish_and_clear();
+        let table = promised::text(&scene.title, &taken?);
+        say(&table);
+        Ok(table)
     }
 }
 
+fn written(file: &Path, text: &str) -> Result<u8> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+    write_atomically(file, text.as_bytes())?;
+    say(format_args!("written to {}", file.display()));
+    Ok(0)
+}
+
 /// A wish that nothing meets is wrong input; the studies are written all the same.
-fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Goal) -> Result<u8> {
+fn refused(trades: &[(PathBuf, signorini_lab::trade::record::Trade)], wish: &Wish) -> Result<u8> {
     let unmet = trades.iter().find(|(_, trade)| trade.recommendation.point.is_none());
     match unmet {
         Some((_, trade)) if wish.budget.is_some() || wish.error.is_some() => {

@@ -2,10 +2,13 @@
 
 use crate::choice::Origin;
 use crate::condensed::{Baked, Controller};
-use signorini_solve::inputs::{InputSpace, corners_and_drawn};
+use signorini_solve::inputs::{InputSpace, corners, drawn};
 use signorini_solve::problem::Problem;
 use signorini_solve::ranges::interval::Interval;
 use signorini_solve::scalar::Scalar;
+
+/// Inputs drawn.
+const DRAWN: usize = 1000;
 
 /// What was seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +26,10 @@ pub(super) struct Reach {
 impl Reach {
     /// What the exact solution reaches, and the controller's bound: it is ticked with the same inputs.
     pub fn new<R: Scalar>(problem: &Problem, baked: &Baked<R>, origin: &Origin) -> Self {
-        let all = corners_and_drawn(&InputSpace::of(&problem.scene));
+        let spaces = InputSpace::of(&problem.scene);
+        // Without inputs there is one tick.
+        let drawn = drawn(&spaces, if spaces.is_empty() { 0 } else { DRAWN - 1 });
+        let all: Vec<Vec<f64>> = corners(&spaces).into_iter().chain(drawn).collect();
         let nothing = Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
         let mut outputs = vec![None; origin.model().outputs.len()];
         for inputs in &all {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::files::{FRAGMENT, json};
-use super::front::Goal;
+use super::front::Wish;
 use super::mpi;
 use super::record::Trade;
 use super::records::{RECORD, SIZES};
@@ -124,7 +124,7 @@ impl Campaign {
     pub fn run(
         &self,
         shard: Option<Shard>,
-        wish: &Goal,
+        wish: &Wish,
         done: &mut dyn FnMut(FinishedSetting),
     ) -> Result<Ended> {
         if let Some(shard) = shard {
@@ -146,7 +146,7 @@ impl Campaign {
     fn share(
         &self,
         shard: Shard,
-        wish: &Goal,
+        wish: &Wish,
         done: &mut dyn FnMut(FinishedSetting),
     ) -> Result<Ended> {
         let by_scene = !shard.is_whole() && self.studies.len() >= shard.count();

@@ -3,44 +3,15 @@
 use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
 use super::reference::EXACT;
+use signorini_scene::goal::Goal;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Goal {
+pub struct Wish {
     /// Most cycles of a tick on the host, most instructions on a board.
     pub budget: Option<f64>,
     /// Largest energy error.
-    pub error: Option<Tolerance>,
-}
-
-/// A largest error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Tolerance {
-    /// In the unit of ‖A^½∇u‖.
-    Absolute(f64),
-    /// A part of ‖A^½∇u‖.
-    Relative(f64),
-}
-
-impl std::str::FromStr for Tolerance {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (number, percent) = match text.strip_suffix('%') {
-            Some(number) => (number.trim_end(), true),
-            None => (text, false),
-        };
-        match number.parse::<f64>() {
-            Ok(value) if value.is_finite() && value > 0.0 => Ok(match percent {
-                true => Self::Relative(value / 100.0),
-                false => Self::Absolute(value),
-            }),
-            _ => Err(
-                "expected a positive number, such as 0.02, or a part of the solution, such as 1%"
-                    .to_owned(),
-            ),
-        }
-    }
+    pub error: Option<Goal>,
 }
 
 impl Point {
@@ -63,14 +34,13 @@ const AS_GOOD: f64 = 1.1;
 
 /// The point for a wish: the cheapest that is accurate enough, the most accurate that is cheap enough. Without a wish
 /// the cheapest that is as accurate as the scene's own mesh, solved in full, and says so, where any has a bound.
-pub fn choose<'p>(trade: &'p Trade, wish: &Goal) -> Option<&'p Point> {
+pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
     let certified =
-        *wish == Goal::default() && trade.points.iter().any(|point| point.bound.is_some());
+        *wish == Wish::default() && trade.points.iter().any(|point| point.bound.is_some());
     let points = || eligible(trade).filter(move |point| !certified || point.bound.is_some());
     let cheap = |point: &&Point| wish.budget.is_none_or(|budget| point.cost() <= budget);
     let most = match wish.error {
-        Some(Tolerance::Absolute(error)) => Some(error),
-        Some(Tolerance::Relative(share)) => Some(share * trade.energy),
+        Some(error) => Some(error.most(Some(trade.energy))),
         None if wish.budget.is_some() => None,
         None => {
             let own = points().filter(|point| point.level == 0 && point.setting.cells.is_none());
@@ -100,7 +70,7 @@ fn by_error(a: &Point, b: &Point) -> std::cmp::Ordering {
 }
 
 /// The point with its sentence; without one, what comes nearest.
-pub fn recommend(trade: &Trade, wish: &Goal) -> Recommendation {
+pub fn recommend(trade: &Trade, wish: &Wish) -> Recommendation {
     match choose(trade, wish) {
         Some(point) => Recommendation { text: sentence(trade, point), point: Some(point.clone()) },
         None => Recommendation { text: nothing(trade, wish), point: None },
@@ -141,7 +111,7 @@ fn part(part: f64, whole: f64) -> String {
     if percent < 1000.0 { format!("{percent:.2} %") } else { format!("{part:.3e}") }
 }
 
-fn nothing(trade: &Trade, wish: &Goal) -> String {
+fn nothing(trade: &Trade, wish: &Wish) -> String {
     let cheapest = eligible(trade).min_by(|a, b| a.cost().total_cmp(&b.cost()));
     let best = eligible(trade).min_by(|a, b| by_error(a, b));
     let (Some(cheapest), Some(best)) = (cheapest, best) else {

@@ -28,6 +28,8 @@ const MOST_UNKNOWNS: usize = 50_000;
 pub const STANDARD: [&str; 5] = ["levee", "slab", "strip", "pit", "antiicing"];
 /// See [`STANDARD`].
 pub const RECORD: &str = "host/benches/trade/promised.txt";
+/// What a table is called in the folder of its scene.
+pub const FILE: &str = "promised.txt";
 
 /// What a promised error takes on a mesh of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,5 +155,32 @@ impl Firmware {
             instructions.map_or("–".to_owned(), |count| grouped(count as u64)),
             model.clone(),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_has_what_it_takes_or_the_reason_stands_below() {
+        let goal = Goal::Part(0.1);
+        let promise = Promise { goal, largest: 0.874, unknowns: 3145, allowed: Vec::new() };
+        let model = "f32, condensed, exact method".to_owned();
+        let instructions = Some(30_328.0);
+        let firmware =
+            Firmware { promise, contact: 69, model, ram: 2096, flash: 33_400, instructions };
+        let taken = [
+            Taken { goal, refining: Refining::Marked, found: Ok(firmware) },
+            Taken { goal, refining: Refining::Everywhere, found: Err("too large".to_owned()) },
+        ];
+        let expected = "\
+A levee
+ error  refined       unknowns  contact  bound/error    RAM   flash  instructions  model
+   10%  where needed     3 145       69         0.87  2 096  33 400        30 328  f32, condensed, exact method
+   10%  everywhere           –        –            –      –       –             –  –
+10%, refined everywhere: too large
+";
+        assert_eq!(text("A levee", &taken), expected);
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::board::{self, Measured};
-use super::front::{Goal, mark, recommend};
+use super::front::{Wish, mark, recommend};
 use super::journal::Journal;
 use super::measured_setting::{Facts, MeasuredSetting, digest, once, overflow, program};
 use super::meshes::{Meshes, finest};
@@ -98,7 +98,7 @@ impl Study {
         &self,
         shard: Shard,
         by_scene: bool,
-        wish: &Goal,
+        wish: &Wish,
         done: &mut dyn FnMut(usize, &str),
     ) -> Result<StudyState> {
         let mut meshes = Meshes::new(&self.scene)?;
@@ -290,7 +290,7 @@ impl Study {
         cases: Vec<MeasuredSetting>,
         (baselines, mut notes): (Vec<Baseline>, Vec<String>),
         math: Vec<FunctionCost>,
-        wish: &Goal,
+        wish: &Wish,
     ) -> Trade {
         let mut points = Vec::new();
         for case in cases {

@@ -12,18 +12,17 @@
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
 use std::time::Instant;
 
 use super::history::History;
+use super::promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
 use super::{Level, MOST_UNKNOWNS, Stall, Stop, carry, indicators, marking};
-use crate::inputs::{InputSpace, corners, corners_and_drawn};
+use crate::inputs::{InputSpace, corners, drawn};
 use crate::problem::Problem;
 use crate::progress::stage;
 use crate::solve::{Options, SolverKind};
 use crate::threads::on_two_threads;
 use signorini_scene::error::{Error, InputError, Result};
-use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adaptive::{Carried, Hierarchy};
 use signorini_scene::mesh::{Mesh, adapted};
 use signorini_scene::scene::Scene;
@@ -31,79 +30,14 @@ use signorini_scene::scene::Scene;
 /// The part of the goal down to which the bound is brought: a controller's own bound is up to some per cent above that of the mesh,
 /// by rounding, by sweeps that it leaves, and by what a condensed model leaves out.
 const MARGIN: f64 = 0.95;
+/// Inputs that are tried beside the defaults and the corners of their ranges; so many times as many are drawn, since corners are
+/// among them.
+const DRAWN: usize = 1000;
+const DRAWN_IN_ALL: usize = 4 * DRAWN;
 /// Of inputs that are drawn and above the goal, how many join those that every level is solved for.
 const JOINING: usize = 4;
 /// Inputs that are drawn and tried before the worst of them may end the trial of a mesh.
 const BATCH: usize = 50;
-
-/// Which cells of a mesh are refined while its bound is too large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refining {
-    /// Those that hold most of it; all where that brings little.
-    Marked,
-    /// All.
-    Everywhere,
-}
-
-/// What a mesh is to hold for all inputs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Promised {
-    /// What the bound is to be at most.
-    pub goal: Goal,
-    /// How it is to get there.
-    pub refining: Refining,
-    /// No refined mesh with more unknowns is tried.
-    pub most_unknowns: usize,
-}
-
-/// The mesh that a setting asks for.
-#[derive(Debug)]
-pub struct MeshOfScene {
-    /// The mesh.
-    pub mesh: Mesh,
-    /// What holds on it, where the setting has an `error`.
-    pub promise: Option<Promise>,
-}
-
-/// That the bound is small enough for all inputs tried.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Promise {
-    /// What the bound is at most.
-    pub goal: Goal,
-    /// The largest bound over what it was to be.
-    pub largest: f64,
-    /// Unknowns of the mesh.
-    pub unknowns: usize,
-    /// For all inputs tried, what the bound may be; the inputs are empty where the scene has none.
-    pub allowed: Vec<Allowed>,
-}
-
-/// What the bound may be for some inputs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Allowed {
-    /// Values of the inputs.
-    pub inputs: Vec<f64>,
-    /// In the unit of ‖A^½∇u‖.
-    pub bound: f64,
-}
-
-impl fmt::Display for Promise {
-    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
-        let Self { goal, largest, unknowns, allowed } = self;
-        let part = 100.0 * largest;
-        write!(to, "the mesh was refined to {unknowns} unknowns: ")?;
-        match allowed.len() {
-            1 => {
-                write!(to, "the error bound is {part:.0} % of the {goal} that setting.error allows")
-            }
-            inputs => write!(
-                to,
-                "for all {inputs} inputs tried, corners of the ranges among them, the error bound is at most {part:.0} % of the \
-                 {goal} that setting.error allows"
-            ),
-        }
-    }
-}
 
 /// The mesh of the scene's file as its setting asks for: brought to cells of one kind, and refined so many times, or until its
 /// error bound is small enough for the inputs' defaults and ranges, at time 0.
@@ -153,7 +87,7 @@ struct Trial<'a> {
     scene: &'a Scene,
     promised: Promised,
     options: Options,
-    /// The corners of the ranges, and what is drawn.
+    /// What is drawn from the ranges, corners apart.
     inputs: Vec<Vec<f64>>,
     /// Those that every mesh is solved for: the defaults, the corners, and the worst of the others so far.
     followed: Vec<Followed>,
@@ -171,17 +105,12 @@ impl<'a> Trial<'a> {
     fn new(scene: &'a Scene, promised: Promised) -> Self {
         let spaces = InputSpace::of(scene);
         let defaults = spaces.iter().map(|space| space.default).collect();
-        let values = std::iter::once(defaults).chain(corners(&spaces));
-        let followed = values.map(|values| Followed { values, level: None }).collect();
+        let first: Vec<_> = std::iter::once(defaults).chain(corners(&spaces)).collect();
+        let drawn = drawn(&spaces, if spaces.is_empty() { 0 } else { DRAWN_IN_ALL });
+        let inputs = drawn.filter(|values| !first.contains(values)).take(DRAWN).collect();
+        let followed = first.into_iter().map(|values| Followed { values, level: None }).collect();
         let options = Options { solver: SolverKind::Factor, ..Options::default() };
-        Self {
-            scene,
-            promised,
-            options,
-            inputs: corners_and_drawn(&spaces),
-            followed,
-            allowed: Vec::new(),
-        }
+        Self { scene, promised, options, inputs, followed, allowed: Vec::new() }
     }
 
     /// Solves for the inputs that are followed, each from its last solution. Where all of them meet the goal, the others are tried,
@@ -207,10 +136,7 @@ impl<'a> Trial<'a> {
     fn try_others(&mut self, problem: &Problem, mut largest: f64) -> Result<f64> {
         let start = self.followed[0].level.as_ref().map_or(&[][..], |level| &level.solution.u);
         let mut above = Vec::new();
-        self.allowed = match self.inputs.is_empty() {
-            true => self.followed.iter().filter_map(|of| self.allowed_for(of)).collect(),
-            false => Vec::new(),
-        };
+        self.allowed = self.followed.iter().filter_map(|of| self.allowed_for(of)).collect();
         for batch in self.inputs.chunks(BATCH) {
             let tried = |values: &Vec<f64>| {
                 let level = self.level(problem, values, |_| start.to_vec())?;
@@ -293,9 +219,10 @@ impl<'a> Trial<'a> {
 
     /// Refuses a mesh with too many unknowns.
     fn check_size(&self, unknowns: usize) -> Result<()> {
+        let most = self.promised.most_unknowns;
         match self.worst() {
-            Some(worst) if unknowns > self.promised.most_unknowns => {
-                Err(self.failed(worst, &Stop::TooLarge(unknowns)))
+            Some(worst) if unknowns > most => {
+                Err(self.failed(worst, &Stop::TooLarge { unknowns, most }))
             }
             _ => Ok(()),
         }
@@ -308,15 +235,7 @@ impl<'a> Trial<'a> {
 
     /// That no mesh was found, for the inputs of this level.
     fn failed(&self, level: &Level, stop: &Stop) -> Error {
-        let why = match stop {
-            Stop::TooLarge(unknowns) => {
-                format!(
-                    "the next mesh has {unknowns} unknowns, more than {}",
-                    self.promised.most_unknowns
-                )
-            }
-            stop => stop.why(&level.solution).unwrap_or_default(),
-        };
+        let why = stop.why(&level.solution).unwrap_or_default();
         let inputs = level.problem.scene.inputs.iter();
         let with: Vec<String> =
             inputs.map(|input| format!("{} = {}", input.name.value, input.default)).collect();

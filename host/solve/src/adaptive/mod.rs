@@ -11,13 +11,13 @@ mod for_inputs;
 mod history;
 mod indicators;
 mod marking;
+mod promise;
 mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use for_inputs::{
-    Allowed, MeshOfScene, Promise, Promised, Refining, mesh_of_scene, promised_mesh,
-};
+pub use for_inputs::{mesh_of_scene, promised_mesh};
+pub use promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
 pub use stop::{Stall, Stop, Term};
 
 use std::time::Instant;
@@ -96,8 +96,9 @@ pub fn refined_until(
         };
         posed = Posed::new(scene, &hierarchy)?;
         let unknowns = posed.problem.topology.counts.unknowns();
-        if unknowns > wanted.most_unknowns {
-            return Ok((level, Stop::TooLarge(unknowns)));
+        let most = wanted.most_unknowns;
+        if unknowns > most {
+            return Ok((level, Stop::TooLarge { unknowns, most }));
         }
         start = carry::start(&level, &posed.problem, &carried);
         number += 1;

@@ -11,8 +11,13 @@ use signorini_scene::error::Result;
 pub enum Stop {
     /// The bound is below the goal.
     Reached,
-    /// The next mesh has so many unknowns, more than are allowed.
-    TooLarge(usize),
+    /// The next mesh has more unknowns than are allowed.
+    TooLarge {
+        /// So many.
+        unknowns: usize,
+        /// What is allowed.
+        most: usize,
+    },
     /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
     Finest(String),
     /// The bound no longer falls.
@@ -31,9 +36,9 @@ impl Stop {
         const ABOVE: &str = "the error bound is above what was asked for";
         Some(match self {
             Self::Reached => return None,
-            Self::TooLarge(unknowns) => {
+            Self::TooLarge { unknowns, most } => {
                 format!(
-                    "{ABOVE}: the next mesh has {unknowns} unknowns, more than are allowed (--max-unknowns)"
+                    "{ABOVE}: the next mesh has {unknowns} unknowns, more than the {most} that are allowed"
                 )
             }
             Self::Finest(why) => format!("{ABOVE}: there is no finer mesh, {why}"),

@@ -196,7 +196,7 @@ fn every_end_is_told() {
     let mesh = || with_four_sides(grid(4, Cells::Mixed));
     let ended = |scene: &Scene, wanted: &Wanted| levels(scene, mesh(), wanted).2;
     let few = Wanted { most_unknowns: 300, ..wanted(Goal::Part(1e-3)) };
-    assert!(matches!(ended(&smooth, &few), Stop::TooLarge(301..)));
+    assert!(matches!(ended(&smooth, &few), Stop::TooLarge { unknowns: 301.., most: 300 }));
     let (levels, _, stop) = levels(&affine(), mesh(), &wanted(Goal::Energy(1e-17)));
     let Stop::Stalled(stall) = stop else { panic!("{stop:?}: {levels:?}") };
     assert!(matches!(stall.term, Term::Rounding | Term::Algebraic), "{stall:?}");

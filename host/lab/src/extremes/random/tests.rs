@@ -24,6 +24,16 @@ fn two_hundred_random_scenes_keep_their_promises() {
     assert!(record.violations.is_empty(), "{}", record.text());
 }
 
+/// What once seemed broken: a varying hi − lo (969, and 6284 beside a given flux), a kink inside a cell (1115), loads that a tick
+/// integrates input by input (1253).
+#[test]
+fn checks_of_limits_ask_for_what_the_bound_says() {
+    for case in [969, 1115, 1253, 6284] {
+        let (record, _) = RandomPlan::one(18, case).run(|| {}, &|_| Ok(())).unwrap();
+        assert!(record.violations.is_empty(), "{}", record.text());
+    }
+}
+
 #[test]
 fn a_case_is_the_same_alone() {
     let (all, alone) = (RandomCase::draw(3, 17), RandomCase::draw(3, 17));
