@@ -62,7 +62,7 @@ pub struct Arguments {
         long,
         value_name = "E,E,…",
         value_delimiter = ',',
-        conflicts_with_all = ["budget_cycles", "max_error", "target", "no_peers", "shard"]
+        conflicts_with_all = ["budget_cycles", "max_error", "target", "shard"]
     )]
     promise: Vec<Goal>,
     /// This process's share of the cases, i of n
