@@ -180,7 +180,13 @@ fn the_bound_is_what_its_definition_says() {
 
 #[test]
 fn overflow_is_no_bound() {
-    let curved = Curved { edge: 0, energy: f64::MAX, mean: 1e200, coupling: [1e200; 8] };
+    let curved = Curved {
+        edge: 0,
+        energy: f64::MAX,
+        mean: 1e200,
+        peak: f64::INFINITY,
+        coupling: [1e200; 8],
+    };
     let found = run(SIDES, false, &[curved; 4]).expect("valid");
     assert_eq!(found.verdict, Verdict::NotFinite);
 }

@@ -9,6 +9,7 @@ use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::certify::CertifiedFields;
+use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::fixtures::on_grid;
 use signorini_solve::outputs::outputs;
@@ -246,7 +247,13 @@ fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -
         [] => vec![0.0; tau.len()],
         bubbles => wide(bubbles),
     };
-    CertifiedFields { vertices: wide(controller.vertices()), bubbles, tau, indicators: Vec::new() }
+    CertifiedFields {
+        vertices: wide(controller.vertices()),
+        bubbles,
+        tau,
+        indicators: Vec::new(),
+        following: Following::WhereNeeded,
+    }
 }
 
 fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {

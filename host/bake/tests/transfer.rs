@@ -7,6 +7,7 @@ use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::certify::CertifiedFields;
+use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::fixtures::{SMOOTH, on_grid};
 use signorini_solve::outputs::outputs;
@@ -166,7 +167,13 @@ fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -
         bubbles => wide(bubbles),
     };
     let vertices = wide(controller.vertices());
-    CertifiedFields { vertices, bubbles, tau, indicators: Vec::new() }
+    CertifiedFields {
+        vertices,
+        bubbles,
+        tau,
+        indicators: Vec::new(),
+        following: Following::WhereNeeded,
+    }
 }
 
 fn bounds<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {

@@ -42,7 +42,7 @@ pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Opti
 /// # Errors
 /// Data that are not finite.
 pub fn norm(problem: &Problem, s: &Admissible) -> Result<f64> {
-    let deviations = Deviations::at_time(problem, problem.time)?;
+    let deviations = curved::followed(problem, s)?;
     let mut square = squares(problem, s, &deviations, None)?;
     let transfer = robin(problem, problem.time)?;
     for (record, points) in problem.loads.robin.iter().zip(&transfer) {
@@ -58,7 +58,7 @@ pub fn norm(problem: &Problem, s: &Admissible) -> Result<f64> {
 /// # Errors
 /// Data that are not finite.
 pub fn nonconformity(problem: &Problem, s: &Admissible, u: &[f64]) -> Result<f64> {
-    let deviations = Deviations::at_time(problem, problem.time)?;
+    let deviations = curved::followed(problem, s)?;
     Ok(squares(problem, s, &deviations, Some(u))?.sqrt())
 }
 

@@ -134,6 +134,7 @@ fn more<R: Scalar>(arrays: &Arrays<R>) -> More<R> {
     let curved = (free..all).step_by(3).map(|edge| Curved {
         edge: edge as u16,
         mean: number(0.05),
+        peak: R::of(0.05),
         energy: number(0.01).magnitude(),
         coupling: std::array::from_fn(|_| number(0.05)),
     });

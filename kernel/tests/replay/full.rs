@@ -59,6 +59,7 @@ pub fn run<R: Scalar>(arrays: &Arrays<R>, journal: &mut Journal) -> Result<(), E
     let part = |input: u16, size: f64| CurvedPart {
         input,
         mean: R::of(0.01 * size),
+        peak: R::of(0.01 * size.abs()),
         coupling: std::array::from_fn(|k| R::of(0.01 * size * (k as f64 - 3.0))),
     };
     let parts = [part(0, 1.0), part(4, -0.5), part(5, 0.75)];

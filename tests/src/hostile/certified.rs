@@ -159,6 +159,7 @@ impl<R: Bits> Loads<R> {
         let curved = |bytes: &mut Bytes| Curved {
             edge: bytes.byte().into(),
             mean: bytes.real(),
+            peak: bytes.real(),
             energy: bytes.real(),
             coupling: [(); 8].map(|()| bytes.real()),
         };

@@ -8,6 +8,7 @@ use super::{Engine, TickSolution, status};
 use crate::full::{Baked, Controller};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
+use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::{self, Data, ErrorBound, NoBound};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
@@ -89,6 +90,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             },
             tau: tau.clone(),
             indicators: Vec::new(),
+            following: Following::WhereNeeded,
         };
         Ok(TickSolution {
             status: self.report.map_or(Status::OutOfSweeps, |report| status(report.ended)),

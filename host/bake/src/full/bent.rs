@@ -10,7 +10,7 @@ use signorini_kernel::device::full::{CurvedPart, Product};
 use crate::superposition::{Part, curved_pair};
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
-use signorini_solve::certify::curved::Curved;
+use signorini_solve::certify::curved::{Curved, may_be_cleared};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -32,6 +32,7 @@ pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges
         let records = parts.iter().flat_map(|part| &part.curved).map(|of| certificate::Curved {
             edge: of.edge,
             mean: R::narrow(of.mean),
+            peak: R::narrow(of.peak),
             energy: R::narrow(of.energy),
             coupling: of.coupling.map(R::narrow),
         });
@@ -41,8 +42,9 @@ pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges
     for &term in &bends {
         for of in &parts[term].curved {
             let bent = at(&mut edges, of.edge);
-            let (mean, coupling) = (R::narrow(of.mean), of.coupling.map(R::narrow));
-            bent.parts.push(CurvedPart { input: term as u16, mean, coupling });
+            let [mean, peak] = [of.mean, of.peak].map(R::narrow);
+            let coupling = of.coupling.map(R::narrow);
+            bent.parts.push(CurvedPart { input: term as u16, mean, peak, coupling });
             add(bent, [term; 2], of.energy);
         }
     }
@@ -52,6 +54,12 @@ pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges
                 let alone = energy(&parts[i].curved, of.edge) + energy(&parts[j].curved, of.edge);
                 add(at(&mut edges, of.edge), [i, j], of.energy - alone);
             }
+        }
+    }
+    let may = may_be_cleared(problem, edges.keys().map(|&edge| edge as usize));
+    for (bent, may) in edges.values_mut().zip(may) {
+        if !may {
+            bent.parts.iter_mut().for_each(|part| part.peak = R::INFINITY);
         }
     }
     Ok((Vec::new(), edges.into_values().collect()))

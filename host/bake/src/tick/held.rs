@@ -8,6 +8,7 @@ use signorini_kernel::{Error as KernelError, Libm, discrete::contact, solve::Rel
 use super::player::PlayedTick;
 use super::{Budget, coarse};
 use signorini_scene::error::Result;
+use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::{self, Certifier, ErrorBound};
 use signorini_solve::problem::{Assembled, Parts, Problem};
 use signorini_solve::scalar::Scalar;
@@ -133,6 +134,7 @@ fn answer<R: Scalar, const WIDTH: usize>(
             bubbles: wide(tick.bubbles()),
             tau,
             indicators: Vec::new(),
+            following: Following::WhereNeeded,
         },
     }
 }

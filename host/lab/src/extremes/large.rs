@@ -8,7 +8,8 @@ use signorini_scene::scene::Exact;
 use signorini_solve::certify::admissible::Admissible;
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::Conductivity;
-use signorini_solve::certify::deviation::{Deviations, Lift};
+use signorini_solve::certify::curved::followed;
+use signorini_solve::certify::deviation::Lift;
 use signorini_solve::certify::weighed::in_cell;
 use signorini_solve::field::CellField;
 use signorini_solve::pointwise::{POINTS, exact_at};
@@ -28,7 +29,7 @@ pub fn combined(
     admissible: &Admissible,
     points: usize,
 ) -> Result<f64> {
-    let deviations = Deviations::at_time(problem, problem.time)?;
+    let deviations = followed(problem, admissible)?;
     let (few, all, mut square) = (gauss(points), gauss(POINTS), 0.0);
     for at in 0..problem.cells() {
         let (cell, s) = (Cell::of(problem, at), admissible.on_cell(problem, at, &deviations));

@@ -87,7 +87,9 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
             let vertices = scaled(&certified.vertices, 1.0);
             let bubbles = scaled(&certified.bubbles, 1.0);
             let tau = scaled(&certified.tau, scales.stiffness);
-            let admissible = Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau };
+            let following = certified.following;
+            let admissible =
+                Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau, following };
             if posed.grid.n > LARGE {
                 large::combined(exact, &problem, &admissible, large::INSIDE)?
             } else {

@@ -18,6 +18,18 @@ pub struct Admissible<'a> {
     pub bubbles: &'a [f64],
     /// ∫_E τ·n of each edge, n being its direction turned clockwise: outward on the boundary.
     pub tau: &'a [f64],
+    /// Where it has extensions.
+    pub following: Following,
+}
+
+/// On which edges S follows what ψ and u_D have above their chords.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Following {
+    /// On all of them, as in a condensed model.
+    #[default]
+    Everywhere,
+    /// Not where it is clear of ψ: [`super::curved::followed`].
+    WhereNeeded,
 }
 
 /// S on one cell, without what ψ and u_D add to it.

@@ -6,7 +6,7 @@ use signorini_kernel::bound::equilibrium::Iterate;
 use signorini_kernel::mesh::components::Support;
 use signorini_kernel::{Error as KernelError, bound::averages};
 
-use super::admissible::Admissible;
+use super::admissible::{Admissible, Following};
 use super::cell::Cell;
 use super::data::Data;
 use super::forest::EquilibrationForest;
@@ -53,12 +53,15 @@ pub struct CertifiedFields {
     pub tau: Vec<f64>,
     /// Each cell's part of gap², triangles first.
     pub indicators: Vec<f64>,
+    /// Where s has extensions.
+    pub following: Following,
 }
 
 impl CertifiedFields {
     /// S and τ as the exact norms take them.
     pub fn admissible(&self) -> Admissible<'_> {
-        Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau }
+        let Self { vertices, bubbles, tau, following, .. } = self;
+        Admissible { vertices, bubbles, tau, following: *following }
     }
 }
 
@@ -151,6 +154,7 @@ impl<R: Scalar> Certifier<R> {
             bubbles: wide(&self.bubbles),
             tau: wide(&self.tau),
             indicators: wide(&self.indicators),
+            following: Following::WhereNeeded,
         }
     }
 

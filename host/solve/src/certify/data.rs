@@ -86,6 +86,7 @@ impl<R: Scalar> Data<R> {
         let curved = data.curved.into_iter().map(|of| Curved {
             edge: of.edge,
             mean: R::narrow(of.mean),
+            peak: R::narrow(of.peak),
             energy: R::narrow(of.energy),
             coupling: of.coupling.map(R::narrow),
         });

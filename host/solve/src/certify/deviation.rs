@@ -112,6 +112,11 @@ impl Deviation<'_> {
         self.data.at(x, y) - (self.ends[0] + t * (self.ends[1] - self.ends[0]))
     }
 
+    /// By how much these values at the ends of the edge are above the data.
+    pub fn above_chord(&self, values: [f64; 2]) -> [f64; 2] {
+        [values[0] - self.ends[0], values[1] - self.ends[1]]
+    }
+
     fn place(&self, t: f64) -> [f64; 2] {
         let [a, b] = self.segment;
         [0, 1].map(|k| a[k] + t * (b[k] - a[k]))

@@ -11,6 +11,7 @@
 
 mod two_sided;
 
+use std::borrow::Cow;
 use std::iter::repeat;
 
 use signorini_kernel::mesh::geometry::scaled_normal;
@@ -62,7 +63,7 @@ pub fn distance_on(
     problem: &Problem,
     admissible: &Admissible,
 ) -> Result<Distance> {
-    let deviations = &Deviations::at_time(problem, problem.time)?;
+    let deviations = &curved::followed(problem, admissible)?;
     let (u, lift) = (&Solution { exact, problem }, &Lifted { problem, deviations });
     Integrands { exact, problem, admissible, deviations, u, lift, panels }.distance()
 }
@@ -75,11 +76,11 @@ pub struct Integrands<'a, U, L> {
     pub problem: &'a Problem,
     /// The s and τ whose distance is sought.
     pub admissible: &'a Admissible<'a>,
-    /// At the time of the problem.
+    /// Those that S follows: [`curved::followed`].
     pub deviations: &'a Deviations<'a>,
     /// `exact` inside the cells.
     pub u: &'a U,
-    /// What `deviations` add to S there.
+    /// What S follows inside the cells where any of `deviations` are; elsewhere it follows nothing.
     pub lift: &'a L,
     /// Parts of a cell in each direction, each with a rule of its own.
     pub panels: u32,
@@ -170,7 +171,9 @@ impl<U: Sampled, L: Sampled> Integrands<'_, U, L> {
             true => curved::points(problem, at, self.deviations, rule)?,
             false => cell.points(rule),
         };
-        let (u, lift) = (self.u.on_cell(at, &points)?, self.lift.on_cell(at, &points)?);
+        let u = self.u.on_cell(at, &points)?;
+        let is_lifted = self.deviations.of_cell(problem, at).iter().any(Option::is_some);
+        let lift = if is_lifted { self.lift.on_cell(at, &points)? } else { Cow::Borrowed(&[][..]) };
         let lift = lift.iter().copied().chain(repeat(Jet::default()));
         for ((point, u), lift) in points.iter().zip(u.iter()).zip(lift) {
             let local = cell.local(point.reference);

@@ -6,9 +6,10 @@
 use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_tolerances::solve::{IDENTITY, IDENTITY_SINGULAR};
 
-use super::admissible::Admissible;
+use super::admissible::{Admissible, Following};
 use super::cell::Cell;
 use super::conductivity::{Conductivity, apply, dot, inverse, product};
+use super::curved;
 use super::deviation::Deviations;
 use super::exact::distance;
 use crate::field::CellField;
@@ -30,7 +31,8 @@ struct Numbers {
 
 impl Numbers {
     fn borrowed(&self) -> Admissible<'_> {
-        Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau }
+        let following = Following::WhereNeeded;
+        Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau, following }
     }
 }
 
@@ -91,8 +93,8 @@ fn exact_flux(problem: &Problem, edge: usize) -> Result<f64> {
 
 /// ‖A^½∇S − A^{−½}τ‖² + 2∫_C (τ·n − q̄)(S − ψ) + ∫_R (τ·n + h(S − u_ext))²/h, by quadrature.
 fn bound_squared(problem: &Problem, numbers: &Numbers) -> Result<f64> {
-    let deviations = Deviations::at_time(problem, 0.0)?;
     let admissible = numbers.borrowed();
+    let deviations = curved::followed(problem, &admissible)?;
     let mut bound = 0.0;
     for at in 0..problem.mesh.triangles.len() + problem.mesh.quads.len() {
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));

@@ -7,6 +7,7 @@ use super::elimination::Field;
 use super::form::Admissibles;
 use super::{CondensedModel, Form, build};
 use crate::certify::CertifiedFields;
+use crate::certify::admissible::Following;
 use crate::problem::Problem;
 use signorini_scene::error::Result;
 
@@ -68,6 +69,7 @@ impl Recovery {
             bubbles: edges.clone().map(bubble).collect(),
             tau: edges.map(|edge| at(fluxes.row(edge), &mended)).collect(),
             indicators: Vec::new(),
+            following: Following::Everywhere,
         })
     }
 }

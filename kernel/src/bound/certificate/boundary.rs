@@ -1,6 +1,6 @@
 //! What the boundary adds to the bound: contact, transfer laws, curved data.
 
-use super::extension::{extension, jump, of_means, of_s};
+use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
 use super::parts::Parts;
 use super::{Continuous, Discretization, LoadCase};
 use crate::bound::equilibrium::Iterate;
@@ -79,11 +79,46 @@ pub(super) fn add<R: Real, I: Index>(
     let curved = if features::CURVED { given.curved } else { &[] };
     for curved in curved {
         let edge = curved.edge.at();
+        if let Some((term, terms)) = cleared(discretization, given, contact, (s, tau), curved) {
+            take(parts, edge, term, terms);
+            continue;
+        }
         let in_cell = of_s(discretization, given, s, edge);
         let (term, terms) = extension(&in_cell, tau, curved);
         take(parts, edge, term, terms);
         jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
     }
+}
+
+/// What the contact term changes by on an edge where s has no extension, s − ψ being less by w there, and the size of its terms;
+/// nothing where s has one.
+fn cleared<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    contact: Law<R>,
+    (s, tau): (Continuous<R>, &[R]),
+    curved: &Curved<R, I>,
+) -> Option<(R, R)> {
+    let edge = curved.edge.at();
+    let at = edge.checked_sub(discretization.edges.counts().free)?;
+    let gap = if features::CONTACT { given.ends.gap.get(at)? } else { return None };
+    let [a, b] = ends(discretization, s, edge);
+    let excess = [a - gap[0], b - gap[1]];
+    if !is_clear(excess, curved.peak) {
+        return None;
+    }
+    let (tau, range, twice) =
+        (read(tau, edge), given.boundary.contact_flux(at), R::TWO * curved.mean);
+    if !contact.is_limited() {
+        let terms = tau.magnitude() + range.base().magnitude();
+        return Some((-twice * range.multiplier(tau), twice.magnitude() * terms));
+    }
+    // (s − ψ)(τ·n − lo) above, (ψ − s)(hi − τ·n) below.
+    let ([lo, hi], is_above) = (range.ends(), excess[0] > R::ZERO);
+    let end = if is_above { lo } else { hi };
+    let unseen = if end == range.nearest_end(tau) { R::ZERO } else { contact.spans().excess() };
+    let distance = if is_above { (tau - end) + unseen } else { (tau - end) - unseen };
+    Some((-twice * distance, twice.magnitude() * (tau.magnitude() + end.magnitude())))
 }
 
 fn ends<R: Real, I: Index>(

@@ -11,17 +11,29 @@ use crate::real::Real;
 ///
 /// In the edge's cell s gets the extension v = (1 − η) w(t), with t along the edge and η away from it:
 /// 0 on all other sides. Its integrals hold for this w and grow with it, `energy` with its square.
+///
+/// s is admissible without it where it is farther from the chord of ψ than `peak` at both ends of a contact edge. It is left
+/// out there: on open edges it would only take s away from u.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curved<R, I> {
     /// The edge, on C or D.
     pub edge: I,
     /// ∫₀¹ w dt
     pub mean: R,
+    /// At least |w| all along the edge. Infinite where s has the extension in any case: on D, in a quad, whose bubble makes up for
+    /// it, and where more edges of the cell are curved, since `energy` counts their products.
+    pub peak: R,
     /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v' for an earlier curved edge of the same cell.
     pub energy: R,
     /// ∫_T A∇v·∇N for the (bi)linear function N of each vertex of the cell and then, on quads, for the
     /// bubble of each side.
     pub coupling: [R; 8],
+}
+
+/// Whether s, which is so far above the chord of ψ at the ends of a contact edge, is on one side of ψ all along it, ψ being
+/// nowhere farther from its chord than `peak`.
+pub fn is_clear<R: Real>([a, b]: [R; 2], peak: R) -> bool {
+    (a >= peak && b >= peak) || (a <= -peak && b <= -peak)
 }
 
 /// s − u_h or s in a boundary cell, by the functions of [`Curved::coupling`].

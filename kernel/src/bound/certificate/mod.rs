@@ -50,7 +50,7 @@ mod triangle;
 mod walk;
 
 pub use crate::bound::verdict::{Certificate, Verdict};
-pub use extension::Curved;
+pub use extension::{Curved, is_clear};
 pub use metric::{Metric, POINTS, of_quad, of_triangle};
 pub use stability::stability;
 

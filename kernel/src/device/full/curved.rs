@@ -1,6 +1,6 @@
 //! Edges on which inputs bend ψ or u_D: w = Σ p_j w_j, p₀ = 1 for the base.
 //!
-//! Mean and coupling of a [`Curved`] record are linear in p. Its energy is a quadratic form, whose
+//! Mean and coupling of a [`Curved`] record are linear in p, its peak in |p|. Its energy is a quadratic form, whose
 //! coefficients stand here for every pair of inputs that bend this edge or an earlier one of its cell.
 
 use crate::bound::certificate::Curved;
@@ -14,6 +14,8 @@ pub struct CurvedPart<R> {
     pub input: u16,
     /// To the mean.
     pub mean: R,
+    /// To the peak, with the magnitude of the input.
+    pub peak: R,
     /// To the coupling.
     pub coupling: [R; 8],
 }
@@ -46,13 +48,17 @@ impl<R: Real, I: Index> CurvedSum<'_, R, I> {
             Some(at) => read(inputs, at),
         };
         let none = [R::ZERO; 8];
-        let mut record = Curved { edge: self.edge, mean: R::ZERO, energy: R::ZERO, coupling: none };
+        let (edge, zero) = (self.edge, R::ZERO);
+        let mut record = Curved { edge, mean: zero, peak: zero, energy: zero, coupling: none };
         for part in self.parts {
             let p = value(part.input);
             record.mean += p * part.mean;
+            record.peak += p.magnitude() * part.peak;
             let sums = record.coupling.iter_mut().zip(part.coupling);
             sums.for_each(|(sum, coupling)| *sum += p * coupling);
         }
+        // Rounded up, as the energy.
+        record.peak += R::from_count(8) * R::EPSILON * record.peak;
         let mut size = R::ZERO;
         for Product { inputs: [i, j], weight } in self.energy {
             let term = *weight * (value(*i) * value(*j));

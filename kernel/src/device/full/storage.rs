@@ -63,7 +63,7 @@ impl<
             [false; ACTIVE],
             [Neumann { edge, flux: zero }; NEUMANN],
             [Robin { edge, coefficient: zero, ambient: zero }; ROBIN],
-            [Curved { edge, mean: zero, energy: zero, coupling }; CURVED],
+            [Curved { edge, mean: zero, peak: zero, energy: zero, coupling }; CURVED],
         )
     }
 }

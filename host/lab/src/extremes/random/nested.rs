@@ -7,6 +7,7 @@ use signorini_scene::error::Result;
 use signorini_solve::certify::admissible::{Admissible, Chordal};
 use signorini_solve::certify::cell::{Cell, Jet};
 use signorini_solve::certify::conductivity::{Conductivity, inverse, product};
+use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::deviation::{Deviations, Lift};
 use signorini_solve::certify::weighed::{minus, on_robin};
 use signorini_solve::field::CellField;
@@ -91,7 +92,7 @@ pub fn apart(
 
 impl<'a> Part<'a> {
     fn new(side: &'a MeshSolution<'a>) -> Result<Self> {
-        let deviations = Deviations::at_time(side.problem, side.problem.time)?;
+        let deviations = followed(side.problem, &side.admissible)?;
         Ok(Self { side, deviations })
     }
 

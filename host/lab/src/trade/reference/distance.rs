@@ -11,7 +11,7 @@ use signorini_scene::error::Result;
 use signorini_solve::certify::admissible::{Admissible, OnCell};
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::{apply, dot, product};
-use signorini_solve::certify::deviation::Deviations;
+use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::weighed::{in_cell, minus, on_robin};
 use signorini_solve::field::CellField;
 use signorini_solve::problem::Problem;
@@ -54,7 +54,7 @@ impl Reference {
 
     /// The distance of S and τ, as [`signorini_solve::certify::exact`] has it.
     fn combined(&self, problem: &Problem, places: &Places, admissible: &Admissible) -> Result<f64> {
-        let deviations = Deviations::at_time(problem, problem.time)?;
+        let deviations = followed(problem, admissible)?;
         let certified = |at| Certified {
             cell: Cell::of(problem, at),
             s: admissible.on_cell(problem, at, &deviations),

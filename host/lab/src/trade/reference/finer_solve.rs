@@ -18,6 +18,7 @@ use signorini_scene::scene::{Field, Scene};
 use signorini_solve::certify::admissible::Admissible;
 use signorini_solve::certify::cell::Cell;
 use signorini_solve::certify::conductivity::{Conductivity, apply, inverse, product};
+use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::deviation::Deviations;
 use signorini_solve::field::CellField;
 use signorini_solve::problem::{Problem, Sum};
@@ -91,8 +92,8 @@ impl Reference {
 
 /// Values at the points of all cells and of the Robin boundary.
 fn sampled(problem: &Problem, solution: &Solution) -> Result<(Vec<Inside>, Vec<OnRobin>)> {
-    let deviations = Deviations::at_time(problem, problem.time)?;
     let certified = solution.certified.admissible();
+    let deviations = followed(problem, &certified)?;
     // Without a bound nobody mended τ.
     let tau = if solution.bound.is_some() { certified.tau } else { &solution.flux };
     let sampler =

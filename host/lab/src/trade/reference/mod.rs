@@ -25,6 +25,7 @@ use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Exact, Scene};
 use signorini_solve::certify::admissible::Admissible;
+use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::deviation::Deviations;
 use signorini_solve::certify::exact::Integrands;
 use signorini_solve::norms;
@@ -166,6 +167,7 @@ fn exactly(
     let (u, lift) = (&tables.u, &tables.lift);
     let errors = norms::of_fields(problem, u, answer.u, answer.flux)?;
     let combined = |admissible| {
+        let deviations = &followed(problem, admissible)?;
         Integrands { exact, problem, admissible, deviations, u, lift, panels: 1 }.combined()
     };
     Ok(PointError {

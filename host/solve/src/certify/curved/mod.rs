@@ -8,6 +8,7 @@
 //! The last integral needs only w̄ and fluxes: ∫∇v·τ = w̄ τ_E + ∫v f̄. The other two are here, so that
 //! nobody downstream needs a quadrature: s is a sum of vertex functions and bubbles.
 
+mod cleared;
 mod cross;
 mod inside;
 mod missed;
@@ -27,6 +28,7 @@ use crate::quadrature::gauss;
 use panels::Panels;
 use signorini_scene::error::Result;
 
+pub use cleared::{followed, may_be_cleared};
 pub use cross::half_triangle;
 pub use inside::{of_rough_sides, points};
 pub use panels::PANELS;
@@ -42,6 +44,8 @@ pub struct Curved {
     pub edge: u32,
     /// ∫₀¹ w dt, in the unit of u.
     pub mean: f64,
+    /// At least |w| all along the edge, in the unit of u; infinite where S follows w in any case.
+    pub peak: f64,
     /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v′ for each earlier record v′ in the same cell: the sum over a
     /// cell's records is the energy of the sum of their extensions.
     pub energy: f64,
@@ -91,10 +95,14 @@ pub fn curved_edges(problem: &Problem, time: f64) -> Result<CurvedEdges> {
 fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
     let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
     let mut records = Vec::with_capacity(deviations.len());
-    for deviation in deviations {
+    let may_be_cleared = may_be_cleared(problem, deviations.iter().map(|of| of.edge));
+    for (deviation, may_be_cleared) in deviations.iter().zip(may_be_cleared) {
         let extension = Extension::new(problem, deviation)?;
         let mut record = extension.integrate()?;
         record.missed = extension.missed(problem)?;
+        if may_be_cleared {
+            record.peak = cleared::peak(deviation, &extension.panels)?;
+        }
         // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
         for earlier in extensions.iter().filter(|other| other.at == extension.at) {
             record.energy += 2.0 * extension.cross(earlier)?;
@@ -142,8 +150,16 @@ impl<'d, 's> Extension<'d, 's> {
     /// The record, cross terms still missing.
     fn integrate(&self) -> Result<Curved> {
         let (edge, rough) = (self.deviation.edge as u32, self.panels.rough);
-        let mut record =
-            Curved { edge, mean: 0.0, energy: 0.0, coupling: [0.0; 8], rough, missed: 0.0 };
+        let (zero, peak) = (0.0, f64::INFINITY);
+        let mut record = Curved {
+            edge,
+            mean: zero,
+            peak,
+            energy: zero,
+            coupling: [zero; 8],
+            rough,
+            missed: zero,
+        };
         let away = self.rule_away();
         for [t, weight] in self.panels.rule() {
             let [w, slope] = self.sample(t)?;
