@@ -35,6 +35,15 @@ fn iterate(edges: usize, free: usize) -> Vec<f64> {
 }
 
 fn run(sides: [Side; 4], at_points: bool, curved: &[Curved<f64, u16>]) -> Result<Found, Error> {
+    run_from(iterate, sides, at_points, curved)
+}
+
+fn run_from(
+    iterate: fn(usize, usize) -> Vec<f64>,
+    sides: [Side; 4],
+    at_points: bool,
+    curved: &[Curved<f64, u16>],
+) -> Result<Found, Error> {
     let foundation = Foundation::new(sides, at_points)?;
     let discretization = foundation.discretization()?;
     let given = LoadCase { curved, ..foundation.given()? };
@@ -189,6 +198,30 @@ fn overflow_is_no_bound() {
     };
     let found = run(SIDES, false, &[curved; 4]).expect("valid");
     assert_eq!(found.verdict, Verdict::NotFinite);
+}
+
+/// All contact edges are open, and s at least ¼ above the gap.
+fn open(edges: usize, free: usize) -> Vec<f64> {
+    iterate(edges, free).into_iter().map(|u| GAP + 0.25 + u.abs()).collect()
+}
+
+#[test]
+fn s_follows_no_curve_that_it_is_clear_of() {
+    let foundation = Foundation::new(SIDES, false).expect("valid");
+    let edge = foundation.discretization().expect("valid").edges.counts().free as u16;
+    let with = |peak: f64, on_edge: u16| {
+        let (edge, energy) = (edge + on_edge, 7.0);
+        let curved = Curved { edge, mean: 0.05, peak, energy, coupling: [0.0; 8] };
+        let found = run_from(open, SIDES, false, &[curved]).expect("valid");
+        found.verdict.certificate().expect("a bound").duality_gap
+    };
+    let plain = run_from(open, SIDES, false, &[]).expect("valid");
+    let plain = plain.verdict.certificate().expect("a bound").duality_gap;
+    // τ·n = q on open edges: s − ψ is less by w at no cost.
+    assert_eq!([0.1, 0.2].map(|peak| with(peak, 0)), [plain; 2]);
+    for peak in [5.0, f64::INFINITY, f64::NAN] {
+        assert!(with(peak, 0) > plain + 0.1, "{peak}");
+    }
 }
 
 #[test]

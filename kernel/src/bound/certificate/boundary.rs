@@ -7,6 +7,7 @@ use crate::bound::equilibrium::Iterate;
 use crate::bound::excess::Excess;
 use crate::discrete::law::Law;
 use crate::features;
+use crate::flux_range::FluxRange;
 use crate::index::{Index, read};
 use crate::mesh::edges::Side;
 use crate::real::Real;
@@ -37,22 +38,9 @@ pub(super) fn add<R: Real, I: Index>(
         let (tau, range) = (read(tau, edge), given.boundary.contact_flux(at));
         let [a, b] = ends(discretization, s, edge);
         let excess = Excess { ends: [a - gap[0], b - gap[1]], bubble: read(s.bubbles, edge) };
-        if !contact.is_limited() {
-            let excess = R::TWO * excess.mean();
-            let terms = tau.magnitude() + range.base().magnitude();
-            take(parts, edge, range.multiplier(tau) * excess, terms * excess);
-            continue;
-        }
-        let nearest = range.nearest_end(tau);
-        for (end, excess) in range.ends().into_iter().zip(excess.sides()) {
-            // On a side that there is not, s is but for rounding, which stands elsewhere.
-            if end.finite() {
-                let (excess, terms) = (R::TWO * excess, tau.magnitude() + end.magnitude());
-                // The nearest end is the one that counts in the mean where hi − lo varies.
-                let unseen = if end == nearest { R::ZERO } else { contact.spans().excess() };
-                take(parts, edge, ((tau - end).magnitude() + unseen) * excess, terms * excess);
-            }
-        }
+        let means = if contact.is_limited() { excess.sides() } else { [excess.mean(), R::ZERO] };
+        let (term, terms) = charge(range, contact, tau, means);
+        take(parts, edge, term, terms);
     }
     let mut moved = R::ZERO;
     let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
@@ -90,7 +78,28 @@ pub(super) fn add<R: Real, I: Index>(
     }
 }
 
-/// What the contact term changes by on an edge where s has no extension, s − ψ being less by w there, and the size of its terms;
+/// 2∫(s − ψ)⁺(τ·n − lo) + (ψ − s)⁺(hi − τ·n) along an edge for these means of both parts of s − ψ, and the size of its terms.
+#[inline(always)]
+fn charge<R: Real>(range: FluxRange<R>, contact: Law<R>, tau: R, [above, below]: [R; 2]) -> (R, R) {
+    if !contact.is_limited() {
+        let (above, terms) = (R::TWO * above, tau.magnitude() + range.base().magnitude());
+        return (range.multiplier(tau) * above, terms * above.magnitude());
+    }
+    let (mut sum, mut size, nearest) = (R::ZERO, R::ZERO, range.nearest_end(tau));
+    for (end, mean) in range.ends().into_iter().zip([above, below]) {
+        // On a side that there is not, s is but for rounding, which stands elsewhere.
+        if end.finite() {
+            let (mean, terms) = (R::TWO * mean, tau.magnitude() + end.magnitude());
+            // The nearest end is the one that counts in the mean where hi − lo varies.
+            let unseen = if end == nearest { R::ZERO } else { contact.spans().excess() };
+            sum += ((tau - end).magnitude() + unseen) * mean;
+            size += terms * mean.magnitude();
+        }
+    }
+    (sum, size)
+}
+
+/// What the contact term changes by on an edge where s has no extension, so that s − ψ is less by w, and the size of its terms;
 /// nothing where s has one.
 fn cleared<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
@@ -104,21 +113,12 @@ fn cleared<R: Real, I: Index>(
     let gap = if features::CONTACT { given.ends.gap.get(at)? } else { return None };
     let [a, b] = ends(discretization, s, edge);
     let excess = [a - gap[0], b - gap[1]];
-    if !is_clear(excess, curved.peak) {
-        return None;
-    }
-    let (tau, range, twice) =
-        (read(tau, edge), given.boundary.contact_flux(at), R::TWO * curved.mean);
-    if !contact.is_limited() {
-        let terms = tau.magnitude() + range.base().magnitude();
-        return Some((-twice * range.multiplier(tau), twice.magnitude() * terms));
-    }
-    // (s − ψ)(τ·n − lo) above, (ψ − s)(hi − τ·n) below.
-    let ([lo, hi], is_above) = (range.ends(), excess[0] > R::ZERO);
-    let end = if is_above { lo } else { hi };
-    let unseen = if end == range.nearest_end(tau) { R::ZERO } else { contact.spans().excess() };
-    let distance = if is_above { (tau - end) + unseen } else { (tau - end) - unseen };
-    Some((-twice * distance, twice.magnitude() * (tau.magnitude() + end.magnitude())))
+    let means = match excess[0] > R::ZERO {
+        true => [-curved.mean, R::ZERO],
+        false => [R::ZERO, curved.mean],
+    };
+    let range = given.boundary.contact_flux(at);
+    is_clear(excess, curved.peak).then(|| charge(range, contact, read(tau, edge), means))
 }
 
 fn ends<R: Real, I: Index>(
@@ -209,4 +209,29 @@ fn perturbation<R: Real, I: Index>(
         };
         sum + R::from_count(4) * of_cell * moved * moved
     })
+}
+
+#[cfg(all(test, feature = "limited"))]
+mod tests {
+    use super::*;
+    use crate::flux_range::{Span, Spans};
+
+    fn charged(span: f64, excess: f64, tau: f64, means: [f64; 2]) -> f64 {
+        let lengths = [span];
+        let spans = Spans::new(&lengths).unwrap().varying(excess);
+        let law = Law::above(&[0.0]).with_spans(spans);
+        charge(FluxRange::new(1.0, Span::new(span)), law, tau, means).0
+    }
+
+    #[test]
+    fn either_side_is_charged_for_its_own_end_and_less_s_less_of_it() {
+        // lo = 1, hi = 3.
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.25, 0.0]), 0.25);
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.0, 0.25]), 0.75);
+        assert_eq!(charged(2.0, 0.0, 1.5, [-0.25, 0.0]), -0.25);
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.25, 0.25]), 1.0);
+        // Where hi − lo varies, on the side of the farther end.
+        assert_eq!(charged(2.0, 0.5, 1.5, [0.25, 0.25]), 1.25);
+        assert_eq!(charged(f64::INFINITY, 0.0, 1.5, [0.25, 0.0]), 0.25);
+    }
 }
