@@ -5,6 +5,7 @@ use crate::fixtures::limited::two_transitions;
 use crate::fixtures::{SMOOTH, distorted, scene, with_four_sides};
 use crate::norms;
 use crate::solve::{SolverKind, solve};
+use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Surface};
@@ -131,6 +132,22 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
             assert!(levels[levels.len() - 1][0] <= most, "{cells:?}: {levels:?}");
         }
     }
+}
+
+/// On open edges s takes nothing of a curved gap, and cells may stay coarse there.
+#[test]
+fn a_curved_gap_is_followed_where_it_touches_alone() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/scenes/strip.toml");
+    let scene = Scene::read(file.as_ref()).expect("a scene");
+    let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+    let finer = refined(&mesh).expect("finer");
+    let problem = Problem::new(&scene, finer).expect("a problem");
+    let uniform = solve(&problem, &wanted(Goal::Part(1.0)).options).expect("a solution");
+    let goal = Goal::Energy(uniform.bound.expect("a bound").total);
+    let (levels, _, stop) = levels(&scene, mesh, &wanted(goal));
+    println!("{levels:.4?} of {}", problem.topology.counts.unknowns());
+    assert_eq!(stop, Stop::Reached);
+    assert!(levels[levels.len() - 1][0] < 0.5 * problem.topology.counts.unknowns() as f64);
 }
 
 /// u = 1 + 2x − y, which is exact on every mesh, as the element for quads is the one that has all affine functions.

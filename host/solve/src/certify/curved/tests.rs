@@ -1,12 +1,14 @@
 //! Against the definition of v by differences of its values, and in closed form.
 
 use super::*;
+use crate::certify::admissible::{Admissible, Following};
 use crate::certify::conductivity::Conductivity;
 use crate::certify::data::Data;
 use crate::certify::deviation::Lift;
 use crate::certify::exact::distance;
 use crate::certify::{NoBound, Spot};
 use crate::fixtures::{self, CURVED, PARABOLA};
+use crate::problem::EdgeKind;
 use crate::quadrature::on_panels;
 use crate::solve::{Options, SolverKind, solve};
 use signorini_scene::mesh::Mesh;
@@ -281,6 +283,66 @@ fn smooth_data_have_regular_panels() -> Result<()> {
         assert_eq!(Panels::along(deviation)?, Panels::regular());
     }
     assert_eq!(Panels::regular().rule(), on_panels(PANELS, &gauss(POINTS)));
+    Ok(())
+}
+
+#[test]
+fn nothing_is_above_its_peak() -> Result<()> {
+    let gaps = [
+        ("-x^2", 1.2),
+        ("0.3*sin(40*x)", 4.0),
+        ("-3*max(0, x - 0.1)", 1.6),
+        ("-3*abs(x - 0.25)", 1.01),
+        ("0.2*tanh((x - 0.4)/1e-4)", 60.0),
+        ("-(1.001 - x)^0.6", 2.5),
+    ];
+    for (gap, most) in gaps {
+        let scene = PARABOLA.replace("-x^2", gap).replace("20 + 1e6*y", "20");
+        let (_, problem) = fixtures::on_grid(&scene, grid(2, Cells::Triangles))?;
+        let records = curved(&problem, 0.0)?;
+        let alone = |record: &&Curved| record.peak.is_finite();
+        assert!(records.iter().filter(alone).count() > 0, "{gap}");
+        for record in records.iter().filter(alone) {
+            let deviations = Deviations::at_time(&problem, 0.0)?;
+            let deviation = deviations.on(record.edge as usize).expect("a curved edge");
+            let values = (0..=20_000).map(|k| deviation.value(f64::from(k) / 20_000.0).abs());
+            let largest = values.fold(0.0, f64::max);
+            println!("{gap}: {} of {largest}", record.peak);
+            assert!(record.peak >= largest && record.peak <= most * largest, "{gap}: {record:?}");
+        }
+    }
+    Ok(())
+}
+
+/// A quad's bubble makes up for w, a corner cell has products of two extensions.
+#[test]
+fn s_leaves_a_curve_out_where_it_is_clear_of_it() -> Result<()> {
+    let scene = PARABOLA.replace("-x^2", "-x^2 - 0.01").replace("20 + 1e6*y", "x*y");
+    // At height 0 it is too near in the two edges beside x = 0.
+    for (cells, left) in [(Cells::Triangles, [2, 0, 0]), (Cells::Quads, [8; 3])] {
+        let (_, problem) = fixtures::on_grid(&scene, grid(4, cells))?;
+        let all = Deviations::at_time(&problem, 0.0)?.found.len();
+        for (height, left) in [0.0, 10.0, -10.0].into_iter().zip(left) {
+            let vertices = &vec![height; problem.mesh.vertices.len()][..];
+            let following = Following::WhereNeeded;
+            let s = Admissible { vertices, bubbles: &[], tau: &[], following };
+            assert_eq!(followed(&problem, &s)?.found.len(), left, "{cells:?} at {height}");
+            let s = Admissible { following: Following::Everywhere, ..s };
+            assert_eq!(followed(&problem, &s)?.found.len(), all);
+        }
+    }
+    let (_, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Triangles))?;
+    let edges =
+        Deviations::at_time(&problem, 0.0)?.found.iter().map(|of| of.edge).collect::<Vec<_>>();
+    let alone = |edge: usize| {
+        let cell = |edge: usize| problem.topology.first_side(edge).0;
+        edges.iter().filter(|&&other| cell(other) == cell(edge)).count() == 1
+    };
+    let may = may_be_cleared(&problem, edges.iter().copied());
+    for (&edge, &may) in edges.iter().zip(&may) {
+        assert_eq!(may, alone(edge) && problem.kinds[edge] == EdgeKind::Contact, "edge {edge}");
+    }
+    assert!(may.contains(&true) && may.contains(&false));
     Ok(())
 }
 
