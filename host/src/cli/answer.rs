@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::levels;
 use super::picture::picture;
-use signorini_scene::error::{Error, Result};
+use signorini_scene::error::Result;
 use signorini_solve::adaptive::Stop;
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::output::atomic::write_atomically;
@@ -17,6 +17,7 @@ use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, warn};
 use signorini_solve::solve::{FreeLevel, Solution, SolverKind, free_levels};
+use signorini_solve::threads::on_two_threads;
 
 /// A solution and what is told of it.
 pub(super) struct Answer {
@@ -49,16 +50,16 @@ impl Answer {
         let errors = of_solution(problem, solution)?;
         let declared = outputs(problem, solution)?;
         let summary = Summary::new(problem, asked, solution, errors, *energy_norm, declared);
-        let edges = edges_csv(problem, solution);
-        let files = [
-            ("edges.csv", edges.map_err(|error| Error::Check(error.to_string()))?),
-            ("solution.vtu", picture(problem, solution).into_bytes()),
-            ("contact.vtu", contact_vtu(&contact(problem, solution)).into_bytes()),
-            ("summary.json", summary.json().into_bytes()),
-        ];
-        for (name, bytes) in files {
-            write_atomically(&out.join(name), &bytes)?;
-        }
+        let edges = || edges_csv(problem, solution);
+        let cells = || Ok(picture(problem, solution).into_bytes());
+        let contact = || Ok(contact_vtu(&contact(problem, solution)).into_bytes());
+        type Bytes<'a> = &'a (dyn Fn() -> Result<Vec<u8>> + Sync);
+        let files: [(&str, Bytes); 3] =
+            [("edges.csv", &edges), ("solution.vtu", &cells), ("contact.vtu", &contact)];
+        let write = |(name, bytes): &(&str, Bytes)| write_atomically(&out.join(name), &bytes()?);
+        on_two_threads(&files, write, || ())?;
+        // The last: whoever finds it finds the others.
+        write_atomically(&out.join("summary.json"), summary.json().as_bytes())?;
         report(problem, solution, errors, *energy_norm);
         Ok(())
     }

@@ -25,7 +25,7 @@ use std::time::Instant;
 use crate::energy_norm;
 use crate::problem::Problem;
 use crate::progress::stage;
-use crate::solve::{Options, Solution, solve_from};
+use crate::solve::{Options, Solution, SolverKind, solve_from};
 use history::History;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
@@ -42,6 +42,17 @@ pub struct Wanted {
     pub most_unknowns: usize,
     /// How each level is solved.
     pub options: Options,
+}
+
+impl Wanted {
+    /// What suits the size takes sweeps on small meshes, which is ahead on the easiest scenes, and by milliseconds. Here there are
+    /// many small meshes with cells of many sizes, for which sweeps are slow: a factor is as good as any there, and often faster.
+    fn by_factor(mut self) -> Self {
+        if self.options.solver == SolverKind::Auto {
+            self.options.solver = SolverKind::Factor;
+        }
+        self
+    }
 }
 
 /// A mesh and the solution on it.
@@ -76,8 +87,9 @@ pub fn refined_until(
     let mut hierarchy = Hierarchy::new(mesh)?;
     let (mut start, mut number, mut history) = (Vec::new(), 0, History::default());
     let mut posed = Posed::new(scene, &hierarchy)?;
+    let wanted = wanted.by_factor();
     loop {
-        let level = posed.solved(number, wanted, &start)?;
+        let level = posed.solved(number, &wanted, &start)?;
         let goes_on = look(&level)?;
         let bound = level.solution.bound.map_or(f64::NAN, |bound| bound.total);
         history.push(level.unknowns(), bound);

@@ -57,8 +57,8 @@ pub fn contact(problem: &Problem, solution: &Solution) -> Contact {
         let state = State::of(problem, solution, at);
         let opening = solution.u[edge] - solution.gap(problem, at);
         contact.ends.push(problem.segment(edge));
-        contact.lambda.push([solution.multiplier(problem, at) + 0.0]);
-        contact.gap.push([if state == State::Touching { 0.0 } else { opening }]);
+        contact.lambda.push(solution.multiplier(problem, at) + 0.0);
+        contact.gap.push(if state == State::Touching { 0.0 } else { opening });
         contact.state.push(state.sign());
         let boundary = problem.binding.boundary(problem.ends[edge]);
         contact.boundary.push(boundary.unwrap_or_default());

@@ -3,6 +3,11 @@
 use super::contact::State;
 use crate::problem::{EdgeKind, Problem};
 use crate::solve::{ScalarKind, Solution};
+use crate::threads::on_two_threads;
+use signorini_scene::error::{Error, Result};
+
+/// Edges that a thread writes at a time.
+const PORTION: usize = 16_384;
 
 /// The columns.
 const COLUMNS: [&str; 15] = [
@@ -28,10 +33,29 @@ const COLUMNS: [&str; 15] = [
 /// The normal is the direction (x0, y0) → (x1, y1) turned clockwise, outward on the boundary: out of cell `left`, into cell
 /// `right` (triangles first, as in `solution.vtu`), which is empty on the boundary. psi to state are empty but on contact
 /// edges: mean gap, the least and the largest σ·n, how far σ·n is from the one that u ≥ ψ goes with, and where u is.
-pub fn edges_csv(problem: &Problem, solution: &Solution) -> csv::Result<Vec<u8>> {
+///
+/// # Errors
+/// Never for a solution of this problem.
+pub fn edges_csv(problem: &Problem, solution: &Solution) -> Result<Vec<u8>> {
+    let edges = problem.ends.len();
+    let starts: Vec<usize> = (0..edges).step_by(PORTION).collect();
+    let rows = |&start: &usize| {
+        let rows = start..edges.min(start + PORTION);
+        rows_of(problem, solution, rows)
+            .map_err(|error| Error::Check(format!("edges.csv: {error}")))
+    };
+    let mut portions = on_two_threads(&starts, rows, || ())?;
+    portions.insert(0, format!("{}\n", COLUMNS.join(",")).into_bytes());
+    Ok(portions.concat())
+}
+
+fn rows_of(
+    problem: &Problem,
+    solution: &Solution,
+    edges: std::ops::Range<usize>,
+) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS)?;
-    for edge in 0..problem.ends.len() {
+    for edge in edges {
         let [a, b] = problem.segment(edge);
         let flux = solution.flux[edge] / problem.lengths[edge];
         let numbers = [a[0], a[1], b[0], b[1]].map(|x| x.to_string());
