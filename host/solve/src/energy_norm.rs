@@ -16,6 +16,7 @@ use crate::pointwise::POINTS;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, gauss};
 use crate::solve;
+use crate::threads::in_portions;
 use signorini_kernel::Real;
 use signorini_scene::error::Result;
 
@@ -69,21 +70,25 @@ fn squares(
     deviations: &Deviations,
     u: Option<&[f64]>,
 ) -> Result<f64> {
-    let mut square = 0.0;
-    for at in 0..problem.cells() {
+    let of_cell = |at| -> Result<f64> {
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
         let s = s.on_cell(problem, at, deviations);
         let field = u.map(|u| CellField::new(problem, at, u, u));
         let is_lifted = deviations.of_cell(problem, at).iter().any(Option::is_some);
         let rule = gauss(if is_lifted { POINTS } else { points(&cell, &conductivity) });
+        let mut square = 0.0;
         for point in curved::points(problem, at, deviations, &rule)? {
             let [x, y] = s.at(&cell.local(point.reference))?.gradient;
             let [of_x, of_y] = field.map_or([0.0; 2], |field| field.sample(&point).gradient);
             let difference = [x - of_x, y - of_y];
             square += point.weight * product(&conductivity.at(point.x), difference, difference);
         }
-    }
-    Ok(square)
+        Ok(square)
+    };
+    let sums = in_portions(problem.cells(), |mut cells| {
+        cells.try_fold(0.0, |sum, at| Ok(sum + of_cell(at)?))
+    })?;
+    Ok(sums.iter().sum())
 }
 
 /// Points a direction where s has no lift: gradients are constant on triangles, of degree 2 on quads.

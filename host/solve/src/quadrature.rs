@@ -5,6 +5,8 @@
 
 pub mod bisected;
 
+use std::sync::OnceLock;
+
 use signorini_kernel::Real;
 use signorini_kernel::discrete::element::rannacher_turek::place;
 
@@ -15,8 +17,18 @@ pub const TRIANGLE_POINTS: usize = 6;
 
 /// A Gauss–Legendre rule on \[0, 1\] with any number of points: (point, weight).
 ///
-/// The points are the zeros of P_n, by Newton's iteration from their asymptotic positions.
+/// The points are the zeros of P_n, by Newton's iteration from their asymptotic positions; rules that are asked for in every cell
+/// are worked out once.
 pub fn gauss(points: usize) -> Vec<[f64; 2]> {
+    const KNOWN: usize = 17;
+    static RULES: [OnceLock<Vec<[f64; 2]>>; KNOWN] = [const { OnceLock::new() }; KNOWN];
+    match RULES.get(points) {
+        Some(rule) => rule.get_or_init(|| roots(points)).clone(),
+        None => roots(points),
+    }
+}
+
+fn roots(points: usize) -> Vec<[f64; 2]> {
     let n = points as f64;
     let root = |k: usize| {
         let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (n + 0.5)).cos();

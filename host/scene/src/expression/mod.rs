@@ -8,8 +8,8 @@
 //! operand  = number | pi | x | y | t | ( sum ) | function ( sum {, sum} )
 //! ```
 //!
-//! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, or by dual
-//! numbers (`dual`) a value and its gradient. What each operation is stands in `operation`, and
+//! text ─► `lexer` ─► `parser` ─► `program` (postfix, constants folded) ─► a value, those of many points (`several`), or by
+//! dual numbers (`dual`) a value and its gradient. What each operation is stands in `operation`, and
 //! what a device would make of it in `arithmetic`.
 //!
 //! Evaluation follows IEEE: outside its domain an expression is NaN or infinite, and whoever asked
@@ -22,6 +22,7 @@ mod lexer;
 mod operation;
 mod parser;
 mod program;
+mod several;
 #[cfg(test)]
 mod tests;
 
@@ -105,6 +106,22 @@ impl Expression {
             Arithmetic::Double => self.program.run(&Doubles, at),
             Arithmetic::Single => f64::from(self.program.run(&Singles, at.map(|x| x as f32))),
             Arithmetic::Fast(function) => self.program.run(&Replaced(function), at),
+        }
+    }
+
+    /// The values at many points, the same as [`Expression::eval`] has, in a part of the time.
+    pub fn eval_all(&self, points: &[[f64; 2]], t: f64) -> Vec<f64> {
+        if let Some(value) = self.program.value() {
+            return vec![value; points.len()];
+        }
+        match self.arithmetic {
+            Arithmetic::Double => self.program.run_all(&Doubles, points, t, |x| x, |x| x),
+            Arithmetic::Single => {
+                self.program.run_all(&Singles, points, t, |x| x as f32, f64::from)
+            }
+            Arithmetic::Fast(function) => {
+                self.program.run_all(&Replaced(function), points, t, |x| x, |x| x)
+            }
         }
     }
 

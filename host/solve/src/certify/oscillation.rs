@@ -20,6 +20,7 @@ use super::conductivity::{Conductivity, smallest_eigenvalue};
 use super::robin::missed;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::{gauss, on_panels};
+use crate::threads::in_portions;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::shape::edge_length;
 use signorini_scene::scene::Field;
@@ -38,9 +39,10 @@ pub fn oscillation(problem: &Problem, time: f64) -> Result<Vec<f64>> {
     let mut cells = vec![0.0; problem.mesh.triangles.len() + problem.mesh.quads.len()];
     let source = Sum::source(&problem.scene, time);
     if !source.is_zero() {
-        for (at, sum) in cells.iter_mut().enumerate() {
-            *sum += of_source(problem, at, &source)?;
-        }
+        let of_source = |cells: std::ops::Range<usize>| -> Result<Vec<f64>> {
+            cells.map(|at| of_source(problem, at, &source)).collect()
+        };
+        cells = in_portions(cells.len(), of_source)?.concat();
     }
     for edge in 0..problem.kinds.len() {
         let (at, _) = problem.topology.first_side(edge);
@@ -65,10 +67,11 @@ fn of_source(problem: &Problem, at: usize, f: &Sum) -> Result<f64> {
     };
     // Squares of f may vanish or overflow where lengths are huge or tiny; those of f times a length do not.
     let unit = cell.diameter().log2().round().exp2();
-    let mut square = 0.0;
-    for point in cell.points(&gauss(POINTS)) {
+    let (mut square, points) = (0.0, cell.points(&gauss(POINTS)));
+    let values = f.at_all(&points.iter().map(|point| point.x).collect::<Vec<_>>());
+    for (point, value) in points.iter().zip(values) {
         let mean = cell.spread(load, cell.local(point.reference).determinant);
-        let difference = unit * (f.at(point.x[0], point.x[1]) - mean);
+        let difference = unit * (value - mean);
         square += point.weight / unit / unit * difference.powi(2);
     }
     let square = f.finite(square, cell.corners()[0])?;

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use super::cell::{Cell, Jet};
 use super::deviation::{Deviations, Lift};
-use crate::pointwise::{POINTS, exact_at};
+use crate::pointwise::{POINTS, exact_at_all};
 use crate::problem::Problem;
 use crate::quadrature::{Point, gauss};
 use crate::threads::on_two_threads;
@@ -18,7 +18,7 @@ use signorini_scene::scene::Exact;
 const PORTION: usize = 64;
 
 /// A function at the points of [`POINTS`]×[`POINTS`] Gauss points a cell.
-pub trait Sampled {
+pub trait Sampled: Sync {
     /// Whether it is evaluated at any points, or kept at those of the rule.
     const ANYWHERE: bool;
 
@@ -42,11 +42,8 @@ impl Sampled for Solution<'_> {
 
     fn on_cell(&self, _: usize, points: &[Point]) -> Result<Cow<'_, [Jet]>> {
         let problem = self.problem;
-        let jet = |point: &Point| {
-            let (value, gradient) = exact_at(&problem.scene, self.exact, point.x, problem.time)?;
-            Ok(Jet { value, gradient })
-        };
-        points.iter().map(jet).collect()
+        let found = exact_at_all(&problem.scene, self.exact, points, problem.time)?;
+        Ok(found.into_iter().map(|(value, gradient)| Jet { value, gradient }).collect())
     }
 }
 

@@ -83,6 +83,16 @@ impl<'s> Sum<'s> {
             .fold(base, |sum, (weight, pattern)| sum + weight * pattern.value.eval(x, y, self.time))
     }
 
+    /// The values at many points.
+    pub fn at_all(&self, points: &[[f64; 2]]) -> Vec<f64> {
+        let mut sums = self.base.value.eval_all(points, self.time);
+        for (weight, pattern) in &self.inputs {
+            let values = pattern.value.eval_all(points, self.time);
+            sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sums
+    }
+
     /// The sum of the sizes of its terms there, of which rounding is a part.
     pub fn terms_at(&self, x: f64, y: f64) -> f64 {
         let base = self.base.value.eval(x, y, self.time).abs();

@@ -3,7 +3,7 @@
 mod arithmetic;
 mod naive;
 
-use super::{Expression, ParseError, Variables};
+use super::{Arithmetic, Elementary, Expression, ParseError, Variables};
 use signorini_tolerances::scene::{DERIVATIVE, VALUE};
 
 const X: f64 = 1.25;
@@ -210,4 +210,20 @@ fn gradients_at_kinks_follow_the_active_branch() {
     assert_eq!(gradient("x^(y+1)"), [1.0, 0.0]);
     assert_eq!(gradient("sqrt(x^2+y^2)"), [0.0, 0.0]);
     assert_eq!(expression("x^3").gradient(-2.0, 0.0, 0.0).1, [12.0, 0.0]);
+}
+
+/// 37 points leave the last lanes without one; −0.0 is read as 0.0 as by one point.
+#[test]
+fn many_points_have_the_values_that_each_has_alone() {
+    let mut points: Vec<[f64; 2]> =
+        (0..37).map(|k| [0.1 * f64::from(k) - 1.7, 1.3 - 0.07 * f64::from(k)]).collect();
+    points[5] = [-0.0, -0.0];
+    let kinds = [Arithmetic::Double, Arithmetic::Single, Arithmetic::Fast(Elementary::Power)];
+    for (text, arithmetic) in VALUES.iter().flat_map(|(text, _)| kinds.map(|kind| (text, kind))) {
+        let expression = expression(text).with_arithmetic(arithmetic);
+        let all = expression.eval_all(&points, T);
+        let alone = points.iter().map(|&[x, y]| expression.eval(x, y, T).to_bits());
+        assert!(all.iter().map(|value| value.to_bits()).eq(alone), "{text}, {arithmetic:?}");
+    }
+    assert!(expression("x").eval_all(&[], T).is_empty());
 }

@@ -1,0 +1,53 @@
+//! Numbers for many points at once: each step of a program is decoded once for all of them, and sums and products go through
+//! vector units.
+
+use std::array::from_fn;
+
+use super::operation::{Binary, Unary};
+use super::program::{Numbers, Program};
+
+/// Points at once.
+pub(super) const LANES: usize = 16;
+
+/// Those of `N`, side by side.
+pub(super) struct Several<'a, N>(pub &'a N);
+
+impl<N: Numbers> Numbers for Several<'_, N> {
+    type Number = [N::Number; LANES];
+
+    fn constant(&self, value: f64) -> Self::Number {
+        [self.0.constant(value); LANES]
+    }
+
+    #[inline]
+    fn unary(&self, operation: Unary, a: Self::Number) -> Self::Number {
+        a.map(|a| self.0.unary(operation, a))
+    }
+
+    #[inline]
+    fn binary(&self, operation: Binary, a: Self::Number, b: Self::Number) -> Self::Number {
+        from_fn(|lane| self.0.binary(operation, a[lane], b[lane]))
+    }
+}
+
+impl Program {
+    /// The results at many points; a coordinate −0.0 is read as 0.0.
+    pub(super) fn run_all<N: Numbers>(
+        &self,
+        numbers: &N,
+        points: &[[f64; 2]],
+        t: f64,
+        narrow: impl Fn(f64) -> N::Number,
+        wide: impl Fn(N::Number) -> f64,
+    ) -> Vec<f64> {
+        let mut values = Vec::with_capacity(points.len());
+        for points in points.chunks(LANES) {
+            // The last lanes may have no point of their own.
+            let of = |lane: usize, k: usize| narrow(points[lane.min(points.len() - 1)][k] + 0.0);
+            let at = [from_fn(|lane| of(lane, 0)), from_fn(|lane| of(lane, 1)), [narrow(t); LANES]];
+            let found = self.run(&Several(numbers), at);
+            values.extend(found.into_iter().take(points.len()).map(&wide));
+        }
+        values
+    }
+}
