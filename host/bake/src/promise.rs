@@ -6,11 +6,13 @@ use std::cell::Cell;
 
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
-use crate::choice::{Choice, Model};
+use crate::choice::{Choice, Model, Wanted};
 use crate::{condensed, full};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
+use signorini_scene::setting::ModelKind;
 use signorini_solve::adaptive::{Allowed, Promise};
+use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
 /// Updates of unknowns after which the ticks of a full model end.
@@ -28,6 +30,33 @@ impl Tick<'_> {
     fn ratio(&self) -> f64 {
         if self.bound == 0.0 { 0.0 } else { self.bound / self.allowed.bound }
     }
+}
+
+/// The model of `problem` that keeps `promise`, and with how many inputs it was ticked: the one that is chosen anyway, or the full
+/// one where a condensed one does not and none was asked for.
+///
+/// # Errors
+/// As for [`Choice::new`] and [`check`].
+pub fn kept<R: Scalar>(
+    problem: &Problem,
+    wanted: Wanted,
+    promise: &Promise,
+) -> Result<(Choice<R>, usize)> {
+    let choice = Choice::<R>::new(problem, wanted)?;
+    let error = match check(&problem.scene, &choice, promise) {
+        Ok(ticked) => return Ok((choice, ticked)),
+        Err(error) => error,
+    };
+    let is_asked_for =
+        wanted.model.or(problem.scene.setting.and_then(|setting| setting.model_kind()));
+    if is_asked_for.is_some() || choice.condensed().is_none() {
+        return Err(error);
+    }
+    let full = Wanted { model: Some(ModelKind::Full), ..wanted };
+    let Ok(mut full) = Choice::<R>::new(problem, full) else { return Err(error) };
+    let Ok(ticked) = check(&problem.scene, &full, promise) else { return Err(error) };
+    full.excluded.push(format!("condensed: {error}"));
+    Ok((full, ticked))
 }
 
 /// Refuses a controller whose bound exceeds `promise` for any of the inputs that it was made for, or that has none there; without

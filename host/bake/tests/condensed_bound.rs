@@ -5,11 +5,15 @@ use signorini_tolerances::bake::{
 };
 use std::path::Path;
 
+use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Field, Scene};
+use signorini_scene::setting::ModelKind;
+use signorini_solve::certify::admissible::Following;
+use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::exact::{Distance, distance};
 use signorini_solve::condense::{CondensedModel, Recovery, condense, recoverable};
 use signorini_solve::energy_norm::nonconformity;
@@ -17,7 +21,7 @@ use signorini_solve::fixtures::{
     EVERY_INPUT, PARABOLA, SMOOTH, distorted, full_at, on_grid, scatter, scene, with_four_sides,
 };
 use signorini_solve::norms::errors;
-use signorini_solve::problem::Problem;
+use signorini_solve::problem::{Problem, Sum};
 
 struct Model {
     scene: Scene,
@@ -427,6 +431,63 @@ fn the_bound_is_the_identity_for_a_gap_with_a_kink() -> Result<()> {
         model.condensate.certificate.as_mut().expect("a certificate").oscillation = vec![0.0];
         let [_, _, identity, gap] = model.at_solution()?;
         IDENTITY_KINKED.check_relative(format_args!("{cells:?}"), gap, identity);
+    }
+    Ok(())
+}
+
+/// Where all contact edges at a vertex are open for every input, s is free there, and follows no curve between two such vertices: the
+/// bound is sharper, is still the identity, and holds for whatever a tick leaves unfinished.
+#[test]
+fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
+    let input = "\n[input.depth]\nof = \"contact\"\nfield = \"gap\"\npattern = \"1\"\ndefault = 0.0\nrange = [-0.002, 0.002]\n";
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let mut plain = Model::catalogue("hg-tri", grid(16, cells))?;
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/catalogue/hg-tri.toml");
+        let text = std::fs::read_to_string(file).expect("a scene") + input;
+        plain.scene = scene(&text)?;
+        let problem = Problem::new(&plain.scene, grid(16, cells))?;
+        let choice = Choice::<f64>::new(&problem, Wanted::model(ModelKind::Condensed))?;
+        let (_, origin) = choice.condensed().expect("a condensed model");
+        let (model, p) = (origin.model(), &origin.whole.defaults);
+        let exact = plain.scene.exact.as_ref().expect("an exact solution");
+        let of_plain = plain.condensate.solve(&[1.0]).expect("a solution");
+        let of_plain = plain.condensate.bound(&[1.0], &of_plain).expect("a bound");
+        let solution = model.solve(p).expect("a solution");
+        let limits = model.limits.clone();
+        let clamped = |x: Vec<f64>| -> Vec<f64> {
+            x.into_iter().zip(&limits).map(|(x, [lo, hi])| x.clamp(*lo, *hi)).collect()
+        };
+        let halved = clamped(solution.iter().map(|x| 0.5 * x).collect());
+        let nothing = clamped(vec![0.0; solution.len()]);
+        for (at, x) in [solution, halved, nothing].into_iter().enumerate() {
+            let bound = model.bound(p, &x).expect("a bound");
+            let whole = origin.expand(p, x);
+            let answer = origin.recovery.admissible(&origin.whole, &problem, p, &whole);
+            let answer = answer.expect("a certificate");
+            assert!(matches!(&answer.following, Following::Except(edges) if edges.len() > 2));
+            let s = answer.admissible();
+            let found = distance(exact, &problem, &s)?;
+            println!("{cells:?} {at}: {bound:e} of {of_plain:e}, {found:?}");
+            GUARANTEE.check_at_most(format_args!("{cells:?} {at}"), found.combined, bound);
+            if at == 0 {
+                assert!(bound < of_plain && bound < 1.02 * found.combined, "{cells:?}");
+            }
+            let deviations = followed(&problem, &s)?;
+            for edge in problem.topology.counts.free..problem.topology.counts.unknowns() {
+                let gap = Sum::on_edge(&problem, edge, Field::Gap, 0.0).expect("a gap");
+                let [a, b] = problem.segment(edge);
+                for k in 0..=64 {
+                    let t = f64::from(k) / 64.0;
+                    let psi = gap.at(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]));
+                    let s = s.on_edge(&problem, edge, deviations.on(edge), t)?;
+                    GUARANTEE.check_at_most(
+                        format_args!("{cells:?} {at} {edge} {t}"),
+                        psi + 1.0,
+                        s + 1.0,
+                    );
+                }
+            }
+        }
     }
     Ok(())
 }

@@ -127,15 +127,19 @@ impl Arguments {
         let wanted =
             Wanted { model: kind, is_compared: self.explain, has_all_edges: self.full_edges };
         let unknowns = problem.topology.counts.unknowns();
-        let choice =
-            waiting(&format!("baking {unknowns} unknowns"), || Choice::<R>::new(problem, wanted))?;
+        let (choice, ticked) = waiting(&format!("baking {unknowns} unknowns"), || match promise {
+            Some(promise) => promise::kept::<R>(problem, wanted, promise),
+            None => Ok((Choice::<R>::new(problem, wanted)?, 0)),
+        })?;
         if let Some(promise) = promise {
-            let (ticked, all) =
-                (promise::check(&problem.scene, &choice, promise)?, promise.allowed.len());
+            let all = promise.allowed.len();
             if ticked < all {
                 note(&format!(
                     "the controller's own bound was tried with {ticked} of these {all} inputs"
                 ));
+            }
+            if kind.is_none() && !choice.excluded.is_empty() {
+                note(&choice.excluded.join("; "));
             }
         }
         if problem

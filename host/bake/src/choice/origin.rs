@@ -7,13 +7,14 @@ use signorini_solve::condense::{CondensedModel, ModalModel, Recovery, modal, rec
 use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::ranges::follow::FollowedRanges;
 use signorini_solve::ranges::reduced::Reduced;
+use signorini_solve::ranges::released::released;
 use signorini_solve::ranges::sides::Sides;
 use signorini_solve::reference::ReferenceError;
 
 /// What condensed candidates were made of, with the way back to the mesh.
 #[derive(Debug)]
 pub struct Origin {
-    /// With all contact edges.
+    /// With all contact edges; where `reduced` is there, its error bound may hold for that alone.
     pub whole: CondensedModel,
     /// From its answers to fields on the mesh.
     pub recovery: Recovery,
@@ -51,10 +52,15 @@ impl Origin {
             Some(followed) => followed.sides.clone(),
             None => Sides::new(&whole).map_err(failed)?,
         };
-        let reduced = match wanted.has_all_edges || modes.is_some() {
-            true => None,
-            false => Reduced::new(&whole, sides.clone()),
-        };
+        let may_be_reduced = !wanted.has_all_edges && modes.is_none();
+        let mut reduced = may_be_reduced.then(|| Reduced::new(&whole, sides.clone())).flatten();
+        let (mut whole, mut recovery) = (whole, recovery);
+        if reduced.is_some()
+            && let Some(of) = released(problem, &whole, &recovery, &sides)?
+        {
+            (whole, recovery) = of;
+            reduced = Reduced::new(&whole, sides.clone());
+        }
         let has_all_edges = wanted.has_all_edges;
         Ok(Self { whole, recovery, sides, reduced, has_all_edges, modes, followed })
     }

@@ -87,7 +87,7 @@ pub fn measure(case: &ExtremeCase, attempt: &Attempt) -> Result<Measured> {
             let vertices = scaled(&certified.vertices, 1.0);
             let bubbles = scaled(&certified.bubbles, 1.0);
             let tau = scaled(&certified.tau, scales.stiffness);
-            let following = certified.following;
+            let following = &certified.following;
             let admissible =
                 Admissible { vertices: &vertices, bubbles: &bubbles, tau: &tau, following };
             if posed.grid.n > LARGE {

@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 use super::digits::grouped;
 use super::table::lines;
-use signorini_bake::choice::{Candidate, Choice, Wanted};
+use signorini_bake::choice::{Candidate, Wanted};
 use signorini_bake::promise;
 use signorini_draw::Listing;
 use signorini_scene::error::{Error, Result};
@@ -96,8 +96,7 @@ fn firmware(scene: &Scene, goal: Goal, refining: Refining) -> Result<Firmware> {
 }
 
 fn baked<R: Scalar>(problem: &Problem, promise: &Promise) -> Result<Firmware> {
-    let choice = Choice::<R>::new(problem, Wanted::default())?;
-    promise::check(&problem.scene, &choice, promise)?;
+    let (choice, _) = promise::kept::<R>(problem, Wanted::default(), promise)?;
     let Candidate { name, needs, .. } = &choice.candidates[choice.chosen];
     Ok(Firmware {
         promise: promise.clone(),

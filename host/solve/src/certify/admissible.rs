@@ -19,17 +19,23 @@ pub struct Admissible<'a> {
     /// ∫_E τ·n of each edge, n being its direction turned clockwise: outward on the boundary.
     pub tau: &'a [f64],
     /// Where it has extensions.
-    pub following: Following,
+    pub following: &'a Following,
 }
 
 /// On which edges S follows what ψ and u_D have above their chords.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Following {
-    /// On all of them, as in a condensed model.
-    #[default]
-    Everywhere,
+    /// On all of them but these, as in a condensed model.
+    Except(Vec<u32>),
     /// Not where it is clear of ψ: [`super::curved::followed`].
     WhereNeeded,
+}
+
+impl Default for Following {
+    /// On all of them.
+    fn default() -> Self {
+        Self::Except(Vec::new())
+    }
 }
 
 /// S on one cell, without what ψ and u_D add to it.

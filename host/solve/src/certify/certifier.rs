@@ -61,7 +61,7 @@ impl CertifiedFields {
     /// S and τ as the exact norms take them.
     pub fn admissible(&self) -> Admissible<'_> {
         let Self { vertices, bubbles, tau, following, .. } = self;
-        Admissible { vertices, bubbles, tau, following: *following }
+        Admissible { vertices, bubbles, tau, following }
     }
 }
 

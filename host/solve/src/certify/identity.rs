@@ -31,7 +31,7 @@ struct Numbers {
 
 impl Numbers {
     fn borrowed(&self) -> Admissible<'_> {
-        let following = Following::WhereNeeded;
+        let following = &Following::WhereNeeded;
         Admissible { vertices: &self.vertices, bubbles: &self.bubbles, tau: &self.tau, following }
     }
 }

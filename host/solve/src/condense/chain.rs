@@ -25,6 +25,8 @@ pub(super) struct Chain {
     pub contact: Vec<(u32, Vertex)>,
     /// ψ at each of them for each pattern.
     pub gap: Vec<Vec<f64>>,
+    /// The vertices that were released, and ψ there for each pattern.
+    pub released: Vec<(u32, Vec<f64>)>,
     /// Dirichlet vertices and u_D there for each pattern.
     pub dirichlet: BTreeMap<u32, Vec<f64>>,
     /// Where s is off ψ for good.
@@ -41,7 +43,8 @@ pub(super) struct Chain {
 type Meeting = BTreeMap<u32, Vec<(usize, Vec<f64>)>>;
 
 impl Chain {
-    /// `edges` holds the contact edge of each unknown, `openings` d_i, the unit of its opening.
+    /// `edges` holds the contact edge of each unknown, `openings` d_i, the unit of its opening. At vertices that are `released` s
+    /// is as free as inside.
     ///
     /// # Errors
     /// A sentence why s cannot be fixed beforehand.
@@ -50,12 +53,14 @@ impl Chain {
         patterns: &[Pattern],
         edges: &[usize],
         openings: &[f64],
+        released: &BTreeSet<u32>,
     ) -> Result<Self, String> {
         let dirichlet = given(problem, patterns);
         let meetings = meetings(problem, patterns, edges);
         let mut chain = Self {
             contact: Vec::new(),
             gap: Vec::new(),
+            released: Vec::new(),
             dirichlet,
             corners: Vec::new(),
             met: Vec::new(),
@@ -84,6 +89,7 @@ impl Chain {
                     chain.corners.extend(corners);
                     chain.met.resize(chain.corners.len(), vertex);
                 }
+                None if released.contains(&vertex) => chain.released.push((vertex, psi)),
                 None => {
                     let place = place(problem, &meetings, vertex, edges, openings)?;
                     chain.contact.push((vertex, place));

@@ -40,6 +40,8 @@ pub(super) struct FormData<'g> {
     pub floating: Vec<usize>,
     /// Transfer laws whose coefficient changes.
     pub laws: Option<&'g Laws>,
+    /// Contact vertices at which s is free.
+    pub released: &'g BTreeSet<u32>,
 }
 
 /// s and τ in every column.
@@ -48,6 +50,10 @@ pub(super) struct Admissibles {
     pub s: Table,
     pub fluxes: Table,
     pub functions: Functions,
+    /// The vertex of each correction d.
+    pub contact: Vec<u32>,
+    /// Contact vertices at which s is free, and ψ there for each pattern.
+    pub released: Vec<(u32, Vec<f64>)>,
 }
 
 /// Either the form with the functions behind it, or a sentence why there is none.
@@ -63,12 +69,12 @@ impl FormData<'_> {
         if let Some(reason) = self.obstacle()? {
             return Ok(Err(reason));
         }
-        let chain = match Chain::new(problem, patterns, self.edges, self.openings) {
+        let chain = match Chain::new(problem, patterns, self.edges, self.openings, self.released) {
             Ok(chain) => chain,
             Err(reason) => return Ok(Err(reason)),
         };
         let functions = Functions::of(problem);
-        let blocks = blocks(problem, patterns, &functions, self.laws)?;
+        let blocks = blocks(problem, patterns, &functions, self.laws, self.released)?;
         let fluxes = self.fluxes(self.fields);
         let mut s = self.boundary_values(&chain, &functions);
         let at_boundary = chain.fixed();
@@ -89,7 +95,7 @@ impl FormData<'_> {
             let share = 1.0 + assembled.hidden();
             factor.into_iter().map(|entry| share * entry).collect::<Vec<_>>()
         };
-        let jump = jumps(problem, patterns, &functions)?.map(|blocks| {
+        let jump = jumps(problem, patterns, &functions, self.released)?.map(|blocks| {
             let means = table(problem.ends.len(), self.fields, |field| &field.u);
             widened(packed(&triangular(&blocks, &s, &means)))
         });
@@ -110,7 +116,8 @@ impl FormData<'_> {
             ends: if is_limited { chain.ends } else { Vec::new() },
             span_excess: excess(problem, self.edges, self.openings),
         };
-        Ok(Ok((form, Admissibles { s, fluxes, functions })))
+        let (contact, released) = (chain.contact.iter().map(|of| of.0).collect(), chain.released);
+        Ok(Ok((form, Admissibles { s, fluxes, functions, contact, released })))
     }
 
     /// Fluxes of columns; and means of u behind them, where laws are read off these.

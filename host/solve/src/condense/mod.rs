@@ -45,6 +45,7 @@ mod order;
 mod patterns;
 mod points;
 mod recovery;
+mod released;
 mod residual;
 mod rounding;
 mod spans;
@@ -52,6 +53,8 @@ mod stability;
 #[cfg(test)]
 mod tests;
 mod unit;
+
+use std::collections::BTreeSet;
 
 use faer::Mat;
 
@@ -67,6 +70,7 @@ pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
 use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
+pub use released::{ReleasedVertex, with_released};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
 use spans::{in_unknowns, spans};
@@ -161,10 +165,11 @@ impl<'p> Pieces<'p> {
         // Amplitudes of modes are no inputs of the scene.
         model.defaults.resize(m, 0.0);
         model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
-        let (form, admissibles) = match self.form(&fields, &opening, &matrix, source.as_ref())? {
-            Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
-            Err(reason) => (Err(reason), None),
-        };
+        let (form, admissibles) =
+            match self.form(&fields, &opening, &matrix, source.as_ref(), &BTreeSet::new())? {
+                Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
+                Err(reason) => (Err(reason), None),
+            };
         model.certificate = form;
         model.choose_unit();
         Ok((model, Recovery { fields, admissibles }))
@@ -176,6 +181,7 @@ impl<'p> Pieces<'p> {
         openings: &[f64],
         matrix: &Mat<f64>,
         source: Option<&Field>,
+        released: &BTreeSet<u32>,
     ) -> Result<Found> {
         let Self { problem, parts, patterns, edges, held_by_contact, .. } = self;
         let silent = vec![0.0; edges.len()];
@@ -192,6 +198,7 @@ impl<'p> Pieces<'p> {
             source: source.map(|field| (field, load(field))),
             floating: floating.cloned().unwrap_or_default(),
             laws: self.laws.as_ref(),
+            released,
         };
         data.form()
     }

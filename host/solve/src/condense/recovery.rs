@@ -1,5 +1,7 @@
 //! The way back from a condensed answer: u and σ_h on the whole mesh, and the s and τ of its bound.
 
+use std::collections::BTreeSet;
+
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
@@ -49,7 +51,7 @@ impl Recovery {
         p: &[f64],
         x: &[f64],
     ) -> Option<CertifiedFields> {
-        let (Ok(form), Some(Admissibles { s, fluxes, functions })) =
+        let (Ok(form), Some(Admissibles { s, fluxes, functions, .. })) =
             (&of.certificate, &self.admissibles)
         else {
             return None;
@@ -69,8 +71,21 @@ impl Recovery {
             bubbles: edges.clone().map(bubble).collect(),
             tau: edges.map(|edge| at(fluxes.row(edge), &mended)).collect(),
             indicators: Vec::new(),
-            following: Following::Everywhere,
+            following: Following::Except(self.left_out(problem)),
         })
+    }
+}
+
+impl Recovery {
+    /// The edges between vertices at which s is free: it follows no curve there.
+    fn left_out(&self, problem: &Problem) -> Vec<u32> {
+        let released = self.admissibles.iter().flat_map(|of| &of.released);
+        let released: BTreeSet<u32> = released.map(|(vertex, _)| *vertex).collect();
+        let ends = problem.ends.iter().zip(0_u32..);
+        let is_left_out = |ends: &[u32; 2]| ends.iter().all(|end| released.contains(end));
+        ends.filter(|(ends, _)| !released.is_empty() && is_left_out(ends))
+            .map(|(_, edge)| edge)
+            .collect()
     }
 }
 

@@ -6,6 +6,8 @@
 //! row for each of its functions: three on triangles where A is constant, whatever the rule. With A^½∇u_h of means in the
 //! place of A^{−½}τ the same rows give ‖A^½∇_h(s − u_h)‖.
 
+use std::collections::BTreeSet;
+
 use signorini_kernel::{Real, Tensor};
 
 use super::block::{Block, triangular};
@@ -32,8 +34,9 @@ pub(super) fn blocks(
     patterns: &[Pattern],
     functions: &Functions,
     laws: Option<&Laws>,
+    released: &BTreeSet<u32>,
 ) -> Result<Vec<Block>> {
-    let deviations = deviations(problem, patterns)?;
+    let deviations = deviations(problem, patterns, released)?;
     let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
     let cells = (0..problem.cells()).map(of_fluxes);
     let mut blocks = cells.collect::<Result<Vec<_>>>()?;
@@ -59,8 +62,9 @@ pub(super) fn jumps(
     problem: &Problem,
     patterns: &[Pattern],
     functions: &Functions,
+    released: &BTreeSet<u32>,
 ) -> Result<Option<Vec<Block>>> {
-    let deviations = deviations(problem, patterns)?;
+    let deviations = deviations(problem, patterns, released)?;
     let is_lifted = deviations.iter().any(|of| !of.found.is_empty());
     let has_source = patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
     let is_constant = |at| Conductivity::of(problem, at).is_constant();
@@ -72,8 +76,19 @@ pub(super) fn jumps(
     (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
 }
 
-fn deviations<'p>(_problem: &Problem, patterns: &'p [Pattern]) -> Result<Vec<Deviations<'p>>> {
-    patterns.iter().map(|p| Deviations::at_time(&p.problem, 0.0)).collect()
+/// What each pattern's data have above their chords and s follows: nothing between vertices that are released.
+fn deviations<'p>(
+    problem: &Problem,
+    patterns: &'p [Pattern],
+    released: &BTreeSet<u32>,
+) -> Result<Vec<Deviations<'p>>> {
+    let is_released = |edge: usize| problem.ends[edge].iter().all(|end| released.contains(end));
+    let followed = |pattern: &'p Pattern| {
+        let mut deviations = Deviations::at_time(&pattern.problem, 0.0)?;
+        deviations.found.retain(|deviation| !is_released(deviation.edge));
+        Ok(deviations)
+    };
+    patterns.iter().map(followed).collect()
 }
 
 /// What is taken from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.

@@ -66,7 +66,7 @@ impl CondensedModel {
 
 impl Form {
     /// Only what multiplies p changes: e and τ of the other columns are in the unit U already.
-    fn rescale(&mut self, unit: f64, inputs: usize) {
+    pub(super) fn rescale(&mut self, unit: f64, inputs: usize) {
         let of_inputs = inputs * (inputs + 1) / 2;
         let of_s = self.factor.iter_mut().take(of_inputs);
         let of_jump = self.jump.iter_mut().flat_map(|jump| jump.iter_mut().take(of_inputs));

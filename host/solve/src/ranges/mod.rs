@@ -19,6 +19,7 @@ pub mod outputs;
 pub mod reduced;
 mod reduced_form;
 pub mod reduction;
+pub mod released;
 pub mod sides;
 mod slopes;
 pub mod split;

@@ -173,7 +173,7 @@ impl Sides {
     }
 
     /// The box of (p, x_U). A scalar may round limits outwards, as it may ranges.
-    fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
+    pub(super) fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
         let limits: Vec<_> = reduction.kept.iter().map(|&at| self.limits[at]).collect();
         // No scalar rounds over 0.
         let kept = |([lo, hi], limits): ([f64; 2], &[f64; 2])| {

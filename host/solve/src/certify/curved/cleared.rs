@@ -38,14 +38,15 @@ pub fn may_be_cleared(problem: &Problem, edges: impl Iterator<Item = usize> + Cl
 /// Data that are not finite.
 pub fn followed<'s>(problem: &'s Problem, s: &Admissible) -> Result<Deviations<'s>> {
     let mut deviations = Deviations::at_time(problem, problem.time)?;
-    if s.following == Following::Everywhere {
+    if let Following::Except(edges) = s.following {
+        deviations.found.retain(|deviation| !edges.contains(&(deviation.edge as u32)));
         return Ok(deviations);
     }
     let may = may_be_cleared(problem, deviations.found.iter().map(|deviation| deviation.edge));
     let is_followed = |(deviation, may): (&Deviation, bool)| {
         let above =
             deviation.above_chord(problem.ends[deviation.edge].map(|v| s.vertices[v as usize]));
-        Ok(!(may && is_clear(above, peak(deviation, &Panels::along(deviation)?)?)))
+        Ok(!(may && is_clear(above, peak(deviation)?)))
     };
     let followed: Result<Vec<bool>> = deviations.found.iter().zip(may).map(is_followed).collect();
     let mut followed = followed?.into_iter();
@@ -54,7 +55,15 @@ pub fn followed<'s>(problem: &'s Problem, s: &Admissible) -> Result<Deviations<'
 }
 
 /// A bound of |w|; infinite where w has no finite energy.
-pub(super) fn peak(deviation: &Deviation, panels: &Panels) -> Result<f64> {
+///
+/// # Errors
+/// Data that are not finite.
+pub fn peak(deviation: &Deviation) -> Result<f64> {
+    peak_on(deviation, &Panels::along(deviation)?)
+}
+
+/// The same with the panels that its data need.
+pub(super) fn peak_on(deviation: &Deviation, panels: &Panels) -> Result<f64> {
     if panels.rough.is_some() {
         return Ok(f64::INFINITY);
     }

@@ -28,7 +28,7 @@ use crate::quadrature::gauss;
 use panels::Panels;
 use signorini_scene::error::Result;
 
-pub use cleared::{followed, may_be_cleared};
+pub use cleared::{followed, may_be_cleared, peak};
 pub use cross::half_triangle;
 pub use inside::{of_rough_sides, points};
 pub use panels::PANELS;
@@ -101,7 +101,7 @@ fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
         let mut record = extension.integrate()?;
         record.missed = extension.missed(problem)?;
         if may_be_cleared {
-            record.peak = cleared::peak(deviation, &extension.panels)?;
+            record.peak = cleared::peak_on(deviation, &extension.panels)?;
         }
         // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
         for earlier in extensions.iter().filter(|other| other.at == extension.at) {

@@ -324,11 +324,14 @@ fn s_leaves_a_curve_out_where_it_is_clear_of_it() -> Result<()> {
         let all = Deviations::at_time(&problem, 0.0)?.found.len();
         for (height, left) in [0.0, 10.0, -10.0].into_iter().zip(left) {
             let vertices = &vec![height; problem.mesh.vertices.len()][..];
-            let following = Following::WhereNeeded;
+            let following = &Following::WhereNeeded;
             let s = Admissible { vertices, bubbles: &[], tau: &[], following };
             assert_eq!(followed(&problem, &s)?.found.len(), left, "{cells:?} at {height}");
-            let s = Admissible { following: Following::Everywhere, ..s };
+            let s = Admissible { following: &Following::default(), ..s };
             assert_eq!(followed(&problem, &s)?.found.len(), all);
+            let first = Deviations::at_time(&problem, 0.0)?.found[0].edge as u32;
+            let s = Admissible { following: &Following::Except(vec![first]), ..s };
+            assert_eq!(followed(&problem, &s)?.found.len(), all - 1);
         }
     }
     let (_, problem) = fixtures::on_grid(CURVED, grid(2, Cells::Triangles))?;
