@@ -104,6 +104,49 @@ def levee_fine():
     write("levee-fine", 4.1, True, HERE.parents[1] / "tests" / "firmware" / "scenes")
 
 
+def dam():
+    """A zoned dam 10 m high on 8 m of gravel, reservoir at 8.5 m: shells, core, toe drain, a cut-off wall below the core."""
+    begin("dam")
+    far, near, fine = 4, 1.2, 0.6
+    at = lambda x, y, size: geo.addPoint(x, y, 0, size)
+    heel, toe, drain = at(0, 0, near), at(50, 0, near), at(43, 0, near)
+    core_left, wall_left, wall_right, core_right = (at(x, 0, fine) for x in (20, 24, 25, 29))
+    slope_wet, crest_left, crest_right, slope_drain = at(17.85, 8.5, near), at(21, 10, near), at(27, 10, near), at(45.4, 2, near)
+    core_top = [at(25.25, 9, fine), at(23.25, 9, fine)]
+    wall_foot = [at(24, -5, fine), at(25, -5, fine)]
+    left, left_base, right_base, right = at(-30, 0, far), at(-30, -8, far), at(80, -8, far), at(80, 0, far)
+    line = geo.addLine
+    floor = [line(left, heel), line(heel, core_left), line(core_left, wall_left), line(wall_left, wall_right),
+             line(wall_right, core_right), line(core_right, drain), line(drain, toe), line(toe, right)]
+    wall = [line(wall_left, wall_foot[0]), line(*wall_foot), line(wall_foot[1], wall_right)]
+    around = [line(right, right_base), line(right_base, left_base), line(left_base, left)]
+    slopes = [line(toe, slope_drain), line(slope_drain, crest_right), line(crest_right, crest_left),
+              line(crest_left, slope_wet), line(slope_wet, heel)]
+    core = [line(core_right, core_top[0]), line(*core_top), line(core_top[1], core_left)]
+    inner = line(drain, slope_drain)
+    surface = lambda *loop: geo.addPlaneSurface([geo.addCurveLoop(loop)])
+    back = lambda lines: [-one for one in reversed(lines)]
+    surfaces = {
+        "foundation": surface(*floor[:3], *wall, *floor[4:], *around),
+        "wall": surface(floor[3], *back(wall)),
+        "core": surface(*floor[2:5], *core),
+        "shell": surface(floor[1], *back(core), floor[5], inner, *slopes[1:]),
+        "toe drain": surface(floor[6], slopes[0], -inner),
+    }
+    geo.synchronize()
+    group(1, "reservoir", [floor[0], slopes[4]])
+    group(1, "tail water", [floor[7]])
+    group(1, "seepage face", slopes[:2])
+    group(1, "crest", [slopes[2]])
+    group(1, "bank", [slopes[3]])
+    group(1, "base", [around[1]])
+    group(1, "sides", [around[0], around[2]])
+    for name, tag in surfaces.items():
+        group(2, name, [tag])
+    gmsh.model.mesh.generate(2)
+    write("dam", 4.1, False, HERE.parents[1] / "tests" / "firmware" / "scenes")
+
+
 def slab():
     """A wing skin 300 mm long and 12 mm thick with a 40 mm rib; heaters on the inner face."""
     begin("slab")
@@ -198,6 +241,7 @@ def main():
     gmsh.option.setNumber("General.NumThreads", 1)
     levee()
     levee_fine()
+    dam()
     slab()
     strip()
     pit()

@@ -25,7 +25,7 @@ Examples:
   signorini trade bar.toml --promise 20%,10%,5%        which firmware such an error takes
   signorini trade scenes/*.toml --shard 2/4
 
-A study plans up to 60 settings of a scene (number format, mesh, cells, sweeps, start, ω, model, bound), measures each, \
+A study plans up to 60 settings of a scene (number format, mesh, its refinement, cells, sweeps, start, ω, model, bound), measures each, \
 and recommends one. It leaves trade.json, trade.csv, trade.svg and recommended.toml, a fragment of a \
 scene that solve, bake and `cargo xtask firmware` take. A scene with a [setting] is measured in that alone. \
 Without a scene it renews the record of every standard scene (host/benches/trade), on the host and on the M4F.
@@ -125,13 +125,12 @@ impl Arguments {
     /// The table of each scene in its folder; without a scene those of the standard ones in the record.
     fn promised(&self) -> Result<u8> {
         if self.scenes.is_empty() {
-            let scene = |name: &&str| Ok(root()?.join(format!("meshes/scenes/{name}.toml")));
-            let scenes: Vec<_> = promised::STANDARD.iter().map(scene).collect::<Result<_>>()?;
-            let tables: Vec<_> =
-                scenes.iter().map(|path| self.table(path)).collect::<Result<_>>()?;
+            let at = root()?;
+            let table = |path: &&str| self.table(&at.join(path));
+            let tables: Vec<_> = promised::STANDARD.iter().map(table).collect::<Result<_>>()?;
             let file = match &self.out {
                 Some(folder) => folder.join(promised::FILE),
-                None => root()?.join(promised::RECORD),
+                None => at.join(promised::RECORD),
             };
             return written(&file, &tables.join("\n"));
         }

@@ -7,7 +7,7 @@ use super::record::{Point, Trade};
 
 /// Where each column stands in a point's JSON; its name is this path with `_` between the words. Columns
 /// are added at the end, so that readers by position go on working.
-const COLUMNS: [&str; 38] = [
+const COLUMNS: [&str; 39] = [
     "/name",
     "/scalar",
     "/math",
@@ -46,6 +46,7 @@ const COLUMNS: [&str; 38] = [
     "/setting/share",
     "/setting/certificate",
     "/setting/solver",
+    "/setting/error",
 ];
 
 /// The text of `trade.csv`: `scene,target,` and a column for each field of a point (`error_energy`,
@@ -88,7 +89,7 @@ mod tests {
         let mut point = trade("levee", 4).points.remove(0);
         point.setting = serde_json::from_str(
             r#"{"cells": "quads", "scalar": "f32", "model": "full", "solver": "sweeps", "sweeps": 1,
-                "share": 0.1}"#,
+                "share": 0.1, "error": "5%"}"#,
         )
         .unwrap();
         let mut found = leaves("", &serde_json::to_value(&point).unwrap());

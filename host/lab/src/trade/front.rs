@@ -43,7 +43,7 @@ pub fn choose<'p>(trade: &'p Trade, wish: &Wish) -> Option<&'p Point> {
         Some(error) => Some(error.most(Some(trade.energy))),
         None if wish.budget.is_some() => None,
         None => {
-            let own = points().filter(|point| point.level == 0 && point.setting.cells.is_none());
+            let own = points().filter(|point| point.is_on_own_mesh());
             own.map(|point| AS_GOOD * point.error.energy).min_by(f64::total_cmp)
         }
     };

@@ -202,6 +202,7 @@ fn name(point: &Point, contact: usize) -> String {
         "condensed" => format!("condensed n = {contact} ({cells} {unknowns})"),
         _ => format!("{cells} {unknowns}"),
     }];
+    words.extend(point.setting.error.map(|error| format!("refined to {error}")));
     words.push(scalar.clone());
     match (model.as_str(), stop.as_str()) {
         ("condensed", "exact" | "out of exchanges") => words.push(stop.clone()),

@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 
 use signorini_scene::error::Result;
+use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::mesh::{Mesh, gmsh};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{CellKind, Setting};
-use signorini_solve::adaptive::mesh_of_scene;
+use signorini_solve::adaptive::{MOST_UNKNOWNS, Promised, Refining, promised_mesh};
 use signorini_solve::problem::Problem;
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
@@ -26,12 +27,14 @@ pub(super) struct Meshes {
     scene: Scene,
     pub own: Mesh,
     made: HashMap<(Option<CellKind>, u32), Problem>,
+    /// For an error in all inputs; two settings in a row have one.
+    for_error: Option<(Goal, Problem)>,
 }
 
 impl Meshes {
     pub fn new(scene: &Scene) -> Result<Self> {
         let own = gmsh::read(&scene.mesh.value)?;
-        Ok(Self { scene: scene.clone(), own, made: HashMap::new() })
+        Ok(Self { scene: scene.clone(), own, made: HashMap::new(), for_error: None })
     }
 
     /// The kind of cells that the mesh is not yet made of, where it can be brought to them.
@@ -45,10 +48,26 @@ impl Meshes {
     /// On the mesh that `setting` asks for, which may be refined until its error is small enough.
     pub fn of_setting(&mut self, setting: &Setting) -> Result<Problem> {
         let problem = match setting.error {
-            Some(_) => Problem::new(&self.scene, mesh_of_scene(&self.scene)?.mesh)?,
-            None => self.problem(setting.cells, setting.refine)?.clone(),
+            Some(goal) => self.for_error(goal, setting.cells)?,
+            None => self.problem(setting.cells, setting.refine)?,
         };
-        Ok(problem.with_setting(Some(*setting)))
+        Ok(problem.clone().with_setting(Some(*setting)))
+    }
+
+    fn for_error(&mut self, goal: Goal, cells: Option<CellKind>) -> Result<&Problem> {
+        // A study's own settings stay small; a scene that asks for one error means it.
+        let most_unknowns = if self.scene.setting.is_some() { MOST_UNKNOWNS } else { FINEST };
+        let promised = Promised { goal, refining: Refining::Marked, most_unknowns };
+        let known = self.for_error.take().filter(|(known, _)| *known == goal);
+        let made = match known {
+            Some(known) => known,
+            None => {
+                let mesh = adapted(self.own.clone(), cells, 0)?;
+                let (mesh, _) = promised_mesh(&self.scene, mesh, promised)?;
+                (goal, Problem::new(&self.scene, mesh)?)
+            }
+        };
+        Ok(&self.for_error.insert(made).1)
     }
 
     pub fn problem(&mut self, cells: Option<CellKind>, level: u32) -> Result<&Problem> {

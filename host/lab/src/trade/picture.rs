@@ -11,8 +11,8 @@ const MOST_SERIES: usize = 6;
 
 /// What may give points their colour, the most telling first.
 const GROUPS: [fn(&Point) -> String; 4] = [
-    |point| format!("{}, level {}", point.model, point.level),
-    |point| format!("level {}", point.level),
+    |point| format!("{}, {}", point.model, point.refinement()),
+    Point::refinement,
     |point| point.model.clone(),
     |point| point.scalar.clone(),
 ];

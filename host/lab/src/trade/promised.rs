@@ -25,7 +25,14 @@ use signorini_solve::scalar::Scalar;
 const MOST_UNKNOWNS: usize = 50_000;
 
 /// The scenes of the record, and where it is, from the root of the checkout.
-pub const STANDARD: [&str; 5] = ["levee", "slab", "strip", "pit", "antiicing"];
+pub const STANDARD: [&str; 6] = [
+    "meshes/scenes/levee.toml",
+    "tests/firmware/scenes/dam.toml",
+    "meshes/scenes/slab.toml",
+    "meshes/scenes/strip.toml",
+    "meshes/scenes/pit.toml",
+    "meshes/scenes/antiicing.toml",
+];
 /// See [`STANDARD`].
 pub const RECORD: &str = "host/benches/trade/promised.txt";
 /// What a table is called in the folder of its scene.

@@ -93,6 +93,21 @@ pub struct Point {
     pub setting: Setting,
 }
 
+impl Point {
+    /// Whether the mesh is the scene's as it stands.
+    pub fn is_on_own_mesh(&self) -> bool {
+        self.level == 0 && self.setting.cells.is_none() && self.setting.error.is_none()
+    }
+
+    /// How the mesh is refined: `level 1`, everywhere so often, or `to 5%`, where the error bound asks for it.
+    pub fn refinement(&self) -> String {
+        match self.setting.error {
+            Some(error) => format!("to {error}"),
+            None => format!("level {}", self.level),
+        }
+    }
+}
+
 /// Combinations left out for one reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Skipped {

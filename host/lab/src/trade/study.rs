@@ -7,7 +7,7 @@ use super::front::{Wish, mark, recommend};
 use super::journal::Journal;
 use super::measured_setting::{Facts, MeasuredSetting, digest, once, overflow, program};
 use super::meshes::{Meshes, finest};
-use super::plan::{Plan, SceneFacts};
+use super::plan::{LARGEST_ON_BOARD, Plan, SceneFacts, TOO_LARGE};
 use super::record::{FunctionCost, Recommendation, Skipped, Trade};
 use super::reference::ReferenceSolution;
 use super::shard::Shard;
@@ -23,7 +23,7 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
-use signorini_scene::setting::{Precision, Setting};
+use signorini_scene::setting::{ModelKind, Precision, Setting};
 use signorini_solve::problem::{Approach, Problem};
 use signorini_solve::solve::tuned_omega;
 
@@ -269,6 +269,9 @@ impl Study {
         truth: &ReferenceSolution,
     ) -> Result<MeasuredSetting> {
         let problem = meshes.of_setting(setting)?;
+        if self.is_too_large(setting, &problem) {
+            return Ok(MeasuredSetting::Left(TOO_LARGE.to_owned()));
+        }
         let mut point = measure::measure(&problem, truth)?;
         if let Some(board) = self.target.board() {
             match board::measure(&problem, &board, &self.module(&point.name))? {
@@ -281,6 +284,13 @@ impl Study {
             }
         }
         Ok(MeasuredSetting::Point(Box::new(point)))
+    }
+
+    /// A mesh refined for an error that only now tells how large it is.
+    fn is_too_large(&self, setting: &Setting, problem: &Problem) -> bool {
+        let on_board = self.target != Target::Host && !self.is_alone();
+        let full = setting.error.is_some() && setting.model == Some(ModelKind::Full);
+        on_board && full && problem.topology.counts.unknowns() > LARGEST_ON_BOARD
     }
 
     fn together(

@@ -21,7 +21,9 @@ const KNOBS: [Knob; 8] = [
     ("scalar", |point| point.scalar.clone()),
     ("math", |point| point.math.clone()),
     ("cells", |point| point.cells.clone()),
-    ("level", |point| point.level.to_string()),
+    ("level", |point| {
+        point.setting.error.map_or(point.level.to_string(), |error| format!("to {error}"))
+    }),
     ("stop", stop),
     ("start", |point| point.start.clone()),
     ("omega", |point| point.omega.clone()),

@@ -1,6 +1,6 @@
 //! What of the full product of knobs makes sense, is in reach, and is measured.
 
-use super::{Combination, Factor, SceneFacts, Stop};
+use super::{Combination, Factor, LARGEST_ON_BOARD, SceneFacts, Stop, TOO_LARGE};
 use crate::trade::target::Target;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
 
@@ -8,6 +8,10 @@ impl Combination {
     /// Why it is left out; `None`: it is measured.
     pub fn reason(&self, ground: &SceneFacts) -> Option<&'static str> {
         self.senseless(ground).or_else(|| self.out_of_reach(ground)).or_else(|| {
+            if self.error.is_some() {
+                let reason = "meshes refined for an error are measured with exact methods in f32";
+                return (!self.is_exact(ground)).then_some(reason);
+            }
             let measured = match self.model {
                 ModelKind::Condensed => self.is_condensed_point(),
                 ModelKind::Full if self.stop == Stop::Exact => self.is_factored_point(ground),
@@ -33,6 +37,11 @@ impl Combination {
         if condensed && self.omega != Factor::Auto {
             return Some("a condensed model has its best ω from the host");
         }
+        if matches!(self.stop, Stop::Sweeps(10 | 40)) && self.level > 0 {
+            return Some(
+                "so few sweeps of a refined mesh cost more than a coarser one for the same error",
+            );
+        }
         if self.math == MathKind::Micromath && self.scalar != Precision::F32 {
             return Some("micromath is for f32");
         }
@@ -50,8 +59,6 @@ impl Combination {
 
     /// What there is no code for, or no room.
     fn out_of_reach(&self, ground: &SceneFacts) -> Option<&'static str> {
-        /// Unknowns of the largest mesh that is put on a microcontroller for a study.
-        const LARGEST: usize = 4500;
         let condensed = self.model == ModelKind::Condensed;
         if ground.uses_time && ground.target != Target::Host {
             return Some("the data change with t, which firmware does not know");
@@ -95,11 +102,17 @@ impl Combination {
             if self.scalar == Precision::F64 && ground.target == Target::M4f {
                 return Some("an M4F computes f64 in software: 45 times the instructions");
             }
-            if !condensed && ground.unknowns << (2 * self.level) > LARGEST {
-                return Some("the full model of so fine a mesh is no model for a microcontroller");
+            if !condensed && ground.unknowns << (2 * self.level) > LARGEST_ON_BOARD {
+                return Some(TOO_LARGE);
             }
         }
         None
+    }
+
+    /// With the solution and its bound at the end of a usual tick.
+    fn is_exact(&self, ground: &SceneFacts) -> bool {
+        let usual = self.scalar == Precision::F32 && self.certificate && self.stop == Stop::Exact;
+        usual && (self.model == ModelKind::Condensed || self.start == main_start(ground))
     }
 
     /// Sweeps and shares on every mesh.
@@ -181,6 +194,7 @@ impl Combination {
         let factored = self.model == ModelKind::Full && self.stop == Stop::Exact;
         Setting {
             refine: self.level,
+            error: self.error,
             cells: self.cells,
             scalar: Some(self.scalar),
             math: self.math,

@@ -1,8 +1,10 @@
 //! Which settings are measured: knobs that act on each other are crossed, the others are turned one at a time.
 //!
 //! ```text
-//!   crossed     cells × level × {share 0.3, 0.1, 0.01 in f32; 0.01 in f64; 10, 40 sweeps without certificate}
+//!   crossed     cells × level × {share 0.3, 0.1, 0.01 in f32; 0.01 in f64}
+//!               cells × {10, 40 sweeps without certificate}
 //!               cells × level × condensed
+//!               refined to an error bound of 20, 10, 5 % where that asks for it × {condensed, factor}
 //!   one at a time, from f32, the scene's cells and mesh, share 0.1:
 //!               the other start │ ω tuned, unit │ 5, 20, 80 sweeps with certificate │ share 0.1 in f64
 //!               micromath │ f32+f64 │ condensed: f64, without certificate, 12 sweeps
@@ -16,10 +18,19 @@ use std::collections::BTreeMap;
 
 use super::record::Skipped;
 use super::target::Target;
+use signorini_scene::goal::Goal;
 use signorini_scene::setting::{CellKind, MathKind, ModelKind, Precision, Setting, Start};
 
 /// The most settings of one scene.
 pub const MOST: usize = 60;
+
+/// Error bounds that meshes are refined to, where these ask for it.
+const ERRORS: [Goal; 3] = [Goal::Part(0.2), Goal::Part(0.1), Goal::Part(0.05)];
+
+/// Unknowns of the largest mesh that is put on a microcontroller for a study.
+pub const LARGEST_ON_BOARD: usize = 4500;
+/// Why a larger one is not.
+pub const TOO_LARGE: &str = "the full model of so fine a mesh is no model for a microcontroller";
 
 /// ω as a knob; what `Tuned` is has to be found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,6 +97,7 @@ pub struct Plan {
 struct Combination {
     cells: Option<CellKind>,
     level: u32,
+    error: Option<Goal>,
     scalar: Precision,
     math: MathKind,
     model: ModelKind,
@@ -118,7 +130,8 @@ fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Combination> {
     let cells = [None, ground.other_cells];
     let cells = cells.into_iter().take(if ground.other_cells.is_some() { 2 } else { 1 });
     let finest = ground.finest;
-    let meshes = cells.flat_map(move |cells| (0..=finest).map(move |level| (cells, level)));
+    let uniform = cells.flat_map(move |cells| (0..=finest).map(move |level| (cells, level, None)));
+    let meshes = uniform.chain(ERRORS.map(|error| (None, 0, Some(error))));
     let models = [ModelKind::Full, ModelKind::Condensed];
     let meshes = meshes.flat_map(move |mesh| models.map(|model| (mesh, model)));
     let formats = meshes.flat_map(|of| {
@@ -130,8 +143,9 @@ fn combinations(ground: &SceneFacts) -> impl Iterator<Item = Combination> {
     let factors =
         starts.flat_map(|of| [Factor::Auto, Factor::Tuned, Factor::Unit].map(|omega| (of, omega)));
     let all = factors.flat_map(|of| [true, false].map(|certificate| (of, certificate)));
-    all.map(|((((((((cells, level), model), scalar), stop), math), start), omega), certificate)| {
-        Combination { cells, level, scalar, math, model, start, omega, stop, certificate }
+    all.map(|(((((((mesh, model), scalar), stop), math), start), omega), certificate)| {
+        let (cells, level, error) = mesh;
+        Combination { cells, level, error, scalar, math, model, start, omega, stop, certificate }
     })
 }
 
@@ -158,9 +172,12 @@ mod tests {
     #[test]
     fn every_combination_is_measured_or_counted() {
         let plan = Plan::new(&GROUND);
-        assert_eq!(product(&plan), 2 * 3 * 2 * 3 * 10 * 2 * 2 * 3 * 2);
+        assert_eq!(product(&plan), (2 * 3 + 3) * 2 * 3 * 10 * 2 * 2 * 3 * 2);
         assert!(plan.settings.len() > 40 && plan.settings.len() <= MOST, "{}", plan.settings.len());
-        assert!(!plan.skipped.iter().any(|skipped| skipped.reason.contains("60")), "{plan:?}");
+        assert!(
+            !plan.skipped.iter().any(|skipped| skipped.reason.contains("more than")),
+            "{plan:?}"
+        );
     }
 
     #[test]
@@ -191,8 +208,9 @@ mod tests {
         assert!(has(&|s| s.model == Some(ModelKind::Condensed)) && has(&|s| !s.certificate));
         let factored = settings.iter().filter(|s| s.solver == Some(Method::Factor));
         assert!(factored.clone().all(|s| s.sweeps.is_none() && s.share.is_none()));
-        // Three levels, the other cells, and without the bound.
-        assert_eq!(factored.count(), 5);
+        // Three levels, the other cells, without the bound, and three meshes refined for an error.
+        assert_eq!(factored.count(), 8);
+        assert!(has(&|s| s.error.is_some() && s.model == Some(ModelKind::Condensed)));
     }
 
     #[test]
