@@ -7,12 +7,12 @@ use std::fmt::Debug;
 const WIDTH: usize = 96;
 
 /// The entries of an array, with brackets, in lines. What [`Debug`] prints of numbers, arrays and records
-/// is Rust, and of floating-point numbers the shortest text that reads back the same.
+/// is Rust, and of floating-point numbers the shortest text that reads back the same; ∞ is a constant of the module's `Scalar`.
 pub fn array<T: Debug>(entries: &[T], indent: usize) -> String {
     let mut text = "[".to_owned();
     let mut width = WIDTH;
     for entry in entries {
-        let entry = format!(" {entry:?},");
+        let entry = format!(" {entry:?},").replace("inf", "Scalar::INFINITY");
         width += entry.len();
         if width > WIDTH {
             text += &format!("\n{:indent$}   ", "");
@@ -100,6 +100,14 @@ mod tests {
                 text.trim_matches(['[', ']', ',', ' ', '\n']).parse().expect("a number");
             assert_eq!(read.to_bits(), x.to_bits(), "{text}");
         }
+    }
+
+    #[test]
+    fn infinity_has_a_name() {
+        assert_eq!(
+            array(&[-f32::INFINITY], 0).trim_matches(['[', ']', ',', ' ', '\n']),
+            "-Scalar::INFINITY"
+        );
     }
 
     #[test]

@@ -31,9 +31,10 @@ fn every_model_keeps_it_or_is_refused() {
     let problem = Problem::new(&scene, mesh).expect("a problem");
     for model in [ModelKind::Condensed, ModelKind::Full] {
         let choice = Choice::<f32>::new(&problem, Wanted::model(model)).expect("a model");
-        // The bound in f32 is a little above that in f64; a share of sweeps is not cut off here.
+        // The bound in f32 is a little above that in f64; a share of sweeps is not cut off here. That of a condensed model is below
+        // the mesh's, since its s is the best there is.
         check(&scene, &choice, &promise(&problem, 1.05)).expect("kept");
-        let refused = check(&scene, &choice, &promise(&problem, 0.9)).expect_err("not kept");
+        let refused = check(&scene, &choice, &promise(&problem, 0.5)).expect_err("not kept");
         let text = refused.to_string();
         assert!(text.contains("setting.error = \"30%\", rain = "), "{text}");
         assert!(text.contains("a tick in f32"), "{text}");

@@ -55,8 +55,7 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         true => "SpanColumns::UNLIMITED",
         false => {
             let doc = "How far it is to the other end of each flux, by columns.";
-            // As Rust names what has no end.
-            let spans = array(&baked.spans, 4).replace("inf", "Scalar::INFINITY");
+            let spans = array(&baked.spans, 4);
             put(&mut text, "SPANS", doc, "Scalar", (baked.spans.len(), spans));
             "SpanColumns::new(&SPANS)"
         }

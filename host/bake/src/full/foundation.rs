@@ -99,7 +99,7 @@ pub(super) fn base<R: Scalar, I: Index>(of: &Base<R, u32>, to: &mut Statics) -> 
     let spans = match spans.lengths() {
         [] => "Spans::UNLIMITED".to_owned(),
         lengths => {
-            let text = array(lengths, 8).replace("inf", "Scalar::INFINITY");
+            let text = array(lengths, 8);
             let lengths = to.spelt::<R>("SPANS", "∫(limit − flux) of each contact edge; −∞ where there is no least flux.", "Scalar", lengths.len(), &text);
             format!("Spans::baked({lengths}, {:?})", spans.excess())
         }

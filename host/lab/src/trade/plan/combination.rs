@@ -39,7 +39,7 @@ impl Combination {
         }
         if matches!(self.stop, Stop::Sweeps(10 | 40)) && self.level > 0 {
             return Some(
-                "so few sweeps of a refined mesh cost more than a coarser one for the same error",
+                "so few sweeps of a refined mesh never paid: a coarser mesh has the same error for less",
             );
         }
         if self.math == MathKind::Micromath && self.scalar != Precision::F32 {
