@@ -74,7 +74,7 @@ pub struct Table(Vec<Vec<Jet>>);
 
 impl Table {
     /// Those of `function` on the mesh of `problem`.
-    pub fn of(function: &(impl Sampled + Sync), problem: &Problem) -> Result<Self> {
+    pub fn of(function: &impl Sampled, problem: &Problem) -> Result<Self> {
         let (rule, cells) = (gauss(POINTS), problem.cells());
         let starts: Vec<usize> = (0..cells).step_by(PORTION).collect();
         let portion = |&start: &usize| {

@@ -218,7 +218,7 @@ mod tests {
 
     fn charged(span: f64, excess: f64, tau: f64, means: [f64; 2]) -> f64 {
         let lengths = [span];
-        let spans = Spans::new(&lengths).unwrap().varying(excess);
+        let spans = Spans::new(&lengths).unwrap_or(Spans::UNLIMITED).varying(excess);
         let law = Law::above(&[0.0]).with_spans(spans);
         charge(FluxRange::new(1.0, Span::new(span)), law, tau, means).0
     }
