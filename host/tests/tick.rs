@@ -78,6 +78,25 @@ fn a_line_a_tick_and_a_column_an_output() {
 }
 
 #[test]
+fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let listed = |more: &[&str]| {
+        let output = tick(&meshes(MOVING), folder.path(), more);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let series = std::fs::read_to_string(folder.path().join("ticks.pvd")).expect("a series");
+        let files = std::fs::read_dir(folder.path().join("ticks")).expect("files").count();
+        assert_eq!(series.matches("<DataSet").count(), files);
+        assert!(
+            series.contains("timestep=\"0.05\" part=\"0\" file=\"ticks/0001.vtu\""),
+            "{series}"
+        );
+        files
+    };
+    assert_eq!(listed(&["--vtu", "--ticks", "4"]), 4);
+    assert_eq!(listed(&["--vtu", "--ticks", "2", "--baked"]), 2);
+}
+
+#[test]
 fn the_force_of_a_moving_contact_is_pi_a_squared() {
     for scalar in ["f64", "f32"] {
         let table = played(MOVING, &["--scalar", scalar]);
@@ -191,7 +210,7 @@ fn other_units_change_no_digit() {
             let scene = units.inverse().scene(&scene);
             let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
             let budget = Budget { scalar, sweeps: 20_000, error: 0.0 };
-            play(&problem, None, &moments, &budget, |_| {}).expect("ticks")
+            play(&problem, None, &moments, &budget, |_, _| Ok(())).expect("ticks")
         };
         let (near, far) = (played(Units::default()), played(units));
         for (near, far) in near.iter().zip(&far) {
@@ -389,7 +408,7 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
         let moments = [ScheduledTick { time: 0.3, inputs: Vec::new() }];
         let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
         let first = |coarse: Option<&Problem>| {
-            let ticks = play(&fine, coarse, &moments, &budget, |_| ()).expect("a tick");
+            let ticks = play(&fine, coarse, &moments, &budget, |_, _| Ok(())).expect("a tick");
             (ticks[0].sweeps, ticks[0].bound.expect("a bound").total)
         };
         let ((cold, bound), (warm, same)) = (first(None), first(Some(&coarse)));

@@ -22,6 +22,7 @@ mod peers;
 mod ranks;
 mod record;
 mod replay;
+mod results;
 mod sanitize;
 mod seen;
 mod setup;
@@ -55,7 +56,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 16] = [
+const VERBS: [Verb; 17] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -75,6 +76,11 @@ const VERBS: [Verb; 16] = [
         name: "sanitize",
         about: "sweeps under AddressSanitizer: no access outside of an array",
         work: Work::Steps(sanitize::run),
+    },
+    Verb {
+        name: "results",
+        about: "meshio and PyVista read the files of a solve and of ticks (Python, from its registry)",
+        work: Work::Steps(results::run),
     },
     Verb {
         name: "setup",

@@ -4,7 +4,7 @@ use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
 use crate::{
     audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, ranks,
-    sanitize, seen, size,
+    results, sanitize, seen, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 
@@ -39,6 +39,7 @@ pub fn run(steps: &mut Steps) {
         doc.env("RUSTDOCFLAGS", "-D warnings");
         run_cargo(doc)
     });
+    results::run(steps);
     oldest::run(steps);
     no_std::run(steps);
     sanitize::run(steps);

@@ -183,7 +183,8 @@ fn ticks_on_the_desk_know_the_same_ends() -> Result<()> {
         .collect();
     let sweeps = Options::default().max_sweeps;
     let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0 };
-    for (tick, values) in play(&problem, None, &moments, &budget, |_| {})?.iter().zip(&steps) {
+    for (tick, values) in play(&problem, None, &moments, &budget, |_, _| Ok(()))?.iter().zip(&steps)
+    {
         let now = problem.with_inputs(values)?;
         let options = Options { solver: SolverKind::Direct, ..Options::default() };
         let expected = outputs(&now, &solve(&now, &options)?)?;

@@ -29,7 +29,8 @@ fn a_bound_is_that_of_the_inputs_of_its_tick() -> Result<()> {
     let (_, problem) = on_grid(HELD_BY_CONTACT, grid(4, Cells::Triangles))?;
     let moment = |time, rain| ScheduledTick { time, inputs: vec![(0, rain)] };
     let budget = Budget { scalar: ScalarKind::F64, sweeps: 10_000, error: 0.0 };
-    let ticks = play(&problem, None, &[moment(0.0, 0.0), moment(1.0, 1.0)], &budget, |_| ())?;
+    let ticks =
+        play(&problem, None, &[moment(0.0, 0.0), moment(1.0, 1.0)], &budget, |_, _| Ok(()))?;
     let [dry, wet] = [0, 1].map(|at| ticks[at].bound.expect("a bound").oscillation);
     let found = solve(&problem.with_inputs(&[1.0])?, &Options::default())?;
     let expected = found.bound.expect("a bound").oscillation;

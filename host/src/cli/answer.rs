@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::levels;
-use super::picture::picture;
+use super::picture::{Drawn, picture};
 use signorini_scene::error::Result;
 use signorini_solve::adaptive::Stop;
 use signorini_solve::norms::{Errors, of_solution};
@@ -51,7 +51,7 @@ impl Answer {
         let declared = outputs(problem, solution)?;
         let summary = Summary::new(problem, asked, solution, errors, *energy_norm, declared);
         let edges = || edges_csv(problem, solution);
-        let cells = || Ok(picture(problem, solution).into_bytes());
+        let cells = || Ok(picture(problem, &Drawn::of(problem, solution)?).into_bytes());
         let contact = || Ok(contact_vtu(&contact(problem, solution)).into_bytes());
         type Bytes<'a> = &'a (dyn Fn() -> Result<Vec<u8>> + Sync);
         let files: [(&str, Bytes); 3] =

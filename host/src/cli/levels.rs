@@ -4,14 +4,14 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::picture::picture;
+use super::picture::{Drawn, picture};
+use super::series::Series;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::digits::percent_above;
-use signorini_solve::output::pvd::{Frame, pvd};
 use signorini_solve::progress::{say, waiting};
 use signorini_solve::solve::Solution;
 
@@ -24,7 +24,8 @@ pub(super) fn refined(
     out: &Path,
 ) -> Result<(Level, Stop)> {
     let interrupted = interruption()?;
-    let (mut table, mut frames) = (csv::Writer::from_writer(Vec::new()), Vec::new());
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let mut series = Series::new(out, "levels", 2);
     let failed = |error: csv::Error| Error::Check(format!("levels.csv: {error}"));
     table
         .write_record([
@@ -40,30 +41,16 @@ pub(super) fn refined(
     let look = |level: &Level| {
         say(format_args!("{}", line(level)));
         table.write_record(record(level)).map_err(failed)?;
-        let name = vtu_of(level.number);
-        let bytes = picture(&level.problem, &level.solution).into_bytes();
-        write_atomically(&out.join(&name), &bytes)?;
-        frames.push(Frame { time: level.number as f64, file: name });
+        let drawn = Drawn::of(&level.problem, &level.solution)?;
+        series.add(level.number as f64, &picture(&level.problem, &drawn))?;
         Ok(!interrupted.load(Ordering::Relaxed))
     };
     let found = waiting("refining", || refined_until(scene, mesh, wanted, look))?;
     let text = table.into_inner().map_err(|error| Error::Check(error.to_string()))?;
     write_atomically(&out.join("levels.csv"), &text)?;
-    write_atomically(&out.join("levels.pvd"), pvd(&frames).as_bytes())?;
     write_atomically(&out.join("refined.msh"), write::text(&found.0.problem.mesh).as_bytes())?;
-    remove_from(out, found.0.number + 1)?;
+    series.close()?;
     Ok(found)
-}
-
-/// The file of a level, seen from the folder.
-fn vtu_of(level: usize) -> String {
-    format!("levels/{level:02}.vtu")
-}
-
-/// Levels that an earlier run has left behind.
-fn remove_from(out: &Path, level: usize) -> Result<()> {
-    let left = (level..).map(|level| out.join(vtu_of(level))).take_while(|file| file.exists());
-    left.into_iter().try_for_each(|file| std::fs::remove_file(&file).map_err(Error::io(&file)))
 }
 
 /// Why the levels ended, with the option that ended them; nothing where that is the goal.

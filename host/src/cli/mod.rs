@@ -10,6 +10,7 @@ mod levels;
 mod picture;
 mod posed;
 mod scene_arguments;
+mod series;
 mod solve;
 mod tick;
 mod trade;

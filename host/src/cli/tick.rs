@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::honoured::Command;
+use super::picture::{Drawn, picture as vtu};
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
+use super::series::Series;
 use signorini_bake::tick::baked::replay;
 use signorini_bake::tick::columns::ticks_csv;
-use signorini_bake::tick::{Budget, TickRecord, log, picture, play, schedule};
+use signorini_bake::tick::{Budget, TickFields, TickRecord, log, picture, play, schedule};
 use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::gmsh;
@@ -26,6 +28,7 @@ Examples:
   signorini tick meshes/scenes/levee.toml --budget-sweeps 40 --scalar f32
   signorini tick meshes/scenes/levee.toml --log inputs.csv
   signorini tick meshes/scenes/levee.toml --log inputs.csv --baked
+  signorini tick meshes/catalogue/moving-tri.toml --vtu     for ParaView: open ticks.pvd
 
 A log has the inputs of ticks, one tick a line; inputs without a column keep their values:
   t,rain,river
@@ -68,6 +71,9 @@ pub struct Arguments {
     /// By the controller that `bake` writes for the scene, with its bits
     #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
     baked: bool,
+    /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
+    #[arg(long)]
+    vtu: bool,
 }
 
 impl Arguments {
@@ -89,9 +95,14 @@ impl Arguments {
             warn(&coarse.warnings);
         }
         let bar = steps(moments.len());
-        let done = |tick: &TickRecord| {
+        let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
+        let done = |tick: &TickRecord, fields: &TickFields| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
+            match (&mut series, Drawn::of_tick(fields)) {
+                (Some(series), Some(drawn)) => series.add(tick.time, &vtu(&problem, &drawn)),
+                _ => Ok(()),
+            }
         };
         let ticks = match self.baked {
             true => replay(&problem, &moments, self.scalar, done),
@@ -108,6 +119,7 @@ impl Arguments {
         let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
+        series.map_or(Ok(()), Series::close)?;
         report(&problem, &model, &ticks, &out);
         Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
     }

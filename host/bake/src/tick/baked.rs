@@ -7,7 +7,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::{ScheduledTick, TickRecord};
+use super::{ScheduledTick, TickFields, TickRecord};
 use crate::engine::{self, Engine, TickSolution};
 use signorini_scene::error::Result;
 use signorini_solve::certify::exact::distance;
@@ -23,25 +23,30 @@ pub fn replay(
     problem: &Problem,
     moments: &[ScheduledTick],
     asked: Option<ScalarKind>,
-    mut done: impl FnMut(&TickRecord),
+    mut done: impl FnMut(&TickRecord, &TickFields) -> Result<()>,
 ) -> Result<(String, Vec<TickRecord>)> {
     engine::baked(problem, asked, |engine, name| {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
             moment.set(&mut problem)?;
-            let tick = tick(&problem, engine)?;
-            done(&tick);
+            let (tick, fields) = tick(&problem, engine)?;
+            done(&tick, &fields)?;
             Ok(tick)
         });
         Ok((name.to_owned(), ticks.collect::<Result<_>>()?))
     })
 }
 
-fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<TickRecord> {
+fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<(TickRecord, TickFields)> {
     let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     match engine.tick(&inputs) {
-        Ok(_) => read_off(problem, engine.answer(problem)?),
-        Err(_) => Ok(refused(problem)),
+        Ok(_) => {
+            let answer = engine.answer(problem)?;
+            let tick = read_off(problem, &answer)?;
+            let TickSolution { u, flux, certified, .. } = answer;
+            Ok((tick, TickFields { u, flux, vertices: certified.vertices }))
+        }
+        Err(_) => Ok((refused(problem), TickFields::default())),
     }
 }
 
@@ -59,7 +64,7 @@ fn refused(problem: &Problem) -> TickRecord {
     }
 }
 
-fn read_off(problem: &Problem, answer: TickSolution) -> Result<TickRecord> {
+fn read_off(problem: &Problem, answer: &TickSolution) -> Result<TickRecord> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let combined = match (&problem.scene.exact, bound) {

@@ -91,6 +91,26 @@ impl TickRecord {
     }
 }
 
+/// The answer of a tick all over the mesh, in the scene's units. Empty where the tick was refused.
+#[derive(Debug, Clone, Default)]
+pub struct TickFields {
+    /// Mean of u_h over each edge.
+    pub u: Vec<f64>,
+    /// ∫_E σ·n of each edge, along its direction.
+    pub flux: Vec<f64>,
+    /// The continuous s at each vertex.
+    pub vertices: Vec<f64>,
+}
+
+impl TickFields {
+    fn rescale(&mut self, units: &Units) {
+        let times = |numbers: &mut [f64], unit: f64| numbers.iter_mut().for_each(|x| *x *= unit);
+        times(&mut self.u, units.u);
+        times(&mut self.flux, units.flux());
+        times(&mut self.vertices, units.u);
+    }
+}
+
 /// What a tick may take.
 #[derive(Debug, Clone, Copy)]
 pub struct Budget {
@@ -119,7 +139,7 @@ impl Budget {
     }
 }
 
-/// Solves `problem` at every moment; calls `done` after each. The first tick starts from the solution on
+/// Solves `problem` at every moment; calls `done` after each, whose error ends the play. The first tick starts from the solution on
 /// `coarse`, the problem on a coarser mesh, where there is one; without, on a large mesh with an open budget, from
 /// that of a factor.
 ///
@@ -131,7 +151,7 @@ pub fn play(
     coarse: Option<&Problem>,
     moments: &[ScheduledTick],
     budget: &Budget,
-    done: impl FnMut(&TickRecord),
+    done: impl FnMut(&TickRecord, &TickFields) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
     match budget.scalar {
         ScalarKind::F64 => play_in::<f64>(problem, coarse, moments, budget, done),
@@ -144,7 +164,7 @@ fn play_in<R: Scalar>(
     coarse: Option<&Problem>,
     moments: &[ScheduledTick],
     budget: &Budget,
-    mut done: impl FnMut(&TickRecord),
+    mut done: impl FnMut(&TickRecord, &TickFields) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
     if let Some(first) = moments.first() {
@@ -162,9 +182,10 @@ fn play_in<R: Scalar>(
     }
     let (problem, coarse) = (&problem, coarse.as_ref());
     let budget = &Budget { error: budget.error / units.energy(), ..*budget };
-    let mut done = |tick: &mut TickRecord| {
+    let mut done = |tick: &mut TickRecord, fields: &mut TickFields| {
         tick.rescale(&problem.scene, &units);
-        done(tick);
+        fields.rescale(&units);
+        done(tick, fields)
     };
     let parts = Parts::whatever_inputs(problem)?;
     let mut all =
@@ -185,21 +206,22 @@ fn through(
     moments: &[ScheduledTick],
     scalar: ScalarKind,
     engine: &mut held::Engine,
-    done: &mut impl FnMut(&mut TickRecord),
+    done: &mut impl FnMut(&mut TickRecord, &mut TickFields) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
     let ticks = moments.iter().map(|moment| {
         moment.set(&mut problem)?;
         let answer = engine(&problem).map_err(|error| error.at_time(moment.time))?;
-        let mut tick = read_off(&problem, scalar, answer)?;
-        done(&mut tick);
+        let mut tick = read_off(&problem, scalar, &answer)?;
+        let PlayedTick { u, flux, certified, .. } = answer;
+        done(&mut tick, &mut TickFields { u, flux, vertices: certified.vertices })?;
         Ok(tick)
     });
     ticks.collect()
 }
 
-fn read_off(problem: &Problem, scalar: ScalarKind, answer: PlayedTick) -> Result<TickRecord> {
-    let PlayedTick { u, flux, .. } = &answer;
+fn read_off(problem: &Problem, scalar: ScalarKind, answer: &PlayedTick) -> Result<TickRecord> {
+    let PlayedTick { u, flux, .. } = answer;
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let units = Units::default();
     let reading = Reading { scalar, u, flux, units, bound: bound.map(|bound| bound.total) };

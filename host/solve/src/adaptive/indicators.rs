@@ -14,7 +14,10 @@ use signorini_scene::error::Result;
 const SILENT: f64 = 1e-3;
 
 /// η_T² of every cell, triangles first, in the scene's units.
-pub(super) fn squares(problem: &Problem, solution: &Solution) -> Result<Vec<f64>> {
+///
+/// # Errors
+/// Data that are not finite.
+pub fn squares(problem: &Problem, solution: &Solution) -> Result<Vec<f64>> {
     let mut squares = solution.certified.indicators.clone();
     // Rounding may leave a part of the gap below 0.
     squares.iter_mut().for_each(|square| *square = square.max(0.0));

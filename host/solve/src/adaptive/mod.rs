@@ -9,7 +9,7 @@
 mod carry;
 mod for_inputs;
 mod history;
-mod indicators;
+pub mod indicators;
 mod marking;
 mod promise;
 mod stop;

@@ -51,7 +51,8 @@ impl State {
 /// All contact edges for `contact.vtu`.
 pub fn contact(problem: &Problem, solution: &Solution) -> Contact {
     let counts = problem.topology.counts;
-    let mut contact = Contact::default();
+    let names = problem.scene.boundaries.iter().map(|boundary| boundary.name.value.clone());
+    let mut contact = Contact { names: names.collect(), ..Contact::default() };
     for at in 0..counts.contact {
         let edge = counts.free + at;
         let state = State::of(problem, solution, at);

@@ -57,7 +57,7 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
     let scene = Scene { setting, ..Scene::read(&path)? };
     let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
     let moments = log(scene.inputs.len());
-    let (model, ticks) = replay(&problem, &moments, None, |_| {})?;
+    let (model, ticks) = replay(&problem, &moments, None, |_, _| Ok(()))?;
 
     let choice = Choice::<f32>::new(&problem, Wanted::default())?;
     let module = match &choice.candidate().model {

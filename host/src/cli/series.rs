@@ -1,0 +1,50 @@
+//! A folder of VTU files, and the `.pvd` file that ParaView plays them by.
+
+use std::path::PathBuf;
+
+use signorini_scene::error::{Error, Result};
+use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::output::pvd::{Frame, pvd};
+
+/// `NAME.pvd` and `NAME/0000.vtu`, …, in a folder.
+pub(super) struct Series {
+    out: PathBuf,
+    name: &'static str,
+    /// Digits of the number of a file at least.
+    digits: usize,
+    frames: Vec<Frame>,
+}
+
+impl Series {
+    pub fn new(out: &std::path::Path, name: &'static str, digits: usize) -> Self {
+        Self { out: out.to_owned(), name, digits, frames: Vec::new() }
+    }
+
+    /// The file of one frame, seen from the folder.
+    fn file(&self, at: usize) -> String {
+        format!("{}/{at:0digits$}.vtu", self.name, digits = self.digits)
+    }
+
+    /// Writes the next frame.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn add(&mut self, time: f64, vtu: &str) -> Result<()> {
+        let file = self.file(self.frames.len());
+        write_atomically(&self.out.join(&file), vtu.as_bytes())?;
+        self.frames.push(Frame { time, file });
+        Ok(())
+    }
+
+    /// Writes the series, and removes frames that an earlier run has left behind.
+    ///
+    /// # Errors
+    /// A file that cannot be written or removed.
+    pub fn close(self) -> Result<()> {
+        let pvd = pvd(&self.frames);
+        write_atomically(&self.out.join(format!("{}.pvd", self.name)), pvd.as_bytes())?;
+        let left = (self.frames.len()..).map(|at| self.out.join(self.file(at)));
+        let left: Vec<_> = left.take_while(|file| file.exists()).collect();
+        left.iter().try_for_each(|file| std::fs::remove_file(file).map_err(Error::io(file)))
+    }
+}
