@@ -81,13 +81,13 @@ fn a_line_a_tick_and_a_column_an_output() {
 fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
     let folder = tempfile::tempdir().expect("a folder");
     let listed = |more: &[&str]| {
-        let output = tick(&meshes(MOVING), folder.path(), more);
+        let output = tick(&meshes(LEVEE), folder.path(), more);
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         let series = std::fs::read_to_string(folder.path().join("ticks.pvd")).expect("a series");
         let files = std::fs::read_dir(folder.path().join("ticks")).expect("files").count();
         assert_eq!(series.matches("<DataSet").count(), files);
         assert!(
-            series.contains("timestep=\"0.05\" part=\"0\" file=\"ticks/0001.vtu\""),
+            series.contains("timestep=\"0.01\" part=\"0\" file=\"ticks/0001.vtu\""),
             "{series}"
         );
         files
