@@ -1,12 +1,14 @@
 //! The bound is a bound, for any x ≥ 0, and sharp at convergence.
 
 use signorini_tolerances::bake::{
-    CORNER, GUARANTEE, IDENTITY, IDENTITY_BOUNDED, IDENTITY_KINKED, JUMP, SAME_BOUND,
+    CORNER, GUARANTEE, IDENTITY, IDENTITY_BOUNDED, IDENTITY_KINKED, JUMP, SAME_BOUND, WAVES,
 };
 use std::path::Path;
 
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_bake::tick::ScheduledTick;
+use signorini_bake::tick::baked::replay;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
@@ -22,6 +24,7 @@ use signorini_solve::fixtures::{
 };
 use signorini_solve::norms::errors;
 use signorini_solve::problem::{Problem, Sum};
+use signorini_solve::solve::{Options, ScalarKind, solve};
 
 struct Model {
     scene: Scene,
@@ -487,6 +490,38 @@ fn where_nothing_touches_s_follows_no_curve() -> Result<()> {
                     );
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// Waves that an input bends the gap by, beside a curved u_D in one triangle: their product has twice as many.
+#[test]
+fn waves_beside_a_curved_value_are_bounded() -> Result<()> {
+    let u = "y + 0.3*y^2";
+    for waves in ["12*x + 1", "18*x + 3", "31*x + 4.8"] {
+        let text = PARABOLA
+            .replace("f = \"0\"", "f = \"-0.6\"")
+            .replace("20 + 1e6*y", u)
+            .replace("gap = \"-x^2\"", &format!("gap = \"{u} - 1.1\"\nflux = \"-1\""))
+            + &format!(
+                "[input.p]\nof = \"contact\"\nfield = \"gap\"\npattern = \"sin({waves})\"\ndefault = 0\nrange = [-1, 1]\n\
+                 [exact]\nu = \"{u}\"\ngradient = [\"0\", \"1 + 0.6*y\"]\n"
+            );
+        let (_, problem) = on_grid(&text, grid(1, Cells::Triangles))?;
+        let moment =
+            |(at, p): (usize, f64)| ScheduledTick { time: at as f64, inputs: vec![(0, p)] };
+        let moments: Vec<_> = [-1.0, 1.0].into_iter().enumerate().map(moment).collect();
+        let (model, ticks) = replay(&problem, &moments, Some(ScalarKind::F64), |_, _| Ok(()))?;
+        assert!(model.contains("condensed"), "{model}");
+        for (tick, moment) in ticks.iter().zip(&moments) {
+            let bound = tick.bound.expect("a bound").total;
+            let error = tick.combined.expect("an exact solution");
+            GUARANTEE.check_at_most(format_args!("{waves}, t = {}", tick.time), error, bound);
+            // Nowhere is s clear of such a gap. A solve integrates each curve by panels of its own: nearly all of both bounds is what the curves cost.
+            let solved = solve(&problem.with_inputs(&[moment.inputs[0].1])?, &Options::default())?;
+            let expected = solved.bound.expect("a bound").total;
+            WAVES.check_relative(format_args!("{waves}, t = {}", tick.time), bound, expected);
         }
     }
     Ok(())

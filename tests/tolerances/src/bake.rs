@@ -73,6 +73,8 @@ table! {
         "lifts have no gradient at the opposite vertex";
     CORNER: "what corners know of given values and gaps", 1e-14,
         "data of two evaluations";
+    WAVES: "bound of a condensed model against the solve's where the gap's waves are nearly all of it, relative", 2e-3,
+        "its s is the best, that of the solve is not";
     SAME_BOUND: "bound of one problem by another way, relative", 1e-10,
         "two solves";
 }

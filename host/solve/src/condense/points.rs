@@ -2,7 +2,7 @@
 
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::Conductivity;
-use crate::certify::curved::{PANELS, POINTS, half_triangle};
+use crate::certify::curved::{FINE, POINTS, between_smooth_rays};
 use crate::quadrature::{DATA_POINTS, gauss, on_panels};
 
 /// Points a direction that a cell needs where its boundary data are affine; gradients of bubbles are
@@ -18,18 +18,20 @@ pub(super) fn points_for(cell: &Cell, conductivity: &Conductivity) -> usize {
 /// Reference coordinates with weights that lack the area element, with `rule` points a direction or,
 /// where sides are `curved`, those that integrate what the sides carry inside.
 pub(super) fn points(cell: &Cell, rule: usize, curved: &[usize]) -> Vec<([f64; 3], f64)> {
-    let along = on_panels(PANELS, &gauss(POINTS));
+    let along = on_panels(FINE, &gauss(POINTS));
     match (cell, curved) {
         (Cell::Triangle(_), []) => on_triangle(cell, 0, &gauss(rule), &gauss(rule)),
         (Cell::Triangle(_), [side]) => on_triangle(cell, *side, &along, &gauss(POINTS)),
-        (Cell::Triangle(_), [one, other, ..]) => {
-            let [one, other] = [(one + 2) % 3, (other + 2) % 3];
-            let mut points = half_triangle(one, other, &along);
-            points.extend(half_triangle(other, one, &along));
-            points
+        (Cell::Triangle(_), [one, other, ..]) => between_smooth_rays([*one, *other]),
+        (Cell::Quad(_), _) => {
+            // Sides 0 and 2 run along x̂, 1 and 3 along ŷ.
+            let axis = |parity: usize| match curved.iter().any(|side| side % 2 == parity) {
+                true => along.clone(),
+                false if curved.is_empty() => gauss(rule),
+                false => gauss(POINTS),
+            };
+            square(&axis(0), &axis(1))
         }
-        (Cell::Quad(_), []) => square(&gauss(rule)),
-        (Cell::Quad(_), _) => square(&along),
     }
 }
 
@@ -46,7 +48,7 @@ fn on_triangle(
     along.iter().flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
 }
 
-fn square(rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+fn square(along_x: &[[f64; 2]], along_y: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
     let point = |[x, wx]: [f64; 2], [y, wy]: [f64; 2]| ([x, y, 0.0], wx * wy);
-    rule.iter().flat_map(|&y| rule.iter().map(move |&x| point(x, y))).collect()
+    along_y.iter().flat_map(|&y| along_x.iter().map(move |&x| point(x, y))).collect()
 }

@@ -1,43 +1,42 @@
 //! Quadrature for products of two extensions into one cell, each as rough as its edge's data.
 
-use super::POINTS;
 use super::panels::Panels;
+use super::{FINE, POINTS};
 use crate::certify::cell::Cell;
-use crate::quadrature::gauss;
+use crate::quadrature::{gauss, on_panels};
 
 /// Reference points with their weights, to be multiplied by the area element, for the extensions of `sides` of a cell
 /// with panels along each.
 pub(super) fn points(cell: &Cell, sides: [usize; 2], panels: [&Panels; 2]) -> Vec<([f64; 3], f64)> {
     let smooth = panels.iter().all(|panels| panels.is_regular());
-    let [mine, its] = sides;
     match cell {
-        Cell::Triangle(_) if smooth => {
-            let (apices, along) = ([(mine + 2) % 3, (its + 2) % 3], panels[0].rule());
-            let mut points = half_triangle(apices[0], apices[1], &along);
-            points.extend(half_triangle(apices[1], apices[0], &along));
-            points
-        }
+        Cell::Triangle(_) if smooth => between_smooth_rays(sides),
         Cell::Triangle(_) => between_rays(sides, panels),
         Cell::Quad(_) => of_square(sides.into_iter().zip(panels)),
     }
 }
 
-/// The half of a triangle at vertex `apex`, cut off by the median that parts it from vertex `other`.
+/// Points along the rays from both apices of a triangle, for data that are smooth on two of its sides.
 ///
-/// The gradient of an extension depends on the direction in which one comes to its apex; collapsed
-/// there, and with the other's apex in the other half, the integrand is as smooth as the data.
-pub fn half_triangle(apex: usize, other: usize, along: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
-    let third = 3 - apex - other;
-    let away = gauss(POINTS);
-    let point = |[t, along]: [f64; 2], [eta, weight]: [f64; 2]| {
-        let mut lambda = [0.0; 3];
-        lambda[third] = (1.0 - eta) * (1.0 - t);
-        lambda[other] = (1.0 - eta) * 0.5 * t;
-        lambda[apex] = (1.0 - eta) * 0.5 * t + eta;
-        (lambda, 0.5 * along * weight * (1.0 - eta))
+/// As in [`between_rays`], but y = xv in one half and x = yv in the other, which takes the singular corner away:
+/// ```text
+///   λ_r = xv/z    λ_q = (1 − x)v/z    λ_p = (1 − xv)/z    dλ_p dλ_q = v/z³ dx dv,    z = 1 + v − xv
+/// ```
+/// A product of both data has twice the waves of either: the panels are [`FINE`].
+pub fn between_smooth_rays([mine, its]: [usize; 2]) -> Vec<([f64; 3], f64)> {
+    let [p, q] = [(mine + 2) % 3, (its + 2) % 3];
+    let rule = on_panels(FINE, &gauss(POINTS));
+    let half = |[p, q]: [usize; 2]| {
+        let point = move |[x, wx]: [f64; 2], [v, wv]: [f64; 2]| {
+            let z = 1.0 + v - x * v;
+            let mut lambda = [0.0; 3];
+            (lambda[3 - p - q], lambda[q], lambda[p]) =
+                (x * v / z, (1.0 - x) * v / z, (1.0 - x * v) / z);
+            (lambda, wx * wv * v / (z * z * z))
+        };
+        rule.iter().flat_map(|&x| rule.iter().map(move |&v| point(x, v))).collect::<Vec<_>>()
     };
-    let rows = along.iter();
-    rows.flat_map(|&along| away.iter().map(move |&away| point(along, away))).collect()
+    [half([p, q]), half([q, p])].concat()
 }
 
 /// Ends of panels towards the corner in which all rays meet.

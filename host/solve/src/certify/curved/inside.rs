@@ -1,15 +1,15 @@
 //! Points inside a cell for what its extensions make as rough as their edges' data.
 
-use super::cross::{between_rays, of_square};
+use super::cross::{between_rays, between_smooth_rays, of_square};
 use super::panels::Panels;
+use super::{FINE, POINTS};
 use crate::certify::cell::Cell;
-use crate::certify::deviation::Deviations;
+use crate::certify::deviation::{Deviation, Deviations};
 use crate::problem::Problem;
-use crate::quadrature::Point;
+use crate::quadrature::{Point, gauss, on_panels};
 use signorini_scene::error::Result;
 
-/// The points of `rule`'s square on cell `at` (triangles first); where data on its sides need finer panels than
-/// smooth ones, the points of those.
+/// The points of `rule`'s square on cell `at` (triangles first); where data on its sides are curved, points on their panels.
 ///
 /// # Errors
 /// Data that are not finite.
@@ -20,14 +20,38 @@ pub fn points(
     rule: &[[f64; 2]],
 ) -> Result<Vec<Point>> {
     let cell = Cell::of(problem, at);
-    let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
-        return Ok(cell.points(rule));
+    let found = match of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? {
+        Some(found) => found,
+        None => match of_smooth_sides(&cell, &deviations.of_cell(problem, at), rule) {
+            Some(found) => found,
+            None => return Ok(cell.points(rule)),
+        },
     };
     let point = |(reference, weight)| {
         let local = cell.local(reference);
         Point { x: local.x, reference, weight: weight * local.determinant }
     };
     Ok(found.into_iter().map(point).collect())
+}
+
+/// Those for smooth data on these sides; `None` where there are none.
+fn of_smooth_sides(
+    cell: &Cell,
+    sides: &[Option<&Deviation>],
+    rule: &[[f64; 2]],
+) -> Option<ReferencePoints> {
+    let curved: Vec<usize> = (0..sides.len()).filter(|&side| sides[side].is_some()).collect();
+    match (cell, &curved[..]) {
+        (_, []) => None,
+        (Cell::Triangle(_), &[side]) => {
+            Some(on_side(cell, side, &on_panels(FINE, &gauss(POINTS)), rule))
+        }
+        (Cell::Triangle(_), &[one, other, ..]) => Some(between_smooth_rays([one, other])),
+        (Cell::Quad(_), _) => {
+            let regular = Panels::regular();
+            Some(of_square(curved.iter().map(|&side| (side, &regular))))
+        }
+    }
 }
 
 /// Reference coordinates, and weights that lack the area element.
@@ -56,27 +80,35 @@ pub fn of_rough_sides(
             }
         }
     }
+    // Squares and products have twice the waves of the data.
+    let is_rough = sides.iter().any(|(_, panels)| !panels.is_regular());
+    if is_rough {
+        sides.iter_mut().for_each(|(_, panels)| *panels = panels.clone().halved());
+    }
     // The roughest first: the third side of a triangle has no panels of its own.
     sides.sort_by_key(|(_, panels)| std::cmp::Reverse(panels.ends.len()));
     Ok(Some(match (&cell, &sides[..]) {
-        (_, sides) if sides.iter().all(|(_, panels)| panels.is_regular()) => {
-            return Ok(None);
-        }
+        _ if !is_rough => return Ok(None),
         (Cell::Triangle(_), [(one, panels), (other, others), ..]) => {
             between_rays([*one, *other], [panels, others])
         }
-        (Cell::Triangle(_), sides) => {
-            sides.iter().flat_map(|(side, panels)| on_side(&cell, *side, panels, rule)).collect()
-        }
+        (Cell::Triangle(_), sides) => sides
+            .iter()
+            .flat_map(|(side, panels)| on_side(&cell, *side, &panels.rule(), rule))
+            .collect(),
         (Cell::Quad(_), sides) => of_square(sides.iter().map(|(side, panels)| (*side, panels))),
     }))
 }
 
-/// The panels of one side of a triangle times `rule` away from it, collapsed at the apex.
-fn on_side(cell: &Cell, side: usize, panels: &Panels, rule: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+/// The points along one side of a triangle times `rule` away from it, collapsed at the apex.
+fn on_side(
+    cell: &Cell,
+    side: usize,
+    along: &[[f64; 2]],
+    rule: &[[f64; 2]],
+) -> Vec<([f64; 3], f64)> {
     let point = |[t, weight]: [f64; 2], [eta, away]: [f64; 2]| {
         (cell.side_point(side, t, eta), weight * away * (1.0 - eta))
     };
-    let along = panels.rule();
     along.iter().flat_map(|&along| rule.iter().map(move |&away| point(along, away))).collect()
 }

@@ -29,13 +29,15 @@ use panels::Panels;
 use signorini_scene::error::Result;
 
 pub use cleared::{followed, may_be_cleared, peak};
-pub use cross::half_triangle;
+pub use cross::between_smooth_rays;
 pub use inside::{of_rough_sides, points};
 pub use panels::PANELS;
 pub use singular::Rough;
 
 /// Gauss points a panel, and away from the edge.
 pub const POINTS: usize = 8;
+/// Panels along an edge for squares and products of smooth data, which have twice their waves.
+pub const FINE: u32 = 2 * PANELS;
 
 /// The extension v of one edge's deviation w = data − chord into the edge's cell T.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -100,6 +100,16 @@ impl Panels {
         Self { ends: self.ends.iter().rev().map(|end| 1.0 - end).collect(), ..*self }
     }
 
+    /// With their middles added, unless they are many: data that are rough everywhere gain nothing.
+    pub(super) fn halved(self) -> Self {
+        if self.ends.len() > MOST / 2 {
+            return self;
+        }
+        let middles: Vec<f64> =
+            self.ends.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+        self.with(&middles)
+    }
+
     /// With the ends of others added.
     pub(super) fn with(mut self, others: &[f64]) -> Self {
         self.ends.extend(others);

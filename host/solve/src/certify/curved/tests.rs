@@ -359,8 +359,26 @@ fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
         )
         .replace("-2 + exp(x)*(1 + x^2)/20", "-3 - abs(x - 0.43) - max(x, -0.83)");
     assert_ne!(scene, CURVED);
+    energies_of_pairs(&scene)
+}
+
+/// As many waves along an edge as panels for smooth data find, twice as many in a product of two.
+#[test]
+fn waves_on_two_sides_of_a_cell_meet() -> Result<()> {
+    for tensor in ["[\"1\", \"-0.95\", \"1\"]", "\"1\""] {
+        let scene = CURVED
+            .replace("[\"2\", \"0.5\", \"1\"]", tensor)
+            .replace("sin(2*x) + y^3 - 0.3*x*y^2", "sin(31.5*x + 4.8) + sin(31.5*y + 4.8)")
+            .replace("-2 + exp(x)*(1 + x^2)/20", "-3 + sin(31.5*x + 4.8)");
+        energies_of_pairs(&scene)?;
+    }
+    Ok(())
+}
+
+/// The energies of all lifts into a cell against a fine rule, on cells of edge 1 with two curved sides.
+fn energies_of_pairs(scene: &str) -> Result<()> {
     for cells in [Cells::Triangles, Cells::Quads] {
-        let (_, problem) = fixtures::on_grid(&scene, grid(1, cells))?;
+        let (_, problem) = fixtures::on_grid(scene, grid(1, cells))?;
         let deviations = Deviations::at_time(&problem, 0.0)?;
         let (records, mut pairs) = (curved(&problem, 0.0)?, 0);
         for at in 0..problem.cells() {
