@@ -14,6 +14,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::{Field, Scene};
 use signorini_scene::setting::ModelKind;
+use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::curved::followed;
 use signorini_solve::certify::exact::{Distance, distance};
@@ -523,6 +524,26 @@ fn waves_beside_a_curved_value_are_bounded() -> Result<()> {
             let expected = solved.bound.expect("a bound").total;
             WAVES.check_relative(format_args!("{waves}, t = {}", tick.time), bound, expected);
         }
+    }
+    Ok(())
+}
+
+/// An input that takes back what the gap has above its chords: the sum of both bends nothing where it is 1.
+#[test]
+fn an_input_may_take_back_a_curve_of_the_gap() -> Result<()> {
+    let text = PARABOLA.replace("20 + 1e6*y", "1 + y").replace("\"-x^2\"", "\"x^2 - 1\"")
+        + "[input.p]\nof = \"contact\"\nfield = \"gap\"\npattern = \"1 - x^2\"\ndefault = 0\nrange = [-1, 1]\n\
+           [setting]\nmodel = \"full\"\nsolver = \"factor\"\nscalar = \"f64\"\n";
+    let (_, problem) = on_grid(&text, grid(3, Cells::Quads))?;
+    let moment = |(at, p): (usize, f64)| ScheduledTick { time: at as f64, inputs: vec![(0, p)] };
+    let moments: Vec<_> = [-1.0, -0.2, 0.0, 0.3, 1.0].into_iter().enumerate().map(moment).collect();
+    let (model, ticks) = replay(&problem, &moments, None, |_, _| Ok(()))?;
+    assert!(model.contains("factor"), "{model}");
+    for (tick, moment) in ticks.iter().zip(&moments) {
+        let [(_, p)] = moment.inputs[..] else { continue };
+        let solved = solve(&problem.with_inputs(&[p])?, &Options::default())?;
+        let bound = |found: Option<ErrorBound>| found.expect("a bound").total;
+        SAME_BOUND.check_relative(format_args!("p = {p}"), bound(tick.bound), bound(solved.bound));
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 //!
 //! The energy of Σ p_j w_j is Σ p_j² E_j + Σ_{i<j} p_i p_j (E_ij − E_i − E_j), with E_ij that of w_i + w_j.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use signorini_kernel::bound::certificate;
 use signorini_kernel::device::full::{CurvedPart, Product};
@@ -50,9 +50,13 @@ pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges
     }
     for (place, &i) in bends.iter().enumerate() {
         for &j in &bends[place + 1..] {
-            for of in curved_pair(problem, [i, j])? {
-                let alone = energy(&parts[i].curved, of.edge) + energy(&parts[j].curved, of.edge);
-                add(at(&mut edges, of.edge), [i, j], of.energy - alone);
+            let [first, second] = [i, j].map(|term| &parts[term].curved);
+            let together = curved_pair(problem, [i, j])?;
+            // Where one takes back what the other bends, both together have no record.
+            let all = first.iter().chain(second).chain(&together).map(|of| of.edge);
+            for edge in all.collect::<BTreeSet<u32>>() {
+                let alone = energy(first, edge) + energy(second, edge);
+                add(at(&mut edges, edge), [i, j], energy(&together, edge) - alone);
             }
         }
     }
