@@ -17,6 +17,7 @@ pub mod field;
 pub mod fixtures;
 pub mod functional;
 pub mod inputs;
+pub mod intervals;
 pub mod norms;
 pub mod output;
 pub mod outputs;

@@ -6,6 +6,7 @@ use super::levels;
 use super::picture::{Drawn, picture};
 use signorini_scene::error::Result;
 use signorini_solve::adaptive::Stop;
+use signorini_solve::intervals;
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::contact::contact;
@@ -49,7 +50,9 @@ impl Answer {
         let Self { problem, solution, energy_norm, .. } = self;
         let errors = of_solution(problem, solution)?;
         let declared = outputs(problem, solution)?;
-        let summary = Summary::new(problem, asked, solution, errors, *energy_norm, declared);
+        let intervals = intervals::of_outputs(problem, solution)?;
+        let summary =
+            Summary::new(problem, asked, solution, errors, *energy_norm, declared, &intervals);
         let edges = || edges_csv(problem, solution);
         let cells = || Ok(picture(problem, &Drawn::of(problem, solution)?).into_bytes());
         let contact = || Ok(contact_vtu(&contact(problem, solution)).into_bytes());

@@ -99,8 +99,15 @@ fn summary(text: &str, mesh: Mesh) -> Value {
     let problem = Problem::new(&scene, mesh).expect("scene and mesh fit");
     let solution = solve(&problem, &Options::default()).expect("loads in balance");
     assert!(solution.converged() && solution.bound.is_none());
-    let summary =
-        Summary::new(&problem, SolverKind::Kernel, &solution, None, None, BTreeMap::new());
+    let summary = Summary::new(
+        &problem,
+        SolverKind::Kernel,
+        &solution,
+        None,
+        None,
+        BTreeMap::new(),
+        &BTreeMap::new(),
+    );
     serde_json::from_str(&summary.json()).expect("valid JSON")
 }
 

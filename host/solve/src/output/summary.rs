@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::certify::{ErrorBound, NoBound};
+use crate::intervals::{Found, OutputBound};
 use crate::norms::Errors;
 use crate::problem::Problem;
 use crate::solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, status_name};
@@ -52,6 +53,10 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     errors: Option<Errors>,
     outputs: BTreeMap<String, Option<f64>>,
+    /// Where the exact value of each output lies; null where there is no interval.
+    output_bounds: BTreeMap<String, Option<OutputBound>>,
+    /// Why there is none.
+    output_bounds_reasons: BTreeMap<String, String>,
     /// What may not be meant: a sentence each.
     warnings: Vec<String>,
     seconds: Seconds,
@@ -73,6 +78,7 @@ impl Summary {
         errors: Option<Errors>,
         energy_norm: Option<f64>,
         outputs: BTreeMap<String, Option<f64>>,
+        intervals: &BTreeMap<String, Found>,
     ) -> Self {
         let counts = problem.topology.counts;
         let parts = solution.parts;
@@ -106,6 +112,14 @@ impl Summary {
             relative_error_bound: solution.relative_bound(energy_norm),
             errors,
             outputs,
+            output_bounds: intervals
+                .iter()
+                .map(|(name, found)| (name.clone(), found.clone().ok()))
+                .collect(),
+            output_bounds_reasons: intervals
+                .iter()
+                .filter_map(|(name, found)| Some((name.clone(), found.clone().err()?)))
+                .collect(),
             warnings: problem.warnings.clone(),
             seconds: solution.seconds,
         }

@@ -1,0 +1,127 @@
+//! Intervals of outputs hold what far finer meshes and exact solutions say.
+
+use std::path::Path;
+
+use super::*;
+use crate::fixtures::on_grid;
+use crate::outputs::outputs;
+use crate::solve::{Options, SolverKind, solve};
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::scene::Scene;
+
+fn options() -> Options {
+    Options { solver: SolverKind::Factor, ..Options::default() }
+}
+
+fn scene(name: &str) -> Result<Scene> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes");
+    Scene::read(&folder.join(name))
+}
+
+/// On the scene's mesh, refined so many times.
+fn solved(scene: &Scene, times: u32) -> Result<(Problem, Solution)> {
+    let mesh = adapted::adapted(gmsh::read(&scene.mesh.value)?, None, times)?;
+    let problem = Problem::new(scene, mesh)?;
+    let solution = solve(&problem, &options())?;
+    Ok((problem, solution))
+}
+
+fn check(name: &str, found: &OutputBound, exact: f64) {
+    let off = (exact - found.center).abs();
+    assert!(off <= found.plus_minus, "{name}: {exact} is not in {found:?}");
+}
+
+#[test]
+fn they_hold_the_values_of_finer_meshes() -> Result<()> {
+    for (name, with_interval) in
+        [("levee", 1), ("slab", 1), ("strip", 1), ("pit", 1), ("antiicing", 6)]
+    {
+        let scene = scene(&format!("{name}.toml"))?;
+        let (coarse, solution) = solved(&scene, 0)?;
+        let found: BTreeMap<String, Found> = of_outputs(&coarse, &solution)?;
+        let (fine, finer) = solved(&scene, 2)?;
+        let values = outputs(&fine, &finer)?;
+        let mut count = 0;
+        for (output, found) in &found {
+            match found {
+                Ok(found) => {
+                    check(&format!("{name}: {output}"), found, values[output].expect("a value"));
+                    count += 1;
+                }
+                Err(why) => assert!(!why.is_empty()),
+            }
+        }
+        assert_eq!(count, with_interval, "{name}: {found:?}");
+    }
+    Ok(())
+}
+
+/// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
+const HARMONIC: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[source]
+f = "0"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-2"
+[boundary.left]
+kind = "robin"
+coefficient = "2 + y"
+ambient = "1 - y^2 + 2/(2 + y)"
+[boundary.right]
+kind = "dirichlet"
+value = "1 - y^2"
+[boundary.contact]
+kind = "neumann"
+flux = "0"
+[output.top]
+kind = "mean"
+of = "dirichlet"
+[output.bottom]
+kind = "flux"
+of = "contact"
+[output.cold]
+kind = "flux"
+of = "left"
+[output.skin]
+kind = "mean"
+of = "left"
+[output.warm]
+kind = "flux"
+of = "right"
+[output.given]
+kind = "mean"
+of = "right"
+"#;
+
+#[test]
+fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
+    // Means of x² − 1 over (−1, 1) and of 1 − y² over (0, 1); fluxes ±2x over sides of length 1.
+    let exact = [
+        ("top", -2.0 / 3.0),
+        ("bottom", 0.0),
+        ("cold", 2.0),
+        ("skin", 2.0 / 3.0),
+        ("warm", 2.0),
+        ("given", 2.0 / 3.0),
+    ];
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let mut widths = Vec::new();
+        for n in [4, 16] {
+            let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
+            let solution = solve(&problem, &options())?;
+            let found = of_outputs(&problem, &solution)?;
+            for (name, value) in exact {
+                let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
+                check(name, interval, value);
+            }
+            widths.push(found["warm"].as_ref().map_or(f64::NAN, |found| found.plus_minus));
+        }
+        // Of first order: a quarter of the edge is a quarter of the width.
+        assert!(widths[1] < 0.3 * widths[0], "{cells:?}: {widths:?}");
+    }
+    Ok(())
+}
