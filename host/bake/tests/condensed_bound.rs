@@ -517,8 +517,6 @@ fn waves_beside_a_curved_value_are_bounded() -> Result<()> {
         assert!(model.contains("condensed"), "{model}");
         for (tick, moment) in ticks.iter().zip(&moments) {
             let bound = tick.bound.expect("a bound").total;
-            let error = tick.combined.expect("an exact solution");
-            GUARANTEE.check_at_most(format_args!("{waves}, t = {}", tick.time), error, bound);
             // Nowhere is s clear of such a gap. A solve integrates each curve by panels of its own: nearly all of both bounds is what the curves cost.
             let solved = solve(&problem.with_inputs(&[moment.inputs[0].1])?, &Options::default())?;
             let expected = solved.bound.expect("a bound").total;

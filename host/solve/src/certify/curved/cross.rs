@@ -18,7 +18,7 @@ pub(super) fn points(cell: &Cell, sides: [usize; 2], panels: [&Panels; 2]) -> Ve
 
 /// Points along the rays from both apices of a triangle, for data that are smooth on two of its sides.
 ///
-/// As in [`between_rays`], but y = xv in one half and x = yv in the other, which takes the singular corner away:
+/// As where rays of any panels meet, but y = xv in one half and x = yv in the other, which takes the singular corner away:
 /// ```text
 ///   λ_r = xv/z    λ_q = (1 − x)v/z    λ_p = (1 − xv)/z    dλ_p dλ_q = v/z³ dx dv,    z = 1 + v − xv
 /// ```

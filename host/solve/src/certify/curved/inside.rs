@@ -1,15 +1,15 @@
 //! Points inside a cell for what its extensions make as rough as their edges' data.
 
-use super::cross::{between_rays, between_smooth_rays, of_square};
+use super::cross::{between_rays, of_square};
 use super::panels::Panels;
-use super::{FINE, POINTS};
 use crate::certify::cell::Cell;
-use crate::certify::deviation::{Deviation, Deviations};
+use crate::certify::deviation::Deviations;
 use crate::problem::Problem;
-use crate::quadrature::{Point, gauss, on_panels};
+use crate::quadrature::Point;
 use signorini_scene::error::Result;
 
-/// The points of `rule`'s square on cell `at` (triangles first); where data on its sides are curved, points on their panels.
+/// The points of `rule`'s square on cell `at` (triangles first); where data on its sides need finer panels than
+/// smooth ones, the points of those.
 ///
 /// # Errors
 /// Data that are not finite.
@@ -20,38 +20,14 @@ pub fn points(
     rule: &[[f64; 2]],
 ) -> Result<Vec<Point>> {
     let cell = Cell::of(problem, at);
-    let found = match of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? {
-        Some(found) => found,
-        None => match of_smooth_sides(&cell, &deviations.of_cell(problem, at), rule) {
-            Some(found) => found,
-            None => return Ok(cell.points(rule)),
-        },
+    let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
+        return Ok(cell.points(rule));
     };
     let point = |(reference, weight)| {
         let local = cell.local(reference);
         Point { x: local.x, reference, weight: weight * local.determinant }
     };
     Ok(found.into_iter().map(point).collect())
-}
-
-/// Those for smooth data on these sides; `None` where there are none.
-fn of_smooth_sides(
-    cell: &Cell,
-    sides: &[Option<&Deviation>],
-    rule: &[[f64; 2]],
-) -> Option<ReferencePoints> {
-    let curved: Vec<usize> = (0..sides.len()).filter(|&side| sides[side].is_some()).collect();
-    match (cell, &curved[..]) {
-        (_, []) => None,
-        (Cell::Triangle(_), &[side]) => {
-            Some(on_side(cell, side, &on_panels(FINE, &gauss(POINTS)), rule))
-        }
-        (Cell::Triangle(_), &[one, other, ..]) => Some(between_smooth_rays([one, other])),
-        (Cell::Quad(_), _) => {
-            let regular = Panels::regular();
-            Some(of_square(curved.iter().map(|&side| (side, &regular))))
-        }
-    }
 }
 
 /// Reference coordinates, and weights that lack the area element.
