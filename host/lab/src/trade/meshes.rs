@@ -22,13 +22,16 @@ pub(super) fn finest(problem: &Problem) -> u32 {
     (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
 }
 
+/// What a mesh was refined for, and the cells that it was brought to before.
+type ErrorMesh = (Goal, Option<CellKind>);
+
 /// The meshes of a study, each made once.
 pub(super) struct Meshes {
     scene: Scene,
     pub own: Mesh,
     made: HashMap<(Option<CellKind>, u32), Problem>,
-    /// For an error in all inputs; two settings in a row have one.
-    for_error: Option<(Goal, Problem)>,
+    /// The last one for an error in all inputs: settings in a row have the same.
+    for_error: Option<(ErrorMesh, Problem)>,
 }
 
 impl Meshes {
@@ -58,13 +61,14 @@ impl Meshes {
         // A study's own settings stay small; a scene that asks for one error means it.
         let most_unknowns = if self.scene.setting.is_some() { MOST_UNKNOWNS } else { FINEST };
         let promised = Promised { goal, refining: Refining::Marked, most_unknowns };
-        let known = self.for_error.take().filter(|(known, _)| *known == goal);
+        let wanted = (goal, cells);
+        let known = self.for_error.take().filter(|(known, _)| *known == wanted);
         let made = match known {
             Some(known) => known,
             None => {
                 let mesh = adapted(self.own.clone(), cells, 0)?;
                 let (mesh, _) = promised_mesh(&self.scene, mesh, promised)?;
-                (goal, Problem::new(&self.scene, mesh)?)
+                (wanted, Problem::new(&self.scene, mesh)?)
             }
         };
         Ok(&self.for_error.insert(made).1)
