@@ -42,6 +42,11 @@ pub(super) struct Chain {
 /// The unknowns of the contact edges at a vertex, with ψ of every pattern there.
 type Meeting = BTreeMap<u32, Vec<(usize, Vec<f64>)>>;
 
+/// Whether s follows no curve on an edge with these ends: it is free at both.
+pub(super) fn is_left_out(ends: [u32; 2], released: &BTreeSet<u32>) -> bool {
+    ends.iter().all(|end| released.contains(end))
+}
+
 impl Chain {
     /// `edges` holds the contact edge of each unknown, `openings` d_i, the unit of its opening. At vertices that are `released` s
     /// is as free as inside.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
+use super::chain::is_left_out;
 use super::elimination::Field;
 use super::form::Admissibles;
 use super::{CondensedModel, Form, build};
@@ -82,10 +83,8 @@ impl Recovery {
         let released = self.admissibles.iter().flat_map(|of| &of.released);
         let released: BTreeSet<u32> = released.map(|(vertex, _)| *vertex).collect();
         let ends = problem.ends.iter().zip(0_u32..);
-        let is_left_out = |ends: &[u32; 2]| ends.iter().all(|end| released.contains(end));
-        ends.filter(|(ends, _)| !released.is_empty() && is_left_out(ends))
-            .map(|(_, edge)| edge)
-            .collect()
+        let left_out = ends.filter(|(ends, _)| is_left_out(**ends, &released));
+        left_out.map(|(_, edge)| edge).collect()
     }
 }
 

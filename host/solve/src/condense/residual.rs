@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 use signorini_kernel::{Real, Tensor};
 
 use super::block::{Block, triangular};
+use super::chain::is_left_out;
 use super::functions::Functions;
 use super::laws::{Laws, of_law, transfer};
 use super::patterns::Pattern;
@@ -82,10 +83,9 @@ fn deviations<'p>(
     patterns: &'p [Pattern],
     released: &BTreeSet<u32>,
 ) -> Result<Vec<Deviations<'p>>> {
-    let is_released = |edge: usize| problem.ends[edge].iter().all(|end| released.contains(end));
     let followed = |pattern: &'p Pattern| {
         let mut deviations = Deviations::at_time(&pattern.problem, 0.0)?;
-        deviations.found.retain(|deviation| !is_released(deviation.edge));
+        deviations.found.retain(|of| !is_left_out(problem.ends[of.edge], released));
         Ok(deviations)
     };
     patterns.iter().map(followed).collect()
