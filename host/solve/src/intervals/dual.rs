@@ -1,74 +1,99 @@
-//! Linear problems on the mesh of another: their solutions weigh its errors.
+//! The linear problem that weighs errors in an output: its z and ζ.
+//!
+//! On contact edges where u = ψ, z keeps its given value as long as |ζ·n| stays within a part of λ, like a body held by friction. On all
+//! others ζ·n is given. Both are contact with limits, so that the kernel solves it.
 
-use crate::certify::admissible::{Admissible, Following};
-use crate::energy_norm::norm;
-use crate::problem::Problem;
-use crate::solve::{Options, Solution, SolverKind, solve};
+use std::sync::Arc;
+
+use super::contact::{ContactEdge, density_on};
+use super::goal::Goal;
+use crate::problem::{Loads, Problem};
+use crate::solve::{Options, SolverKind, solve_in_its_units};
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
 
-/// A solved linear problem with the A and transfer coefficients of another.
-pub(super) struct Dual {
-    problem: Problem,
-    pub solution: Solution,
+/// z and ζ; z is not yet within what contact asks of it.
+#[derive(Debug, Clone)]
+pub(super) struct Weights {
+    /// z at the vertices.
+    pub vertices: Vec<f64>,
+    /// The bubbles of z, one an edge.
+    pub bubbles: Vec<f64>,
+    /// ∫_E ζ·n along the direction of each edge.
+    pub flux: Vec<f64>,
 }
 
-/// What holds on a boundary of it, with a constant.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Data {
-    /// z = this; on a boundary with a transfer law h(this − z) leaves.
-    Value(f64),
-    /// The flux is this.
-    Flux(f64),
+/// The linear problem of a goal, but for how far ζ·n may go on contact edges.
+pub(super) struct Dual {
+    problem: Problem,
 }
 
 impl Dual {
-    /// Solves ∇·(A∇z) = 0 with `data` on each boundary of `problem`; those with a transfer law keep its coefficient.
-    ///
-    /// # Errors
-    /// Numbers that cannot be solved for.
-    pub fn solve(problem: &Problem, data: impl Fn(usize) -> Data) -> Result<Self> {
-        let mut scene: Scene = problem.scene.as_ref().clone();
-        let zero = constant(&scene.source, 0.0);
-        scene.source = zero.clone();
-        scene.inputs.retain(|input| input.field.value == Field::Coefficient);
-        (scene.outputs, scene.exact, scene.setting) = (Vec::new(), None, None);
-        for (at, boundary) in scene.boundaries.iter_mut().enumerate() {
-            let of = |value| constant(&zero, value);
-            boundary.condition = match (&boundary.condition, data(at)) {
-                (Condition::Robin { coefficient, .. }, Data::Value(value)) => {
-                    Condition::Robin { coefficient: coefficient.clone(), ambient: of(value) }
-                }
-                (_, Data::Value(value)) => Condition::Dirichlet { value: of(value) },
-                (_, Data::Flux(flux)) => Condition::Neumann { flux: of(flux) },
-            };
-        }
-        let problem = Problem::new(&scene, problem.mesh.clone())?;
-        let options = Options { solver: SolverKind::Factor, ..Options::default() };
-        let solution = solve(&problem, &options)?;
-        Ok(Self { problem, solution })
-    }
-
-    /// The problem and its solution.
-    pub fn parts(&self) -> (&Problem, &Solution) {
-        (&self.problem, &self.solution)
-    }
-
-    /// (‖A^½∇w‖² + ∫_R h w²)^½ of the function w with these values at the vertices.
+    /// That of `goal` on the mesh, A and transfer coefficients of `problem`.
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn norm(&self, vertices: &[f64]) -> Result<f64> {
-        let bubbles = vec![0.0; self.problem.ends.len()];
-        let following = Following::default();
-        norm(
-            &self.problem,
-            &Admissible { vertices, bubbles: &bubbles, tau: &[], following: &following },
-        )
+    pub fn new(problem: &Problem, goal: &Goal) -> Result<Self> {
+        let mut dual = problem.restated(scene(&problem.scene, goal));
+        dual.loads = Loads::at_time(&dual, problem.time)?;
+        for record in &mut dual.loads.robin {
+            let edge = record.edge as usize;
+            record.ambient += problem.lengths[edge] * density_on(problem, goal, edge);
+        }
+        if let Some(cell) = goal.cell {
+            let (triangles, quads) = (problem.mesh.triangles.len(), problem.mesh.quads.len());
+            let mut all = vec![0.0; triangles + quads];
+            all[cell] = 1.0;
+            (dual.loads.quads, dual.loads.triangles) = (all.split_off(triangles), all);
+        }
+        Ok(Self { problem: dual })
+    }
+
+    /// Solves it where |ζ·n| may be up to `part` of λ on contact edges; nothing where it has no solution.
+    pub fn solve(&mut self, contact: &[ContactEdge], goal: &Goal, part: f64) -> Option<Weights> {
+        let base = |of: &ContactEdge| {
+            let density = density_on(&self.problem, goal, of.edge);
+            self.problem.lengths[of.edge] * density - part * of.room
+        };
+        let bases = contact.iter().map(base).collect();
+        let loads = &mut self.problem.loads;
+        loads.contact_flux = bases;
+        loads.spans = contact.iter().map(|of| 2.0 * part * of.room).collect();
+        let options = Options { solver: SolverKind::Factor, ..Options::default() };
+        let solution = solve_in_its_units(&self.problem, &options, &[]).ok()?;
+        let certified = solution.certified;
+        solution.bound.is_some().then_some(Weights {
+            vertices: certified.vertices,
+            bubbles: certified.bubbles,
+            flux: certified.tau,
+        })
     }
 }
 
-fn constant(like: &Located<Expression>, value: f64) -> Located<Expression> {
-    Located { value: Expression::constant(value), key: like.key.clone(), span: like.span.clone() }
+/// `of` with the data of the goal; inputs of transfer coefficients stay.
+fn scene(of: &Arc<Scene>, goal: &Goal) -> Scene {
+    let mut scene: Scene = of.as_ref().clone();
+    let like = scene.source.clone();
+    let constant = |value| Located { value: Expression::constant(value), ..like.clone() };
+    scene.source = constant(0.0);
+    scene.inputs.retain(|input| input.field.value == Field::Coefficient);
+    (scene.outputs, scene.exact) = (Vec::new(), None);
+    let data = goal.values.iter().zip(&goal.densities);
+    for (boundary, (&value, &density)) in scene.boundaries.iter_mut().zip(data) {
+        boundary.condition = match &boundary.condition {
+            Condition::Robin { coefficient, .. } => {
+                Condition::Robin { coefficient: coefficient.clone(), ambient: constant(value) }
+            }
+            Condition::Dirichlet { .. } => Condition::Dirichlet { value: constant(value) },
+            Condition::Neumann { .. } => Condition::Neumann { flux: constant(density) },
+            // Both ends are finite, so that z may be on either side.
+            Condition::Contact { .. } => Condition::Contact {
+                gap: constant(value),
+                flux: constant(-1.0),
+                limit: constant(1.0),
+            },
+        };
+    }
+    scene
 }

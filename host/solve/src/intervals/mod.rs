@@ -1,17 +1,28 @@
 //! Intervals of outputs: where a force, a flux or a mean of the exact solution lies, in its own unit.
 //!
 //! ```text
-//!   output ─► its edges ─► a linear dual problem on the same mesh ─► ‖its weight‖ · (error bound + oscillation) ─► interval
+//!   output ─► goal ─► a linear dual problem on the same mesh ─► z and ζ ─► products with the residual ─► interval
 //! ```
-//! The product of one error norm with the norm of a weight is safe on any mesh and with any iterate. The error of an output is of second
-//! order, so that the interval is wider than that the finer the mesh. Lengths, points and the bound itself have none.
+//! Of s and τ, which the error bound T is about, and of the weights z and ζ of a linear output J ([`goal`]) follows
+//! ```text
+//!   {…} = ½⟨τ − A∇s, ζ + A∇z⟩ + ⟨σ − Σ, ζ − A∇z⟩ + ∫_C (σ − τ)·n z′ − ∫_C ζ′ (u − s),      Σ = ½(τ + A∇s)
+//! ```
+//! The first product is known. ‖σ − Σ‖² = M² − K/2 with M² = ½T² − ¼‖τ − A∇s‖² (Prager and Synge), where K ≥ 0 is what the
+//! identity of the bound has on C, and c K/2 bounds the rest ([`contact`]). The largest value over all K is
+//! ```text
+//!   ‖ζ − A∇z‖ M,  or where c > ‖ζ − A∇z‖/2M:   c M² + ‖ζ − A∇z‖²/4c.
+//! ```
+//! Without contact near the output c is 0, and this is of second order, as the error of an output is. Near the end of a contact zone
+//! c and ‖ζ − A∇z‖ cannot both be small, and the order is 4/3.
 
+mod contact;
 mod dual;
-mod flux;
-mod mean;
+mod goal;
 mod part;
+mod products;
 #[cfg(test)]
 mod tests;
+mod values;
 
 use std::collections::BTreeMap;
 
@@ -19,13 +30,26 @@ use serde::Serialize;
 
 use crate::functional::wanted;
 use crate::problem::Problem;
-use crate::solve::Solution;
-use part::Part;
+use crate::solve::{Solution, times};
+use contact::{ContactEdge, contact_edges};
+use dual::{Dual, Weights};
+use goal::Goal;
+use products::{Products, Residual};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity};
 
-/// Beyond so many unknowns no intervals are worked out: each takes a factor of its own.
+/// Beyond so many unknowns no intervals are worked out: each takes some factors of its own.
 pub const MOST_UNKNOWNS: usize = 200_000;
+
+/// Parts c that are tried, and by how much each is larger than the last.
+const TRIALS: usize = 8;
+const STEP: f64 = 2.5;
+
+/// What is beyond every part that contact can ask for.
+const ALL: f64 = 1e12;
+
+/// What sums of the host round, next to their terms.
+const ROUNDING: f64 = 1e-13;
 
 /// Where the value of an output lies for the exact solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,16 +64,6 @@ pub struct OutputBound {
     pub estimate: Option<f64>,
 }
 
-impl OutputBound {
-    /// From `least` to `most`, which may be off by rounding of sums of `terms`.
-    fn between(least: f64, most: f64, terms: f64, of: String) -> Self {
-        /// What sums of the host round, next to their terms.
-        const ROUNDING: f64 = 1e-13;
-        let plus_minus = 0.5 * (most - least) + ROUNDING * terms;
-        Self { center: 0.5 * (least + most), plus_minus, of, estimate: None }
-    }
-}
-
 /// An interval, or why there is none.
 pub type Found = std::result::Result<OutputBound, String>;
 
@@ -58,33 +72,137 @@ pub type Found = std::result::Result<OutputBound, String>;
 /// # Errors
 /// Data that are not finite.
 pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Found>> {
-    let all = wanted(&problem.scene);
-    let found = all
-        .iter()
-        .map(|output| Ok((output.name.value.clone(), of_output(problem, solution, output)?)));
-    found.collect()
+    let Some(scaled) = &solution.scaled else { return in_its_units(problem, solution) };
+    // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
+    let units = solution.units;
+    let mut all = in_its_units(scaled, &times(&units.inverse(), solution.clone()))?;
+    for output in wanted(&problem.scene).iter() {
+        let unit = match output.quantity {
+            Quantity::Flux | Quantity::Force => units.flux(),
+            _ => units.u,
+        };
+        if let Some(Ok(found)) = all.get_mut(&output.name.value) {
+            (found.center, found.plus_minus) = (found.center * unit, found.plus_minus * unit);
+        }
+    }
+    Ok(all)
 }
 
-fn of_output(problem: &Problem, solution: &Solution, output: &Output) -> Result<Found> {
-    let part = || Part::new(problem, output);
-    let reach = match (solution.bound, problem.topology.counts.unknowns()) {
-        (None, _) => return none("the solution has no error bound"),
-        (_, unknowns) if unknowns > MOST_UNKNOWNS => {
-            return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
-        }
-        (Some(bound), _) => bound.total + bound.oscillation,
+fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Found>> {
+    let all = wanted(&problem.scene);
+    let names = || all.iter().map(|output| output.name.value.clone());
+    let none = |why: &str| Ok(names().map(|name| (name, Err(why.to_owned()))).collect());
+    let Some(bound) = solution.bound else { return none("the solution has no error bound") };
+    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
+        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+    }
+    let known = Known {
+        problem,
+        solution,
+        contact: contact_edges(problem, solution)?,
+        residual: Residual::new(problem, solution)?,
+        total: bound.total,
+        oscillation: bound.oscillation,
     };
-    match output.quantity {
-        Quantity::Flux | Quantity::Force => {
-            flux::interval(problem, solution, &part(), output.quantity, reach)
+    names().zip(all.iter()).map(|(name, output)| Ok((name, known.interval(output)?))).collect()
+}
+
+/// What is known of the solution.
+struct Known<'p> {
+    problem: &'p Problem,
+    solution: &'p Solution,
+    contact: Vec<ContactEdge>,
+    residual: Residual<'p>,
+    total: f64,
+    oscillation: f64,
+}
+
+impl Known<'_> {
+    fn interval(&self, output: &Output) -> Result<Found> {
+        let goal = match Goal::of(self.problem, self.solution, output)? {
+            Ok(goal) => goal,
+            Err(why) => return Ok(Err(why)),
+        };
+        if goal.is_given(self.problem, output) {
+            return Ok(Ok(around(&goal, [0.0; 2])));
         }
-        Quantity::Mean => mean::interval(problem, solution, &part(), reach),
-        Quantity::Length | Quantity::Saturated => none("the length of a contact set has none"),
-        Quantity::Probe { .. } => none("u at a point has none; a mean over a boundary has one"),
-        Quantity::Bound => none("it is a bound itself"),
+        let mut dual = Dual::new(self.problem, &goal)?;
+        // The least part that may be the best one, and then larger ones as long as they are better.
+        let (mut part, mut best) = (ALL, [f64::NEG_INFINITY, f64::INFINITY]);
+        for trial in 0..TRIALS {
+            let Some(weights) = dual.solve(&self.contact, &goal, part) else { break };
+            let (first, differ) = self.braces(&goal, &weights, part, true)?;
+            let mut ends = first.within(best);
+            if differ {
+                ends = self.braces(&goal, &weights, part, false)?.0.within(ends);
+            }
+            let is_better = ends != best;
+            best = ends;
+            // Below the part that suits its own weights no trial is the last.
+            if self.contact.is_empty() || (trial > 0 && !is_better && first.part < part) {
+                break;
+            }
+            part = if trial == 0 { first.part } else { STEP * part };
+        }
+        Ok(match best.iter().all(|end| end.is_finite()) {
+            true => Ok(around(&goal, best)),
+            false => Err("nothing bounds it from both sides: where its boundary ends, so does what is known of the flux".to_owned()),
+        })
+    }
+
+    /// {…} with weights that keep to a part of what contact leaves, and whether its edges ask for different values of a vertex.
+    fn braces(
+        &self,
+        goal: &Goal,
+        weights: &Weights,
+        part: f64,
+        takes_least: bool,
+    ) -> Result<(Braces, bool)> {
+        let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
+        let differ = contact::keep(problem, goal, contact, part, takes_least, &mut weights);
+        let left = contact::left(problem, goal, contact, &weights);
+        let Products { residual, weights, both, sizes } = self.residual.with(goal, &weights)?;
+        let middle = (0.5 * self.total * self.total - 0.25 * residual).max(0.0).sqrt();
+        let distance = weights.max(0.0).sqrt();
+        let [less, more] = left.part.map(|part| most(distance, middle, part));
+        let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
+        let rest = (self.oscillation + ROUNDING * self.total) * sizes;
+        let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
+        let ends = [0.5 * both + low, 0.5 * both + high];
+        Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))
     }
 }
 
-fn none(why: &str) -> Result<Found> {
-    Ok(Err(why.to_owned()))
+/// Where {…} lies.
+struct Braces {
+    ends: [f64; 2],
+    /// The part of contact that would suit these weights best.
+    part: f64,
+}
+
+impl Braces {
+    /// The ends that are nearer to each other.
+    fn within(&self, [low, high]: [f64; 2]) -> [f64; 2] {
+        [low.max(self.ends[0]), high.min(self.ends[1])]
+    }
+}
+
+/// The largest distance · √(middle² − k) + part · k.
+fn most(distance: f64, middle: f64, part: f64) -> f64 {
+    match 2.0 * part * middle > distance {
+        true => part * middle * middle + distance * distance / (4.0 * part),
+        false => distance * middle,
+    }
+}
+
+/// J from {…}.
+fn around(goal: &Goal, braces: [f64; 2]) -> OutputBound {
+    let [value, terms] = goal.start;
+    let [low, high] = braces;
+    OutputBound {
+        center: value + goal.sign * 0.5 * (low + high),
+        plus_minus: 0.5 * (high - low) + ROUNDING * terms,
+        of: goal.of.clone(),
+        estimate: None,
+    }
 }

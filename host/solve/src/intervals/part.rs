@@ -1,31 +1,30 @@
 //! The part of the boundary that an output is about.
 
 use crate::problem::{EdgeKind, Problem};
-use signorini_scene::scene::Output;
+use signorini_scene::scene::{Condition, Output};
 
 /// A boundary of the scene, or all contact edges.
 pub(super) struct Part<'p> {
     problem: &'p Problem,
-    name: Option<String>,
+    name: Option<&'p str>,
 }
 
 impl<'p> Part<'p> {
-    pub fn new(problem: &'p Problem, output: &Output) -> Self {
-        Self { problem, name: output.of.as_ref().map(|of| of.value.clone()) }
+    pub fn new(problem: &'p Problem, output: &'p Output) -> Self {
+        Self { problem, name: output.of.as_ref().map(|of| of.value.as_str()) }
     }
 
     /// What to call it.
     pub fn name(&self) -> &str {
-        self.name.as_deref().unwrap_or("all contact edges")
+        self.name.unwrap_or("all contact edges")
     }
 
     /// Whether the boundary of the scene's table `at` belongs to it.
     pub fn has_table(&self, at: usize) -> bool {
-        use signorini_scene::scene::Condition::Contact;
         let boundary = &self.problem.scene.boundaries[at];
-        match &self.name {
-            Some(name) => boundary.name.value == *name,
-            None => matches!(boundary.condition, Contact { .. }),
+        match self.name {
+            Some(name) => boundary.name.value == name,
+            None => matches!(boundary.condition, Condition::Contact { .. }),
         }
     }
 
@@ -38,6 +37,11 @@ impl<'p> Part<'p> {
     /// Its edges.
     pub fn edges(&self) -> impl Iterator<Item = usize> {
         (0..self.problem.kinds.len()).filter(|&edge| self.has(edge))
+    }
+
+    /// Its length.
+    pub fn length(&self) -> f64 {
+        self.edges().map(|edge| self.problem.lengths[edge]).sum()
     }
 
     /// What holds on it; none where it has no edge.

@@ -67,7 +67,12 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
     Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
 }
 
-fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
+/// The same as [`solve_from`] in the units of the problem as it is.
+pub(crate) fn solve_in_its_units(
+    problem: &Problem,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
     let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
         (SolverKind::Auto | SolverKind::Factor, ScalarKind::F64) => {

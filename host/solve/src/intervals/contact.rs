@@ -1,0 +1,247 @@
+//! What is known of u and σ on contact edges, and what z and ζ have to keep to there.
+//!
+//! With z′ = z − its given value and ζ′ = ζ·n − its given density the weights leave
+//! ```text
+//!   ∫_C (σ − τ)·n z′ − ∫_C ζ′ (u − s),
+//! ```
+//! and the identity of the error bound has ∫_C (σ·n − lo)(s − ψ) + ∫_C (τ·n − lo)(u − ψ) ≤ K/2 beside the energies. So
+//! ```text
+//!   s > ψ, τ·n = lo:   |z′| ≤ c (s − ψ),  ζ′ = 0           (likewise with hi where s < ψ)
+//!   s = ψ:             |ζ′| ≤ c (τ·n − lo),  z′ = 0        (and c (hi − τ·n), where there is a limit)
+//! ```
+//! make it at most c K/2. What keeps to neither is bounded by lo ≤ σ·n ≤ hi alone.
+
+use std::collections::BTreeMap;
+
+use super::dual::Weights;
+use super::goal::Goal;
+use crate::certify::curved::{followed, peak};
+use crate::certify::deviation::Deviations;
+use crate::certify::ends::Ends;
+use crate::problem::{EdgeKind, Problem, spread};
+use crate::solve::Solution;
+use signorini_scene::error::Result;
+
+/// A part of a flux that is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// How far u_D may be below ψ, as a part of the largest datum: what a scene is refused for begins there.
+const CORNERS: f64 = 1e-9;
+
+/// What is known on one contact edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ContactEdge {
+    pub edge: usize,
+    /// How far τ·n is from the nearer end of its range where s = ψ, as an integral over the edge; else 0.
+    pub room: f64,
+    /// A lower bound of |s − ψ| is linear between these where τ·n is at the end of its side; infinite where σ·n is given.
+    pub clear: [f64; 2],
+    /// ∫(lo − τ·n) and ∫(hi − τ·n)
+    pub left: [f64; 2],
+    /// Signs that u − ψ may have, or that σ·n − τ·n may have where `clear` is not 0.
+    pub may: [bool; 2],
+}
+
+/// All contact edges in their order.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn contact_edges(problem: &Problem, solution: &Solution) -> Result<Vec<ContactEdge>> {
+    let counts = problem.topology.counts;
+    if counts.contact == 0 {
+        return Ok(Vec::new());
+    }
+    let (ends, s) = (Ends::at_time(problem, problem.time)?, solution.certified.admissible());
+    let (all, followed) = (Deviations::at_time(problem, problem.time)?, followed(problem, &s)?);
+    let mut edges = Vec::with_capacity(counts.contact);
+    for (at, gap) in ends.gap.iter().enumerate() {
+        let edge = counts.free + at;
+        let values = problem.ends[edge].map(|vertex| s.vertices[vertex as usize]);
+        // What u_D lies below ψ by rounding, the oscillation counts.
+        let counted = CORNERS * ends.scale();
+        let end = |k: usize| match values[k] - gap[k] {
+            end if (-counted..=0.0).contains(&end) => 0.0,
+            end => end,
+        };
+        let not_followed = all.on(edge).filter(|_| followed.on(edge).is_none());
+        let above = Above {
+            ends: [end(0), end(1)],
+            bubble: s.bubbles[edge],
+            peak: not_followed.map_or(Ok(0.0), peak)?,
+        };
+        edges.push(ContactEdge::new(problem, edge, s.tau[edge], &above));
+    }
+    Ok(edges)
+}
+
+/// s − ψ along an edge: linear, with a bubble and what a curved gap may add to it.
+struct Above {
+    ends: [f64; 2],
+    bubble: f64,
+    peak: f64,
+}
+
+impl Above {
+    fn is_zero(&self) -> bool {
+        self.ends == [0.0; 2] && self.bubble == 0.0 && self.peak == 0.0
+    }
+
+    /// What `sign`·(s − ψ) is above at both ends and between.
+    fn clear(&self, sign: f64) -> [f64; 2] {
+        let ends = self.ends.map(|end| (sign * end).max(0.0));
+        let roots = ends[0].sqrt() + ends[1].sqrt();
+        // (1 − θ) of the chord is left by a bubble of −θ (√a + √b)²/4.
+        let left = match sign * self.bubble {
+            up if up >= 0.0 => 1.0,
+            down => (1.0 + 4.0 * down / (roots * roots)).max(0.0),
+        };
+        let is_on_its_side = self.ends.iter().all(|end| sign * end >= 0.0) && left.is_finite();
+        ends.map(|end| if is_on_its_side { (left * end - self.peak).max(0.0) } else { 0.0 })
+    }
+}
+
+impl ContactEdge {
+    fn new(problem: &Problem, edge: usize, tau: f64, above: &Above) -> Self {
+        let at = edge - problem.topology.counts.free;
+        let ends @ [least, most] = problem.loads.flux_range(at).ends();
+        let left = ends.map(|end| end - tau);
+        let is_at = |end: f64| (tau - end).abs() <= ROUNDING * tau.abs();
+        let none = Self { edge, room: 0.0, clear: [0.0; 2], left, may: [true; 2] };
+        if least == most {
+            return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none };
+        }
+        if spread(problem, edge, problem.time).is_some() {
+            return none;
+        }
+        if above.is_zero() {
+            let room = (-left[0]).min(left[1]).max(0.0);
+            // With one end alone u is on one side of ψ.
+            return Self { room, may: [most < f64::INFINITY, least > f64::NEG_INFINITY], ..none };
+        }
+        let is_above = above.ends.iter().all(|&end| end >= 0.0);
+        match is_above {
+            true if is_at(least) => Self { clear: above.clear(1.0), may: [false, true], ..none },
+            false if is_at(most) => Self { clear: above.clear(-1.0), may: [true, false], ..none },
+            _ => none,
+        }
+    }
+}
+
+/// What the contact edges add to {…}.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Part {
+    /// The least c on either side: below 0 and above.
+    pub part: [f64; 2],
+    /// What is bounded without one.
+    pub loose: [f64; 2],
+}
+
+/// ζ·n that is given on a boundary edge.
+pub(super) fn density_on(problem: &Problem, goal: &Goal, edge: usize) -> f64 {
+    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| goal.densities[table])
+}
+
+fn value_on(problem: &Problem, goal: &Goal, edge: usize) -> f64 {
+    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| goal.values[table])
+}
+
+/// Moves z at the vertices of C to within `part` of what s leaves. Where edges ask for different values of a vertex it takes the
+/// least or the largest of them. Whether they do.
+pub(super) fn keep(
+    problem: &Problem,
+    goal: &Goal,
+    edges: &[ContactEdge],
+    part: f64,
+    takes_least: bool,
+    weights: &mut Weights,
+) -> bool {
+    let mut differ = false;
+    let mut asked = BTreeMap::<u32, ([f64; 2], [f64; 2])>::new();
+    for of in edges {
+        let value = value_on(problem, goal, of.edge);
+        weights.bubbles[of.edge] = 0.0;
+        for (vertex, clear) in problem.ends[of.edge].into_iter().zip(of.clear) {
+            let all = ([f64::NEG_INFINITY, f64::INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+            let ([low, high], [least, most]) = asked.entry(vertex).or_insert(all);
+            let reach = if clear > 0.0 { part * clear } else { 0.0 };
+            (*low, *high) = (low.max(value - reach), high.min(value + reach));
+            (*least, *most) = (least.min(value), most.max(value));
+        }
+    }
+    for edge in (0..problem.kinds.len()).filter(|&at| problem.kinds[at] == EdgeKind::Dirichlet) {
+        for vertex in &problem.ends[edge] {
+            asked.remove(vertex);
+        }
+    }
+    for (vertex, ([low, high], [least, most])) in asked {
+        let z = &mut weights.vertices[vertex as usize];
+        differ |= low > high;
+        *z = match low <= high {
+            true => z.clamp(low, high),
+            false if takes_least => least,
+            false => most,
+        };
+    }
+    differ
+}
+
+/// What is left of the weights on C.
+pub(super) fn left(
+    problem: &Problem,
+    goal: &Goal,
+    edges: &[ContactEdge],
+    weights: &Weights,
+) -> Part {
+    let mut sum = Part::default();
+    for of in edges {
+        let value = value_on(problem, goal, of.edge);
+        let z = problem.ends[of.edge].map(|vertex| weights.vertices[vertex as usize] - value);
+        let density = problem.lengths[of.edge] * density_on(problem, goal, of.edge);
+        sum.add_flux(of, weights.flux[of.edge] - density);
+        match z.iter().zip(of.clear).any(|(&z, clear)| z != 0.0 && clear == 0.0) {
+            true => sum.add_loose(of, z),
+            false => sum.add_values(of, z),
+        }
+    }
+    sum
+}
+
+impl Part {
+    /// −∫ζ′ (u − ψ)
+    fn add_flux(&mut self, of: &ContactEdge, flux: f64) {
+        if flux == 0.0 {
+            return;
+        }
+        let part = flux.abs() / of.room;
+        // Where u is above ψ alone, a positive ζ′ makes it smaller.
+        let [below, above] = of.may;
+        let lowers = (flux > 0.0 && above) || (flux < 0.0 && below);
+        let raises = (flux < 0.0 && above) || (flux > 0.0 && below);
+        self.widen([lowers, raises], part);
+    }
+
+    /// ∫(σ − τ)·n z′ within the part of s − ψ.
+    fn add_values(&mut self, of: &ContactEdge, z: [f64; 2]) {
+        for (z, clear) in z.into_iter().zip(of.clear).filter(|(z, _)| *z != 0.0) {
+            let [falls, rises] = of.may;
+            let lowers = (z < 0.0 && rises) || (z > 0.0 && falls);
+            let raises = (z > 0.0 && rises) || (z < 0.0 && falls);
+            self.widen([lowers, raises], z.abs() / clear);
+        }
+    }
+
+    fn widen(&mut self, sides: [bool; 2], part: f64) {
+        for (most, is_widened) in self.part.iter_mut().zip(sides) {
+            *most = if is_widened { most.max(part) } else { *most };
+        }
+    }
+
+    /// ∫(σ − τ)·n z′ by the range of σ·n, for z′ with these values at the ends.
+    fn add_loose(&mut self, of: &ContactEdge, z: [f64; 2]) {
+        let mean = |sign: f64| z.iter().map(|z| 0.5 * (sign * z).max(0.0)).sum::<f64>();
+        let times = |left: f64, mean: f64| if mean == 0.0 { 0.0 } else { left * mean };
+        let ([least, most], [up, down]) = (of.left, [mean(1.0), mean(-1.0)]);
+        self.loose[0] += times(least, up) - times(most, down);
+        self.loose[1] += times(most, up) - times(least, down);
+    }
+}

@@ -1,0 +1,157 @@
+//! Energies and products of the residuals r = τ − A∇s of the solution and ζ ∓ A∇z of the weights, cell by cell and on R:
+//! ```text
+//!   ⟨a, b⟩ = ∫ a·A⁻¹b + ∫_R a b/h          r on R is τ·n + h (s − u_ext),   ζ·n ± (h z − κ) that of ζ ∓ A∇z
+//! ```
+
+use super::dual::Weights;
+use super::goal::Goal;
+use crate::certify::admissible::{Admissible, Following};
+use crate::certify::cell::Cell;
+use crate::certify::conductivity::{Conductivity, apply, dot, inverse};
+use crate::certify::curved::{self, followed};
+use crate::certify::deviation::Deviations;
+use crate::certify::robin::robin;
+use crate::field::CellField;
+use crate::problem::Problem;
+use crate::quadrature::{DATA_POINTS, gauss};
+use crate::solve::Solution;
+use crate::threads::in_portions;
+use signorini_kernel::Real;
+use signorini_scene::error::Result;
+
+/// Squares and products.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Products {
+    /// ⟨r, r⟩
+    pub residual: f64,
+    /// ⟨ζ − A∇z, ζ − A∇z⟩
+    pub weights: f64,
+    /// ⟨r, ζ + A∇z⟩
+    pub both: f64,
+    /// ⟨A∇z, A∇z⟩ and ⟨ζ, ζ⟩
+    pub sizes: [f64; 2],
+}
+
+/// The solution's side of the products.
+pub(super) struct Residual<'p> {
+    problem: &'p Problem,
+    s: Admissible<'p>,
+    deviations: Deviations<'p>,
+}
+
+/// r, ζ and A∇z at one point; on R the flux that passes, that of ζ beyond its density, and −h (z − its value).
+struct Fluxes<T> {
+    residual: T,
+    zeta: T,
+    gradient: T,
+}
+
+impl<T: Copy> Fluxes<T> {
+    /// Their share of all products, by the inner product at the point.
+    fn products(&self, inner: impl Fn(T, T) -> f64) -> Products {
+        let Self { residual, zeta, gradient } = *self;
+        let (of_zeta, of_gradient) = (inner(zeta, zeta), inner(gradient, gradient));
+        Products {
+            residual: inner(residual, residual),
+            weights: of_zeta - 2.0 * inner(zeta, gradient) + of_gradient,
+            both: inner(residual, zeta) + inner(residual, gradient),
+            sizes: [of_gradient, of_zeta],
+        }
+    }
+}
+
+impl Products {
+    fn and(self, other: Self) -> Self {
+        Self {
+            residual: self.residual + other.residual,
+            weights: self.weights + other.weights,
+            both: self.both + other.both,
+            sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
+        }
+    }
+}
+
+/// Points a direction where s has no lift.
+fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
+    match cell {
+        Cell::Triangle(_) if conductivity.is_constant() => 2,
+        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
+        _ => DATA_POINTS,
+    }
+}
+
+impl<'p> Residual<'p> {
+    /// That of a solution.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(problem: &'p Problem, solution: &'p Solution) -> Result<Self> {
+        let s = solution.certified.admissible();
+        Ok(Self { problem, s, deviations: followed(problem, &s)? })
+    }
+
+    /// The products with these weights.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn with(&self, goal: &Goal, weights: &Weights) -> Result<Products> {
+        let following = Following::Except(Vec::new());
+        let Weights { vertices, bubbles, flux } = weights;
+        let z = Admissible { vertices, bubbles, tau: flux, following: &following };
+        let cells = in_portions(self.problem.cells(), |cells| {
+            let mut sum = Products::default();
+            for at in cells {
+                self.add_cell(at, &z, &mut sum)?;
+            }
+            Ok(sum)
+        })?;
+        let mut sum = cells.into_iter().fold(Products::default(), Products::and);
+        self.add_transfer(goal, &z, &mut sum)?;
+        Ok(sum)
+    }
+
+    fn add_cell(&self, at: usize, z: &Admissible, sum: &mut Products) -> Result<()> {
+        let problem = self.problem;
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let (s, z_here) = (self.s.on_cell(problem, at, &self.deviations), z.chordal(problem, at));
+        let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
+        let is_lifted = self.deviations.of_cell(problem, at).iter().any(Option::is_some);
+        let rule = gauss(if is_lifted { curved::POINTS } else { points(&cell, &conductivity) });
+        for point in curved::points(problem, at, &self.deviations, &rule)? {
+            let (local, a) = (cell.local(point.reference), conductivity.at(point.x));
+            let along_s = apply(&a, s.at(&local)?.gradient);
+            let tau = tau.sample(&point).flux;
+            let here = Fluxes {
+                residual: [tau[0] - along_s[0], tau[1] - along_s[1]],
+                zeta: zeta.sample(&point).flux,
+                gradient: apply(&a, z_here.at(&local).gradient),
+            };
+            let inverse = inverse(&a);
+            *sum = sum.and(here.products(|a, b| point.weight * dot(apply(&inverse, a), b)));
+        }
+        Ok(())
+    }
+
+    fn add_transfer(&self, goal: &Goal, z: &Admissible, sum: &mut Products) -> Result<()> {
+        let problem = self.problem;
+        let transfer = robin(problem, problem.time)?;
+        for (record, points) in problem.loads.robin.iter().zip(&transfer) {
+            let edge = record.edge as usize;
+            let length = problem.lengths[edge];
+            let table = problem.binding.boundary(problem.ends[edge]);
+            let [value, density] =
+                table.map_or([0.0; 2], |at| [goal.values[at], goal.densities[at]]);
+            for (&[t, weight], &[h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
+                let h = h / length;
+                let s = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
+                let here = Fluxes {
+                    residual: self.s.tau[edge] / length + h * (s - outside),
+                    zeta: z.tau[edge] / length - density,
+                    gradient: -h * (z.on_edge(problem, edge, None, t)? - value),
+                };
+                *sum = sum.and(here.products(|a, b| weight * length * a * b / h));
+            }
+        }
+        Ok(())
+    }
+}
