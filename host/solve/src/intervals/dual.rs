@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::contact::{ContactEdge, density_on};
 use super::goal::Goal;
 use crate::problem::{Loads, Problem};
-use crate::solve::{Options, SolverKind, solve_in_its_units};
+use crate::solve::SharedFactor;
 use signorini_scene::error::Result;
 use signorini_scene::expression::Expression;
 use signorini_scene::scene::{Condition, Field, Located, Scene};
@@ -51,7 +51,13 @@ impl Dual {
     }
 
     /// Solves it where |ζ·n| may be up to `part` of λ on contact edges; nothing where it has no solution.
-    pub fn solve(&mut self, contact: &[ContactEdge], goal: &Goal, part: f64) -> Option<Weights> {
+    pub fn solve(
+        &mut self,
+        factor: &SharedFactor,
+        contact: &[ContactEdge],
+        goal: &Goal,
+        part: f64,
+    ) -> Option<Weights> {
         let base = |of: &ContactEdge| {
             let density = density_on(&self.problem, goal, of.edge);
             self.problem.lengths[of.edge] * density - part * of.room
@@ -60,8 +66,7 @@ impl Dual {
         let loads = &mut self.problem.loads;
         loads.contact_flux = bases;
         loads.spans = contact.iter().map(|of| 2.0 * part * of.room).collect();
-        let options = Options { solver: SolverKind::Factor, ..Options::default() };
-        let solution = solve_in_its_units(&self.problem, &options, &[]).ok()?;
+        let solution = factor.solve(&self.problem).ok()??;
         let certified = solution.certified;
         solution.bound.is_some().then_some(Weights {
             vertices: certified.vertices,

@@ -30,7 +30,8 @@ use serde::Serialize;
 
 use crate::functional::wanted;
 use crate::problem::Problem;
-use crate::solve::{Solution, times};
+use crate::solve::{SharedFactor, Solution, times};
+use crate::threads::on_two_threads;
 use contact::{ContactEdge, contact_edges};
 use dual::{Dual, Weights};
 use goal::Goal;
@@ -96,7 +97,11 @@ fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Strin
     if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
+    let Some(factor) = SharedFactor::of(problem)? else {
+        return none("its linear problem has no factor");
+    };
     let known = Known {
+        factor,
         problem,
         solution,
         contact: contact_edges(problem, solution)?,
@@ -104,11 +109,13 @@ fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Strin
         total: bound.total,
         oscillation: bound.oscillation,
     };
-    names().zip(all.iter()).map(|(name, output)| Ok((name, known.interval(output)?))).collect()
+    let found = on_two_threads(&all, |output| known.interval(output), || ())?;
+    Ok(names().zip(found).collect())
 }
 
 /// What is known of the solution.
 struct Known<'p> {
+    factor: SharedFactor,
     problem: &'p Problem,
     solution: &'p Solution,
     contact: Vec<ContactEdge>,
@@ -130,7 +137,7 @@ impl Known<'_> {
         // The least part that may be the best one, and then larger ones as long as they are better.
         let (mut part, mut best) = (ALL, [f64::NEG_INFINITY, f64::INFINITY]);
         for trial in 0..TRIALS {
-            let Some(weights) = dual.solve(&self.contact, &goal, part) else { break };
+            let Some(weights) = dual.solve(&self.factor, &self.contact, &goal, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;
             let mut ends = first.within(best);
             if differ {

@@ -19,7 +19,7 @@ use signorini_kernel::discrete::rows;
 use signorini_kernel::solve::solver::Status;
 
 use super::{
-    Clock, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude, direct,
+    Clock, Ldlt, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude, direct,
     factored, started, unfit,
 };
 use crate::problem::{Approach, Assembled, Parts, Problem};
@@ -51,7 +51,7 @@ pub(super) fn in_f64(
     start: &[f64],
 ) -> Result<Solution> {
     if options.solver == SolverKind::Factor || prefers_factor(problem) {
-        if let Some(found) = by_factor::<f64>(problem, parts, options, start)? {
+        if let Some(found) = by_factor::<f64>(problem, parts, options, start, None)? {
             return Ok(found);
         }
         // Who has no answer leaves it to the kernel to say why.
@@ -72,20 +72,21 @@ pub(super) fn in_f32(
     start: &[f64],
 ) -> Result<Solution> {
     if (options.solver == SolverKind::Factor || prefers_factor(problem))
-        && let Some(found) = by_factor::<f32>(problem, parts, options, start)?
+        && let Some(found) = by_factor::<f32>(problem, parts, options, start, None)?
     {
         return Ok(found);
     }
     by_kernel::<f32>(problem, parts, options, start)
 }
 
-/// The answer of the kernel's factor alone. Nothing where it cannot treat the problem, where a part is held by
+/// The answer of the kernel's factor alone, of the one that is known. Nothing where it cannot treat the problem, where a part is held by
 /// nothing, which leaves the matrix singular, where the factor would be too large, or where it leaves digits open.
 pub(super) fn by_factor<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,
     start: &[f64],
+    known: Option<&Ldlt<R>>,
 ) -> Result<Option<Solution>> {
     if parts.counts.floating > 0 || Approach::Factor.lack_with(problem, parts.counts).is_some() {
         return Ok(None);
@@ -100,7 +101,7 @@ pub(super) fn by_factor<R: Scalar>(
     let mut u = started(&assembled, start);
     let mut low = vec![R::ZERO; u.len()];
     let settings = options.settings::<R>();
-    let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low);
+    let found = factored::solve(&system, diagonal, &settings, &mut u, &mut low, known);
     let Some((outcome, factored)) = found.map_err(&unfit)? else { return Ok(None) };
     if !matches!(outcome.status, Status::Converged | Status::RoundingLimit) {
         return Ok(None);

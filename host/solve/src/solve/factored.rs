@@ -23,7 +23,7 @@ pub struct Factored {
     pub rounds: u32,
 }
 
-/// Solves `system` by the kernel's factor; `u` is start and answer, `low` becomes its low part. Nothing where
+/// Solves `system` by the kernel's factor, by `known` where its matrix is the same; `u` is start and answer, `low` becomes its low part. Nothing where
 /// the matrix is singular in this scalar, has no solution, or would take too much memory: `u` is what it was.
 ///
 /// # Errors
@@ -34,11 +34,18 @@ pub(super) fn solve<R: Scalar>(
     settings: &Settings<R>,
     u: &mut [R],
     low: &mut [R],
+    known: Option<&Ldlt<R>>,
 ) -> Result<Option<(Outcome<R>, Factored)>, KernelError> {
-    stage("a sparse factor");
-    let Some(mut ldlt) = Ldlt::new(system)? else { return Ok(None) };
+    let new = match known {
+        Some(_) => None,
+        None => {
+            stage("a sparse factor");
+            Ldlt::new(system)?
+        }
+    };
+    let Some(ldlt) = known.or(new.as_ref()) else { return Ok(None) };
     let (counts, entries) = (ldlt.counts, ldlt.values.len());
-    let mut schur = std::mem::take(&mut ldlt.schur);
+    let mut schur = ldlt.schur.clone();
     let mut exchanges = exchanges(counts.contact);
     let memory = DirectMemory {
         schur: &mut schur,

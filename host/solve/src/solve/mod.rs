@@ -9,6 +9,7 @@ mod level;
 mod mixed;
 mod options;
 mod ran;
+mod shared;
 mod solution;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
+pub(crate) use shared::SharedFactor;
 pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
@@ -67,12 +69,7 @@ pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result
     Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
 }
 
-/// The same as [`solve_from`] in the units of the problem as it is.
-pub(crate) fn solve_in_its_units(
-    problem: &Problem,
-    options: &Options,
-    start: &[f64],
-) -> Result<Solution> {
+fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
     let parts = Parts::examine(problem)?;
     match (options.solver, options.scalar) {
         (SolverKind::Auto | SolverKind::Factor, ScalarKind::F64) => {
@@ -170,7 +167,7 @@ fn iterate<R: Scalar, const WIDTH: usize>(
         return Ok((swept, None));
     }
     if may_factor
-        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low)?
+        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
     {
         return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
     }
