@@ -34,7 +34,7 @@ pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
     }
     let output = |(name, quantity): (&str, Quantity)| {
         let name = Located { value: name.to_owned(), key: "output".to_owned(), span: 0..0 };
-        Output { name, quantity, of: None }
+        Output { name, quantity, of: None, unit: None }
     };
     let defaults =
         [("contact_force", Quantity::Force), ("contact_length", Quantity::Length)].map(output);

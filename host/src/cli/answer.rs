@@ -1,22 +1,26 @@
 //! What `signorini solve` tells of a solution: files, lines, warnings.
 
+use std::collections::BTreeMap;
+use std::iter;
 use std::path::Path;
 
 use super::levels;
 use super::picture::{Drawn, picture};
 use signorini_scene::error::Result;
 use signorini_solve::adaptive::Stop;
-use signorini_solve::intervals;
+use signorini_solve::functional::wanted;
+use signorini_solve::intervals::{self, Found};
 use signorini_solve::norms::{Errors, of_solution};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::contact::contact;
 use signorini_solve::output::digits::{percent_above, rounded, supported};
 use signorini_solve::output::edges::edges_csv;
+use signorini_solve::output::stated::Stated;
 use signorini_solve::output::summary::Summary;
 use signorini_solve::output::vtu::contact_vtu;
 use signorini_solve::outputs::outputs;
 use signorini_solve::problem::Problem;
-use signorini_solve::progress::{say, warn};
+use signorini_solve::progress::{say, waiting, warn};
 use signorini_solve::solve::{FreeLevel, Solution, SolverKind, free_levels};
 use signorini_solve::threads::on_two_threads;
 
@@ -50,7 +54,12 @@ impl Answer {
         let Self { problem, solution, energy_norm, .. } = self;
         let errors = of_solution(problem, solution)?;
         let declared = outputs(problem, solution)?;
-        let intervals = intervals::of_outputs(problem, solution)?;
+        let intervals = waiting("intervals of outputs", || -> Result<_> {
+            let mut found = intervals::of_outputs(problem, solution)?;
+            intervals::estimate(problem, &declared, &mut found)?;
+            Ok(found)
+        })?;
+        let lines = output_lines(problem, &declared, &intervals);
         let summary =
             Summary::new(problem, asked, solution, errors, *energy_norm, declared, &intervals);
         let edges = || edges_csv(problem, solution);
@@ -64,8 +73,21 @@ impl Answer {
         // The last: whoever finds it finds the others.
         write_atomically(&out.join("summary.json"), summary.json().as_bytes())?;
         report(problem, solution, errors, *energy_norm);
+        lines.iter().for_each(|line| say(format_args!("{line}")));
         Ok(())
     }
+}
+
+/// What is told of the declared outputs.
+fn output_lines(
+    problem: &Problem,
+    values: &BTreeMap<String, Option<f64>>,
+    intervals: &BTreeMap<String, Found>,
+) -> Vec<String> {
+    let outputs = wanted(&problem.scene);
+    let stated = |output| Stated::of(output, values, intervals);
+    let lines = outputs.iter().map(|output| format!("    {}", stated(output).line()));
+    iter::once("  outputs:".to_owned()).chain(lines).collect()
 }
 
 fn report(

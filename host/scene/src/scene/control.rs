@@ -19,7 +19,7 @@ const FIELDS: [(&str, Field); 7] = [
 
 /// Reads `[input.NAME]`. The pattern has no t: what changes is the value that multiplies it.
 pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input> {
-    table.only("an input", &["of", "field", "pattern", "default", "range"])?;
+    table.only("an input", &["of", "field", "pattern", "default", "range", "unit"])?;
     let of = table.require("of")?;
     let field = table.require("field")?;
     check_field(&of, &field, boundaries)?;
@@ -36,6 +36,7 @@ pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input
         pattern: table.require("pattern")?.expression(Variables::Space)?,
         default: table.get("default").map_or(Ok(0.0), |entry| entry.number())?,
         range: range.as_ref().map(InputRange::read).transpose()?,
+        unit: read_unit(table)?,
     };
     // Where no default is written the one that counts is 0, and the range is to blame.
     match (input.refusal(input.default), table.get("default").or(range)) {
@@ -101,10 +102,26 @@ pub(super) fn read_output(table: &Table, boundaries: &[Boundary]) -> Result<Outp
         }),
         ("probe", read_probe),
         ("mean", |table, boundaries| read_boundary(table, boundaries, "a mean", Quantity::Mean)),
-        ("bound", |table, _| table.only("a bound", &["kind"]).map(|()| (Quantity::Bound, None))),
+        ("bound", |table, _| {
+            table.only("a bound", &["kind", "unit"]).map(|()| (Quantity::Bound, None))
+        }),
     ])?;
     let (quantity, of) = (read.value)(table, boundaries)?;
-    Ok(Output { name: table.name.clone(), quantity, of })
+    Ok(Output { name: table.name.clone(), quantity, of, unit: read_unit(table)? })
+}
+
+/// A short text that may stand in a comment of any language.
+fn read_unit(table: &Table) -> Result<Option<String>> {
+    const LONGEST: usize = 24;
+    let Some(entry) = table.get("unit") else { return Ok(None) };
+    let unit = entry.text()?.value;
+    let is_plain = |c: char| !c.is_control() && !"\"\\".contains(c);
+    let fits = (1..=LONGEST).contains(&unit.chars().count());
+    if !fits || !unit.chars().all(is_plain) || unit.contains("*/") || unit.contains("/*") {
+        let error = entry.error(format_args!("expected 1 to {LONGEST} characters of a unit"));
+        return Err(error.hint("write one such as \"m2/s\" or \"°C\"").into());
+    }
+    Ok(Some(unit))
 }
 
 type Measured = (Quantity, Option<Located<String>>);
@@ -115,7 +132,7 @@ fn read_boundary(
     what: &str,
     quantity: Quantity,
 ) -> Result<Measured> {
-    table.only(what, &["kind", "of"])?;
+    table.only(what, &["kind", "of", "unit"])?;
     let of = table.require("of")?;
     find_boundary(&of, boundaries)?;
     Ok((quantity, Some(of.text()?)))
@@ -127,7 +144,7 @@ fn read_contact(
     what: &str,
     quantity: Quantity,
 ) -> Result<Measured> {
-    table.only(what, &["kind", "of"])?;
+    table.only(what, &["kind", "of", "unit"])?;
     let Some(of) = table.get("of") else { return Ok((quantity, None)) };
     match &find_boundary(&of, boundaries)?.condition {
         Condition::Contact { .. } => Ok((quantity, Some(of.text()?))),
@@ -139,7 +156,7 @@ fn read_contact(
 }
 
 fn read_probe(table: &Table, _: &[Boundary]) -> Result<Measured> {
-    table.only("a probe", &["kind", "at"])?;
+    table.only("a probe", &["kind", "at", "unit"])?;
     let [x, y] = table.require("at")?.pair("x, y")?;
     Ok((Quantity::Probe { at: [x.number()?, y.number()?] }, None))
 }

@@ -161,6 +161,8 @@ pub struct Input {
     pub default: f64,
     /// What its value may be; anything, where the scene does not say.
     pub range: Option<Located<InputRange>>,
+    /// What it is told with.
+    pub unit: Option<String>,
 }
 
 /// What an output measures.
@@ -195,6 +197,8 @@ pub struct Output {
     /// The boundary: always there for a flux; for force and length a contact boundary or, where
     /// absent, all of them; otherwise absent.
     pub of: Option<Located<String>>,
+    /// What it is told with.
+    pub unit: Option<String>,
 }
 
 /// The budget of the device, as far as the scene sets one; each positive.

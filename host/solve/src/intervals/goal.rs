@@ -96,7 +96,7 @@ impl Goal {
             false => 0.0,
         };
         let values: Vec<f64> = (0..problem.scene.boundaries.len()).map(weight).collect();
-        let start = values::flux(problem, solution, part, is_force.then_some(&*values))?;
+        let start = values::flux(problem, solution, part, is_force)?;
         let of = match is_force {
             true => format!("the force ∫λ over {}", part.name()),
             false => format!("the flux (A∇u)·n over {}", part.name()),

@@ -17,6 +17,8 @@
 
 mod contact;
 mod dual;
+mod estimate;
+mod exact;
 mod goal;
 mod part;
 mod products;
@@ -32,6 +34,8 @@ use crate::functional::wanted;
 use crate::problem::Problem;
 use crate::solve::{SharedFactor, Solution, times};
 use crate::threads::on_two_threads;
+pub use estimate::estimate;
+
 use contact::{ContactEdge, contact_edges};
 use dual::{Dual, Weights};
 use goal::Goal;
@@ -61,8 +65,21 @@ pub struct OutputBound {
     pub plus_minus: f64,
     /// What it is the value of.
     pub of: String,
-    /// The same by an estimate from two meshes, without a guarantee; none where there is a single mesh.
+    /// How far its value on this mesh is from that on the mesh refined once; no guarantee. None for large meshes.
     pub estimate: Option<f64>,
+    /// The exact value, where the scene has an exact solution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<f64>,
+}
+
+impl OutputBound {
+    /// In other units.
+    fn times(self, unit: f64) -> Self {
+        let Self { center, plus_minus, estimate, exact, .. } = self;
+        let [center, plus_minus] = [center, plus_minus].map(|x| x * unit);
+        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| x * unit));
+        Self { center, plus_minus, estimate, exact, ..self }
+    }
 }
 
 /// An interval, or why there is none.
@@ -83,7 +100,7 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Str
             _ => units.u,
         };
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
-            (found.center, found.plus_minus) = (found.center * unit, found.plus_minus * unit);
+            *found = found.clone().times(unit);
         }
     }
     Ok(all)
@@ -126,6 +143,14 @@ struct Known<'p> {
 
 impl Known<'_> {
     fn interval(&self, output: &Output) -> Result<Found> {
+        let mut found = self.bounded(output)?;
+        if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
+            found.exact = Some(exact::value(self.problem, exact, output)?);
+        }
+        Ok(found)
+    }
+
+    fn bounded(&self, output: &Output) -> Result<Found> {
         let goal = match Goal::of(self.problem, self.solution, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
@@ -211,5 +236,6 @@ fn around(goal: &Goal, braces: [f64; 2]) -> OutputBound {
         plus_minus: 0.5 * (high - low) + ROUNDING * terms,
         of: goal.of.clone(),
         estimate: None,
+        exact: None,
     }
 }

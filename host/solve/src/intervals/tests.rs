@@ -64,6 +64,70 @@ fn they_hold_the_values_of_finer_meshes() -> Result<()> {
     Ok(())
 }
 
+/// Every force, flux and mean that a scene's boundaries have, and a probe in the middle.
+const ALL_OUTPUTS: &str = r#"
+[output.force]
+kind = "force"
+[output.skin]
+kind = "mean"
+of = "contact"
+[output.out]
+kind = "flux"
+of = "dirichlet"
+[output.middle]
+kind = "probe"
+at = [0.03, 0.51]
+"#;
+
+/// The scenes with an exact solution, on their meshes and refined ones.
+fn known_scenes() -> Result<Vec<(String, Scene)>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
+    let mut all = Vec::new();
+    for part in ["catalogue", "limits"] {
+        for entry in std::fs::read_dir(folder.join(part)).expect("a folder of scenes") {
+            let path = entry.expect("a file").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                let scene = Scene::read(&path)?;
+                let scene = Scene::parse(&format!("{}{ALL_OUTPUTS}", scene.text), &path)?;
+                all.push((path.file_stem().unwrap().to_string_lossy().into_owned(), scene));
+            }
+        }
+    }
+    all.sort_by(|one, other| one.0.cmp(&other.0));
+    Ok(all)
+}
+
+#[test]
+fn they_hold_the_values_of_the_catalogue() -> Result<()> {
+    let mut ratios = Vec::new();
+    for (name, scene) in known_scenes()? {
+        for times in [0, 1, 2] {
+            let (problem, solution) = solved(&scene, times)?;
+            let own = outputs(&problem, &solution)?;
+            for (output, found) in of_outputs(&problem, &solution)? {
+                match found {
+                    Ok(found) => {
+                        let exact = found.exact.expect("an exact solution");
+                        check(&format!("{name}: {output}"), &found, exact);
+                        let off = (exact - found.center).abs();
+                        let off_own = (exact - own[&output].unwrap()).abs();
+                        println!(
+                            "{name} {times} {output} {:.4e} ± {:.1e} ratio {:.1} own {:.1}",
+                            found.center,
+                            found.plus_minus,
+                            found.plus_minus / off,
+                            found.plus_minus / off_own
+                        );
+                        ratios.push(found.plus_minus / off_own);
+                    }
+                    Err(why) => println!("{name} {times} {output}: {why}"),
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 /// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
 const HARMONIC: &str = r#"
 mesh = "grid"

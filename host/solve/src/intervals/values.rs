@@ -48,21 +48,20 @@ pub(super) fn cell(
     Ok((at, [sum, terms]))
 }
 
-/// ∫τ·n over a part of the boundary; with `directions` of the scene's boundaries the force of contact.
+/// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from.
 pub(super) fn flux(
     problem: &Problem,
     solution: &Solution,
     part: &Part,
-    directions: Option<&[f64]>,
+    is_force: bool,
 ) -> Result<[f64; 2]> {
     let [mut sum, mut terms] = [0.0; 2];
     for edge in part.edges() {
         let flux = solution.certified.tau[edge];
-        let table = problem.binding.boundary(problem.ends[edge]);
-        let (direction, end) = match (directions, table) {
-            (Some(_), _) if problem.kinds[edge] != EdgeKind::Contact => continue,
-            (Some(directions), Some(at)) => (directions[at], end(problem, edge, directions[at])?),
-            _ => (1.0, 0.0),
+        let (direction, end) = match is_force {
+            true if problem.kinds[edge] != EdgeKind::Contact => continue,
+            true => end(problem, edge)?,
+            false => (1.0, 0.0),
         };
         sum += direction * (flux - end);
         terms += flux.abs() + end.abs();
@@ -70,7 +69,7 @@ pub(super) fn flux(
     Ok([sum, terms])
 }
 
-/// 1 where the force of a boundary is measured from its least flux, −1 where it has none, and it is the way to its limit.
+/// 1 where the force on a boundary is measured from its least flux, −1 where it has none, and it is the way to its limit.
 pub(super) fn direction(problem: &Problem, table: usize) -> f64 {
     let Condition::Contact { flux, .. } = &problem.scene.boundaries[table].condition else {
         return 0.0;
@@ -78,9 +77,13 @@ pub(super) fn direction(problem: &Problem, table: usize) -> f64 {
     if flux.value.is_constant() == Some(f64::NEG_INFINITY) { -1.0 } else { 1.0 }
 }
 
-/// ∫_E of the end that the force on a contact edge is measured from.
-fn end(problem: &Problem, edge: usize, direction: f64) -> Result<f64> {
+/// The direction of the force on a contact edge, and ∫_E of the end that it is measured from.
+pub(super) fn end(problem: &Problem, edge: usize) -> Result<(f64, f64)> {
+    let table = problem.binding.boundary(problem.ends[edge]);
+    let direction = table.map_or(0.0, |table| direction(problem, table));
     let field = if direction > 0.0 { Field::Flux } else { Field::Limit };
-    let Some(end) = Sum::on_edge(problem, edge, field, problem.time) else { return Ok(0.0) };
-    Ok(problem.lengths[edge] * end.mean(problem.segment(edge))?)
+    let Some(end) = Sum::on_edge(problem, edge, field, problem.time) else {
+        return Ok((direction, 0.0));
+    };
+    Ok((direction, problem.lengths[edge] * end.mean(problem.segment(edge))?))
 }

@@ -5,5 +5,6 @@ pub mod contact;
 pub mod digits;
 pub mod edges;
 pub mod pvd;
+pub mod stated;
 pub mod summary;
 pub mod vtu;

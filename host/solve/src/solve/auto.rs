@@ -51,7 +51,7 @@ pub(super) fn in_f64(
     start: &[f64],
 ) -> Result<Solution> {
     if options.solver == SolverKind::Factor || prefers_factor(problem) {
-        if let Some(found) = by_factor::<f64>(problem, parts, options, start, None)? {
+        if let Some(found) = by_factor::<f64>(problem, parts, options, start)? {
             return Ok(found);
         }
         // Who has no answer leaves it to the kernel to say why.
@@ -72,16 +72,26 @@ pub(super) fn in_f32(
     start: &[f64],
 ) -> Result<Solution> {
     if (options.solver == SolverKind::Factor || prefers_factor(problem))
-        && let Some(found) = by_factor::<f32>(problem, parts, options, start, None)?
+        && let Some(found) = by_factor::<f32>(problem, parts, options, start)?
     {
         return Ok(found);
     }
     by_kernel::<f32>(problem, parts, options, start)
 }
 
-/// The answer of the kernel's factor alone, of the one that is known. Nothing where it cannot treat the problem, where a part is held by
-/// nothing, which leaves the matrix singular, where the factor would be too large, or where it leaves digits open.
+/// The answer of the kernel's factor alone: [`by_known_factor`] of a new one.
 pub(super) fn by_factor<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Option<Solution>> {
+    by_known_factor::<R>(problem, parts, options, start, None)
+}
+
+/// The answer of a factor alone, of the one that is known. Nothing where it cannot treat the problem, where a part is held by
+/// nothing, which leaves the matrix singular, where the factor would be too large, or where it leaves digits open.
+pub(super) fn by_known_factor<R: Scalar>(
     problem: &Problem,
     parts: &Parts,
     options: &Options,

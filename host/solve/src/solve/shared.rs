@@ -25,6 +25,6 @@ impl SharedFactor {
     /// Numbers that f64 cannot hold.
     pub fn solve(&self, problem: &Problem) -> Result<Option<Solution>> {
         let parts = Parts::examine(problem)?;
-        auto::by_factor(problem, &parts, &Options::default(), &[], Some(&self.0))
+        auto::by_known_factor(problem, &parts, &Options::default(), &[], Some(&self.0))
     }
 }

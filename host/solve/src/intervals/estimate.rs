@@ -1,0 +1,40 @@
+//! How far outputs move on the mesh refined once: an estimate of their errors, without a guarantee.
+
+use std::collections::BTreeMap;
+
+use super::Found;
+use crate::outputs::outputs;
+use crate::problem::Problem;
+use crate::solve::{Options, SolverKind, solve};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::adapted::adapted;
+
+/// Beyond so many unknowns there are none: the finer mesh has four times as many.
+const MOST_UNKNOWNS: usize = 25_000;
+
+/// Adds the estimates to intervals of outputs with these values.
+///
+/// # Errors
+/// Data that are not finite on the finer mesh.
+pub fn estimate(
+    problem: &Problem,
+    values: &BTreeMap<String, Option<f64>>,
+    intervals: &mut BTreeMap<String, Found>,
+) -> Result<()> {
+    let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
+    if !is_small || intervals.values().all(std::result::Result::is_err) {
+        return Ok(());
+    }
+    let Ok(mesh) = adapted(problem.mesh.as_ref().clone(), None, 1) else { return Ok(()) };
+    let mut finer = Problem::new(&problem.scene, mesh)?;
+    finer.set_time(problem.time)?;
+    let options = Options { solver: SolverKind::Factor, ..Options::default() };
+    let finer_values = outputs(&finer, &solve(&finer, &options)?)?;
+    for (name, found) in intervals {
+        let value = |of: &BTreeMap<String, Option<f64>>| of.get(name).copied().flatten();
+        if let (Ok(found), Some(own), Some(finer)) = (found, value(values), value(&finer_values)) {
+            found.estimate = Some((own - finer).abs());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! The value of an output for the exact solution, where a scene has one.
+
+use super::part::Part;
+use super::values::end;
+use crate::certify::cell::Cell;
+use crate::certify::conductivity::{Conductivity, apply, dot};
+use crate::functional::Functional;
+use crate::pointwise::{POINTS, exact_at};
+use crate::problem::{EdgeKind, Problem};
+use crate::quadrature::bisected::mean_on_edge;
+use crate::quadrature::gauss;
+use signorini_kernel::mesh::geometry::scaled_normal;
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Exact, Output, Quantity};
+
+/// That of a force, a flux, a mean, or of the mean over the cell of a probe.
+///
+/// # Errors
+/// An exact solution that is not finite in the middle of a cell.
+pub(super) fn value(problem: &Problem, exact: &Exact, output: &Output) -> Result<f64> {
+    let part = Part::new(problem, output);
+    let is_force = output.quantity == Quantity::Force;
+    match output.quantity {
+        Quantity::Probe { .. } => over_cell(problem, exact, output),
+        Quantity::Mean => {
+            Ok(part.edges().map(|edge| of_u(problem, exact, edge)).sum::<f64>() / part.length())
+        }
+        _ => part.edges().map(|edge| of_flux(problem, exact, edge, is_force)).sum(),
+    }
+}
+
+/// ∫_E u
+fn of_u(problem: &Problem, exact: &Exact, edge: usize) -> f64 {
+    let u = |x: f64, y: f64| exact.u.value.eval(x, y, problem.time);
+    problem.lengths[edge] * mean_on_edge(problem.segment(edge), &u)
+}
+
+/// ∫_E (A∇u)·n, as a force from the end that it is measured from.
+fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Result<f64> {
+    let segment @ [a, b] = problem.segment(edge);
+    let normal: [f64; 2] = scaled_normal(a, b).into();
+    let (cell, _) = problem.topology.first_side(edge);
+    let conductivity = Conductivity::of(problem, cell);
+    let along = |x: f64, y: f64| {
+        let gradient = [0, 1].map(|k| exact.gradient[k].value.eval(x, y, problem.time));
+        dot(apply(&conductivity.at([x, y]), gradient), normal)
+    };
+    let flux = mean_on_edge(segment, &along);
+    Ok(match is_force {
+        false => flux,
+        true if problem.kinds[edge] != EdgeKind::Contact => 0.0,
+        true => {
+            let (direction, end) = end(problem, edge)?;
+            direction * (flux - end)
+        }
+    })
+}
+
+/// The mean over the cell of a probe; on quads that in its reference coordinates.
+fn over_cell(problem: &Problem, exact: &Exact, output: &Output) -> Result<f64> {
+    let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(f64::NAN) };
+    let cell = Cell::of(problem, at);
+    let mut sum = 0.0;
+    for point in cell.points(&gauss(POINTS)) {
+        let weight = cell.spread(point.weight, cell.local(point.reference).determinant);
+        sum += weight * exact_at(&problem.scene, exact, point.x, problem.time)?.0;
+    }
+    Ok(sum)
+}
