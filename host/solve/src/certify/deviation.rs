@@ -6,6 +6,7 @@ use super::cell::{Jet, Local};
 use super::ends::Ends;
 use super::energy::{CellEnergy, Sample};
 use crate::problem::{Problem, Sum};
+use crate::quadrature::bisected::mean_on_edge;
 use crate::quadrature::{DATA_POINTS, on_panels};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
@@ -110,6 +111,15 @@ impl Deviation<'_> {
     pub fn value(&self, t: f64) -> f64 {
         let [x, y] = self.place(t);
         self.data.at(x, y) - (self.ends[0] + t * (self.ends[1] - self.ends[0]))
+    }
+
+    /// ∫₀¹ w dt, with the data integrated as loads are.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn mean(&self) -> Result<f64> {
+        let mean = mean_on_edge(self.segment, &|x, y| self.data.at(x, y));
+        Ok(self.data.finite(mean, self.segment[0])? - 0.5 * (self.ends[0] + self.ends[1]))
     }
 
     /// By how much these values at the ends of the edge are above the data.

@@ -13,17 +13,17 @@
 
 use std::collections::BTreeMap;
 
+use super::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
 use crate::certify::curved::{followed, peak};
 use crate::certify::deviation::Deviations;
 use crate::certify::ends::Ends;
 use crate::problem::{EdgeKind, Problem, spread};
-use crate::solve::Solution;
 use signorini_scene::error::Result;
 
-/// A part of a flux that is rounding.
-const ROUNDING: f64 = 1e-13;
+/// Roundings of its scalar up to which a number is taken for another one; what that drops is counted.
+const ROUNDINGS: f64 = 64.0;
 
 /// How far u_D may be below ψ, as a part of the largest datum: what a scene is refused for begins there.
 const CORNERS: f64 = 1e-9;
@@ -40,36 +40,36 @@ pub(super) struct ContactEdge {
     pub left: [f64; 2],
     /// Signs that u − ψ may have, or that σ·n − τ·n may have where `clear` is not 0.
     pub may: [bool; 2],
+    /// What is taken for 0: |s − ψ|, and ∫|τ·n − its end|.
+    dropped: [f64; 2],
 }
 
 /// All contact edges in their order.
 ///
 /// # Errors
 /// Data that are not finite.
-pub(super) fn contact_edges(problem: &Problem, solution: &Solution) -> Result<Vec<ContactEdge>> {
+pub(super) fn contact_edges(problem: &Problem, answer: &Answered) -> Result<Vec<ContactEdge>> {
     let counts = problem.topology.counts;
     if counts.contact == 0 {
         return Ok(Vec::new());
     }
-    let (ends, s) = (Ends::at_time(problem, problem.time)?, solution.certified.admissible());
+    let (ends, s) = (Ends::at_time(problem, problem.time)?, answer.certified.admissible());
+    let epsilon = ROUNDINGS * answer.scalar.epsilon();
     let (all, followed) = (Deviations::at_time(problem, problem.time)?, followed(problem, &s)?);
     let mut edges = Vec::with_capacity(counts.contact);
     for (at, gap) in ends.gap.iter().enumerate() {
         let edge = counts.free + at;
         let values = problem.ends[edge].map(|vertex| s.vertices[vertex as usize]);
-        // What u_D lies below ψ by rounding, the oscillation counts.
-        let counted = CORNERS * ends.scale();
-        let end = |k: usize| match values[k] - gap[k] {
-            end if (-counted..=0.0).contains(&end) => 0.0,
-            end => end,
-        };
         let not_followed = all.on(edge).filter(|_| followed.on(edge).is_none());
         let above = Above {
-            ends: [end(0), end(1)],
+            ends: [values[0] - gap[0], values[1] - gap[1]],
             bubble: s.bubbles[edge],
             peak: not_followed.map_or(Ok(0.0), peak)?,
         };
-        edges.push(ContactEdge::new(problem, edge, s.tau[edge], &above));
+        // What u_D lies below ψ by rounding, the oscillation counts.
+        let slack = epsilon * ends.scale();
+        let (above, dropped) = above.without(slack, CORNERS * ends.scale());
+        edges.push(ContactEdge::new(problem, edge, s.tau[edge], &above, dropped, epsilon));
     }
     Ok(edges)
 }
@@ -82,6 +82,16 @@ struct Above {
 }
 
 impl Above {
+    /// Where all of it is rounding, 0 and how much that drops; ends that are below 0 by less than `counted` are 0.
+    fn without(self, slack: f64, counted: f64) -> (Self, f64) {
+        let size = self.ends.iter().map(|end| end.abs()).fold(self.bubble.abs(), f64::max);
+        if size <= slack && self.peak == 0.0 {
+            return (Self { ends: [0.0; 2], bubble: 0.0, peak: 0.0 }, 2.0 * size);
+        }
+        let end = |end: f64| if (-counted..=0.0).contains(&end) { 0.0 } else { end };
+        (Self { ends: self.ends.map(end), ..self }, 0.0)
+    }
+
     fn is_zero(&self) -> bool {
         self.ends == [0.0; 2] && self.bubble == 0.0 && self.peak == 0.0
     }
@@ -101,12 +111,27 @@ impl Above {
 }
 
 impl ContactEdge {
-    fn new(problem: &Problem, edge: usize, tau: f64, above: &Above) -> Self {
+    fn new(
+        problem: &Problem,
+        edge: usize,
+        tau: f64,
+        above: &Above,
+        dropped: f64,
+        epsilon: f64,
+    ) -> Self {
         let at = edge - problem.topology.counts.free;
         let ends @ [least, most] = problem.loads.flux_range(at).ends();
         let left = ends.map(|end| end - tau);
-        let is_at = |end: f64| (tau - end).abs() <= ROUNDING * tau.abs();
-        let none = Self { edge, room: 0.0, clear: [0.0; 2], left, may: [true; 2] };
+        let off = |end: f64| (tau - end).abs();
+        let is_at = |end: f64| end.is_finite() && off(end) <= epsilon * (tau.abs() + end.abs());
+        let none = Self {
+            edge,
+            room: 0.0,
+            clear: [0.0; 2],
+            left,
+            may: [true; 2],
+            dropped: [dropped, 0.0],
+        };
         if least == most {
             return Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none };
         }
@@ -120,8 +145,18 @@ impl ContactEdge {
         }
         let is_above = above.ends.iter().all(|&end| end >= 0.0);
         match is_above {
-            true if is_at(least) => Self { clear: above.clear(1.0), may: [false, true], ..none },
-            false if is_at(most) => Self { clear: above.clear(-1.0), may: [true, false], ..none },
+            true if is_at(least) => Self {
+                clear: above.clear(1.0),
+                may: [false, true],
+                dropped: [dropped, off(least)],
+                ..none
+            },
+            false if is_at(most) => Self {
+                clear: above.clear(-1.0),
+                may: [true, false],
+                dropped: [dropped, off(most)],
+                ..none
+            },
             _ => none,
         }
     }
@@ -218,6 +253,11 @@ impl Part {
         let lowers = (flux > 0.0 && above) || (flux < 0.0 && below);
         let raises = (flux < 0.0 && above) || (flux > 0.0 && below);
         self.widen([lowers, raises], part);
+        self.drop(flux.abs() * of.dropped[0]);
+    }
+
+    fn drop(&mut self, by: f64) {
+        self.loose = [self.loose[0] - by, self.loose[1] + by];
     }
 
     /// ∫(σ − τ)·n z′ within the part of s − ψ.
@@ -228,6 +268,7 @@ impl Part {
             let raises = (z > 0.0 && rises) || (z < 0.0 && falls);
             self.widen([lowers, raises], z.abs() / clear);
         }
+        self.drop(z.into_iter().fold(0.0, |most: f64, z| most.max(z.abs())) * of.dropped[1]);
     }
 
     fn widen(&mut self, sides: [bool; 2], part: f64) {

@@ -5,13 +5,17 @@ use super::values::end;
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{Conductivity, apply, dot};
 use crate::functional::Functional;
-use crate::pointwise::{POINTS, exact_at};
+use crate::pointwise::exact_at;
 use crate::problem::{EdgeKind, Problem};
 use crate::quadrature::bisected::mean_on_edge;
-use crate::quadrature::gauss;
+use crate::quadrature::{gauss, on_panels};
 use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Exact, Output, Quantity};
+
+/// Panels a direction of a cell, and points on each: u may have kinks inside.
+const PANELS: u32 = 8;
+const POINTS: usize = 8;
 
 /// That of a force, a flux, a mean, or of the mean over the cell of a probe.
 ///
@@ -50,7 +54,7 @@ fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Res
         false => flux,
         true if problem.kinds[edge] != EdgeKind::Contact => 0.0,
         true => {
-            let (direction, end) = end(problem, edge)?;
+            let (direction, [end, _]) = end(problem, edge)?;
             direction * (flux - end)
         }
     })
@@ -61,7 +65,7 @@ fn over_cell(problem: &Problem, exact: &Exact, output: &Output) -> Result<f64> {
     let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(f64::NAN) };
     let cell = Cell::of(problem, at);
     let mut sum = 0.0;
-    for point in cell.points(&gauss(POINTS)) {
+    for point in cell.points(&on_panels(PANELS, &gauss(POINTS))) {
         let weight = cell.spread(point.weight, cell.local(point.reference).determinant);
         sum += weight * exact_at(&problem.scene, exact, point.x, problem.time)?.0;
     }

@@ -10,19 +10,20 @@
 //!   flux    z = ±1 on P, 0 on the rest of D and C,  ζ·n = 0 on N,  ζ·n = h (1_P − z) on R
 //! ```
 
+use super::Answered;
 use super::part::Part;
-use super::values;
+use super::values::{self, Value};
+use crate::certify::cell::Cell;
 use crate::problem::{EdgeKind, Problem};
-use crate::solve::Solution;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Output, Quantity};
+use signorini_scene::scene::{Field, Output, Quantity};
 
 /// A linear output.
 pub(super) struct Goal {
     /// 1 of u, −1 of σ.
     pub sign: f64,
-    /// J(s) or J(τ), and the size of what it is summed from.
-    pub start: [f64; 2],
+    /// J(s) or J(τ).
+    pub start: Value,
     /// z on each of the scene's boundaries with a given u, a gap, or a transfer law that is asked for its flux.
     pub values: Vec<f64>,
     /// ζ·n on each of the scene's boundaries, as far as no u makes it.
@@ -41,27 +42,30 @@ impl Goal {
     ///
     /// # Errors
     /// Data that are not finite, a probe outside the mesh.
-    pub fn of(problem: &Problem, solution: &Solution, output: &Output) -> Result<Posed> {
+    pub fn of(problem: &Problem, answer: &Answered, output: &Output) -> Result<Posed> {
         let part = Part::new(problem, output);
         let none = |why: &str| Ok(Err(why.to_owned()));
         match output.quantity {
             Quantity::Length | Quantity::Saturated => none("the length of a contact set has none"),
             Quantity::Bound => none("it is a bound itself"),
-            Quantity::Probe { .. } => Self::of_cell(problem, solution, output).map(Ok),
+            Quantity::Probe { .. } => match values::cell(problem, answer, output)? {
+                Some((cell, start)) => Ok(Ok(Self::of_cell(problem, cell, start))),
+                None => none("it is outside the mesh"),
+            },
             _ if part.kind().is_none() => none("its boundary has no edge"),
-            Quantity::Mean => Self::of_mean(problem, solution, &part).map(Ok),
+            Quantity::Mean => Self::of_mean(problem, answer, &part).map(Ok),
             Quantity::Flux | Quantity::Force => {
-                Self::of_flux(problem, solution, &part, output.quantity).map(Ok)
+                Self::of_flux(problem, answer, &part, output.quantity).map(Ok)
             }
         }
     }
 
-    fn of_mean(problem: &Problem, solution: &Solution, part: &Part) -> Result<Self> {
+    fn of_mean(problem: &Problem, answer: &Answered, part: &Part) -> Result<Self> {
         let density = 1.0 / part.length();
         let tables = 0..problem.scene.boundaries.len();
         Ok(Self {
             sign: 1.0,
-            start: values::mean(problem, solution, part)?,
+            start: values::mean(problem, answer, part)?,
             values: vec![0.0; tables.len()],
             densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
             cell: None,
@@ -69,23 +73,17 @@ impl Goal {
         })
     }
 
-    fn of_cell(problem: &Problem, solution: &Solution, output: &Output) -> Result<Self> {
-        let (cell, start) = values::cell(problem, solution, output)?;
+    fn of_cell(problem: &Problem, cell: usize, start: Value) -> Self {
         let none = vec![0.0; problem.scene.boundaries.len()];
-        let [x, y] = crate::certify::cell::Cell::of(problem, cell).middle();
-        Ok(Self {
-            sign: 1.0,
-            start,
-            values: none.clone(),
-            densities: none,
-            cell: Some(cell),
-            of: format!("the mean of u over the cell around ({x}, {y})"),
-        })
+        let [x, y] = Cell::of(problem, cell).middle();
+        let of = format!("the mean of u over the cell around ({x}, {y})");
+        let (values, densities) = (none.clone(), none);
+        Self { sign: 1.0, start, values, densities, cell: Some(cell), of }
     }
 
     fn of_flux(
         problem: &Problem,
-        solution: &Solution,
+        answer: &Answered,
         part: &Part,
         quantity: Quantity,
     ) -> Result<Self> {
@@ -96,7 +94,7 @@ impl Goal {
             false => 0.0,
         };
         let values: Vec<f64> = (0..problem.scene.boundaries.len()).map(weight).collect();
-        let start = values::flux(problem, solution, part, is_force)?;
+        let start = values::flux(problem, answer, part, is_force)?;
         let of = match is_force {
             true => format!("the force ∫λ over {}", part.name()),
             false => format!("the flux (A∇u)·n over {}", part.name()),
@@ -105,13 +103,17 @@ impl Goal {
         Ok(Self { sign: -1.0, start, values, densities, cell: None, of })
     }
 
-    /// Whether the data already are its value: a flux through N, a mean over D.
-    pub fn is_given(&self, problem: &Problem, output: &Output) -> bool {
-        let kind = Part::new(problem, output).kind();
-        match output.quantity {
-            Quantity::Flux => kind == Some(EdgeKind::Neumann),
-            Quantity::Mean => kind == Some(EdgeKind::Dirichlet),
-            _ => false,
-        }
+    /// The value where the data give it: of a flux through N, of a mean over D.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn given(problem: &Problem, output: &Output) -> Result<Option<Value>> {
+        let part = Part::new(problem, output);
+        let field = match (output.quantity, part.kind()) {
+            (Quantity::Flux, Some(EdgeKind::Neumann)) => Field::Flux,
+            (Quantity::Mean, Some(EdgeKind::Dirichlet)) => Field::Value,
+            _ => return Ok(None),
+        };
+        values::given(problem, &part, field).map(Some)
     }
 }

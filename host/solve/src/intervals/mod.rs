@@ -30,9 +30,10 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::certify::{CertifiedFields, ErrorBound};
 use crate::functional::wanted;
 use crate::problem::Problem;
-use crate::solve::{SharedFactor, Solution, times};
+use crate::solve::{ScalarKind, SharedFactor, Solution, times};
 use crate::threads::on_two_threads;
 pub use estimate::estimate;
 
@@ -42,6 +43,7 @@ use goal::Goal;
 use products::{Products, Residual};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity};
+use values::Value;
 
 /// Beyond so many unknowns no intervals are worked out: each takes some factors of its own.
 pub const MOST_UNKNOWNS: usize = 200_000;
@@ -53,8 +55,11 @@ const STEP: f64 = 2.5;
 /// What is beyond every part that contact can ask for.
 const ALL: f64 = 1e12;
 
-/// What sums of the host round, next to their terms.
-const ROUNDING: f64 = 1e-13;
+/// Roundings of the scalar that sums may be off, next to their terms.
+const ROUNDINGS: f64 = 512.0;
+
+/// What the quadrature of smooth data may miss, next to their size.
+const INTEGRATED: f64 = 2e-9;
 
 /// Where the value of an output lies for the exact solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -85,15 +90,32 @@ impl OutputBound {
 /// An interval, or why there is none.
 pub type Found = std::result::Result<OutputBound, String>;
 
-/// That of every output, with those that a scene without any has.
+/// An answer of a solve or a tick.
+#[derive(Debug, Clone, Copy)]
+pub struct Answered<'a> {
+    /// s and τ.
+    pub certified: &'a CertifiedFields,
+    /// How wrong they may be.
+    pub bound: Option<ErrorBound>,
+    /// What they were worked out in.
+    pub scalar: ScalarKind,
+}
+
+impl<'a> From<&'a Solution> for Answered<'a> {
+    fn from(Solution { certified, bound, scalar, .. }: &'a Solution) -> Self {
+        Self { certified, bound: *bound, scalar: *scalar }
+    }
+}
+
+/// That of every output of a solution, with those that a scene without any has.
 ///
 /// # Errors
 /// Data that are not finite.
 pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Found>> {
-    let Some(scaled) = &solution.scaled else { return in_its_units(problem, solution) };
+    let Some(scaled) = &solution.scaled else { return of_answer(problem, &solution.into()) };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
     let units = solution.units;
-    let mut all = in_its_units(scaled, &times(&units.inverse(), solution.clone()))?;
+    let mut all = of_answer(scaled, &(&times(&units.inverse(), solution.clone())).into())?;
     for output in wanted(&problem.scene).iter() {
         let unit = match output.quantity {
             Quantity::Flux | Quantity::Force => units.flux(),
@@ -106,11 +128,15 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Str
     Ok(all)
 }
 
-fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Found>> {
+/// The same of any answer, whose numbers are near 1.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String, Found>> {
     let all = wanted(&problem.scene);
     let names = || all.iter().map(|output| output.name.value.clone());
     let none = |why: &str| Ok(names().map(|name| (name, Err(why.to_owned()))).collect());
-    let Some(bound) = solution.bound else { return none("the solution has no error bound") };
+    let Some(bound) = answer.bound else { return none("the solution has no error bound") };
     if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
@@ -120,11 +146,10 @@ fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Strin
     let known = Known {
         factor,
         problem,
-        solution,
-        contact: contact_edges(problem, solution)?,
-        residual: Residual::new(problem, solution)?,
-        total: bound.total,
-        oscillation: bound.oscillation,
+        answer,
+        contact: contact_edges(problem, answer)?,
+        residual: Residual::new(problem, answer)?,
+        bound,
     };
     let found = on_two_threads(&all, |output| known.interval(output), || ())?;
     Ok(names().zip(found).collect())
@@ -134,11 +159,10 @@ fn in_its_units(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Strin
 struct Known<'p> {
     factor: SharedFactor,
     problem: &'p Problem,
-    solution: &'p Solution,
+    answer: &'p Answered<'p>,
     contact: Vec<ContactEdge>,
     residual: Residual<'p>,
-    total: f64,
-    oscillation: f64,
+    bound: ErrorBound,
 }
 
 impl Known<'_> {
@@ -151,12 +175,12 @@ impl Known<'_> {
     }
 
     fn bounded(&self, output: &Output) -> Result<Found> {
-        let goal = match Goal::of(self.problem, self.solution, output)? {
+        let goal = match Goal::of(self.problem, self.answer, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
-        if goal.is_given(self.problem, output) {
-            return Ok(Ok(around(&goal, [0.0; 2])));
+        if let Some(start) = Goal::given(self.problem, output)? {
+            return Ok(Ok(self.around(&Goal { start, ..goal }, [0.0; 2])));
         }
         let mut dual = Dual::new(self.problem, &goal)?;
         // The least part that may be the best one, and then larger ones as long as they are better.
@@ -177,7 +201,7 @@ impl Known<'_> {
             part = if trial == 0 { first.part } else { STEP * part };
         }
         Ok(match best.iter().all(|end| end.is_finite()) {
-            true => Ok(around(&goal, best)),
+            true => Ok(self.around(&goal, best)),
             false => Err("nothing bounds it from both sides: where its boundary ends, so does what is known of the flux".to_owned()),
         })
     }
@@ -194,14 +218,34 @@ impl Known<'_> {
         let differ = contact::keep(problem, goal, contact, part, takes_least, &mut weights);
         let left = contact::left(problem, goal, contact, &weights);
         let Products { residual, weights, both, sizes } = self.residual.with(goal, &weights)?;
-        let middle = (0.5 * self.total * self.total - 0.25 * residual).max(0.0).sqrt();
+        let ErrorBound { total, oscillation, rounding, .. } = self.bound;
+        let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
         let distance = weights.max(0.0).sqrt();
         let [less, more] = left.part.map(|part| most(distance, middle, part));
         let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
-        let rest = (self.oscillation + ROUNDING * self.total) * sizes;
+        let rest = (oscillation + rounding + self.rounding() * total) * sizes;
         let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
         let ends = [0.5 * both + low, 0.5 * both + high];
         Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))
+    }
+
+    /// J from {…}.
+    fn around(&self, goal: &Goal, braces: [f64; 2]) -> OutputBound {
+        let Value { value, terms, largest } = goal.start;
+        let rounding = self.rounding() * (terms + largest) + INTEGRATED * terms;
+        let [low, high] = braces;
+        OutputBound {
+            center: value + goal.sign * 0.5 * (low + high),
+            plus_minus: 0.5 * (high - low) + rounding,
+            of: goal.of.clone(),
+            estimate: None,
+            exact: None,
+        }
+    }
+
+    /// What sums round, next to their terms.
+    fn rounding(&self) -> f64 {
+        ROUNDINGS * self.answer.scalar.epsilon()
     }
 }
 
@@ -224,18 +268,5 @@ fn most(distance: f64, middle: f64, part: f64) -> f64 {
     match 2.0 * part * middle > distance {
         true => part * middle * middle + distance * distance / (4.0 * part),
         false => distance * middle,
-    }
-}
-
-/// J from {…}.
-fn around(goal: &Goal, braces: [f64; 2]) -> OutputBound {
-    let [value, terms] = goal.start;
-    let [low, high] = braces;
-    OutputBound {
-        center: value + goal.sign * 0.5 * (low + high),
-        plus_minus: 0.5 * (high - low) + ROUNDING * terms,
-        of: goal.of.clone(),
-        estimate: None,
-        exact: None,
     }
 }

@@ -3,6 +3,7 @@
 //!   ⟨a, b⟩ = ∫ a·A⁻¹b + ∫_R a b/h          r on R is τ·n + h (s − u_ext),   ζ·n ± (h z − κ) that of ζ ∓ A∇z
 //! ```
 
+use super::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
 use crate::certify::admissible::{Admissible, Following};
@@ -14,7 +15,6 @@ use crate::certify::robin::robin;
 use crate::field::CellField;
 use crate::problem::Problem;
 use crate::quadrature::{DATA_POINTS, gauss};
-use crate::solve::Solution;
 use crate::threads::in_portions;
 use signorini_kernel::Real;
 use signorini_scene::error::Result;
@@ -85,8 +85,8 @@ impl<'p> Residual<'p> {
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn new(problem: &'p Problem, solution: &'p Solution) -> Result<Self> {
-        let s = solution.certified.admissible();
+    pub fn new(problem: &'p Problem, answer: &Answered<'p>) -> Result<Self> {
+        let s = answer.certified.admissible();
         Ok(Self { problem, s, deviations: followed(problem, &s)? })
     }
 

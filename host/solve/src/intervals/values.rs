@@ -1,72 +1,109 @@
-//! Outputs of s and τ, the functions that the error bound is about: each with the size of what it is summed from.
+//! Outputs of s and τ, the functions that the error bound is about, and such that the data give.
 
+use super::Answered;
 use super::part::Part;
 use crate::certify::cell::Cell;
 use crate::certify::curved::{self, followed};
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
-use crate::quadrature::{DATA_POINTS, gauss};
-use crate::solve::Solution;
-use signorini_kernel::Real;
+use crate::quadrature::bisected::mean_on_edge;
+use crate::quadrature::gauss;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Field, Output};
 
-/// The mean of s over a part of the boundary.
-pub(super) fn mean(problem: &Problem, solution: &Solution, part: &Part) -> Result<[f64; 2]> {
-    let s = solution.certified.admissible();
+/// The value of an output, and what it may be off beside the error of s and τ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value {
+    /// The value.
+    pub value: f64,
+    /// The size of what it is summed from: data are integrated up to a part of it.
+    pub terms: f64,
+    /// The size of all numbers of its kind: the solver's scalar rounds next to it.
+    pub largest: f64,
+}
+
+/// A mean over a part of the boundary, or a flux through it, that the data give: over D or through N. Nothing for others.
+pub(super) fn given(problem: &Problem, part: &Part, field: Field) -> Result<Value> {
+    let [mut value, mut terms] = [0.0; 2];
+    for edge in part.edges() {
+        let Some(data) = Sum::on_edge(problem, edge, field, problem.time) else { continue };
+        let [of_edge, size] = integral(problem, edge, &data)?;
+        (value, terms) = (value + of_edge, terms + size);
+    }
+    if field == Field::Value {
+        (value, terms) = (value / part.length(), terms / part.length());
+    }
+    Ok(Value { value, terms, largest: 0.0 })
+}
+
+/// ∫_E of data and of their modulus, on parts of the edge where they are not smooth.
+fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
+    let segment = problem.segment(edge);
+    let mean = mean_on_edge(segment, &|x, y| data.at(x, y));
+    let size = mean_on_edge(segment, &|x, y| data.at(x, y).abs());
+    let length = problem.lengths[edge];
+    Ok([length * data.finite(mean, segment[0])?, length * size])
+}
+
+/// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.
+pub(super) fn mean(problem: &Problem, answer: &Answered, part: &Part) -> Result<Value> {
+    let s = answer.certified.admissible();
     let deviations = followed(problem, &s)?;
     let [mut sum, mut terms] = [0.0; 2];
     for edge in part.edges() {
-        for &[t, weight] in f64::GAUSS[DATA_POINTS - 1] {
-            let value = s.on_edge(problem, edge, deviations.on(edge), t)?;
-            sum += problem.lengths[edge] * weight * value;
-            terms += problem.lengths[edge] * weight * value.abs();
-        }
+        let [a, b] = problem.ends[edge].map(|vertex| s.vertices[vertex as usize]);
+        let above = deviations.on(edge).map_or(Ok(0.0), |deviation| deviation.mean())?;
+        let bubble = 2.0 / 3.0 * s.bubbles[edge];
+        sum += problem.lengths[edge] * (0.5 * (a + b) + bubble + above);
+        terms += problem.lengths[edge] * (a.abs() + b.abs() + bubble.abs() + above.abs());
     }
-    Ok([sum / part.length(), terms / part.length()])
+    let length = part.length();
+    Ok(Value { value: sum / length, terms: terms / length, largest: largest(s.vertices) })
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// The cell with a probe, and the mean of s over it; on quads that in its reference coordinates.
 pub(super) fn cell(
     problem: &Problem,
-    solution: &Solution,
+    answer: &Answered,
     output: &Output,
-) -> Result<(usize, [f64; 2])> {
-    let Functional::Probe(at, _) = Functional::of(problem, output)? else {
-        return Ok((0, [f64::NAN; 2]));
-    };
-    let (cell, s) = (Cell::of(problem, at), solution.certified.admissible());
+) -> Result<Option<(usize, Value)>> {
+    let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(None) };
+    let (cell, s) = (Cell::of(problem, at), answer.certified.admissible());
     let deviations = followed(problem, &s)?;
-    let s = s.on_cell(problem, at, &deviations);
-    let [mut sum, mut terms] = [0.0; 2];
+    let on_cell = s.on_cell(problem, at, &deviations);
+    let [mut value, mut terms] = [0.0; 2];
     for point in curved::points(problem, at, &deviations, &gauss(curved::POINTS))? {
         let local = cell.local(point.reference);
-        let (value, weight) = (s.at(&local)?.value, cell.spread(point.weight, local.determinant));
-        sum += weight * value;
-        terms += weight * value.abs();
+        let here = on_cell.at(&local)?.value;
+        let weight = cell.spread(point.weight, local.determinant);
+        (value, terms) = (value + weight * here, terms + weight * here.abs());
     }
-    Ok((at, [sum, terms]))
+    Ok(Some((at, Value { value, terms, largest: largest(s.vertices) })))
 }
 
 /// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from.
 pub(super) fn flux(
     problem: &Problem,
-    solution: &Solution,
+    answer: &Answered,
     part: &Part,
     is_force: bool,
-) -> Result<[f64; 2]> {
-    let [mut sum, mut terms] = [0.0; 2];
+) -> Result<Value> {
+    let [mut value, mut terms] = [0.0; 2];
     for edge in part.edges() {
-        let flux = solution.certified.tau[edge];
-        let (direction, end) = match is_force {
+        let flux = answer.certified.tau[edge];
+        let (direction, [end, size]) = match is_force {
             true if problem.kinds[edge] != EdgeKind::Contact => continue,
             true => end(problem, edge)?,
-            false => (1.0, 0.0),
+            false => (1.0, [0.0; 2]),
         };
-        sum += direction * (flux - end);
-        terms += flux.abs() + end.abs();
+        value += direction * (flux - end);
+        terms += flux.abs() + size;
     }
-    Ok([sum, terms])
+    Ok(Value { value, terms, largest: largest(&answer.certified.tau) })
 }
 
 /// 1 where the force on a boundary is measured from its least flux, −1 where it has none, and it is the way to its limit.
@@ -77,13 +114,13 @@ pub(super) fn direction(problem: &Problem, table: usize) -> f64 {
     if flux.value.is_constant() == Some(f64::NEG_INFINITY) { -1.0 } else { 1.0 }
 }
 
-/// The direction of the force on a contact edge, and ∫_E of the end that it is measured from.
-pub(super) fn end(problem: &Problem, edge: usize) -> Result<(f64, f64)> {
+/// The direction of the force on a contact edge, and ∫_E of the end that it is measured from, with its size.
+pub(super) fn end(problem: &Problem, edge: usize) -> Result<(f64, [f64; 2])> {
     let table = problem.binding.boundary(problem.ends[edge]);
     let direction = table.map_or(0.0, |table| direction(problem, table));
     let field = if direction > 0.0 { Field::Flux } else { Field::Limit };
     let Some(end) = Sum::on_edge(problem, edge, field, problem.time) else {
-        return Ok((direction, 0.0));
+        return Ok((direction, [0.0; 2]));
     };
-    Ok((direction, problem.lengths[edge] * end.mean(problem.segment(edge))?))
+    Ok((direction, integral(problem, edge, &end)?))
 }

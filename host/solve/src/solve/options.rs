@@ -25,6 +25,14 @@ impl ScalarKind {
             Self::F32 => f64::from(x as f32),
         }
     }
+
+    /// The gap between 1 and the next number.
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Self::F64 => f64::EPSILON,
+            Self::F32 => f64::from(f32::EPSILON),
+        }
+    }
 }
 
 /// Who solves.

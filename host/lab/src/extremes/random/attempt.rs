@@ -10,8 +10,7 @@ use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::certify::{self, ErrorBound};
 use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve, status_name};
+use signorini_solve::solve::{Options, Solution, SolverKind, solve, status_name};
 
 /// What a solver says, in the scene's units.
 #[derive(Debug, Clone)]
@@ -149,13 +148,5 @@ impl SolverAnswer {
         let parts = [&self.u, &self.flux, &certified.vertices, &certified.bubbles, &certified.tau];
         let bound = self.bound.is_none_or(|bound| bound.total.is_finite());
         bound && self.force.is_finite() && parts.into_iter().flatten().all(|x| x.is_finite())
-    }
-}
-
-/// ε of a scalar.
-pub fn rounding(scalar: ScalarKind) -> f64 {
-    match scalar {
-        ScalarKind::F64 => f64::EPSILON,
-        ScalarKind::F32 => <f32 as signorini_kernel::Real>::EPSILON.wide(),
     }
 }

@@ -9,19 +9,21 @@
 use super::attempt::{Attempt, SolverAnswer};
 use super::case::{RandomCase, Yardstick};
 use super::nested::{Apart, MeshSolution, apart};
+use super::outputs::Intervals;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::{Distance, distance_on};
 use signorini_solve::certify::robin::missed;
+use signorini_solve::intervals::Answered;
 use signorini_solve::norms::errors;
 use signorini_solve::problem::Problem;
 use signorini_solve::quadrature::{gauss, on_panels};
-use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, solve};
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, choose_units, solve};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
     /// Its bound.
     pub bound: Option<ErrorBound>,
@@ -42,6 +44,8 @@ pub struct Measured {
     pub energy: f64,
     /// The bound of the exact discrete solution on the same mesh.
     pub best: Option<f64>,
+    /// Intervals of outputs.
+    pub intervals: Intervals,
 }
 
 impl Measured {
@@ -81,7 +85,9 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
     };
     let Some(bound) = answer.bound else { return Ok(None) };
     // An answer without s and τ has nothing to be measured.
-    let held = Held { problem: &problem, answer: &answer, bound };
+    let number = case.number;
+    let scalar = case.effort.scalar;
+    let held = Held { problem: &problem, answer: &answer, bound, scalar, number };
     let mut found = match case.truth {
         Yardstick::Finer => held.by_finer(case)?,
         Yardstick::Catalogue | Yardstick::Made => Some(held.by_exact()?),
@@ -97,9 +103,16 @@ struct Held<'a> {
     problem: &'a Problem,
     answer: &'a SolverAnswer,
     bound: ErrorBound,
+    scalar: ScalarKind,
+    number: u32,
 }
 
 impl Held<'_> {
+    fn answered(&self) -> Answered<'_> {
+        let certified = &self.answer.certified;
+        Answered { certified, bound: Some(self.bound), scalar: self.scalar }
+    }
+
     fn side(&self) -> MeshSolution<'_> {
         let SolverAnswer { u, certified, .. } = self.answer;
         MeshSolution { problem: self.problem, admissible: certified.admissible(), u }
@@ -129,6 +142,7 @@ impl Held<'_> {
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
+            found.intervals = Intervals::by_exact(self.number, problem, &self.answered())?;
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
         }
@@ -163,6 +177,8 @@ impl Held<'_> {
         let Ok(solution) = directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
+        let intervals =
+            Intervals::by_finer(self.number, problem, &self.answered(), (&finer, &solution))?;
         let fine = MeshSolution { problem: &finer, admissible: certified.admissible(), u };
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];
@@ -187,6 +203,7 @@ impl Held<'_> {
             uncertain,
             energy: found.energy,
             best: None,
+            intervals,
         }))
     }
 }

@@ -16,6 +16,7 @@ mod made;
 mod measure;
 mod mesh;
 mod nested;
+mod outputs;
 mod posed;
 pub mod record;
 mod residual;

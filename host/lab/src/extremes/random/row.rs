@@ -43,6 +43,8 @@ pub struct Row {
     pub of_u_over_bound: Option<f64>,
     /// |gap/identity − 1|
     pub identity_off: Option<f64>,
+    /// The largest distance of an output from the middle of its interval, over its half-width.
+    pub output_over_interval: Option<f64>,
     /// The bound over ‖A^½∇s‖.
     pub relative_bound: Option<f64>,
     /// Wall-clock seconds of the answer, and with the truth.
@@ -94,6 +96,7 @@ impl Row {
             error_over_bound: None,
             of_u_over_bound: None,
             identity_off: None,
+            output_over_interval: None,
             relative_bound: None,
             seconds: 0.0,
             seconds_in_all: 0.0,
@@ -127,6 +130,9 @@ impl Row {
             error_over_bound: measured.and_then(|of| over(of.least()[0], total(of) + of.total)),
             of_u_over_bound: measured.and_then(|of| over(of.least()[1], of.of_u_bound + of.total)),
             identity_off: measured.and_then(identity),
+            output_over_interval: measured
+                .filter(|of| of.intervals.found > 0)
+                .map(|of| of.intervals.worst),
             relative_bound: measured.and_then(|of| over(total(of), of.energy)),
             ..self
         }
@@ -143,17 +149,23 @@ impl Row {
     pub fn ratios(&self) -> Vec<(&'static str, f64)> {
         let finer = self.truth == "finer";
         let of = |name, ratio: Option<f64>| ratio.map(|ratio| (name, ratio));
-        let [error, of_u] = match finer {
+        let [error, of_u, output] = match finer {
             true => [
                 "error over bounds, by a finer solve",
                 "error of u_h over bounds, by a finer solve",
+                "output over intervals, by a finer solve",
             ],
-            false => ["error over bound, exact", "error of u_h over bound, exact"],
+            false => [
+                "error over bound, exact",
+                "error of u_h over bound, exact",
+                "output over interval, exact",
+            ],
         };
         let all = [
             of(error, self.error_over_bound),
             of(of_u, self.of_u_over_bound),
             of("|gap/identity − 1|", self.identity_off),
+            of(output, self.output_over_interval),
         ];
         all.into_iter().flatten().collect()
     }

@@ -2,9 +2,10 @@
 
 use std::iter;
 
-use super::attempt::{Attempt, rounding};
+use super::attempt::Attempt;
 use super::case::{RandomCase, Way};
 use super::measure::{IDENTITY, Measured};
+use super::outputs::Intervals;
 use super::residual::{ends, residual};
 use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
@@ -40,7 +41,10 @@ fn broken(what: &'static str, words: String) -> Option<Broken> {
 /// All that `attempt` breaks.
 pub fn broken_by(case: &RandomCase, attempt: &Attempt, measured: Option<&Measured>) -> Vec<Broken> {
     let by_measure = measured.map(|found| {
-        [bound(found), of_u(found), identity(case, found)].into_iter().flatten().collect::<Vec<_>>()
+        [bound(found), of_u(found), identity(case, found), outputs(found)]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
     });
     let others = [status(case, attempt), forces(case, attempt)];
     by_measure.unwrap_or_default().into_iter().chain(others.into_iter().flatten()).collect()
@@ -64,6 +68,15 @@ fn of_u(found: &Measured) -> Option<Broken> {
     }
     let Measured { of_u, total, of_u_bound, .. } = found;
     broken("of_u", format!("of u_h {of_u:.6e}, bounds {of_u_bound:.6e} + {total:.6e}"))
+}
+
+/// The value of every output is in its interval.
+fn outputs(found: &Measured) -> Option<Broken> {
+    let Intervals { worst, name, .. } = &found.intervals;
+    if *worst <= 1.0 + INTEGRATED {
+        return None;
+    }
+    broken("output", format!("{name}: {worst:.6} half-widths off"))
 }
 
 fn identity(case: &RandomCase, found: &Measured) -> Option<Broken> {
@@ -133,7 +146,7 @@ fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let edges: Vec<_> = (problem.topology.counts.free..).zip(ranges).map(on_edge).collect();
     let sizes = || edges.iter().map(|&(_, size)| size);
     let (terms, largest) = (sizes().sum::<f64>(), sizes().fold(0.0, f64::max));
-    let epsilon = rounding(case.effort.scalar);
+    let epsilon = case.effort.scalar.epsilon();
     // Beside a large one a load may be below the smallest number of its scalar, and a jump of it misplaced.
     let lost = (f64::from(f32::MIN_POSITIVE) + JUMP) * largest;
     let slack = |size: f64| FORCE * epsilon * size + lost;
