@@ -111,6 +111,18 @@ impl Above {
 }
 
 impl ContactEdge {
+    /// Of an edge, counted from the first one, on whatever side it is; nothing passes beyond its least flux where it is always open.
+    pub fn unknown(problem: &Problem, at: usize, is_open: bool) -> Self {
+        let [least, most] = problem.loads.flux_range(at).ends();
+        let (clear, left) = match (least == most, is_open) {
+            (true, _) => (f64::INFINITY, [0.0; 2]),
+            (_, true) => (0.0, [0.0, f64::INFINITY]),
+            _ => (0.0, [f64::NEG_INFINITY, f64::INFINITY]),
+        };
+        let edge = problem.topology.counts.free + at;
+        Self { edge, room: 0.0, clear: [clear; 2], left, may: [true; 2], dropped: [0.0; 2] }
+    }
+
     fn new(
         problem: &Problem,
         edge: usize,

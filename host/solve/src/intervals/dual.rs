@@ -50,6 +50,11 @@ impl Dual {
         Ok(Self { problem: dual })
     }
 
+    /// Its problem.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
     /// Solves it where |ζ·n| may be up to `part` of λ on contact edges; nothing where it has no solution.
     pub fn solve(
         &mut self,

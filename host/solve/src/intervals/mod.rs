@@ -25,6 +25,7 @@ mod products;
 #[cfg(test)]
 mod tests;
 mod values;
+pub mod weights;
 
 use std::collections::BTreeMap;
 
@@ -43,7 +44,7 @@ use goal::Goal;
 use products::{Products, Residual};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Output, Quantity};
-use values::Value;
+use values::{INTEGRATED, Value};
 
 /// Beyond so many unknowns no intervals are worked out: each takes some factors of its own.
 pub const MOST_UNKNOWNS: usize = 200_000;
@@ -58,8 +59,9 @@ const ALL: f64 = 1e12;
 /// Roundings of the scalar that sums may be off, next to their terms.
 const ROUNDINGS: f64 = 512.0;
 
-/// What the quadrature of smooth data may miss, next to their size.
-const INTEGRATED: f64 = 2e-9;
+/// Why an output has no interval where one of its ends is infinite.
+const UNBOUNDED: &str = "nothing bounds it from both sides: its boundary meets another one that takes flux too, and no \
+                         energy tells one flux from the other there";
 
 /// Where the value of an output lies for the exact solution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -150,6 +152,7 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String
         contact: contact_edges(problem, answer)?,
         residual: Residual::new(problem, answer)?,
         bound,
+        doubt: values::doubt(problem)?,
     };
     let found = on_two_threads(&all, |output| known.interval(output), || ())?;
     Ok(names().zip(found).collect())
@@ -163,6 +166,8 @@ struct Known<'p> {
     contact: Vec<ContactEdge>,
     residual: Residual<'p>,
     bound: ErrorBound,
+    /// ∫f that is in doubt.
+    doubt: f64,
 }
 
 impl Known<'_> {
@@ -202,7 +207,7 @@ impl Known<'_> {
         }
         Ok(match best.iter().all(|end| end.is_finite()) {
             true => Ok(self.around(&goal, best)),
-            false => Err("nothing bounds it from both sides: where its boundary ends, so does what is known of the flux".to_owned()),
+            false => Err(UNBOUNDED.to_owned()),
         })
     }
 
@@ -217,13 +222,15 @@ impl Known<'_> {
         let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
         let differ = contact::keep(problem, goal, contact, part, takes_least, &mut weights);
         let left = contact::left(problem, goal, contact, &weights);
-        let Products { residual, weights, both, sizes } = self.residual.with(goal, &weights)?;
+        let Products { residual, weights: apart, both, sizes } =
+            self.residual.with(goal, &weights)?;
         let ErrorBound { total, oscillation, rounding, .. } = self.bound;
         let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
-        let distance = weights.max(0.0).sqrt();
+        let distance = apart.max(0.0).sqrt();
         let [less, more] = left.part.map(|part| most(distance, middle, part));
         let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
-        let rest = (oscillation + rounding + self.rounding() * total) * sizes;
+        let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
+        let rest = (oscillation + rounding + self.rounding() * total) * sizes + self.doubt * most_z;
         let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
         let ends = [0.5 * both + low, 0.5 * both + high];
         Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))

@@ -6,10 +6,16 @@ use crate::certify::cell::Cell;
 use crate::certify::curved::{self, followed};
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
-use crate::quadrature::bisected::mean_on_edge;
+use crate::quadrature::bisected::{
+    mean_and_doubt, mean_on_edge, quad_and_doubt, triangle_and_doubt,
+};
 use crate::quadrature::gauss;
+use crate::threads::in_portions;
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Field, Output};
+
+/// What the quadrature of smooth data may miss, next to their size.
+pub(super) const INTEGRATED: f64 = 2e-9;
 
 /// The value of an output, and what it may be off beside the error of s and τ.
 #[derive(Debug, Clone, Copy)]
@@ -36,13 +42,43 @@ pub(super) fn given(problem: &Problem, part: &Part, field: Field) -> Result<Valu
     Ok(Value { value, terms, largest: 0.0 })
 }
 
-/// ∫_E of data and of their modulus, on parts of the edge where they are not smooth.
+/// ∫_E of data, on thirds and on parts of them where they are not smooth, and of their modulus, which what is in doubt adds to.
 fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
-    let segment = problem.segment(edge);
-    let mean = mean_on_edge(segment, &|x, y| data.at(x, y));
-    let size = mean_on_edge(segment, &|x, y| data.at(x, y).abs());
+    let [a, b] = problem.segment(edge);
+    if let Some(constant) = data.constant() {
+        return Ok([constant, constant.abs()].map(|x| problem.lengths[edge] * x));
+    }
+    let at = |part: u32| [0, 1].map(|k| a[k] + f64::from(part) / 3.0 * (b[k] - a[k]));
+    let [mut mean, mut size, mut doubt] = [0.0; 3];
+    for part in 0..3 {
+        let segment = [at(part), at(part + 1)];
+        let [of_part, off] = mean_and_doubt(segment, &|x, y| data.at(x, y));
+        mean += of_part / 3.0;
+        doubt += off / 3.0;
+        size += mean_on_edge(segment, &|x, y| data.at(x, y).abs()) / 3.0;
+    }
+    let whole = mean_on_edge([a, b], &|x, y| data.at(x, y));
+    doubt += (whole - data.finite(mean, a)?).abs();
     let length = problem.lengths[edge];
-    Ok([length * data.finite(mean, segment[0])?, length * size])
+    Ok([length * mean, length * (size + doubt / INTEGRATED)])
+}
+
+/// ∫f of all cells that is in doubt, for f has kinks and jumps inside them.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn doubt(problem: &Problem) -> Result<f64> {
+    let f = Sum::source(&problem.scene, problem.time);
+    if f.constant().is_some() {
+        return Ok(0.0);
+    }
+    let at = |x: f64, y: f64| f.at(x, y);
+    let of_cell = |cell| match Cell::of(problem, cell) {
+        Cell::Triangle(corners) => triangle_and_doubt(corners, &at)[1],
+        Cell::Quad(corners) => quad_and_doubt(corners, &at)[1],
+    };
+    let sums = in_portions(problem.cells(), |cells| Ok(cells.map(of_cell).sum::<f64>()))?;
+    Ok(sums.iter().sum())
 }
 
 /// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.

@@ -28,6 +28,11 @@ type Function<'f> = &'f dyn Fn(f64, f64) -> f64;
 
 /// The mean of `f` over the segment from `a` to `b`.
 pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
+    mean_and_doubt(segment, f)[0]
+}
+
+/// The same, and by how much rules still differ on parts that are cut no further.
+pub fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     let rules = |&[a, b]: &[[f64; 2]; 2]| {
         let at = |t: f64| [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let mean = |rule: &[[f64; 2]]| {
@@ -50,6 +55,11 @@ pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
 
 /// ∫f over a triangle.
 pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
+    triangle_and_doubt(corners, f)[0]
+}
+
+/// The same, and by how much rules still differ on parts that are cut no further.
+pub fn triangle_and_doubt(corners: [[f64; 2]; 3], f: Function) -> [f64; 2] {
     let rules = |corners: &[[f64; 2]; 3]| {
         [TRIANGLE_POINTS, TRIANGLE_POINTS - FEWER]
             .map(|points| integral(f, on_triangle(*corners, f64::GAUSS[points - 1])))
@@ -63,6 +73,11 @@ pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
 
 /// ∫f over a quad; its quarters, in the bilinear coordinates, are quads again.
 pub fn over_quad(corners: [[f64; 2]; 4], f: Function) -> f64 {
+    quad_and_doubt(corners, f)[0]
+}
+
+/// The same, and by how much rules still differ on parts that are cut no further.
+pub fn quad_and_doubt(corners: [[f64; 2]; 4], f: Function) -> [f64; 2] {
     let rules = |corners: &[[f64; 2]; 4]| {
         [DATA_POINTS, DATA_POINTS - FEWER]
             .map(|points| integral(f, on_quad(*corners, f64::GAUSS[points - 1])))
@@ -87,18 +102,18 @@ fn integral(f: Function, points: impl Iterator<Item = Point>) -> [f64; 2] {
     })
 }
 
-/// The sum over parts, times `share` at each level; `rules` gives integral and size by both rules.
+/// The sum over parts, times `share` at each level, and what is in doubt of it; `rules` gives integral and size by both rules.
 fn over<C: Copy, const PARTS: usize>(
     cell: C,
     levels: u32,
     share: f64,
     rules: &dyn Fn(&C) -> [[f64; 2]; 2],
     parts: &dyn Fn(&C) -> [C; PARTS],
-) -> f64 {
+) -> [f64; 2] {
     let [[value, size], [other, _]] = rules(&cell);
     let tolerance = AGREE * size;
     if (value - other).abs() <= tolerance || !value.is_finite() {
-        return value;
+        return [value, 0.0];
     }
     cut(&cell, levels, share, tolerance, rules, parts, &Cell::new(MOST))
 }
@@ -112,19 +127,20 @@ fn cut<C: Copy, const PARTS: usize>(
     rules: &dyn Fn(&C) -> [[f64; 2]; 2],
     parts: &dyn Fn(&C) -> [C; PARTS],
     left: &Cell<u32>,
-) -> f64 {
+) -> [f64; 2] {
     left.set(left.get().saturating_sub(1));
-    let sum = parts(cell).iter().fold(0.0, |sum, part| {
+    let sums = parts(cell).iter().fold([0.0; 2], |[sum, doubt], part| {
         let [[value, _], [other, _]] = rules(part);
-        let agrees = (value - other).abs() <= tolerance;
+        let off = (value - other).abs();
+        let agrees = off <= tolerance;
         let is_last = levels <= 1 || left.get() == 0;
-        let value = match agrees || is_last || !value.is_finite() {
-            true => value,
+        let [value, off] = match agrees || is_last || !value.is_finite() {
+            true => [value, if agrees { 0.0 } else { off }],
             false => cut(part, levels - 1, share, 0.5 * tolerance / share, rules, parts, left),
         };
-        sum + value
+        [sum + value, doubt + off]
     });
-    share * sum
+    sums.map(|sum| share * sum)
 }
 
 #[cfg(test)]

@@ -1,0 +1,210 @@
+//! What the error bound of any answer weighs in an output: the few numbers that a controller has.
+//!
+//! ```text
+//!   |J(σ) − J(τ)| ≤ ‖A∇z‖ · total       a flux or a force, z = ±1 on its boundary and 0 on the rest of C and D
+//!   |J(u) − J(s)| ≤ ‖ζ‖ · total         a mean, ζ·n = 1/|P| on P and 0 on the rest of N and C
+//! ```
+//! They hold for all loads and on whatever sides of ψ the edges are, and are of first order: the intervals of a solve ([`super`])
+//! know its contact zone and are narrower. Where boundaries of C meet, z jumps there, and an edge beside counts with its λ:
+//! where it is always open that is 0.
+//!
+//! A controller gives u_h and σ_h. σ_h is τ but for the algebraic part of the bound. Means of s and u_h over an edge are equal
+//! between quads. On triangles with A constant in each, u_h is of the same mean error as σ_h:
+//! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
+
+use super::Answered;
+use super::contact::{self, ContactEdge};
+use super::dual::{self, Dual};
+use super::goal::Goal;
+use super::part::Part;
+use super::products::Residual;
+use crate::certify::CertifiedFields;
+use crate::certify::conductivity::Conductivity;
+use crate::energy_norm::nonconformity;
+use crate::functional::wanted;
+use crate::problem::{EdgeKind, Problem, Sum};
+use crate::solve::{ScalarKind, SharedFactor};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Output, Quantity};
+
+/// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Weights {
+    /// Of `total`.
+    pub total: f64,
+    /// Of `algebraic`.
+    pub algebraic: f64,
+    /// Of `of_u`.
+    pub of_u: f64,
+}
+
+/// Those of an output, or why there are none.
+pub type Weighed = std::result::Result<Weights, String>;
+
+/// What is known of a controller's answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Answers<'a> {
+    /// The contact edges that are always open, in their order; none where nothing is known.
+    pub open: &'a [bool],
+    /// Whether all equations but those on contact edges hold, for all answers.
+    pub are_balanced: bool,
+}
+
+/// Those of every output, in their order.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn weights(problem: &Problem, answers: &Answers) -> Result<Vec<Weighed>> {
+    let outputs = wanted(&problem.scene);
+    let Some(factor) = SharedFactor::of(problem)? else {
+        return Ok(vec![Err("its linear problem has no factor".to_owned()); outputs.len()]);
+    };
+    let corners = corners(problem)?;
+    let of = Weighing { problem, factor, corners, answers };
+    outputs.iter().map(|output| of.output(output)).collect()
+}
+
+/// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
+fn corners(problem: &Problem) -> Result<Vec<Problem>> {
+    let mut all = vec![problem.clone()];
+    for (at, input) in problem.scene.inputs.iter().enumerate() {
+        if let (Field::Coefficient, Some(range)) = (input.field.value, &input.range) {
+            let ends = [range.value.lo, range.value.hi];
+            let moved = all.iter().flat_map(|problem| ends.map(|end| (problem, end)));
+            let moved = moved.map(|(problem, end)| {
+                let mut problem = problem.clone();
+                problem.set(&[(at, end)], problem.time).map(|()| problem)
+            });
+            all = moved.collect::<Result<_>>()?;
+        }
+    }
+    Ok(all)
+}
+
+struct Weighing<'p> {
+    problem: &'p Problem,
+    factor: SharedFactor,
+    corners: Vec<Problem>,
+    answers: &'p Answers<'p>,
+}
+
+impl Weighing<'_> {
+    fn output(&self, output: &Output) -> Result<Weighed> {
+        let (nothing, none) = (self.nothing(), |why: &str| Ok(Err(why.to_owned())));
+        let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
+        if let Quantity::Probe { .. } = output.quantity {
+            return none("u at a point has none; a mean over a boundary has one");
+        }
+        let goal = match Goal::of(self.problem, &answer, output)? {
+            Ok(goal) => goal,
+            Err(why) => return Ok(Err(why)),
+        };
+        let (balanced, part) = (self.answers.are_balanced, Part::new(self.problem, output));
+        match (output.quantity, part.kind()) {
+            (Quantity::Mean, Some(EdgeKind::Dirichlet)) => Ok(Ok(Weights::default())),
+            (Quantity::Flux, Some(EdgeKind::Neumann)) if balanced => Ok(Ok(Weights::default())),
+            (Quantity::Flux, Some(EdgeKind::Neumann)) => none("sweeps leave it open"),
+            (Quantity::Mean, kind) => self.mean(&goal, kind == Some(EdgeKind::Contact)),
+            _ => self.flux(&goal, &part),
+        }
+    }
+
+    fn nothing(&self) -> CertifiedFields {
+        let edges = self.problem.ends.len();
+        CertifiedFields {
+            vertices: vec![0.0; self.problem.mesh.vertices.len()],
+            bubbles: vec![0.0; edges],
+            tau: vec![0.0; edges],
+            ..CertifiedFields::default()
+        }
+    }
+
+    fn contact(&self) -> Vec<ContactEdge> {
+        let open = |at: usize| self.answers.open.get(at).copied().unwrap_or(false);
+        let counts = self.problem.topology.counts;
+        (0..counts.contact).map(|at| ContactEdge::unknown(self.problem, at, open(at))).collect()
+    }
+
+    fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
+        let (problem, contact) = (self.problem, self.contact());
+        let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
+        let Some(solved) = solved else { return Ok(Err("nothing holds the domain".to_owned())) };
+        let mut sides = [f64::INFINITY; 2];
+        for takes_least in [true, false] {
+            let mut weights = solved.clone();
+            contact::keep(problem, goal, &contact, 0.0, takes_least, &mut weights);
+            let loose = contact::left(problem, goal, &contact, &weights).loose;
+            let [gradient, _] = self.sizes(goal, &weights)?;
+            for (side, loose) in sides.iter_mut().zip(loose) {
+                *side = if loose == 0.0 { side.min(gradient) } else { *side };
+            }
+        }
+        let total = sides[0].max(sides[1]);
+        if !total.is_finite() {
+            return Ok(Err(super::UNBOUNDED.to_owned()));
+        }
+        // On contact edges τ is within the law, and so is the output.
+        let algebraic = match part.kind() {
+            Some(EdgeKind::Contact) => 0.0,
+            _ => self.of_edges(goal, part)?.max(total),
+        };
+        Ok(Ok(Weights { total, algebraic, of_u: 0.0 }))
+    }
+
+    fn mean(&self, goal: &Goal, on_contact: bool) -> Result<Weighed> {
+        let (problem, contact) = (self.problem, self.contact());
+        let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
+        let Some(solved) = solved else {
+            return Ok(Err("contact alone holds the domain".to_owned()));
+        };
+        let [_, size] = self.sizes(goal, &solved)?;
+        let transfers = !problem.loads.robin.is_empty();
+        let (total, of_u) = (Weights { total: size, ..Weights::default() }, size);
+        Ok(if !size.is_finite() {
+            Err(super::UNBOUNDED.to_owned())
+        } else if problem.mesh.triangles.is_empty() && !on_contact {
+            Ok(total)
+        } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {
+            Ok(Weights { algebraic: size, ..total })
+        } else if !transfers || problem.mesh.triangles.is_empty() {
+            Ok(Weights { of_u, ..Weights::default() })
+        } else {
+            Err("a law of transfer that the answer does not meet exactly is part of it".to_owned())
+        })
+    }
+
+    /// Whether all cells are triangles with one A in each, and h is constant along every edge.
+    fn has_plain_triangles(&self) -> bool {
+        let problem = self.problem;
+        let is_plain = |edge: usize| {
+            Sum::transfer(problem, edge, problem.time).is_none_or(|h| h.constant().is_some())
+        };
+        problem.mesh.quads.is_empty()
+            && (0..problem.cells()).all(|at| Conductivity::of(problem, at).is_constant())
+            && problem.loads.robin.iter().all(|record| is_plain(record.edge as usize))
+    }
+
+    /// The largest ‖A∇z‖ and ‖ζ‖ over the ranges of transfer coefficients.
+    fn sizes(&self, goal: &Goal, weights: &dual::Weights) -> Result<[f64; 2]> {
+        let (nothing, mut most) = (self.nothing(), [0.0_f64; 2]);
+        for corner in &self.corners {
+            let dual = Dual::new(corner, goal)?;
+            let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
+            let sizes = Residual::new(dual.problem(), &answer)?.with(goal, weights)?.sizes;
+            for (most, size) in most.iter_mut().zip(sizes) {
+                // A NaN is no size.
+                *most = if size <= *most { *most } else { size };
+            }
+        }
+        Ok(most.map(f64::sqrt))
+    }
+
+    /// max |Σ_P ∫(τ − σ_h)·n| over ‖A^−½(τ − σ_h)‖, cell by cell: both have the same sources there, so that it is the energy of the
+    /// nonconforming function which has the mean 1 on P and 0 on all other edges.
+    fn of_edges(&self, goal: &Goal, part: &Part) -> Result<f64> {
+        let (nothing, dual) = (self.nothing(), Dual::new(self.problem, goal)?);
+        let mut means = vec![0.0; self.problem.ends.len()];
+        part.edges().for_each(|edge| means[edge] = 1.0);
+        nonconformity(dual.problem(), &nothing.admissible(), &means)
+    }
+}
