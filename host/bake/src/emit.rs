@@ -5,9 +5,11 @@ use signorini_image::chosen::{Chosen, WorstCase};
 use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::full;
+use crate::intervals;
 use crate::module_api::ModuleApi;
 use crate::ranges;
 use crate::worst;
+use signorini_scene::error::Result;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -21,7 +23,10 @@ pub struct Emitted {
 }
 
 /// The module of the model that was chosen.
-pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
+///
+/// # Errors
+/// Data that are not finite.
+pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Emitted> {
     let candidate = choice.candidate();
     let (model, features, worst_case, source) = match &candidate.model {
         Model::Condensed(baked) => {
@@ -41,7 +46,9 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
         ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
     };
-    let source =
-        source + &worst::constants(worst_case) + &ranges.map(ranges::constants).unwrap_or_default();
-    Emitted { source, chosen }
+    let source = source
+        + &worst::constants(worst_case)
+        + &ranges.map(ranges::constants).unwrap_or_default()
+        + &intervals::constants::<R>(problem, &intervals::of_choice(problem, choice)?);
+    Ok(Emitted { source, chosen })
 }

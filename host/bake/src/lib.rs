@@ -20,6 +20,7 @@ pub mod engine;
 pub mod explain;
 pub mod export;
 pub mod full;
+pub mod intervals;
 mod item;
 pub mod module_api;
 pub mod promise;

@@ -10,6 +10,7 @@ pub mod condensed;
 pub mod condition;
 #[cfg(feature = "mesh")]
 pub mod full;
+pub mod intervals;
 pub mod limits;
 #[cfg(feature = "mesh")]
 pub mod model;

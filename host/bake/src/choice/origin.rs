@@ -1,5 +1,7 @@
 //! What condensed candidates are made of.
 
+use std::collections::BTreeMap;
+
 use super::Wanted;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
@@ -22,6 +24,8 @@ pub struct Origin {
     pub sides: Sides,
     /// Without the edges that never change, where there are any and they may be taken out.
     pub reduced: Option<Reduced>,
+    /// Vertices at which s is above ψ in every tick, and by how much at least.
+    pub clear: BTreeMap<u32, f64>,
     /// Whether it was asked for that none is taken out.
     pub has_all_edges: bool,
     /// Where an input changes a transfer coefficient, the modes of that; `whole` is the model at its least value then.
@@ -54,15 +58,15 @@ impl Origin {
         };
         let may_be_reduced = !wanted.has_all_edges && modes.is_none();
         let mut reduced = may_be_reduced.then(|| Reduced::new(&whole, sides.clone())).flatten();
-        let (mut whole, mut recovery) = (whole, recovery);
+        let (mut whole, mut recovery, mut clear) = (whole, recovery, BTreeMap::new());
         if reduced.is_some()
             && let Some(of) = released(problem, &whole, &recovery, &sides)?
         {
-            (whole, recovery) = of;
+            (whole, recovery, clear) = (of.model, of.recovery, of.clear);
             reduced = Reduced::new(&whole, sides.clone());
         }
         let has_all_edges = wanted.has_all_edges;
-        Ok(Self { whole, recovery, sides, reduced, has_all_edges, modes, followed })
+        Ok(Self { whole, recovery, sides, reduced, clear, has_all_edges, modes, followed })
     }
 
     /// The model that is baked.

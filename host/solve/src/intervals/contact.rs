@@ -111,16 +111,31 @@ impl Above {
 }
 
 impl ContactEdge {
-    /// Of an edge, counted from the first one, on whatever side it is; nothing passes beyond its least flux where it is always open.
-    pub fn unknown(problem: &Problem, at: usize, is_open: bool) -> Self {
+    /// Of an edge, counted from the first one, on whatever side it is. Where it is open in all answers nothing passes beyond its least
+    /// flux, and s is at least so far above ψ at its ends.
+    pub fn unknown(problem: &Problem, at: usize, open: Option<[f64; 2]>) -> Self {
         let [least, most] = problem.loads.flux_range(at).ends();
-        let (clear, left) = match (least == most, is_open) {
-            (true, _) => (f64::INFINITY, [0.0; 2]),
-            (_, true) => (0.0, [0.0, f64::INFINITY]),
-            _ => (0.0, [f64::NEG_INFINITY, f64::INFINITY]),
-        };
         let edge = problem.topology.counts.free + at;
-        Self { edge, room: 0.0, clear: [clear; 2], left, may: [true; 2], dropped: [0.0; 2] }
+        let none = Self {
+            edge,
+            room: 0.0,
+            clear: [0.0; 2],
+            left: [f64::NEG_INFINITY, f64::INFINITY],
+            may: [true; 2],
+            dropped: [0.0; 2],
+        };
+        match (least == most, open) {
+            (true, _) => Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none },
+            (_, Some(clear)) => {
+                Self { clear, left: [0.0, f64::INFINITY], may: [false, true], ..none }
+            }
+            _ => none,
+        }
+    }
+
+    /// The same where z keeps its value, like s where it touches ψ, or does not.
+    pub fn held(self, is_held: bool) -> Self {
+        Self { room: if is_held { 1.0 } else { 0.0 }, ..self }
     }
 
     fn new(

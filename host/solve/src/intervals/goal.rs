@@ -103,6 +103,11 @@ impl Goal {
         Ok(Self { sign: -1.0, start, values, densities, cell: None, of })
     }
 
+    /// The size of ∫ζ·n over the whole boundary, roughly: 1 for a mean, that of A where z goes from 0 to 1.
+    pub fn size(&self, problem: &Problem) -> f64 {
+        if self.sign > 0.0 { 1.0 } else { problem.stiffest() }
+    }
+
     /// The value where the data give it: of a flux through N, of a mean over D.
     ///
     /// # Errors

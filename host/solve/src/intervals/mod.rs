@@ -53,8 +53,8 @@ pub const MOST_UNKNOWNS: usize = 200_000;
 const TRIALS: usize = 8;
 const STEP: f64 = 2.5;
 
-/// What is beyond every part that contact can ask for.
-const ALL: f64 = 1e12;
+/// How far ζ·n may go beyond its usual size on a contact edge, where z is to keep its value: little enough to lose no digit beside.
+const FAR: f64 = 1e4;
 
 /// Roundings of the scalar that sums may be off, next to their terms.
 const ROUNDINGS: f64 = 512.0;
@@ -152,7 +152,7 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String
         contact: contact_edges(problem, answer)?,
         residual: Residual::new(problem, answer)?,
         bound,
-        doubt: values::doubt(problem)?,
+        doubt: values::doubt(problem)? + values::imbalance(problem, answer),
     };
     let found = on_two_threads(&all, |output| known.interval(output), || ())?;
     Ok(names().zip(found).collect())
@@ -166,7 +166,7 @@ struct Known<'p> {
     contact: Vec<ContactEdge>,
     residual: Residual<'p>,
     bound: ErrorBound,
-    /// ∫f that is in doubt.
+    /// Loads that are in doubt, and what τ leaves of them.
     doubt: f64,
 }
 
@@ -189,7 +189,12 @@ impl Known<'_> {
         }
         let mut dual = Dual::new(self.problem, &goal)?;
         // The least part that may be the best one, and then larger ones as long as they are better.
-        let (mut part, mut best) = (ALL, [f64::NEG_INFINITY, f64::INFINITY]);
+        let mut rooms: Vec<f64> =
+            self.contact.iter().map(|of| of.room).filter(|room| *room > 0.0).collect();
+        rooms.sort_by(f64::total_cmp);
+        let room = rooms.get(rooms.len() / 2).copied().unwrap_or(1.0);
+        let mut part = FAR * goal.size(self.problem) / room;
+        let mut best = [f64::NEG_INFINITY, f64::INFINITY];
         for trial in 0..TRIALS {
             let Some(weights) = dual.solve(&self.factor, &self.contact, &goal, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;

@@ -117,7 +117,7 @@ impl<'p> Residual<'p> {
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
         let is_lifted = self.deviations.of_cell(problem, at).iter().any(Option::is_some);
         let rule = gauss(if is_lifted { curved::POINTS } else { points(&cell, &conductivity) });
-        for point in curved::points(problem, at, &self.deviations, &rule)? {
+        for point in curved::points_along_sides(problem, at, &self.deviations, &rule)? {
             let (local, a) = (cell.local(point.reference), conductivity.at(point.x));
             let along_s = apply(&a, s.at(&local)?.gradient);
             let tau = tau.sample(&point).flux;

@@ -4,10 +4,12 @@ use super::Answered;
 use super::part::Part;
 use crate::certify::cell::Cell;
 use crate::certify::curved::{self, followed};
+use crate::field::CellField;
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::bisected::{
-    mean_and_doubt, mean_on_edge, quad_and_doubt, triangle_and_doubt,
+    mean_and_doubt, mean_on_edge, over_quad, over_triangle, quad_and_doubt, quarters_of_quad,
+    quarters_of_triangle, triangle_and_doubt,
 };
 use crate::quadrature::gauss;
 use crate::threads::in_portions;
@@ -16,6 +18,9 @@ use signorini_scene::scene::{Condition, Field, Output};
 
 /// What the quadrature of smooth data may miss, next to their size.
 pub(super) const INTEGRATED: f64 = 2e-9;
+
+/// Cells up to which f is integrated on their quarters too.
+const LOOKS: usize = 20_000;
 
 /// The value of an output, and what it may be off beside the error of s and τ.
 #[derive(Debug, Clone, Copy)]
@@ -63,19 +68,58 @@ fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
     Ok([length * mean, length * (size + doubt / INTEGRATED)])
 }
 
-/// ∫f of all cells that is in doubt, for f has kinks and jumps inside them.
+/// What is in doubt of the integrals of all loads: f, given fluxes, and the ends of fluxes on C.
 ///
 /// # Errors
 /// Data that are not finite.
 pub(super) fn doubt(problem: &Problem) -> Result<f64> {
+    let mut sum = of_source(problem)?;
+    for edge in 0..problem.kinds.len() {
+        if let EdgeKind::Neumann | EdgeKind::Contact = problem.kinds[edge] {
+            for field in [Field::Flux, Field::Limit] {
+                let data = Sum::on_edge(problem, edge, field, problem.time);
+                if let Some(data) = data.filter(|data| data.constant().is_none()) {
+                    sum += INTEGRATED * integral(problem, edge, &data)?[1];
+                }
+            }
+        }
+    }
+    Ok(sum)
+}
+
+/// What τ leaves of the loads of cells and of the fluxes through N, added up: rounding.
+pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
+    let tau = &answer.certified.tau;
+    let surplus =
+        |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at));
+    let cells: f64 = (0..problem.cells()).map(|at| surplus(at).abs()).sum();
+    let mut given = vec![0.0; problem.ends.len()];
+    problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
+    let on_neumann = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);
+    cells + on_neumann.map(|edge| (tau[edge] - given[edge]).abs()).sum::<f64>()
+}
+
+fn of_source(problem: &Problem) -> Result<f64> {
     let f = Sum::source(&problem.scene, problem.time);
     if f.constant().is_some() {
         return Ok(0.0);
     }
     let at = |x: f64, y: f64| f.at(x, y);
-    let of_cell = |cell| match Cell::of(problem, cell) {
-        Cell::Triangle(corners) => triangle_and_doubt(corners, &at)[1],
-        Cell::Quad(corners) => quad_and_doubt(corners, &at)[1],
+    // A kink beside a corner no rule on the whole cell sees.
+    let looks = problem.cells() <= LOOKS;
+    let of_cell = |cell| {
+        let ([load, doubt], finer) = match Cell::of(problem, cell) {
+            Cell::Triangle(corners) => (
+                triangle_and_doubt(corners, &at),
+                looks.then(|| quarters_of_triangle(&corners).map(|of| over_triangle(of, &at))),
+            ),
+            Cell::Quad(corners) => (
+                quad_and_doubt(corners, &at),
+                looks.then(|| quarters_of_quad(&corners).map(|of| over_quad(of, &at))),
+            ),
+        };
+        let off = finer.map_or(0.0, |finer| (finer.iter().sum::<f64>() - load).abs());
+        INTEGRATED * load.abs() + doubt + off
     };
     let sums = in_portions(problem.cells(), |cells| Ok(cells.map(of_cell).sum::<f64>()))?;
     Ok(sums.iter().sum())
@@ -112,7 +156,7 @@ pub(super) fn cell(
     let deviations = followed(problem, &s)?;
     let on_cell = s.on_cell(problem, at, &deviations);
     let [mut value, mut terms] = [0.0; 2];
-    for point in curved::points(problem, at, &deviations, &gauss(curved::POINTS))? {
+    for point in curved::points_along_sides(problem, at, &deviations, &gauss(curved::POINTS))? {
         let local = cell.local(point.reference);
         let here = on_cell.at(&local)?.value;
         let weight = cell.spread(point.weight, local.determinant);

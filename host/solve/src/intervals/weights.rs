@@ -5,8 +5,8 @@
 //!   |J(u) − J(s)| ≤ ‖ζ‖ · total         a mean, ζ·n = 1/|P| on P and 0 on the rest of N and C
 //! ```
 //! They hold for all loads and on whatever sides of ψ the edges are, and are of first order: the intervals of a solve ([`super`])
-//! know its contact zone and are narrower. Where boundaries of C meet, z jumps there, and an edge beside counts with its λ:
-//! where it is always open that is 0.
+//! know its contact zone and are narrower. Where an edge is open in all answers, with s − ψ ≥ e there, z may be off its value by
+//! c e, which adds c/2 · total². Where boundaries of C meet, z jumps, and an edge beside counts with its λ: 0 where it is always open.
 //!
 //! A controller gives u_h and σ_h. σ_h is τ but for the algebraic part of the bound. Means of s and u_h over an edge are equal
 //! between quads. On triangles with A constant in each, u_h is of the same mean error as σ_h:
@@ -27,11 +27,17 @@ use crate::solve::{ScalarKind, SharedFactor};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Output, Quantity};
 
+/// Parts that are tried, and by how much each is larger than the last.
+const PARTS: i32 = 10;
+const STEP: f64 = 2.0;
+
 /// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Weights {
     /// Of `total`.
     pub total: f64,
+    /// Of its square.
+    pub square: f64,
     /// Of `algebraic`.
     pub algebraic: f64,
     /// Of `of_u`.
@@ -44,8 +50,11 @@ pub type Weighed = std::result::Result<Weights, String>;
 /// What is known of a controller's answers.
 #[derive(Debug, Clone, Copy)]
 pub struct Answers<'a> {
-    /// The contact edges that are always open, in their order; none where nothing is known.
-    pub open: &'a [bool],
+    /// How far s is above ψ at least at the ends of the contact edges that are open in all answers, in the order of the edges and in
+    /// the unit of u; nothing where nothing is known.
+    pub open: &'a [Option<[f64; 2]>],
+    /// A total as answers have it.
+    pub total: f64,
     /// Whether all equations but those on contact edges hold, for all answers.
     pub are_balanced: bool,
 }
@@ -120,27 +129,46 @@ impl Weighing<'_> {
     }
 
     fn contact(&self) -> Vec<ContactEdge> {
-        let open = |at: usize| self.answers.open.get(at).copied().unwrap_or(false);
+        let open = |at: usize| self.answers.open.get(at).copied().flatten();
         let counts = self.problem.topology.counts;
         (0..counts.contact).map(|at| ContactEdge::unknown(self.problem, at, open(at))).collect()
     }
 
     fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
         let (problem, contact) = (self.problem, self.contact());
-        let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
-        let Some(solved) = solved else { return Ok(Err("nothing holds the domain".to_owned())) };
-        let mut sides = [f64::INFINITY; 2];
-        for takes_least in [true, false] {
-            let mut weights = solved.clone();
-            contact::keep(problem, goal, &contact, 0.0, takes_least, &mut weights);
-            let loose = contact::left(problem, goal, &contact, &weights).loose;
-            let [gradient, _] = self.sizes(goal, &weights)?;
-            for (side, loose) in sides.iter_mut().zip(loose) {
-                *side = if loose == 0.0 { side.min(gradient) } else { *side };
+        let (mut dual, far) = (Dual::new(problem, goal)?, super::FAR * goal.size(problem));
+        let mut sides = [None::<Weights>; 2];
+        for part in self.parts(&contact) {
+            // z is free where all of [0, 1] is within its part, and has its value on all other contact edges.
+            let held = contact.iter().map(|of| {
+                let is_free =
+                    of.clear.iter().all(|&clear| clear == f64::INFINITY || part * clear >= 1.0);
+                of.held(!is_free)
+            });
+            let held: Vec<_> = held.collect();
+            let Some(solved) = dual.solve(&self.factor, &held, goal, far) else {
+                return Ok(Err("nothing holds the domain".to_owned()));
+            };
+            for takes_least in [true, false] {
+                let mut weights = solved.clone();
+                // Nothing is asked of ζ.
+                weights.flux.fill(0.0);
+                contact::keep(problem, goal, &contact, part, takes_least, &mut weights);
+                let left = contact::left(problem, goal, &contact, &weights);
+                let [total, _] = self.sizes(goal, &weights)?;
+                for at in [0, 1] {
+                    let found =
+                        Weights { total, square: 0.5 * left.part[at], ..Weights::default() };
+                    if left.loose[at] == 0.0 {
+                        sides[at] = Some(self.less(sides[at], found));
+                    }
+                }
             }
         }
-        let total = sides[0].max(sides[1]);
-        if !total.is_finite() {
+        let [Some(below), Some(above)] = sides else { return Ok(Err(super::UNBOUNDED.to_owned())) };
+        let total = below.total.max(above.total);
+        let square = below.square.max(above.square);
+        if !(total.is_finite() && square.is_finite()) {
             return Ok(Err(super::UNBOUNDED.to_owned()));
         }
         // On contact edges τ is within the law, and so is the output.
@@ -148,7 +176,22 @@ impl Weighing<'_> {
             Some(EdgeKind::Contact) => 0.0,
             _ => self.of_edges(goal, part)?.max(total),
         };
-        Ok(Ok(Weights { total, algebraic, of_u: 0.0 }))
+        Ok(Ok(Weights { total, square, algebraic, of_u: 0.0 }))
+    }
+
+    /// Parts of s − ψ that z may be off by: none, and such that z is off by up to 1 at some of the edges that are open.
+    fn parts(&self, contact: &[ContactEdge]) -> Vec<f64> {
+        let clear = contact.iter().flat_map(|of| of.clear).filter(|clear| *clear > 0.0);
+        let most = clear.filter(|clear| clear.is_finite()).fold(0.0, f64::max);
+        let parts = (0..PARTS).map(|at| STEP.powi(at) / most);
+        std::iter::once(0.0).chain(parts.filter(|part| part.is_finite())).collect()
+    }
+
+    /// The one that is less at such a total.
+    fn less(&self, one: Option<Weights>, other: Weights) -> Weights {
+        let at =
+            |of: Weights| of.total * self.answers.total + of.square * self.answers.total.powi(2);
+        one.filter(|one| at(*one) <= at(other)).unwrap_or(other)
     }
 
     fn mean(&self, goal: &Goal, on_contact: bool) -> Result<Weighed> {

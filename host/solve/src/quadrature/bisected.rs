@@ -64,11 +64,13 @@ pub fn triangle_and_doubt(corners: [[f64; 2]; 3], f: Function) -> [f64; 2] {
         [TRIANGLE_POINTS, TRIANGLE_POINTS - FEWER]
             .map(|points| integral(f, on_triangle(*corners, f64::GAUSS[points - 1])))
     };
-    let quarters = |&[a, b, c]: &[[f64; 2]; 3]| {
-        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]
-    };
-    over(corners, LEVELS[1], 1.0, &rules, &quarters)
+    over(corners, LEVELS[1], 1.0, &rules, &quarters_of_triangle)
+}
+
+/// The quarters of a triangle.
+pub fn quarters_of_triangle(&[a, b, c]: &[[f64; 2]; 3]) -> [[[f64; 2]; 3]; 4] {
+    let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]
 }
 
 /// ∫f over a quad; its quarters, in the bilinear coordinates, are quads again.
@@ -82,12 +84,14 @@ pub fn quad_and_doubt(corners: [[f64; 2]; 4], f: Function) -> [f64; 2] {
         [DATA_POINTS, DATA_POINTS - FEWER]
             .map(|points| integral(f, on_quad(*corners, f64::GAUSS[points - 1])))
     };
-    let quarters = |&[a, b, c, d]: &[[f64; 2]; 4]| {
-        let [ab, bc, cd, da] = [middle(a, b), middle(b, c), middle(c, d), middle(d, a)];
-        let centre = middle(ab, cd);
-        [[a, ab, centre, da], [ab, b, bc, centre], [centre, bc, c, cd], [da, centre, cd, d]]
-    };
-    over(corners, LEVELS[1], 1.0, &rules, &quarters)
+    over(corners, LEVELS[1], 1.0, &rules, &quarters_of_quad)
+}
+
+/// The quarters of a quad, in its bilinear coordinates.
+pub fn quarters_of_quad(&[a, b, c, d]: &[[f64; 2]; 4]) -> [[[f64; 2]; 4]; 4] {
+    let [ab, bc, cd, da] = [middle(a, b), middle(b, c), middle(c, d), middle(d, a)];
+    let centre = middle(ab, cd);
+    [[a, ab, centre, da], [ab, b, bc, centre], [centre, bc, c, cd], [da, centre, cd, d]]
 }
 
 fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {

@@ -45,6 +45,13 @@ impl Reduced {
         Some(Self { model, sides, maps, scale })
     }
 
+    /// The edges of the whole model that were taken out as always open: their reaction is 0 in every tick.
+    pub fn open(&self) -> Vec<bool> {
+        let mut open = vec![false; self.sides.of.len()];
+        self.maps.open.iter().take(self.maps.above).for_each(|&at| open[at] = true);
+        open
+    }
+
     /// x of the whole model.
     pub fn expand(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
         let mut whole = vec![0.0; self.sides.of.len()];

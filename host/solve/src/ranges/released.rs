@@ -7,7 +7,7 @@
 //! A vertex that fails is taken back, and the others are tried again, since s is another function then. The certificate holds
 //! for the model without the edges that never change sides: there x_O is positive and r_O = 0 whatever a tick leaves unfinished.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::interval::Interval;
 use super::reduction::{Affine, Reduction, least};
@@ -19,6 +19,17 @@ use signorini_scene::error::Result;
 /// How often vertices may be taken back.
 const TRIALS: usize = 4;
 
+/// A certificate with free vertices.
+#[derive(Debug)]
+pub struct Released {
+    /// The model that has it.
+    pub model: CondensedModel,
+    /// Its way back.
+    pub recovery: Recovery,
+    /// How far s is above ψ at least at these vertices and along the edges between them, in the unit of u.
+    pub clear: BTreeMap<u32, f64>,
+}
+
 /// `whole` and its way back with such a certificate, for a model that is reduced by `sides`; nothing where no vertex is released.
 ///
 /// # Errors
@@ -28,7 +39,7 @@ pub fn released(
     whole: &CondensedModel,
     recovery: &Recovery,
     sides: &Sides,
-) -> Result<Option<(CondensedModel, Recovery)>> {
+) -> Result<Option<Released>> {
     let (Ok(form), false) = (&whole.certificate, whole.is_limited()) else { return Ok(None) };
     let Some(maps) = Reduction::new(whole, sides.partition()) else { return Ok(None) };
     let vertices = form.vertices.iter().zip(recovery.contact_vertices());
@@ -45,10 +56,13 @@ pub fn released(
         let Ok(form) = &model.certificate else { break };
         let proof = Proof { model: &model, form, sides, maps: &maps };
         let all = recovery.released(problem, model.energy_unit)?;
-        let failed: Vec<u32> =
-            all.iter().filter(|of| !proof.is_above(of)).map(|of| of.vertex).collect();
+        let clear: BTreeMap<u32, f64> =
+            all.iter().map(|of| (of.vertex, proof.clearance(of))).collect();
+        // A NaN proves nothing.
+        let failed = clear.iter().filter(|(_, clear)| !(**clear > 0.0)).map(|(vertex, _)| *vertex);
+        let failed: Vec<u32> = failed.collect();
         if failed.is_empty() {
-            return Ok(Some((model, recovery)));
+            return Ok(Some(Released { model, recovery, clear }));
         }
         free.retain(|vertex| !failed.contains(vertex));
     }
@@ -64,8 +78,8 @@ struct Proof<'a> {
 }
 
 impl Proof<'_> {
-    /// Whether s is above ψ all along the edges beside a vertex, whatever p and x_U are.
-    fn is_above(&self, vertex: &ReleasedVertex) -> bool {
+    /// By how much s is above ψ at least, all along the edges beside a vertex, whatever p and x_U are.
+    fn clearance(&self, vertex: &ReleasedVertex) -> f64 {
         let Self { model, form, sides, maps } = *self;
         let (m, n) = (model.inputs, model.contact);
         let mut sum = Affine {
@@ -93,8 +107,8 @@ impl Proof<'_> {
         }
         let peak: f64 =
             vertex.peak.iter().zip(&inputs).map(|(peak, [lo, hi])| peak * hi.max(-lo)).sum();
-        // A NaN proves nothing.
-        least(&sum.factors, &sum.noise, &inputs) + lower * (1.0 + 1e-12) > peak * (1.0 + 1e-12)
+        let least = least(&sum.factors, &sum.noise, &inputs) + lower * (1.0 + 1e-12);
+        least - peak * (1.0 + 1e-12)
     }
 }
 

@@ -1,11 +1,12 @@
 //! Points inside a cell for what its extensions make as rough as their edges' data.
 
-use super::cross::{between_rays, of_square};
+use super::cross::{between_rays, between_smooth_rays, of_square};
 use super::panels::Panels;
+use super::{FINE, POINTS};
 use crate::certify::cell::Cell;
 use crate::certify::deviation::Deviations;
 use crate::problem::Problem;
-use crate::quadrature::Point;
+use crate::quadrature::{Point, gauss, on_panels};
 use signorini_scene::error::Result;
 
 /// The points of `rule`'s square on cell `at` (triangles first); where data on its sides need finer panels than
@@ -32,6 +33,43 @@ pub fn points(
 
 /// Reference coordinates, and weights that lack the area element.
 pub type ReferencePoints = Vec<([f64; 3], f64)>;
+
+/// The same for products of what sides carry inside: on triangles the points of smooth data lie along rays from the apices of their
+/// sides, where these functions are polynomials.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn points_along_sides(
+    problem: &Problem,
+    at: usize,
+    deviations: &Deviations,
+    rule: &[[f64; 2]],
+) -> Result<Vec<Point>> {
+    let cell = Cell::of(problem, at);
+    let found = match of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? {
+        Some(found) => found,
+        None => {
+            let of_cell = deviations.of_cell(problem, at);
+            let sides: Vec<usize> = (0..of_cell.len()).filter(|&k| of_cell[k].is_some()).collect();
+            match (&cell, &sides[..]) {
+                (_, []) => return Ok(cell.points(rule)),
+                (Cell::Triangle(_), [side]) => {
+                    on_side(&cell, *side, &on_panels(FINE, &gauss(POINTS)), rule)
+                }
+                (Cell::Triangle(_), [one, other, ..]) => between_smooth_rays([*one, *other]),
+                (Cell::Quad(_), sides) => {
+                    let panels = Panels::regular();
+                    of_square(sides.iter().map(|&side| (side, &panels)))
+                }
+            }
+        }
+    };
+    let point = |(reference, weight)| {
+        let local = cell.local(reference);
+        Point { x: local.x, reference, weight: weight * local.determinant }
+    };
+    Ok(found.into_iter().map(point).collect())
+}
 
 /// Reference points with weights that lack the area element, on cell `at`; `None` where smooth data's points will do
 /// for `all` data on its sides.

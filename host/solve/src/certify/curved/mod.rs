@@ -30,7 +30,7 @@ use signorini_scene::error::Result;
 
 pub use cleared::{followed, may_be_cleared, peak};
 pub use cross::between_smooth_rays;
-pub use inside::{of_rough_sides, points};
+pub use inside::{of_rough_sides, points, points_along_sides};
 pub use panels::PANELS;
 pub use singular::Rough;
 

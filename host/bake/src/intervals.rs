@@ -1,0 +1,95 @@
+//! What the error bound of a tick weighs in each output: numbers that the host finds once, and a module has as constants.
+
+use std::fmt::Write as _;
+
+use signorini_kernel::device::intervals::OutputWeights;
+
+use crate::choice::{Choice, Model, Origin};
+use crate::text::{code, prose};
+use signorini_scene::error::Result;
+use signorini_solve::functional::wanted;
+use signorini_solve::intervals::weights::{Answers, Weighed, Weights, weights};
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, solve};
+
+/// By which part weights are rounded up: more than what a scalar rounds of them and of their products.
+const ROOM: f64 = 1e-6;
+
+/// Those of the outputs of a chosen model, in their order.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Vec<Weighed>> {
+    let total = solve(problem, &Options::default())?.bound.map_or(0.0, |bound| bound.total);
+    match (&choice.candidate().model, choice.condensed()) {
+        (Model::Condensed(_), Some((_, origin))) => {
+            let answers = Answers { open: &open(problem, origin), total, are_balanced: true };
+            weights(problem, &answers)
+        }
+        _ => weights(problem, &Answers { open: &[], total, are_balanced: false }),
+    }
+}
+
+/// How far s is above ψ on the contact edges whose reaction is 0 in every tick.
+fn open(problem: &Problem, origin: &Origin) -> Vec<Option<[f64; 2]>> {
+    let Some(reduced) = &origin.reduced else { return Vec::new() };
+    let flags: Vec<f64> =
+        reduced.open().into_iter().map(|open| f64::from(u8::from(open))).collect();
+    let free = problem.topology.counts.free;
+    // s has no bubble on a contact edge of a condensed model: it is linear there.
+    let clear = |vertex: u32| origin.clear.get(&vertex).copied().unwrap_or(0.0);
+    let flags = origin.whole.by_edge(&flags).into_iter().enumerate();
+    flags.map(|(at, flag)| (flag == 1.0).then(|| problem.ends[free + at].map(clear))).collect()
+}
+
+/// In the scalar of a controller.
+pub fn narrowed<R: Scalar>(weighed: &Weighed) -> OutputWeights<R> {
+    let narrow = |x: f64| R::narrow(x * (1.0 + ROOM));
+    weighed.as_ref().map_or(OutputWeights::NONE, |&Weights { total, square, algebraic, of_u }| {
+        let [total, square, algebraic, of_u] = [total, square, algebraic, of_u].map(narrow);
+        OutputWeights { total, square, algebraic, of_u }
+    })
+}
+
+/// The weights as a constant of a module, and what reads it.
+pub fn constants<R: Scalar>(problem: &Problem, weighed: &[Weighed]) -> String {
+    let mut text = "
+/// How much of the error bound may be in each output: see [`Answer::plus_minus`].
+pub const OUTPUT_WEIGHTS: [signorini_kernel::device::intervals::OutputWeights<Scalar>; OUTPUTS] = ["
+        .to_owned();
+    for (output, weighed) in wanted(&problem.scene).iter().zip(weighed) {
+        let why = weighed
+            .as_ref()
+            .err()
+            .map_or_else(String::new, |why| format!(": none, {}", prose(why)));
+        let _ = write!(
+            text,
+            "\n    // {}{why}\n    {},",
+            code(&output.name.value),
+            record(&narrowed::<R>(weighed))
+        );
+    }
+    text + if weighed.is_empty() { "];\n" } else { "\n];\n" } + PLUS_MINUS
+}
+
+fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
+    let OutputWeights { total, square, algebraic, of_u } = *of;
+    if total == R::INFINITY {
+        return "signorini_kernel::device::intervals::OutputWeights::NONE".to_owned();
+    }
+    format!(
+        "signorini_kernel::device::intervals::OutputWeights {{ total: {total:?}, square: {square:?}, algebraic: {algebraic:?}, of_u: {of_u:?} }}"
+    )
+}
+
+const PLUS_MINUS: &str = "
+impl Answer {
+    /// How far each output may be from its value for the exact solution of the scene, in its own unit; infinite where nothing is
+    /// guaranteed. What the sum of an output rounds is not in it.
+    pub fn plus_minus(&self) -> Outputs {
+        let weights = &OUTPUT_WEIGHTS;
+        Outputs::from_array(signorini_kernel::device::intervals::plus_minus(weights, &self.report))
+    }
+}
+";
