@@ -182,7 +182,7 @@ fn ticks_on_the_desk_know_the_same_ends() -> Result<()> {
         })
         .collect();
     let sweeps = Options::default().max_sweeps;
-    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0 };
+    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
     for (tick, values) in play(&problem, None, &moments, &budget, |_, _| Ok(()))?.iter().zip(&steps)
     {
         let now = problem.with_inputs(values)?;

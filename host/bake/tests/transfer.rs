@@ -213,7 +213,7 @@ fn moments(steps: &[Vec<f64>]) -> Vec<ScheduledTick> {
 
 fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> {
     let sweeps = Options::default().max_sweeps;
-    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0 };
+    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
     play(problem, None, &moments(steps), &budget, |_, _| Ok(()))
 }
 

@@ -8,7 +8,7 @@ use super::scale::{Scale, extent};
 use super::simplify::simplify;
 use super::strip::{across, frame, heading, vertical};
 use super::svg::{Anchor, Path, Svg};
-use super::{Curve, History, Strip};
+use super::{Band, Curve, History, Strip};
 
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 736.0;
@@ -50,6 +50,8 @@ pub fn history(history: &History) -> String {
 /// The values that a diagram can show.
 fn values(strip: &Strip) -> impl Iterator<Item = f64> {
     let values = strip.curves.iter().flat_map(|curve| curve.values.iter().flatten().copied());
+    let ends = strip.band.iter().flat_map(|band| band.ends.iter().flatten().flatten().copied());
+    let values = values.chain(ends);
     values.filter(|&value| value.is_finite() && (value > 0.0 || !strip.logarithmic))
 }
 
@@ -78,6 +80,9 @@ fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]
     }
     frame(svg, &up, 4, [LEFT, RIGHT], [top, bottom]);
     svg.line("frame", [LEFT, bottom], [RIGHT, bottom]);
+    if let Some(band) = &strip.band {
+        draw_band(svg, band, time, [along, &up]);
+    }
     let shown = |curve: &&Curve| curve.values.iter().any(Option::is_some);
     let curves: Vec<&Curve> = strip.curves.iter().filter(shown).collect();
     for (at, curve) in curves.iter().enumerate() {
@@ -87,6 +92,11 @@ fn draw(svg: &mut Svg, strip: &Strip, time: &[f64], along: &Scale, [top, bottom]
     }
     let limit = strip.limit.iter().map(|(name, _)| width(name, LETTERS) + KEY).sum::<f64>();
     legend(svg, &curves, [LEFT, RIGHT - limit], top);
+    if let Some(band) = &strip.band {
+        let left = RIGHT - width(&band.label, LETTERS) - KEY;
+        svg.rectangle("band", [left, top - 17.0], [left + 10.0, top - 7.0]);
+        svg.text("band-label", [RIGHT, top - 8.0], Anchor::End, &band.label);
+    }
     if let Some((name, value)) = &strip.limit {
         let y = up.at(*value);
         svg.line("limit", [LEFT, y], [RIGHT, y]);
@@ -107,6 +117,23 @@ fn legend(svg: &mut Svg, curves: &[&Curve], [start, end]: [f64; 2], top: f64) {
         let place = [left + KEY, top - 8.0];
         svg.abridged("quantity", place, Anchor::Start, &text, &curve.label);
     }
+}
+
+/// The area between the ends, interrupted where there are none.
+fn draw_band(svg: &mut Svg, band: &Band, time: &[f64], [along, up]: [&Scale; 2]) {
+    let at = |(time, ends): (&f64, &Option<[f64; 2]>)| {
+        let [low, high] = (*ends)?.map(|end| [along.at(*time), up.at(end)]);
+        [low, high].as_flattened().iter().all(|pixel| pixel.is_finite()).then_some([low, high])
+    };
+    let points: Vec<Option<[[f64; 2]; 2]>> = time.iter().zip(&band.ends).map(at).collect();
+    let mut area = Path::default();
+    for run in points.split(Option::is_none) {
+        let side = |k: usize| simplify(run.iter().flatten().map(|ends| ends[k]).collect());
+        let (low, mut high) = (side(0), side(1));
+        high.reverse();
+        area.polygon(&[low, high].concat());
+    }
+    svg.path("band", &area);
 }
 
 /// The curve, interrupted where it has no value; the pixels of its ticks.
@@ -146,7 +173,7 @@ mod tests {
 
     fn strip(values: &[Option<f64>], logarithmic: bool) -> Strip {
         let curve = Curve { label: "a < b".to_owned(), values: values.to_vec() };
-        Strip { curves: vec![curve], logarithmic, limit: None }
+        Strip { curves: vec![curve], logarithmic, ..Strip::default() }
     }
 
     fn drawn(strips: Vec<Strip>) -> String {

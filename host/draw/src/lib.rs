@@ -221,6 +221,17 @@ pub struct Strip {
     pub logarithmic: bool,
     /// A value that should not be exceeded, and what to call it.
     pub limit: Option<(String, f64)>,
+    /// Where the exact value of the first curve is known to lie, and what to call that.
+    pub band: Option<Band>,
+}
+
+/// An interval at each tick.
+#[derive(Debug, Clone, Default)]
+pub struct Band {
+    /// Its name.
+    pub label: String,
+    /// The least and the largest value, where they are known.
+    pub ends: Vec<Option<[f64; 2]>>,
 }
 
 /// One quantity over time.

@@ -71,10 +71,17 @@ pub struct Arguments {
     /// By the controller that `bake` writes for the scene, with its bits
     #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
     baked: bool,
+    /// No intervals of the outputs: else NAME_least and NAME_most hold the exact value of a force, flux or mean. Above 300 000
+    /// unknowns times ticks there are none without --baked, whose controller has numbers of its own for them
+    #[arg(long)]
+    no_intervals: bool,
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
     #[arg(long)]
     vtu: bool,
 }
+
+/// Unknowns times ticks up to which intervals of outputs are worked out: some seconds.
+const MOST_INTERVALS: usize = 300_000;
 
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
@@ -94,6 +101,11 @@ impl Arguments {
         if let Some(coarse) = &coarse {
             warn(&coarse.warnings);
         }
+        let work = problem.topology.counts.unknowns() * moments.len();
+        let budget = Budget {
+            intervals: !self.no_intervals && work <= MOST_INTERVALS,
+            ..self.budget(&scene)
+        };
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
         let done = |tick: &TickRecord, fields: &TickFields| {
@@ -106,7 +118,7 @@ impl Arguments {
         };
         let ticks = match self.baked {
             true => replay(&problem, &moments, self.scalar, done),
-            false => play(&problem, coarse.as_ref(), &moments, &self.budget(&scene), done)
+            false => play(&problem, coarse.as_ref(), &moments, &budget, done)
                 .map(|ticks| ("full, swept".to_owned(), ticks)),
         };
         bar.finish_and_clear();
@@ -131,6 +143,7 @@ impl Arguments {
             scalar: self.scalar.unwrap_or(own),
             sweeps: self.budget_sweeps.unwrap_or(Options::default().max_sweeps),
             error: self.error.unwrap_or(0.0),
+            intervals: false,
         }
     }
 }

@@ -8,6 +8,7 @@
 //! whatever sides the contact edges are. Where a bound is as large as its algebraic part nothing is said of σ_h. What the sum of an
 //! output rounds is not in it.
 
+use crate::bound::verdict::Certificate;
 use crate::device::report::Report;
 use crate::real::Real;
 
@@ -44,7 +45,11 @@ impl<R: Real> OutputWeights<R> {
     /// assert_eq!(OutputWeights::NONE.plus_minus(&report), f64::INFINITY);
     /// ```
     pub fn plus_minus(&self, report: &Report<R>) -> R {
-        let Some(bound) = report.certificate() else { return R::INFINITY };
+        report.certificate().map_or(R::INFINITY, |bound| self.within(bound))
+    }
+
+    /// The same of a bound.
+    pub fn within(&self, bound: &Certificate<R>) -> R {
         let is_told = self.algebraic == R::ZERO || bound.algebraic < bound.total;
         if !is_told || self.total == R::INFINITY {
             return R::INFINITY;
@@ -65,7 +70,7 @@ pub fn plus_minus<R: Real, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bound::verdict::{Certificate, Verdict};
+    use crate::bound::verdict::Verdict;
     use crate::device::report::Ended;
 
     fn report(verdict: Verdict<f32>) -> Report<f32> {

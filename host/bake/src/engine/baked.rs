@@ -1,22 +1,41 @@
 //! The controller that `bake` would write, on this machine.
 
+use signorini_kernel::bound::verdict::Certificate;
+
 use super::{Engine, condensed, full};
 use crate::choice::{Choice, Model, Wanted};
+use crate::intervals::{narrowed, of_choice};
 use crate::setting;
 use signorini_scene::error::Result;
+use signorini_solve::certify::ErrorBound;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
 
-/// Lends the engine of the module that `bake` writes for `problem`, with the module's name in a few words: its
-/// model, solver and scalar are chosen as there, `asked` being the scalar of the command line.
+/// What is known of a module beside its answers.
+pub struct Module {
+    /// Its model, solver and scalar in a few words.
+    pub name: String,
+    plus_minus: Box<dyn Fn(&ErrorBound) -> Vec<f64>>,
+}
+
+impl Module {
+    /// How far each output may be off, as `Answer::plus_minus` says it; none where nothing is guaranteed.
+    pub fn plus_minus(&self, bound: Option<&ErrorBound>) -> Vec<Option<f64>> {
+        let all = bound.map(|bound| (self.plus_minus)(bound)).unwrap_or_default();
+        all.into_iter().map(|by| Some(by).filter(|by| by.is_finite())).collect()
+    }
+}
+
+/// Lends the engine of the module that `bake` writes for `problem`, and what is known of the module: model, solver and scalar are
+/// chosen as there, `asked` being the scalar of the command line.
 ///
 /// # Errors
 /// Those of `bake`: no model that represents the scene or fits its target.
 pub fn baked<T>(
     problem: &Problem,
     asked: Option<ScalarKind>,
-    then: impl FnOnce(&mut dyn Engine, &str) -> Result<T>,
+    then: impl FnOnce(&mut dyn Engine, &Module) -> Result<T>,
 ) -> Result<T> {
     match setting::scalar(&problem.scene, asked)? {
         ScalarKind::F32 => baked_in::<f32, T>(problem, then),
@@ -26,13 +45,24 @@ pub fn baked<T>(
 
 fn baked_in<R: Scalar, T>(
     problem: &Problem,
-    then: impl FnOnce(&mut dyn Engine, &str) -> Result<T>,
+    then: impl FnOnce(&mut dyn Engine, &Module) -> Result<T>,
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
     let candidate = choice.candidate();
+    let weights: Vec<_> = of_choice(problem, &choice)?.iter().map(narrowed::<R>).collect();
+    let plus_minus = move |bound: &ErrorBound| {
+        let certificate = Certificate {
+            total: R::narrow(bound.total),
+            algebraic: R::narrow(bound.algebraic),
+            of_u: R::narrow(bound.of_u),
+            ..Certificate::default()
+        };
+        weights.iter().map(|of| of.within(&certificate).wide()).collect()
+    };
     let name = format!("{}, {}", candidate.name, R::NAME);
+    let module = Module { name, plus_minus: Box::new(plus_minus) };
     match &candidate.model {
-        Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &name)),
-        Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &name)),
+        Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &module)),
+        Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &module)),
     }
 }

@@ -13,7 +13,7 @@ mod full;
 mod single;
 mod solution;
 
-pub use baked::baked;
+pub use baked::{Module, baked};
 pub use solution::solve;
 
 use std::fmt::Display;

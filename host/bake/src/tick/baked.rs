@@ -8,7 +8,7 @@
 mod tests;
 
 use super::{ScheduledTick, TickFields, TickRecord};
-use crate::engine::{self, Engine, TickSolution};
+use crate::engine::{self, Engine, Module, TickSolution};
 use signorini_scene::error::Result;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::problem::Problem;
@@ -25,24 +25,28 @@ pub fn replay(
     asked: Option<ScalarKind>,
     mut done: impl FnMut(&TickRecord, &TickFields) -> Result<()>,
 ) -> Result<(String, Vec<TickRecord>)> {
-    engine::baked(problem, asked, |engine, name| {
+    engine::baked(problem, asked, |engine, module| {
         let mut problem = problem.clone();
         let ticks = moments.iter().map(|moment| {
             moment.set(&mut problem)?;
-            let (tick, fields) = tick(&problem, engine)?;
+            let (tick, fields) = tick(&problem, engine, module)?;
             done(&tick, &fields)?;
             Ok(tick)
         });
-        Ok((name.to_owned(), ticks.collect::<Result<_>>()?))
+        Ok((module.name.clone(), ticks.collect::<Result<_>>()?))
     })
 }
 
-fn tick(problem: &Problem, engine: &mut dyn Engine) -> Result<(TickRecord, TickFields)> {
+fn tick(
+    problem: &Problem,
+    engine: &mut dyn Engine,
+    module: &Module,
+) -> Result<(TickRecord, TickFields)> {
     let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
     match engine.tick(&inputs) {
         Ok(_) => {
             let answer = engine.answer(problem)?;
-            let tick = read_off(problem, &answer)?;
+            let tick = read_off(problem, &answer, module)?;
             let TickSolution { u, flux, certified, .. } = answer;
             Ok((tick, TickFields { u, flux, vertices: certified.vertices }))
         }
@@ -61,10 +65,11 @@ fn refused(problem: &Problem) -> TickRecord {
         bound: None,
         combined: None,
         outputs: vec![None; problem.scene.outputs.len()],
+        intervals: vec![None; problem.scene.outputs.len()],
     }
 }
 
-fn read_off(problem: &Problem, answer: &TickSolution) -> Result<TickRecord> {
+fn read_off(problem: &Problem, answer: &TickSolution, module: &Module) -> Result<TickRecord> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let bound = answer.bound.filter(|bound| bound.total.is_finite());
     let combined = match (&problem.scene.exact, bound) {
@@ -79,6 +84,10 @@ fn read_off(problem: &Problem, answer: &TickSolution) -> Result<TickRecord> {
         _ => [answer.force, answer.length(problem)],
     };
     let outputs = answer.outputs.iter().take(problem.scene.outputs.len());
+    let plus_minus = module.plus_minus(bound.as_ref());
+    let around = |(&value, by): (&f64, Option<f64>)| by.map(|by| [value - by, value + by]);
+    let of_each = plus_minus.into_iter().chain(std::iter::repeat(None));
+    let intervals = outputs.clone().zip(of_each).map(around).collect();
     Ok(TickRecord {
         time: problem.time,
         status: answer.ended,
@@ -88,5 +97,6 @@ fn read_off(problem: &Problem, answer: &TickSolution) -> Result<TickRecord> {
         bound,
         combined: combined.and_then(finite),
         outputs: outputs.map(|&value| finite(value)).collect(),
+        intervals,
     })
 }

@@ -12,6 +12,7 @@ pub mod baked;
 pub mod coarse;
 pub mod columns;
 pub mod held;
+mod intervals;
 pub mod log;
 mod picture;
 pub mod player;
@@ -23,6 +24,7 @@ use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows;
 use signorini_kernel::solve::solver::Settings;
 
+use intervals::Intervals;
 use player::{PlayedTick, Player};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
@@ -69,6 +71,8 @@ pub struct TickRecord {
     pub combined: Option<f64>,
     /// The declared outputs, in the order of the scene.
     pub outputs: Vec<Option<f64>>,
+    /// Where they lie for the exact solution.
+    pub intervals: Vec<Option<[f64; 2]>>,
 }
 
 impl TickRecord {
@@ -87,6 +91,10 @@ impl TickRecord {
         self.bound = self.bound.map(|bound| bound.times(units.energy()));
         for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
             times(output, units.of_output(of.quantity));
+        }
+        for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
+            let unit = units.of_output(of.quantity);
+            *interval = interval.map(|ends| ends.map(|end| end * unit));
         }
     }
 }
@@ -120,6 +128,8 @@ pub struct Budget {
     pub sweeps: u32,
     /// The certified error that is small enough; 0: as far as sweeps buy anything.
     pub error: f64,
+    /// Whether intervals of the outputs are worked out, each tick anew.
+    pub intervals: bool,
 }
 
 impl Budget {
@@ -188,8 +198,7 @@ fn play_in<R: Scalar>(
         done(tick, fields)
     };
     let parts = Parts::whatever_inputs(problem)?;
-    let mut all =
-        |engine: &mut held::Engine| through(problem, moments, budget.scalar, engine, &mut done);
+    let mut all = |engine: &mut held::Engine| through(problem, moments, budget, engine, &mut done);
     if Approach::Tick.lack_with(problem, parts.counts).is_some() {
         let mut player = Player::<R>::new(problem, budget)?;
         all(&mut |problem| player.tick(problem))
@@ -204,15 +213,19 @@ fn play_in<R: Scalar>(
 fn through(
     problem: &Problem,
     moments: &[ScheduledTick],
-    scalar: ScalarKind,
+    budget: &Budget,
     engine: &mut held::Engine,
     done: &mut impl FnMut(&mut TickRecord, &mut TickFields) -> Result<()>,
 ) -> Result<Vec<TickRecord>> {
     let mut problem = problem.clone();
+    let mut bounds = budget.intervals.then(|| Intervals::new(budget.scalar));
     let ticks = moments.iter().map(|moment| {
         moment.set(&mut problem)?;
         let answer = engine(&problem).map_err(|error| error.at_time(moment.time))?;
-        let mut tick = read_off(&problem, scalar, &answer)?;
+        let mut tick = read_off(&problem, budget.scalar, &answer)?;
+        if let Some(bounds) = &mut bounds {
+            tick.intervals = bounds.of(&problem, &answer)?;
+        }
         let PlayedTick { u, flux, certified, .. } = answer;
         done(&mut tick, &mut TickFields { u, flux, vertices: certified.vertices })?;
         Ok(tick)
@@ -241,5 +254,6 @@ fn read_off(problem: &Problem, scalar: ScalarKind, answer: &PlayedTick) -> Resul
         bound,
         combined: combined.and_then(finite),
         outputs: declared(problem, reading)?,
+        intervals: vec![None; problem.scene.outputs.len()],
     })
 }

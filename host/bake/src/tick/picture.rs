@@ -1,7 +1,7 @@
 //! The ticks as the report draws them: one diagram a quantity, all over the same time.
 
 use super::TickRecord;
-use signorini_draw::{Curve, History, Strip};
+use signorini_draw::{Band, Curve, History, Strip};
 use signorini_scene::scene::Scene;
 
 /// Collects the picture of `ticks`, with the budget of sweeps where there was one.
@@ -16,14 +16,21 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Hist
         strip(curve("contact length", &|tick| tick.contact_length)),
     ];
     strips.extend(scene.outputs.iter().enumerate().map(|(at, output)| {
-        strip(curve(&output.name.value, &|tick| tick.outputs.get(at).copied().flatten()))
+        let unit = output.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
+        let label = format!("{}{unit}", output.name.value);
+        let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
+        let ends: Vec<_> =
+            ticks.iter().map(|tick| tick.intervals.get(at).copied().flatten()).collect();
+        let label = "the exact value lies within".to_owned();
+        let band = ends.iter().any(Option::is_some).then_some(Band { label, ends });
+        Strip { band, ..strip(values) }
     }));
     let bound = curve("error bound", &|tick| tick.bound.map(|bound| bound.total));
     let error = curve("true error", &|tick| tick.combined);
-    strips.push(Strip { curves: vec![bound, error], logarithmic: true, limit: None });
+    strips.push(Strip { curves: vec![bound, error], logarithmic: true, ..Strip::default() });
     let sweeps = curve("sweeps a tick", &|tick| Some(f64::from(tick.sweeps)));
     let limit = budget.map(|sweeps| (format!("budget: {sweeps} sweeps"), f64::from(sweeps)));
-    strips.push(Strip { curves: vec![sweeps], logarithmic: false, limit });
+    strips.push(Strip { curves: vec![sweeps], limit, ..Strip::default() });
     History {
         title: scene.title.clone(),
         time: ticks.iter().map(|tick| tick.time).collect(),

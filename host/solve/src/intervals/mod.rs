@@ -135,6 +135,21 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<Str
 /// # Errors
 /// Data that are not finite.
 pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String, Found>> {
+    let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
+    let is_bounded = answer.bound.is_some() && is_small;
+    let factor = if is_bounded { SharedFactor::of(problem)? } else { None };
+    by_factor(problem, answer, factor.as_ref())
+}
+
+/// The same by the factor of its matrix.
+///
+/// # Errors
+/// Data that are not finite.
+pub fn by_factor(
+    problem: &Problem,
+    answer: &Answered,
+    factor: Option<&SharedFactor>,
+) -> Result<BTreeMap<String, Found>> {
     let all = wanted(&problem.scene);
     let names = || all.iter().map(|output| output.name.value.clone());
     let none = |why: &str| Ok(names().map(|name| (name, Err(why.to_owned()))).collect());
@@ -142,9 +157,7 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String
     if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
-    let Some(factor) = SharedFactor::of(problem)? else {
-        return none("its linear problem has no factor");
-    };
+    let Some(factor) = factor else { return none("its linear problem has no factor") };
     let known = Known {
         factor,
         problem,
@@ -160,7 +173,7 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String
 
 /// What is known of the solution.
 struct Known<'p> {
-    factor: SharedFactor,
+    factor: &'p SharedFactor,
     problem: &'p Problem,
     answer: &'p Answered<'p>,
     contact: Vec<ContactEdge>,
@@ -196,7 +209,7 @@ impl Known<'_> {
         let mut part = FAR * goal.size(self.problem) / room;
         let mut best = [f64::NEG_INFINITY, f64::INFINITY];
         for trial in 0..TRIALS {
-            let Some(weights) = dual.solve(&self.factor, &self.contact, &goal, part) else { break };
+            let Some(weights) = dual.solve(self.factor, &self.contact, &goal, part) else { break };
             let (first, differ) = self.braces(&goal, &weights, part, true)?;
             let mut ends = first.within(best);
             if differ {

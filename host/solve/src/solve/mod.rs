@@ -22,7 +22,7 @@ pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
-pub(crate) use shared::SharedFactor;
+pub use shared::SharedFactor;
 pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};

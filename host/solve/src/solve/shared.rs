@@ -5,7 +5,8 @@ use crate::problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 
 /// The factor of a matrix, for all loads and laws of contact.
-pub(crate) struct SharedFactor(Ldlt<f64>);
+#[derive(Debug)]
+pub struct SharedFactor(Ldlt<f64>);
 
 impl SharedFactor {
     /// That of `problem`; nothing where it is singular, or would take too much memory.

@@ -1,0 +1,35 @@
+//! Where the outputs of a tick lie for the exact solution, worked out anew from its answer.
+
+use super::player::PlayedTick;
+use signorini_scene::error::Result;
+use signorini_solve::intervals::{Answered, by_factor};
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{ScalarKind, SharedFactor};
+
+/// What stays from tick to tick.
+pub(super) struct Intervals {
+    scalar: ScalarKind,
+    factor: Option<SharedFactor>,
+}
+
+impl Intervals {
+    pub fn new(scalar: ScalarKind) -> Self {
+        Self { scalar, factor: None }
+    }
+
+    /// Those of the declared outputs, in their order.
+    pub fn of(&mut self, problem: &Problem, answer: &PlayedTick) -> Result<Vec<Option<[f64; 2]>>> {
+        if self.factor.is_none() || problem.scene.transfer_input().is_some() {
+            self.factor = SharedFactor::of(problem)?;
+        }
+        let PlayedTick { certified, bound, .. } = answer;
+        let bound = bound.filter(|bound| bound.total.is_finite());
+        let answered = Answered { certified, bound, scalar: self.scalar };
+        let mut all = by_factor(problem, &answered, self.factor.as_ref())?;
+        let names = problem.scene.outputs.iter().map(|output| &output.name.value);
+        let found = names.map(|name| all.remove(name).and_then(std::result::Result::ok));
+        let ends = found
+            .map(|found| found.map(|of| [of.center - of.plus_minus, of.center + of.plus_minus]));
+        Ok(ends.collect())
+    }
+}
