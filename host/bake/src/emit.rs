@@ -10,6 +10,8 @@ use crate::module_api::ModuleApi;
 use crate::ranges;
 use crate::worst;
 use signorini_scene::error::Result;
+use signorini_solve::functional::wanted;
+use signorini_solve::intervals::described;
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 
@@ -45,6 +47,7 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Emitted>
         instructions: candidate.needs.instructions(),
         ranges: ranges.filter(|_| ranges::declared(&problem.scene)),
         worst_case,
+        outputs: wanted(&problem.scene).iter().map(described).collect(),
     };
     let source = source
         + &worst::constants(worst_case)

@@ -21,6 +21,9 @@ pub struct Chosen {
     pub ranges: Option<Ranges>,
     /// What no tick exceeds.
     pub worst_case: WorstCase,
+    /// What each output is the value of.
+    #[serde(default)]
+    pub outputs: Vec<String>,
 }
 
 /// The most that a tick takes, whatever the inputs are within their ranges, and whatever state it begins in.

@@ -1,5 +1,6 @@
 //! What a scene costs on a board, and whether it is right there: `firmware.json`.
 
+use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 use serde::Serialize;
@@ -31,6 +32,19 @@ pub struct Instructions {
     pub max: u64,
 }
 
+/// The interval of an output.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutputBound {
+    /// The output.
+    pub center: f64,
+    /// How far the exact value is from it at most.
+    pub plus_minus: f64,
+    /// What it is the value of.
+    pub of: String,
+    /// A controller has no second mesh.
+    pub estimate: Option<f64>,
+}
+
 /// The result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Firmware {
@@ -44,6 +58,8 @@ pub struct Firmware {
     pub outputs: Values,
     /// Those of the first tick on this machine.
     pub host_outputs: Values,
+    /// Where each output of the first tick lies for the exact solution, as the board says it; null where nothing is guaranteed.
+    pub output_bounds: BTreeMap<String, Option<OutputBound>>,
     /// Whether every tick has the same bits on both.
     pub bit_identical: bool,
     /// Of one call of `Controller::tick`.
@@ -110,6 +126,7 @@ impl Firmware {
             model: word("model").next().unwrap_or_default(),
             outputs: Values::new(&names, said.outputs()),
             host_outputs: Values::new(&names, desk.outputs()),
+            output_bounds: bounds(&names, &said, &module.chosen.outputs),
             bit_identical: difference.is_none(),
             instructions_per_tick,
             ram_bytes: statics.ram + stack,
@@ -144,7 +161,10 @@ impl Firmware {
         let digits = |value: Option<f64>| value.map_or("null".to_owned(), |x| format!("{x:?}"));
         for ((name, board), (_, desk)) in self.outputs.0.iter().zip(&self.host_outputs.0) {
             let (board, desk) = (digits(*board), digits(*desk));
-            let _ = writeln!(table, "  {:<width$}  {board:>24}{desk:>24}", name.escape_debug());
+            let off = self.output_bounds.get(name).and_then(Option::as_ref);
+            let off = off.map_or_else(String::new, |of| format!("   ± {:?}", of.plus_minus));
+            let name = name.escape_debug();
+            let _ = writeln!(table, "  {name:<width$}  {board:>24}{desk:>24}{off}");
         }
         let equal = self.difference.as_deref().unwrap_or("the same bits on both");
         let _ = writeln!(table, "  {TICKS} ticks: {equal}");
@@ -234,6 +254,16 @@ impl Firmware {
             (None, None) => Ok(()),
         }
     }
+}
+
+/// The intervals of the first tick; `of` says of each output what it is the value of.
+fn bounds(names: &[String], said: &Ticks, of: &[String]) -> BTreeMap<String, Option<OutputBound>> {
+    let values = said.outputs().into_iter().zip(said.plus_minus());
+    let of = of.iter().cloned().chain(std::iter::repeat(String::new()));
+    let bound = |((center, plus_minus), of): ((Option<f64>, Option<f64>), String)| {
+        Some(OutputBound { center: center?, plus_minus: plus_minus?, of, estimate: None })
+    };
+    names.iter().cloned().zip(values.zip(of).map(bound)).collect()
 }
 
 fn instructions(board: &Ticks) -> Result<Instructions, NoResult> {

@@ -43,8 +43,18 @@ impl Ticks {
 
     /// The outputs of the first tick, none where they are no numbers; no output where it was refused.
     pub fn outputs(&self) -> Vec<Option<f64>> {
+        self.first("output ")
+    }
+
+    /// How far each of them may be from its exact value; none where nothing is guaranteed.
+    pub fn plus_minus(&self) -> Vec<Option<f64>> {
+        self.first("plus-minus ")
+    }
+
+    /// The numbers of the first tick in lines that begin so.
+    fn first(&self, name: &str) -> Vec<Option<f64>> {
         let first = self.lines.iter().skip(1).take_while(|line| !line.starts_with("tick "));
-        first.filter_map(|line| line.strip_prefix("output ")).map(decimal).collect()
+        first.filter_map(|line| line.strip_prefix(name)).map(decimal).collect()
     }
 
     /// Where the ticks of two machines part, if they do.
@@ -88,13 +98,14 @@ mod tests {
     use super::*;
 
     const BOARD: &str = "tick 1\n@ instructions 512\noutput f32 3dcccccd\noutput f32 7f800000\n\
-                         sweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
+                         plus-minus f32 3dcccccd\nsweeps 3\ntick 2\n@ instructions 480\noutput f32 3f800000\n";
 
     #[test]
     fn a_tick_is_read() {
         let ticks = Ticks::parse(BOARD);
         assert_eq!(ticks.count(), 2);
         assert_eq!(ticks.outputs(), [Some(0.1), None]);
+        assert_eq!(ticks.plus_minus(), [Some(0.1)]);
         assert_eq!(ticks.numbers("instructions"), Ok(vec![512, 480]));
         let beyond = Ticks::parse("@ instructions beyond").numbers("instructions");
         assert_eq!(beyond, Err("a tick's instructions: `beyond`".to_owned()));

@@ -2,7 +2,7 @@
 
 use super::TickRecord;
 use signorini_draw::{Band, Curve, History, Strip};
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Quantity, Scene};
 
 /// Collects the picture of `ticks`, with the budget of sweeps where there was one.
 pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> History {
@@ -21,7 +21,11 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Hist
         let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
         let ends: Vec<_> =
             ticks.iter().map(|tick| tick.intervals.get(at).copied().flatten()).collect();
-        let label = "the exact value lies within".to_owned();
+        let label = match output.quantity {
+            Quantity::Probe { .. } => "the exact mean over its cell lies within",
+            _ => "the exact value lies within",
+        };
+        let label = label.to_owned();
         let band = ends.iter().any(Option::is_some).then_some(Band { label, ends });
         Strip { band, ..strip(values) }
     }));

@@ -37,6 +37,20 @@ pub(super) struct Goal {
 /// A goal, or why there is none.
 pub(super) type Posed = std::result::Result<Goal, String>;
 
+/// What an output is the value of, in a few words.
+pub fn described(output: &Output) -> String {
+    let of = output.of.as_ref().map_or("all contact edges", |of| of.value.as_str());
+    match output.quantity {
+        Quantity::Mean => format!("the mean of u over {of}"),
+        Quantity::Flux => format!("the flux (A∇u)·n over {of}"),
+        Quantity::Force => format!("the force ∫λ over {of}"),
+        Quantity::Length => format!("the length of {of} that touches"),
+        Quantity::Saturated => format!("the length of {of} at its limit"),
+        Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})"),
+        Quantity::Bound => "the error bound".to_owned(),
+    }
+}
+
 impl Goal {
     /// That of an output, where it is linear.
     ///
@@ -53,14 +67,13 @@ impl Goal {
                 None => none("it is outside the mesh"),
             },
             _ if part.kind().is_none() => none("its boundary has no edge"),
-            Quantity::Mean => Self::of_mean(problem, answer, &part).map(Ok),
-            Quantity::Flux | Quantity::Force => {
-                Self::of_flux(problem, answer, &part, output.quantity).map(Ok)
-            }
+            Quantity::Mean => Self::of_mean(problem, answer, output).map(Ok),
+            Quantity::Flux | Quantity::Force => Self::of_flux(problem, answer, output).map(Ok),
         }
     }
 
-    fn of_mean(problem: &Problem, answer: &Answered, part: &Part) -> Result<Self> {
+    fn of_mean(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
+        let part = &Part::new(problem, output);
         let density = 1.0 / part.length();
         let tables = 0..problem.scene.boundaries.len();
         Ok(Self {
@@ -69,7 +82,7 @@ impl Goal {
             values: vec![0.0; tables.len()],
             densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
             cell: None,
-            of: format!("the mean of u over {}", part.name()),
+            of: described(output),
         })
     }
 
@@ -81,13 +94,9 @@ impl Goal {
         Self { sign: 1.0, start, values, densities, cell: Some(cell), of }
     }
 
-    fn of_flux(
-        problem: &Problem,
-        answer: &Answered,
-        part: &Part,
-        quantity: Quantity,
-    ) -> Result<Self> {
-        let is_force = quantity == Quantity::Force;
+    fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
+        let part = &Part::new(problem, output);
+        let is_force = output.quantity == Quantity::Force;
         let weight = |at: usize| match part.has_table(at) {
             true if is_force => values::direction(problem, at),
             true => 1.0,
@@ -95,10 +104,7 @@ impl Goal {
         };
         let values: Vec<f64> = (0..problem.scene.boundaries.len()).map(weight).collect();
         let start = values::flux(problem, answer, part, is_force)?;
-        let of = match is_force {
-            true => format!("the force ∫λ over {}", part.name()),
-            false => format!("the flux (A∇u)·n over {}", part.name()),
-        };
+        let of = described(output);
         let densities = vec![0.0; values.len()];
         Ok(Self { sign: -1.0, start, values, densities, cell: None, of })
     }

@@ -37,6 +37,7 @@ use crate::problem::Problem;
 use crate::solve::{ScalarKind, SharedFactor, Solution, times};
 use crate::threads::on_two_threads;
 pub use estimate::estimate;
+pub use goal::described;
 
 use contact::{ContactEdge, contact_edges};
 use dual::{Dual, Weights};

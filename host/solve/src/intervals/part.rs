@@ -14,11 +14,6 @@ impl<'p> Part<'p> {
         Self { problem, name: output.of.as_ref().map(|of| of.value.as_str()) }
     }
 
-    /// What to call it.
-    pub fn name(&self) -> &str {
-        self.name.unwrap_or("all contact edges")
-    }
-
     /// Whether the boundary of the scene's table `at` belongs to it.
     pub fn has_table(&self, at: usize) -> bool {
         let boundary = &self.problem.scene.boundaries[at];

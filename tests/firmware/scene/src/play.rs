@@ -1,4 +1,4 @@
-//! All ticks, line by line: outputs in their order, then what the controller reports.
+//! All ticks, line by line: outputs in their order, how far each may be off, then what the controller reports.
 
 use signorini_board::journal::Journal;
 
@@ -21,6 +21,9 @@ pub fn play(
         };
         for output in answer.outputs.to_array() {
             journal.scalar("output", output);
+        }
+        for by in answer.plus_minus().to_array() {
+            journal.scalar("plus-minus", by);
         }
         answer.report.tell(journal);
     }
