@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use super::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
-use crate::certify::curved::{followed, peak};
+use crate::certify::curved::peak;
 use crate::certify::deviation::Deviations;
 use crate::certify::ends::Ends;
 use crate::problem::{EdgeKind, Problem, spread};
@@ -44,18 +44,22 @@ pub(super) struct ContactEdge {
     dropped: [f64; 2],
 }
 
-/// All contact edges in their order.
+/// All contact edges in their order; s follows what is in `followed`.
 ///
 /// # Errors
 /// Data that are not finite.
-pub(super) fn contact_edges(problem: &Problem, answer: &Answered) -> Result<Vec<ContactEdge>> {
+pub(super) fn contact_edges(
+    problem: &Problem,
+    answer: &Answered,
+    followed: &Deviations,
+) -> Result<Vec<ContactEdge>> {
     let counts = problem.topology.counts;
     if counts.contact == 0 {
         return Ok(Vec::new());
     }
     let (ends, s) = (Ends::at_time(problem, problem.time)?, answer.certified.admissible());
     let epsilon = ROUNDINGS * answer.scalar.epsilon();
-    let (all, followed) = (Deviations::at_time(problem, problem.time)?, followed(problem, &s)?);
+    let all = Deviations::at_time(problem, problem.time)?;
     let mut edges = Vec::with_capacity(counts.contact);
     for (at, gap) in ends.gap.iter().enumerate() {
         let edge = counts.free + at;

@@ -7,7 +7,7 @@ use crate::certify::conductivity::{Conductivity, apply, dot};
 use crate::functional::Functional;
 use crate::pointwise::exact_at;
 use crate::problem::{EdgeKind, Problem};
-use crate::quadrature::bisected::mean_on_edge;
+use crate::quadrature::bisected::mean_and_doubt;
 use crate::quadrature::{gauss, on_panels};
 use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_scene::error::Result;
@@ -17,30 +17,44 @@ use signorini_scene::scene::{Exact, Output, Quantity};
 const PANELS: u32 = 8;
 const POINTS: usize = 8;
 
-/// That of a force, a flux, a mean, or of the mean over the cell of a probe.
+/// That of a force, a flux, a mean, or of the mean over the cell of a probe, and by how much its quadrature is in doubt.
 ///
 /// # Errors
 /// An exact solution that is not finite in the middle of a cell.
-pub(super) fn value(problem: &Problem, exact: &Exact, output: &Output) -> Result<f64> {
+pub(super) fn value(problem: &Problem, exact: &Exact, output: &Output) -> Result<[f64; 2]> {
     let part = Part::new(problem, output);
     let is_force = output.quantity == Quantity::Force;
+    let sum = |all: [f64; 2], of: [f64; 2]| [all[0] + of[0], all[1] + of[1]];
     match output.quantity {
-        Quantity::Probe { .. } => over_cell(problem, exact, output),
+        Quantity::Probe { .. } => Ok([over_cell(problem, exact, output)?, 0.0]),
         Quantity::Mean => {
-            Ok(part.edges().map(|edge| of_u(problem, exact, edge)).sum::<f64>() / part.length())
+            let all = part.edges().map(|edge| of_u(problem, exact, edge)).fold([0.0; 2], sum);
+            Ok(all.map(|x| x / part.length()))
         }
-        _ => part.edges().map(|edge| of_flux(problem, exact, edge, is_force)).sum(),
+        _ => part
+            .edges()
+            .try_fold([0.0; 2], |all, edge| Ok(sum(all, of_flux(problem, exact, edge, is_force)?))),
     }
 }
 
+/// The mean over an edge by the whole of it and by thirds.
+fn mean(segment: [[f64; 2]; 2], f: &dyn Fn(f64, f64) -> f64) -> [f64; 2] {
+    let [a, b] = segment;
+    let at = |part: u32| [0, 1].map(|k| a[k] + f64::from(part) / 3.0 * (b[k] - a[k]));
+    let [whole, doubt] = mean_and_doubt(segment, f);
+    let thirds = (0..3).map(|part| mean_and_doubt([at(part), at(part + 1)], f));
+    let [mean, doubts] = thirds.fold([0.0; 2], |sum, of| [0, 1].map(|k| sum[k] + of[k] / 3.0));
+    [mean, doubt + doubts + (whole - mean).abs()]
+}
+
 /// ∫_E u
-fn of_u(problem: &Problem, exact: &Exact, edge: usize) -> f64 {
+fn of_u(problem: &Problem, exact: &Exact, edge: usize) -> [f64; 2] {
     let u = |x: f64, y: f64| exact.u.value.eval(x, y, problem.time);
-    problem.lengths[edge] * mean_on_edge(problem.segment(edge), &u)
+    mean(problem.segment(edge), &u).map(|mean| problem.lengths[edge] * mean)
 }
 
 /// ∫_E (A∇u)·n, as a force from the end that it is measured from.
-fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Result<f64> {
+fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Result<[f64; 2]> {
     let segment @ [a, b] = problem.segment(edge);
     let normal: [f64; 2] = scaled_normal(a, b).into();
     let (cell, _) = problem.topology.first_side(edge);
@@ -49,13 +63,13 @@ fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Res
         let gradient = [0, 1].map(|k| exact.gradient[k].value.eval(x, y, problem.time));
         dot(apply(&conductivity.at([x, y]), gradient), normal)
     };
-    let flux = mean_on_edge(segment, &along);
+    let [flux, doubt] = mean(segment, &along);
     Ok(match is_force {
-        false => flux,
-        true if problem.kinds[edge] != EdgeKind::Contact => 0.0,
+        false => [flux, doubt],
+        true if problem.kinds[edge] != EdgeKind::Contact => [0.0; 2],
         true => {
             let (direction, [end, _]) = end(problem, edge)?;
-            direction * (flux - end)
+            [direction * (flux - end), doubt]
         }
     })
 }

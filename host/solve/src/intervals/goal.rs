@@ -14,6 +14,7 @@ use super::Answered;
 use super::part::Part;
 use super::values::{self, Value};
 use crate::certify::cell::Cell;
+use crate::certify::deviation::Deviations;
 use crate::problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Output, Quantity};
@@ -56,29 +57,39 @@ impl Goal {
     ///
     /// # Errors
     /// Data that are not finite, a probe outside the mesh.
-    pub fn of(problem: &Problem, answer: &Answered, output: &Output) -> Result<Posed> {
+    pub fn of(
+        problem: &Problem,
+        answer: &Answered,
+        deviations: &Deviations,
+        output: &Output,
+    ) -> Result<Posed> {
         let part = Part::new(problem, output);
         let none = |why: &str| Ok(Err(why.to_owned()));
         match output.quantity {
             Quantity::Length | Quantity::Saturated => none("the length of a contact set has none"),
             Quantity::Bound => none("it is a bound itself"),
-            Quantity::Probe { .. } => match values::cell(problem, answer, output)? {
+            Quantity::Probe { .. } => match values::cell(problem, answer, deviations, output)? {
                 Some((cell, start)) => Ok(Ok(Self::of_cell(problem, cell, start))),
                 None => none("it is outside the mesh"),
             },
             _ if part.kind().is_none() => none("its boundary has no edge"),
-            Quantity::Mean => Self::of_mean(problem, answer, output).map(Ok),
+            Quantity::Mean => Self::of_mean(problem, answer, deviations, output).map(Ok),
             Quantity::Flux | Quantity::Force => Self::of_flux(problem, answer, output).map(Ok),
         }
     }
 
-    fn of_mean(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
+    fn of_mean(
+        problem: &Problem,
+        answer: &Answered,
+        deviations: &Deviations,
+        output: &Output,
+    ) -> Result<Self> {
         let part = &Part::new(problem, output);
         let density = 1.0 / part.length();
         let tables = 0..problem.scene.boundaries.len();
         Ok(Self {
             sign: 1.0,
-            start: values::mean(problem, answer, part)?,
+            start: values::mean(problem, answer, deviations, part)?,
             values: vec![0.0; tables.len()],
             densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
             cell: None,

@@ -31,6 +31,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::certify::curved::followed;
+use crate::certify::deviation::Deviations;
 use crate::certify::{CertifiedFields, ErrorBound};
 use crate::functional::wanted;
 use crate::problem::Problem;
@@ -78,15 +80,18 @@ pub struct OutputBound {
     /// The exact value, where the scene has an exact solution.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exact: Option<f64>,
+    /// By how much its quadrature is in doubt.
+    #[serde(skip)]
+    pub doubt: f64,
 }
 
 impl OutputBound {
     /// In other units.
     fn times(self, unit: f64) -> Self {
-        let Self { center, plus_minus, estimate, exact, .. } = self;
-        let [center, plus_minus] = [center, plus_minus].map(|x| x * unit);
+        let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
+        let [center, plus_minus, doubt] = [center, plus_minus, doubt].map(|x| x * unit);
         let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| x * unit));
-        Self { center, plus_minus, estimate, exact, ..self }
+        Self { center, plus_minus, estimate, exact, doubt, ..self }
     }
 }
 
@@ -159,12 +164,14 @@ pub fn by_factor(
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
     let Some(factor) = factor else { return none("its linear problem has no factor") };
+    let deviations = followed(problem, &answer.certified.admissible())?;
     let known = Known {
         factor,
         problem,
         answer,
-        contact: contact_edges(problem, answer)?,
-        residual: Residual::new(problem, answer)?,
+        contact: contact_edges(problem, answer, &deviations)?,
+        residual: Residual::new(problem, answer, &deviations)?,
+        deviations: &deviations,
         bound,
         doubt: values::doubt(problem)? + values::imbalance(problem, answer),
     };
@@ -177,6 +184,7 @@ struct Known<'p> {
     factor: &'p SharedFactor,
     problem: &'p Problem,
     answer: &'p Answered<'p>,
+    deviations: &'p Deviations<'p>,
     contact: Vec<ContactEdge>,
     residual: Residual<'p>,
     bound: ErrorBound,
@@ -188,13 +196,14 @@ impl Known<'_> {
     fn interval(&self, output: &Output) -> Result<Found> {
         let mut found = self.bounded(output)?;
         if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
-            found.exact = Some(exact::value(self.problem, exact, output)?);
+            let [value, doubt] = exact::value(self.problem, exact, output)?;
+            (found.exact, found.doubt) = (Some(value), doubt);
         }
         Ok(found)
     }
 
     fn bounded(&self, output: &Output) -> Result<Found> {
-        let goal = match Goal::of(self.problem, self.answer, output)? {
+        let goal = match Goal::of(self.problem, self.answer, self.deviations, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
@@ -266,6 +275,7 @@ impl Known<'_> {
             of: goal.of.clone(),
             estimate: None,
             exact: None,
+            doubt: 0.0,
         }
     }
 

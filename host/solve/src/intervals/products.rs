@@ -3,18 +3,20 @@
 //!   ⟨a, b⟩ = ∫ a·A⁻¹b + ∫_R a b/h          r on R is τ·n + h (s − u_ext),   ζ·n ± (h z − κ) that of ζ ∓ A∇z
 //! ```
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
 use crate::certify::admissible::{Admissible, Following};
 use crate::certify::cell::Cell;
 use crate::certify::conductivity::{Conductivity, apply, dot, inverse};
-use crate::certify::curved::{self, followed};
-use crate::certify::deviation::Deviations;
+use crate::certify::curved;
+use crate::certify::deviation::{Deviation, Deviations};
 use crate::certify::robin::robin;
 use crate::field::CellField;
 use crate::problem::Problem;
-use crate::quadrature::{DATA_POINTS, gauss};
+use crate::quadrature::{DATA_POINTS, Point, gauss};
 use crate::threads::in_portions;
 use signorini_kernel::Real;
 use signorini_scene::error::Result;
@@ -36,7 +38,26 @@ pub(super) struct Products {
 pub(super) struct Residual<'p> {
     problem: &'p Problem,
     s: Admissible<'p>,
-    deviations: Deviations<'p>,
+    deviations: &'p Deviations<'p>,
+    /// Points of the cells in which s follows data, with A∇s there: these take long to evaluate.
+    lifted: BTreeMap<usize, Vec<(Point, [f64; 2])>>,
+}
+
+/// The points of a cell in which s follows data, with A∇s at each.
+fn gradients(
+    problem: &Problem,
+    s: &Admissible,
+    deviations: &Deviations,
+    at: usize,
+) -> Result<Vec<(Point, [f64; 2])>> {
+    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+    let s = s.on_cell(problem, at, deviations);
+    let points = curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?;
+    let along = |point: Point| {
+        let gradient = s.at(&cell.local(point.reference))?.gradient;
+        Ok((point, apply(&conductivity.at(point.x), gradient)))
+    };
+    points.into_iter().map(along).collect()
 }
 
 /// r, ζ and A∇z at one point; on R the flux that passes, that of ζ beyond its density, and −h (z − its value).
@@ -85,9 +106,17 @@ impl<'p> Residual<'p> {
     ///
     /// # Errors
     /// Data that are not finite.
-    pub fn new(problem: &'p Problem, answer: &Answered<'p>) -> Result<Self> {
+    pub fn new(
+        problem: &'p Problem,
+        answer: &Answered<'p>,
+        deviations: &'p Deviations<'p>,
+    ) -> Result<Self> {
         let s = answer.certified.admissible();
-        Ok(Self { problem, s, deviations: followed(problem, &s)? })
+        let cell = |of: &Deviation| problem.topology.first_side(of.edge).0;
+        let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();
+        let lifted = cells.into_iter().map(|at| Ok((at, gradients(problem, &s, deviations, at)?)));
+        let lifted = lifted.collect::<Result<_>>()?;
+        Ok(Self { problem, s, deviations, lifted })
     }
 
     /// The products with these weights.
@@ -101,7 +130,7 @@ impl<'p> Residual<'p> {
         let cells = in_portions(self.problem.cells(), |cells| {
             let mut sum = Products::default();
             for at in cells {
-                self.add_cell(at, &z, &mut sum)?;
+                self.add_cell(at, &z, &mut sum);
             }
             Ok(sum)
         })?;
@@ -110,26 +139,31 @@ impl<'p> Residual<'p> {
         Ok(sum)
     }
 
-    fn add_cell(&self, at: usize, z: &Admissible, sum: &mut Products) -> Result<()> {
+    fn add_cell(&self, at: usize, z: &Admissible, sum: &mut Products) {
         let problem = self.problem;
         let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
-        let (s, z_here) = (self.s.on_cell(problem, at, &self.deviations), z.chordal(problem, at));
+        let z_here = z.chordal(problem, at);
         let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
-        let is_lifted = self.deviations.of_cell(problem, at).iter().any(Option::is_some);
-        let rule = gauss(if is_lifted { curved::POINTS } else { points(&cell, &conductivity) });
-        for point in curved::points_along_sides(problem, at, &self.deviations, &rule)? {
+        let mut add = |point: &Point, along_s: [f64; 2]| {
             let (local, a) = (cell.local(point.reference), conductivity.at(point.x));
-            let along_s = apply(&a, s.at(&local)?.gradient);
-            let tau = tau.sample(&point).flux;
+            let tau = tau.sample(point).flux;
             let here = Fluxes {
                 residual: [tau[0] - along_s[0], tau[1] - along_s[1]],
-                zeta: zeta.sample(&point).flux,
+                zeta: zeta.sample(point).flux,
                 gradient: apply(&a, z_here.at(&local).gradient),
             };
             let inverse = inverse(&a);
             *sum = sum.and(here.products(|a, b| point.weight * dot(apply(&inverse, a), b)));
+        };
+        if let Some(lifted) = self.lifted.get(&at) {
+            lifted.iter().for_each(|(point, along_s)| add(point, *along_s));
+            return;
         }
-        Ok(())
+        let s = self.s.chordal(problem, at);
+        for point in cell.points(&gauss(points(&cell, &conductivity))) {
+            let gradient = s.at(&cell.local(point.reference)).gradient;
+            add(&point, apply(&conductivity.at(point.x), gradient));
+        }
     }
 
     fn add_transfer(&self, goal: &Goal, z: &Admissible, sum: &mut Products) -> Result<()> {

@@ -3,7 +3,8 @@
 use super::Answered;
 use super::part::Part;
 use crate::certify::cell::Cell;
-use crate::certify::curved::{self, followed};
+use crate::certify::curved;
+use crate::certify::deviation::Deviations;
 use crate::field::CellField;
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
@@ -126,9 +127,13 @@ fn of_source(problem: &Problem) -> Result<f64> {
 }
 
 /// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.
-pub(super) fn mean(problem: &Problem, answer: &Answered, part: &Part) -> Result<Value> {
+pub(super) fn mean(
+    problem: &Problem,
+    answer: &Answered,
+    deviations: &Deviations,
+    part: &Part,
+) -> Result<Value> {
     let s = answer.certified.admissible();
-    let deviations = followed(problem, &s)?;
     let [mut sum, mut terms] = [0.0; 2];
     for edge in part.edges() {
         let [a, b] = problem.ends[edge].map(|vertex| s.vertices[vertex as usize]);
@@ -149,14 +154,14 @@ fn largest(numbers: &[f64]) -> f64 {
 pub(super) fn cell(
     problem: &Problem,
     answer: &Answered,
+    deviations: &Deviations,
     output: &Output,
 ) -> Result<Option<(usize, Value)>> {
     let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(None) };
     let (cell, s) = (Cell::of(problem, at), answer.certified.admissible());
-    let deviations = followed(problem, &s)?;
-    let on_cell = s.on_cell(problem, at, &deviations);
+    let on_cell = s.on_cell(problem, at, deviations);
     let [mut value, mut terms] = [0.0; 2];
-    for point in curved::points_along_sides(problem, at, &deviations, &gauss(curved::POINTS))? {
+    for point in curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))? {
         let local = cell.local(point.reference);
         let here = on_cell.at(&local)?.value;
         let weight = cell.spread(point.weight, local.determinant);

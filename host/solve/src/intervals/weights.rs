@@ -20,6 +20,7 @@ use super::part::Part;
 use super::products::Residual;
 use crate::certify::CertifiedFields;
 use crate::certify::conductivity::Conductivity;
+use crate::certify::deviation::Deviations;
 use crate::energy_norm::nonconformity;
 use crate::functional::wanted;
 use crate::problem::{EdgeKind, Problem, Sum};
@@ -30,6 +31,9 @@ use signorini_scene::scene::{Field, Output, Quantity};
 /// Parts that are tried, and by how much each is larger than the last.
 const PARTS: i32 = 10;
 const STEP: f64 = 2.0;
+
+/// What data of nothing have above their chords.
+const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
 
 /// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -104,7 +108,7 @@ impl Weighing<'_> {
         if let Quantity::Probe { .. } = output.quantity {
             return none("u at a point has none; a mean over a boundary has one");
         }
-        let goal = match Goal::of(self.problem, &answer, output)? {
+        let goal = match Goal::of(self.problem, &answer, &NOTHING, output)? {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
@@ -233,7 +237,8 @@ impl Weighing<'_> {
         for corner in &self.corners {
             let dual = Dual::new(corner, goal)?;
             let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
-            let sizes = Residual::new(dual.problem(), &answer)?.with(goal, weights)?.sizes;
+            let sizes =
+                Residual::new(dual.problem(), &answer, &NOTHING)?.with(goal, weights)?.sizes;
             for (most, size) in most.iter_mut().zip(sizes) {
                 // A NaN is no size.
                 *most = if size <= *most { *most } else { size };

@@ -113,7 +113,7 @@ mod tests {
 
     fn of(center: f64, plus_minus: f64) -> String {
         let of = String::new();
-        with_error(&OutputBound { center, plus_minus, of, estimate: None, exact: None })
+        with_error(&OutputBound { center, plus_minus, of, estimate: None, exact: None, doubt: 0.0 })
     }
 
     #[test]

@@ -32,8 +32,9 @@ impl Intervals {
         let problem = asked(problem, number, true);
         let mut all = Self::default();
         for (name, found) in of_answer(&problem, answer)? {
-            if let Ok(OutputBound { center, plus_minus, exact: Some(exact), .. }) = found {
-                all.add(name, (exact - center).abs(), plus_minus);
+            if let Ok(OutputBound { center, plus_minus, exact: Some(exact), doubt, .. }) = found {
+                let off = ((exact - center).abs() - doubt).max(0.0);
+                all.add(name, off, plus_minus);
                 all.over_error.push(plus_minus / (exact - center).abs());
             }
         }

@@ -1,0 +1,83 @@
+//! What controllers say of their outputs holds for all inputs within the ranges: against meshes that are refined twice.
+
+use std::path::Path;
+
+use signorini_bake::engine::{Module, baked};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::scene::Scene;
+use signorini_solve::functional::wanted;
+use signorini_solve::inputs::{InputSpace, drawn};
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+
+/// Inputs that are tried: drawn ones, corners of the ranges among them.
+const TRIED: usize = 12;
+
+fn on_mesh(scene: &Scene, refine: u32) -> Result<Problem> {
+    Problem::new(scene, adapted::adapted(gmsh::read(&scene.mesh.value)?, None, refine)?)
+}
+
+/// The outputs on a finer mesh.
+fn exact(problem: &Problem, inputs: &[f64]) -> Result<Vec<Option<f64>>> {
+    let problem = problem.with_inputs(inputs)?;
+    let options = Options { solver: SolverKind::Factor, ..Options::default() };
+    let mut values = outputs(&problem, &solve(&problem, &options)?)?;
+    let names =
+        wanted(&problem.scene).iter().map(|output| output.name.value.clone()).collect::<Vec<_>>();
+    Ok(names.iter().map(|name| values.remove(name).flatten()).collect())
+}
+
+/// Outputs with an interval of one answer, and the largest distance from what the finer meshes say, over the half-width.
+fn holds(
+    name: &str,
+    [once, twice]: [&Problem; 2],
+    (values, plus_minus): (&[f64], &[Option<f64>]),
+    inputs: &[f64],
+) -> Result<usize> {
+    let (once, twice) = (exact(once, inputs)?, exact(twice, inputs)?);
+    let mut count = 0;
+    for (at, by) in plus_minus.iter().enumerate() {
+        let (Some(by), Some(once), Some(twice)) = (by, once[at], twice[at]) else { continue };
+        let apart = (twice - values[at]).abs() - (twice - once).abs();
+        assert!(apart <= *by, "{name}, output {at} at {inputs:?}: {} ± {by}, {twice}", values[at]);
+        count += 1;
+    }
+    Ok(count)
+}
+
+fn checked(name: &str, scalar: ScalarKind) -> Result<usize> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
+    let scene = Scene::read(&path)?;
+    let meshes = [on_mesh(&scene, 0)?, on_mesh(&scene, 1)?, on_mesh(&scene, 2)?];
+    let [own, once, twice] = &meshes;
+    baked(own, Some(scalar), |engine, module: &Module| {
+        let mut counts = Vec::new();
+        for inputs in drawn::<f64>(&InputSpace::of(&scene), TRIED) {
+            engine.tick(&inputs)?;
+            let answer = engine.answer(&own.with_inputs(&inputs)?)?;
+            let plus_minus = module.plus_minus(answer.bound.as_ref());
+            counts.push(holds(name, [once, twice], (&answer.outputs, &plus_minus), &inputs)?);
+        }
+        assert!(counts.iter().all(|count| *count == counts[0]), "{name}: {counts:?}");
+        Ok(counts[0])
+    })
+}
+
+#[test]
+fn every_output_of_the_standard_scenes_is_within_its_interval() -> Result<()> {
+    let scenes = [
+        ("levee.toml", 1),
+        ("slab.toml", 1),
+        ("strip.toml", 1),
+        ("pit.toml", 1),
+        ("antiicing.toml", 6),
+    ];
+    for (name, with_interval) in scenes {
+        for scalar in [ScalarKind::F32, ScalarKind::F64] {
+            assert_eq!(checked(name, scalar)?, with_interval, "{name}");
+        }
+    }
+    Ok(())
+}
