@@ -154,6 +154,8 @@ pub struct ScenePanel {
     pub name: String,
     /// The title.
     pub title: String,
+    /// What an engineer would say of it, if there is something.
+    pub sentence: Option<String>,
     /// Whether every check on the scene holds.
     pub passed: bool,
     /// Vertex coordinates.

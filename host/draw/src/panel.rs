@@ -13,8 +13,11 @@ use super::{BoundaryKind, ContactState, ScenePanel};
 
 /// The panel, numbered for links to it.
 pub fn panel((index, scene): (usize, &ScenePanel)) -> String {
+    let sentence = scene.sentence.as_ref().map_or_else(String::new, |sentence| {
+        format!("<p class=\"sentence\">{}</p>\n", escape(sentence))
+    });
     let mut html = format!(
-        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{} {}<small>{}</small></h3>\n\
+        "<article class=\"card\" id=\"scene-{index}\">\n<h3>{} {}<small>{}</small></h3>\n{sentence}\
          <div class=\"pictures\">\n<div>\n",
         mark(scene.passed),
         escape(&scene.title),

@@ -12,11 +12,14 @@ use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
 use signorini_solve::solve::ScalarKind;
 
+/// How far each output may be off where answers have such a bound.
+type PlusMinus = Box<dyn Fn(&ErrorBound) -> Vec<f64>>;
+
 /// What is known of a module beside its answers.
 pub struct Module {
     /// Its model, solver and scalar in a few words.
     pub name: String,
-    plus_minus: Box<dyn Fn(&ErrorBound) -> Vec<f64>>,
+    plus_minus: PlusMinus,
 }
 
 impl Module {

@@ -6,6 +6,7 @@ use super::bound::Certified;
 use super::checks;
 use super::cost;
 use super::known::{KnownScene, Run};
+use super::outputs::KnownOutputs;
 use super::panel::panel;
 use crate::cycles;
 use signorini_draw::ScenePanel;
@@ -30,6 +31,8 @@ pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
         let subject = checks::subject(&name, solution.scalar);
         checks.extend(run.certified.when_converged(&subject, &problem, solution));
     }
+    let (outputs, of_outputs) = KnownOutputs::new(&name, &problem, &double)?;
+    checks.extend(of_outputs);
     let counts = problem.topology.counts;
     let case = KnownScene {
         name,
@@ -41,6 +44,7 @@ pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {
         energy: double.energy(&problem),
         f64,
         f32,
+        outputs,
         checks,
     };
     let panel = panel(&problem, &double, &case);

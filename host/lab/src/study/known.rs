@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::bound::Certified;
 use super::checks::Check;
 use super::cost::Cost;
+use super::outputs::KnownOutputs;
 
 /// What is known of a scene after the study.
 #[derive(Debug, Clone, Serialize)]
@@ -27,6 +28,8 @@ pub struct KnownScene {
     pub f64: Run,
     /// The same in f32.
     pub f32: Run,
+    /// The declared outputs.
+    pub outputs: KnownOutputs,
     /// What was checked.
     pub checks: Vec<Check>,
 }

@@ -8,6 +8,7 @@ mod convergence;
 mod cost;
 mod cut_off;
 mod known;
+mod outputs;
 mod panel;
 mod table;
 

@@ -36,6 +36,7 @@ pub fn panel(problem: &Problem, solution: &Solution, case: &KnownScene) -> Scene
         energy: case.energy,
         contact: walk(problem).iter().map(|place| contact_edge(problem, solution, place)).collect(),
         boundary: boundary(problem),
+        sentence: case.outputs.sentence.clone(),
         facts: facts(case),
     }
 }
@@ -123,6 +124,8 @@ fn facts(case: &KnownScene) -> Vec<(String, String)> {
         (format!("{FROM_FAER}, f64"), format!("{:.1e}", case.f64.distance)),
         (format!("{FROM_FAER}, f32"), format!("{:.1e}", case.f32.distance)),
     ];
+    let told = case.outputs.told.iter();
+    facts.extend(told.map(|(name, words)| (format!("output {name}"), words.clone())));
     if let Some(errors) = &certified.errors {
         let norms = [
             (OF_ENERGY, errors.energy),

@@ -7,7 +7,7 @@ use crate::certify::conductivity::{Conductivity, apply, dot};
 use crate::functional::Functional;
 use crate::pointwise::exact_at;
 use crate::problem::{EdgeKind, Problem};
-use crate::quadrature::bisected::mean_and_doubt;
+use crate::quadrature::bisected::graded_mean;
 use crate::quadrature::{gauss, on_panels};
 use signorini_kernel::mesh::geometry::scaled_normal;
 use signorini_scene::error::Result;
@@ -37,20 +37,10 @@ pub(super) fn value(problem: &Problem, exact: &Exact, output: &Output) -> Result
     }
 }
 
-/// The mean over an edge by the whole of it and by thirds.
-fn mean(segment: [[f64; 2]; 2], f: &dyn Fn(f64, f64) -> f64) -> [f64; 2] {
-    let [a, b] = segment;
-    let at = |part: u32| [0, 1].map(|k| a[k] + f64::from(part) / 3.0 * (b[k] - a[k]));
-    let [whole, doubt] = mean_and_doubt(segment, f);
-    let thirds = (0..3).map(|part| mean_and_doubt([at(part), at(part + 1)], f));
-    let [mean, doubts] = thirds.fold([0.0; 2], |sum, of| [0, 1].map(|k| sum[k] + of[k] / 3.0));
-    [mean, doubt + doubts + (whole - mean).abs()]
-}
-
 /// ∫_E u
 fn of_u(problem: &Problem, exact: &Exact, edge: usize) -> [f64; 2] {
     let u = |x: f64, y: f64| exact.u.value.eval(x, y, problem.time);
-    mean(problem.segment(edge), &u).map(|mean| problem.lengths[edge] * mean)
+    graded_mean(problem.segment(edge), &u).map(|mean| problem.lengths[edge] * mean)
 }
 
 /// ∫_E (A∇u)·n, as a force from the end that it is measured from.
@@ -63,7 +53,7 @@ fn of_flux(problem: &Problem, exact: &Exact, edge: usize, is_force: bool) -> Res
         let gradient = [0, 1].map(|k| exact.gradient[k].value.eval(x, y, problem.time));
         dot(apply(&conductivity.at([x, y]), gradient), normal)
     };
-    let [flux, doubt] = mean(segment, &along);
+    let [flux, doubt] = graded_mean(segment, &along);
     Ok(match is_force {
         false => [flux, doubt],
         true if problem.kinds[edge] != EdgeKind::Contact => [0.0; 2],

@@ -3,12 +3,12 @@
 //! ```text
 //!   output ─► goal ─► a linear dual problem on the same mesh ─► z and ζ ─► products with the residual ─► interval
 //! ```
-//! Of s and τ, which the error bound T is about, and of the weights z and ζ of a linear output J ([`goal`]) follows
+//! Of s and τ, which the error bound T is about, and of the weights z and ζ of a linear output J (`goal`) follows
 //! ```text
 //!   {…} = ½⟨τ − A∇s, ζ + A∇z⟩ + ⟨σ − Σ, ζ − A∇z⟩ + ∫_C (σ − τ)·n z′ − ∫_C ζ′ (u − s),      Σ = ½(τ + A∇s)
 //! ```
 //! The first product is known. ‖σ − Σ‖² = M² − K/2 with M² = ½T² − ¼‖τ − A∇s‖² (Prager and Synge), where K ≥ 0 is what the
-//! identity of the bound has on C, and c K/2 bounds the rest ([`contact`]). The largest value over all K is
+//! identity of the bound has on C, and c K/2 bounds the rest (`contact`). The largest value over all K is
 //! ```text
 //!   ‖ζ − A∇z‖ M,  or where c > ‖ζ − A∇z‖/2M:   c M² + ‖ζ − A∇z‖²/4c.
 //! ```

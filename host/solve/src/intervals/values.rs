@@ -9,7 +9,7 @@ use crate::field::CellField;
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::bisected::{
-    mean_and_doubt, mean_on_edge, over_quad, over_triangle, quad_and_doubt, quarters_of_quad,
+    graded_mean, mean_on_edge, over_quad, over_triangle, quad_and_doubt, quarters_of_quad,
     quarters_of_triangle, triangle_and_doubt,
 };
 use crate::quadrature::gauss;
@@ -48,25 +48,15 @@ pub(super) fn given(problem: &Problem, part: &Part, field: Field) -> Result<Valu
     Ok(Value { value, terms, largest: 0.0 })
 }
 
-/// ∫_E of data, on thirds and on parts of them where they are not smooth, and of their modulus, which what is in doubt adds to.
+/// ∫_E of data, on parts of the edge where they are not smooth, and of their modulus, which what is in doubt adds to.
 fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
-    let [a, b] = problem.segment(edge);
+    let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
     if let Some(constant) = data.constant() {
-        return Ok([constant, constant.abs()].map(|x| problem.lengths[edge] * x));
+        return Ok([constant, constant.abs()].map(|x| length * x));
     }
-    let at = |part: u32| [0, 1].map(|k| a[k] + f64::from(part) / 3.0 * (b[k] - a[k]));
-    let [mut mean, mut size, mut doubt] = [0.0; 3];
-    for part in 0..3 {
-        let segment = [at(part), at(part + 1)];
-        let [of_part, off] = mean_and_doubt(segment, &|x, y| data.at(x, y));
-        mean += of_part / 3.0;
-        doubt += off / 3.0;
-        size += mean_on_edge(segment, &|x, y| data.at(x, y).abs()) / 3.0;
-    }
-    let whole = mean_on_edge([a, b], &|x, y| data.at(x, y));
-    doubt += (whole - data.finite(mean, a)?).abs();
-    let length = problem.lengths[edge];
-    Ok([length * mean, length * (size + doubt / INTEGRATED)])
+    let [mean, doubt] = graded_mean(segment, &|x, y| data.at(x, y));
+    let size = mean_on_edge(segment, &|x, y| data.at(x, y).abs());
+    Ok([length * data.finite(mean, segment[0])?, length * (size + doubt / INTEGRATED)])
 }
 
 /// What is in doubt of the integrals of all loads: f, given fluxes, and the ends of fluxes on C.

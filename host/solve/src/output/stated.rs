@@ -33,7 +33,12 @@ impl<'a> Stated<'a> {
 
     /// One line: name, value, the interval or why there is none, the estimate.
     pub fn line(&self) -> String {
-        let (name, unit) = (&self.output.name.value, self.unit());
+        format!("{} {}", self.output.name.value, self.words())
+    }
+
+    /// The same without the name.
+    pub fn words(&self) -> String {
+        let unit = self.unit();
         let value = self.value.map_or("no value".to_owned(), |value| rounded(value, UNKNOWN, 0.0));
         let estimate = |found: &OutputBound| {
             found.estimate.map_or_else(String::new, |by| {
@@ -46,14 +51,14 @@ impl<'a> Stated<'a> {
                     Quantity::Probe { .. } => " in the mean over its cell",
                     _ => "",
                 };
-                format!("{name} {}{unit}{of}, guaranteed{}", with_error(found), estimate(found))
+                format!("{}{unit}{of}, guaranteed{}", with_error(found), estimate(found))
             }
             Some(Err(why))
                 if !matches!(self.output.quantity, Quantity::Length | Quantity::Saturated) =>
             {
-                format!("{name} {value}{unit}; no interval: {why}")
+                format!("{value}{unit}; no interval: {why}")
             }
-            _ => format!("{name} {value}{unit}"),
+            _ => format!("{value}{unit}"),
         }
     }
 
@@ -68,17 +73,12 @@ pub fn sentence(all: &[Stated]) -> Option<String> {
     let flux = all.iter().find(|of| is_flux(of) && matches!(of.interval, Some(Ok(_))))?;
     let Some(Ok(found)) = flux.interval else { return None };
     let length = all.iter().find(|of| of.output.quantity == Quantity::Length);
-    let length =
-        length.and_then(|of| Some((of, of.value?))).map_or_else(String::new, |(of, value)| {
-            format!(
-                " over {}{} ({})",
-                rounded(value, UNKNOWN, 0.0),
-                of.unit(),
-                of.output.name.value
-            )
-        });
+    let told = |(of, value): (&Stated, f64)| {
+        format!(", over {}{} of contact", rounded(value, UNKNOWN, 0.0), of.unit())
+    };
+    let length = length.and_then(|of| Some((of, of.value?))).map_or_else(String::new, told);
     let name = flux.output.name.value.replace('_', " ");
-    Some(format!("{name} {}{}{length}", with_error(found), flux.unit()))
+    Some(format!("The {name} is {}{}, guaranteed{length}.", with_error(found), flux.unit()))
 }
 
 /// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.

@@ -53,6 +53,21 @@ pub fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     over(segment, LEVELS[0], 0.5, &rules, &halves)
 }
 
+/// The mean over parts that are the shorter the nearer they are to an end, where the whole would not see a jump or a singularity,
+/// and by how much rules still differ, or the whole does.
+pub fn graded_mean([a, b]: [[f64; 2]; 2], f: Function) -> [f64; 2] {
+    const ENDS: [f64; 6] = [0.0, 0.01, 0.1, 0.9, 0.99, 1.0];
+    let at = |t: f64| [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
+    let of_part = |part: &[f64]| {
+        let share = part[1] - part[0];
+        mean_and_doubt([at(part[0]), at(part[1])], f).map(|x| share * x)
+    };
+    let parts = ENDS.windows(2).map(of_part);
+    let [mean, doubt] = parts.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+    let [whole, own] = mean_and_doubt([a, b], f);
+    [mean, doubt + own + (whole - mean).abs()]
+}
+
 /// ∫f over a triangle.
 pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
     triangle_and_doubt(corners, f)[0]

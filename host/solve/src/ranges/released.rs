@@ -59,7 +59,9 @@ pub fn released(
         let clear: BTreeMap<u32, f64> =
             all.iter().map(|of| (of.vertex, proof.clearance(of))).collect();
         // A NaN proves nothing.
-        let failed = clear.iter().filter(|(_, clear)| !(**clear > 0.0)).map(|(vertex, _)| *vertex);
+        let is_failed = |clear: f64| clear.is_nan() || clear <= 0.0;
+        let failed =
+            clear.iter().filter(|(_, clear)| is_failed(**clear)).map(|(vertex, _)| *vertex);
         let failed: Vec<u32> = failed.collect();
         if failed.is_empty() {
             return Ok(Some(Released { model, recovery, clear }));

@@ -107,7 +107,7 @@ fn ticks(text: &str, setting: (Cells, Setting), scalar: ScalarKind, name: &str) 
     let problem = &with(text, setting.0, setting.1)?;
     let (modes, _) = modal(problem, 0.0)?;
     engine::baked(problem, Some(scalar), |engine, found| {
-        assert_eq!(found, name);
+        assert_eq!(found.name, name);
         let (mut touching, mut open, mut last) = (0, 0, 0.0);
         for tick in 0..24 {
             let values = inputs(tick);
