@@ -11,15 +11,11 @@
 //! ```
 //! make it at most c K/2. What keeps to neither is bounded by lo ≤ σ·n ≤ hi alone.
 
-use std::collections::BTreeMap;
-
-use super::Answered;
-use super::dual::Weights;
-use super::goal::Goal;
+use super::answer::Answered;
 use crate::certify::curved::peak;
 use crate::certify::deviation::Deviations;
 use crate::certify::ends::Ends;
-use crate::problem::{EdgeKind, Problem, spread};
+use crate::problem::{Problem, spread};
 use signorini_scene::error::Result;
 
 /// Roundings of its scalar up to which a number is taken for another one; what that drops is counted.
@@ -41,7 +37,7 @@ pub(super) struct ContactEdge {
     /// Signs that u − ψ may have, or that σ·n − τ·n may have where `clear` is not 0.
     pub may: [bool; 2],
     /// What is taken for 0: |s − ψ|, and ∫|τ·n − its end|.
-    dropped: [f64; 2],
+    pub dropped: [f64; 2],
 }
 
 /// All contact edges in their order; s follows what is in `followed`.
@@ -190,130 +186,5 @@ impl ContactEdge {
             },
             _ => none,
         }
-    }
-}
-
-/// What the contact edges add to {…}.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Part {
-    /// The least c on either side: below 0 and above.
-    pub part: [f64; 2],
-    /// What is bounded without one.
-    pub loose: [f64; 2],
-}
-
-/// ζ·n that is given on a boundary edge.
-pub(super) fn density_on(problem: &Problem, goal: &Goal, edge: usize) -> f64 {
-    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| goal.densities[table])
-}
-
-fn value_on(problem: &Problem, goal: &Goal, edge: usize) -> f64 {
-    problem.binding.boundary(problem.ends[edge]).map_or(0.0, |table| goal.values[table])
-}
-
-/// Moves z at the vertices of C to within `part` of what s leaves. Where edges ask for different values of a vertex it takes the
-/// least or the largest of them. Whether they do.
-pub(super) fn keep(
-    problem: &Problem,
-    goal: &Goal,
-    edges: &[ContactEdge],
-    part: f64,
-    takes_least: bool,
-    weights: &mut Weights,
-) -> bool {
-    let mut differ = false;
-    let mut asked = BTreeMap::<u32, ([f64; 2], [f64; 2])>::new();
-    for of in edges {
-        let value = value_on(problem, goal, of.edge);
-        weights.bubbles[of.edge] = 0.0;
-        for (vertex, clear) in problem.ends[of.edge].into_iter().zip(of.clear) {
-            let all = ([f64::NEG_INFINITY, f64::INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
-            let ([low, high], [least, most]) = asked.entry(vertex).or_insert(all);
-            let reach = if clear > 0.0 { part * clear } else { 0.0 };
-            (*low, *high) = (low.max(value - reach), high.min(value + reach));
-            (*least, *most) = (least.min(value), most.max(value));
-        }
-    }
-    for edge in (0..problem.kinds.len()).filter(|&at| problem.kinds[at] == EdgeKind::Dirichlet) {
-        for vertex in &problem.ends[edge] {
-            asked.remove(vertex);
-        }
-    }
-    for (vertex, ([low, high], [least, most])) in asked {
-        let z = &mut weights.vertices[vertex as usize];
-        differ |= low > high;
-        *z = match low <= high {
-            true => z.clamp(low, high),
-            false if takes_least => least,
-            false => most,
-        };
-    }
-    differ
-}
-
-/// What is left of the weights on C.
-pub(super) fn left(
-    problem: &Problem,
-    goal: &Goal,
-    edges: &[ContactEdge],
-    weights: &Weights,
-) -> Part {
-    let mut sum = Part::default();
-    for of in edges {
-        let value = value_on(problem, goal, of.edge);
-        let z = problem.ends[of.edge].map(|vertex| weights.vertices[vertex as usize] - value);
-        let density = problem.lengths[of.edge] * density_on(problem, goal, of.edge);
-        sum.add_flux(of, weights.flux[of.edge] - density);
-        match z.iter().zip(of.clear).any(|(&z, clear)| z != 0.0 && clear == 0.0) {
-            true => sum.add_loose(of, z),
-            false => sum.add_values(of, z),
-        }
-    }
-    sum
-}
-
-impl Part {
-    /// −∫ζ′ (u − ψ)
-    fn add_flux(&mut self, of: &ContactEdge, flux: f64) {
-        if flux == 0.0 {
-            return;
-        }
-        let part = flux.abs() / of.room;
-        // Where u is above ψ alone, a positive ζ′ makes it smaller.
-        let [below, above] = of.may;
-        let lowers = (flux > 0.0 && above) || (flux < 0.0 && below);
-        let raises = (flux < 0.0 && above) || (flux > 0.0 && below);
-        self.widen([lowers, raises], part);
-        self.drop(flux.abs() * of.dropped[0]);
-    }
-
-    fn drop(&mut self, by: f64) {
-        self.loose = [self.loose[0] - by, self.loose[1] + by];
-    }
-
-    /// ∫(σ − τ)·n z′ within the part of s − ψ.
-    fn add_values(&mut self, of: &ContactEdge, z: [f64; 2]) {
-        for (z, clear) in z.into_iter().zip(of.clear).filter(|(z, _)| *z != 0.0) {
-            let [falls, rises] = of.may;
-            let lowers = (z < 0.0 && rises) || (z > 0.0 && falls);
-            let raises = (z > 0.0 && rises) || (z < 0.0 && falls);
-            self.widen([lowers, raises], z.abs() / clear);
-        }
-        self.drop(z.into_iter().fold(0.0, |most: f64, z| most.max(z.abs())) * of.dropped[1]);
-    }
-
-    fn widen(&mut self, sides: [bool; 2], part: f64) {
-        for (most, is_widened) in self.part.iter_mut().zip(sides) {
-            *most = if is_widened { most.max(part) } else { *most };
-        }
-    }
-
-    /// ∫(σ − τ)·n z′ by the range of σ·n, for z′ with these values at the ends.
-    fn add_loose(&mut self, of: &ContactEdge, z: [f64; 2]) {
-        let mean = |sign: f64| z.iter().map(|z| 0.5 * (sign * z).max(0.0)).sum::<f64>();
-        let times = |left: f64, mean: f64| if mean == 0.0 { 0.0 } else { left * mean };
-        let ([least, most], [up, down]) = (of.left, [mean(1.0), mean(-1.0)]);
-        self.loose[0] += times(least, up) - times(most, down);
-        self.loose[1] += times(most, up) - times(least, down);
     }
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::contact::{ContactEdge, density_on};
+use super::contact::ContactEdge;
 use super::goal::Goal;
 use crate::problem::{Loads, Problem};
 use crate::solve::SharedFactor;
@@ -39,7 +39,7 @@ impl Dual {
         dual.loads = Loads::at_time(&dual, problem.time)?;
         for record in &mut dual.loads.robin {
             let edge = record.edge as usize;
-            record.ambient += problem.lengths[edge] * density_on(problem, goal, edge);
+            record.ambient += problem.lengths[edge] * goal.density_on(problem, edge);
         }
         if let Some(cell) = goal.cell {
             let (triangles, quads) = (problem.mesh.triangles.len(), problem.mesh.quads.len());
@@ -64,7 +64,7 @@ impl Dual {
         part: f64,
     ) -> Option<Weights> {
         let base = |of: &ContactEdge| {
-            let density = density_on(&self.problem, goal, of.edge);
+            let density = goal.density_on(&self.problem, of.edge);
             self.problem.lengths[of.edge] * density - part * of.room
         };
         let bases = contact.iter().map(base).collect();

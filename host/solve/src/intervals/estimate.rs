@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Found;
+use super::output_bound::Found;
 use crate::outputs::outputs;
 use crate::problem::Problem;
 use crate::solve::{Options, SolverKind, solve};

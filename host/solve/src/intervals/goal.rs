@@ -10,7 +10,7 @@
 //!   flux    z = ±1 on P, 0 on the rest of D and C,  ζ·n = 0 on N,  ζ·n = h (1_P − z) on R
 //! ```
 
-use super::Answered;
+use super::answer::Answered;
 use super::part::Part;
 use super::values::{self, Value};
 use crate::certify::cell::Cell;
@@ -118,6 +118,18 @@ impl Goal {
         let of = described(output);
         let densities = vec![0.0; values.len()];
         Ok(Self { sign: -1.0, start, values, densities, cell: None, of })
+    }
+
+    /// ζ·n that is given on a boundary edge.
+    pub fn density_on(&self, problem: &Problem, edge: usize) -> f64 {
+        let table = problem.binding.boundary(problem.ends[edge]);
+        table.map_or(0.0, |table| self.densities[table])
+    }
+
+    /// z that is given there.
+    pub fn value_on(&self, problem: &Problem, edge: usize) -> f64 {
+        let table = problem.binding.boundary(problem.ends[edge]);
+        table.map_or(0.0, |table| self.values[table])
     }
 
     /// The size of ∫ζ·n over the whole boundary, roughly: 1 for a mean, that of A where z goes from 0 to 1.

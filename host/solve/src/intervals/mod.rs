@@ -15,11 +15,15 @@
 //! Without contact near the output c is 0, and this is of second order, as the error of an output is. Near the end of a contact zone
 //! c and ‖ζ − A∇z‖ cannot both be small, and the order is 4/3.
 
+mod answer;
 mod contact;
 mod dual;
 mod estimate;
 mod exact;
 mod goal;
+mod interval;
+mod kept;
+mod output_bound;
 mod part;
 mod products;
 #[cfg(test)]
@@ -29,91 +33,23 @@ pub mod weights;
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
 use crate::certify::curved::followed;
-use crate::certify::deviation::Deviations;
-use crate::certify::{CertifiedFields, ErrorBound};
 use crate::functional::wanted;
 use crate::problem::Problem;
-use crate::solve::{ScalarKind, SharedFactor, Solution, times};
+use crate::solve::{SharedFactor, Solution, times};
 use crate::threads::on_two_threads;
+pub use answer::Answered;
+use contact::contact_edges;
 pub use estimate::estimate;
 pub use goal::described;
-
-use contact::{ContactEdge, contact_edges};
-use dual::{Dual, Weights};
-use goal::Goal;
-use products::{Products, Residual};
+use interval::Known;
+pub use output_bound::{Found, OutputBound};
+use products::Residual;
 use signorini_scene::error::Result;
-use signorini_scene::scene::{Output, Quantity};
-use values::{INTEGRATED, Value};
+use signorini_scene::scene::Quantity;
 
 /// Beyond so many unknowns no intervals are worked out: each takes some factors of its own.
 pub const MOST_UNKNOWNS: usize = 200_000;
-
-/// Parts c that are tried, and by how much each is larger than the last.
-const TRIALS: usize = 8;
-const STEP: f64 = 2.5;
-
-/// How far ζ·n may go beyond its usual size on a contact edge, where z is to keep its value: little enough to lose no digit beside.
-const FAR: f64 = 1e4;
-
-/// Roundings of the scalar that sums may be off, next to their terms.
-const ROUNDINGS: f64 = 512.0;
-
-/// Why an output has no interval where one of its ends is infinite.
-const UNBOUNDED: &str = "nothing bounds it from both sides: its boundary meets another one that takes flux too, and no \
-                         energy tells one flux from the other there";
-
-/// Where the value of an output lies for the exact solution.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OutputBound {
-    /// Its middle, in the unit of the output.
-    pub center: f64,
-    /// Half of its width: the exact value is not farther from the middle.
-    pub plus_minus: f64,
-    /// What it is the value of.
-    pub of: String,
-    /// How far its value on this mesh is from that on the mesh refined once; no guarantee. None for large meshes.
-    pub estimate: Option<f64>,
-    /// The exact value, where the scene has an exact solution.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub exact: Option<f64>,
-    /// By how much its quadrature is in doubt.
-    #[serde(skip)]
-    pub doubt: f64,
-}
-
-impl OutputBound {
-    /// In other units.
-    fn times(self, unit: f64) -> Self {
-        let Self { center, plus_minus, estimate, exact, doubt, .. } = self;
-        let [center, plus_minus, doubt] = [center, plus_minus, doubt].map(|x| x * unit);
-        let [estimate, exact] = [estimate, exact].map(|x| x.map(|x| x * unit));
-        Self { center, plus_minus, estimate, exact, doubt, ..self }
-    }
-}
-
-/// An interval, or why there is none.
-pub type Found = std::result::Result<OutputBound, String>;
-
-/// An answer of a solve or a tick.
-#[derive(Debug, Clone, Copy)]
-pub struct Answered<'a> {
-    /// s and τ.
-    pub certified: &'a CertifiedFields,
-    /// How wrong they may be.
-    pub bound: Option<ErrorBound>,
-    /// What they were worked out in.
-    pub scalar: ScalarKind,
-}
-
-impl<'a> From<&'a Solution> for Answered<'a> {
-    fn from(Solution { certified, bound, scalar, .. }: &'a Solution) -> Self {
-        Self { certified, bound: *bound, scalar: *scalar }
-    }
-}
 
 /// That of every output of a solution, with those that a scene without any has.
 ///
@@ -177,132 +113,4 @@ pub fn by_factor(
     };
     let found = on_two_threads(&all, |output| known.interval(output), || ())?;
     Ok(names().zip(found).collect())
-}
-
-/// What is known of the solution.
-struct Known<'p> {
-    factor: &'p SharedFactor,
-    problem: &'p Problem,
-    answer: &'p Answered<'p>,
-    deviations: &'p Deviations<'p>,
-    contact: Vec<ContactEdge>,
-    residual: Residual<'p>,
-    bound: ErrorBound,
-    /// Loads that are in doubt, and what τ leaves of them.
-    doubt: f64,
-}
-
-impl Known<'_> {
-    fn interval(&self, output: &Output) -> Result<Found> {
-        let mut found = self.bounded(output)?;
-        if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
-            let [value, doubt] = exact::value(self.problem, exact, output)?;
-            (found.exact, found.doubt) = (Some(value), doubt);
-        }
-        Ok(found)
-    }
-
-    fn bounded(&self, output: &Output) -> Result<Found> {
-        let goal = match Goal::of(self.problem, self.answer, self.deviations, output)? {
-            Ok(goal) => goal,
-            Err(why) => return Ok(Err(why)),
-        };
-        if let Some(start) = Goal::given(self.problem, output)? {
-            return Ok(Ok(self.around(&Goal { start, ..goal }, [0.0; 2])));
-        }
-        let mut dual = Dual::new(self.problem, &goal)?;
-        // The least part that may be the best one, and then larger ones as long as they are better.
-        let mut rooms: Vec<f64> =
-            self.contact.iter().map(|of| of.room).filter(|room| *room > 0.0).collect();
-        rooms.sort_by(f64::total_cmp);
-        let room = rooms.get(rooms.len() / 2).copied().unwrap_or(1.0);
-        let mut part = FAR * goal.size(self.problem) / room;
-        let mut best = [f64::NEG_INFINITY, f64::INFINITY];
-        for trial in 0..TRIALS {
-            let Some(weights) = dual.solve(self.factor, &self.contact, &goal, part) else { break };
-            let (first, differ) = self.braces(&goal, &weights, part, true)?;
-            let mut ends = first.within(best);
-            if differ {
-                ends = self.braces(&goal, &weights, part, false)?.0.within(ends);
-            }
-            let is_better = ends != best;
-            best = ends;
-            // Below the part that suits its own weights no trial is the last.
-            if self.contact.is_empty() || (trial > 0 && !is_better && first.part < part) {
-                break;
-            }
-            part = if trial == 0 { first.part } else { STEP * part };
-        }
-        Ok(match best.iter().all(|end| end.is_finite()) {
-            true => Ok(self.around(&goal, best)),
-            false => Err(UNBOUNDED.to_owned()),
-        })
-    }
-
-    /// {…} with weights that keep to a part of what contact leaves, and whether its edges ask for different values of a vertex.
-    fn braces(
-        &self,
-        goal: &Goal,
-        weights: &Weights,
-        part: f64,
-        takes_least: bool,
-    ) -> Result<(Braces, bool)> {
-        let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
-        let differ = contact::keep(problem, goal, contact, part, takes_least, &mut weights);
-        let left = contact::left(problem, goal, contact, &weights);
-        let Products { residual, weights: apart, both, sizes } =
-            self.residual.with(goal, &weights)?;
-        let ErrorBound { total, oscillation, rounding, .. } = self.bound;
-        let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
-        let distance = apart.max(0.0).sqrt();
-        let [less, more] = left.part.map(|part| most(distance, middle, part));
-        let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
-        let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
-        let rest = (oscillation + rounding + self.rounding() * total) * sizes + self.doubt * most_z;
-        let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
-        let ends = [0.5 * both + low, 0.5 * both + high];
-        Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))
-    }
-
-    /// J from {…}.
-    fn around(&self, goal: &Goal, braces: [f64; 2]) -> OutputBound {
-        let Value { value, terms, largest } = goal.start;
-        let rounding = self.rounding() * (terms + largest) + INTEGRATED * terms;
-        let [low, high] = braces;
-        OutputBound {
-            center: value + goal.sign * 0.5 * (low + high),
-            plus_minus: 0.5 * (high - low) + rounding,
-            of: goal.of.clone(),
-            estimate: None,
-            exact: None,
-            doubt: 0.0,
-        }
-    }
-
-    /// What sums round, next to their terms.
-    fn rounding(&self) -> f64 {
-        ROUNDINGS * self.answer.scalar.epsilon()
-    }
-}
-
-/// Where {…} lies.
-struct Braces {
-    ends: [f64; 2],
-    /// The part of contact that would suit these weights best.
-    part: f64,
-}
-
-impl Braces {
-    /// The ends that are nearer to each other.
-    fn within(&self, [low, high]: [f64; 2]) -> [f64; 2] {
-        [low.max(self.ends[0]), high.min(self.ends[1])]
-    }
-}
-
-/// The largest distance · √(middle² − k) + part · k.
-fn most(distance: f64, middle: f64, part: f64) -> f64 {
-    match 2.0 * part * middle > distance {
-        true => part * middle * middle + distance * distance / (4.0 * part),
-        false => distance * middle,
-    }
 }

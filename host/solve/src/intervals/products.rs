@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Answered;
+use super::answer::Answered;
 use super::dual::Weights;
 use super::goal::Goal;
 use crate::certify::admissible::{Admissible, Following};

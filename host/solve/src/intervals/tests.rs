@@ -12,7 +12,7 @@ use crate::quadrature::gauss;
 use crate::solve::{Options, SolverKind, solve};
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{adapted, gmsh};
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Output, Scene};
 
 fn options() -> Options {
     Options { solver: SolverKind::Factor, ..Options::default() }

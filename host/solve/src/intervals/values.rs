@@ -1,6 +1,6 @@
 //! Outputs of s and τ, the functions that the error bound is about, and such that the data give.
 
-use super::Answered;
+use super::answer::Answered;
 use super::part::Part;
 use crate::certify::cell::Cell;
 use crate::certify::curved;

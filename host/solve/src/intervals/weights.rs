@@ -12,10 +12,12 @@
 //! between quads. On triangles with A constant in each, u_h is of the same mean error as σ_h:
 //! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
 
-use super::Answered;
-use super::contact::{self, ContactEdge};
+use super::answer::Answered;
+use super::contact::ContactEdge;
 use super::dual::{self, Dual};
 use super::goal::Goal;
+use super::interval::{FAR, UNBOUNDED};
+use super::kept::{keep, left};
 use super::part::Part;
 use super::products::Residual;
 use crate::certify::CertifiedFields;
@@ -140,7 +142,7 @@ impl Weighing<'_> {
 
     fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
         let (problem, contact) = (self.problem, self.contact());
-        let (mut dual, far) = (Dual::new(problem, goal)?, super::FAR * goal.size(problem));
+        let (mut dual, far) = (Dual::new(problem, goal)?, FAR * goal.size(problem));
         let mut sides = [None::<Weights>; 2];
         for part in self.parts(&contact) {
             // z is free where all of [0, 1] is within its part, and has its value on all other contact edges.
@@ -157,23 +159,23 @@ impl Weighing<'_> {
                 let mut weights = solved.clone();
                 // Nothing is asked of ζ.
                 weights.flux.fill(0.0);
-                contact::keep(problem, goal, &contact, part, takes_least, &mut weights);
-                let left = contact::left(problem, goal, &contact, &weights);
+                keep(problem, goal, &contact, part, takes_least, &mut weights);
+                let rest = left(problem, goal, &contact, &weights);
                 let [total, _] = self.sizes(goal, &weights)?;
                 for at in [0, 1] {
                     let found =
-                        Weights { total, square: 0.5 * left.part[at], ..Weights::default() };
-                    if left.loose[at] == 0.0 {
+                        Weights { total, square: 0.5 * rest.part[at], ..Weights::default() };
+                    if rest.loose[at] == 0.0 {
                         sides[at] = Some(self.less(sides[at], found));
                     }
                 }
             }
         }
-        let [Some(below), Some(above)] = sides else { return Ok(Err(super::UNBOUNDED.to_owned())) };
+        let [Some(below), Some(above)] = sides else { return Ok(Err(UNBOUNDED.to_owned())) };
         let total = below.total.max(above.total);
         let square = below.square.max(above.square);
         if !(total.is_finite() && square.is_finite()) {
-            return Ok(Err(super::UNBOUNDED.to_owned()));
+            return Ok(Err(UNBOUNDED.to_owned()));
         }
         // On contact edges τ is within the law, and so is the output.
         let algebraic = match part.kind() {
@@ -208,7 +210,7 @@ impl Weighing<'_> {
         let transfers = !problem.loads.robin.is_empty();
         let (total, of_u) = (Weights { total: size, ..Weights::default() }, size);
         Ok(if !size.is_finite() {
-            Err(super::UNBOUNDED.to_owned())
+            Err(UNBOUNDED.to_owned())
         } else if problem.mesh.triangles.is_empty() && !on_contact {
             Ok(total)
         } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {
