@@ -77,6 +77,30 @@ fn a_line_a_tick_and_a_column_an_output() {
     assert_eq!(moving.numbers("t")[20], 1.0);
 }
 
+/// By the solver's own answers and by the controller's few numbers; the seepage of a finer mesh lies within both.
+#[test]
+fn outputs_have_bounds_beside_them() {
+    let bounds = |more: &[&str]| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = tick(&meshes(LEVEE), folder.path(), &[&["--ticks", "2"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        Table::read(&folder.path().join("output_bounds.csv"))
+    };
+    let (own, baked) = (bounds(&[]), bounds(&["--baked"]));
+    assert_eq!(own.header, ["t", "seepage_least", "seepage_most", "head_least", "head_most"]);
+    assert_eq!(baked.header, ["t", "seepage_least", "seepage_most"]);
+    // 115 425 unknowns (solve --max-error 1%).
+    const FINE: f64 = 3.2607e-5;
+    let mut widths = Vec::new();
+    for table in [&own, &baked] {
+        let (least, most) = (table.numbers("seepage_least")[0], table.numbers("seepage_most")[0]);
+        assert!(least < FINE && FINE < most, "{least} {most}");
+        widths.push(most - least);
+    }
+    assert!(widths[0] < 0.1 * FINE && widths[0] < widths[1], "{widths:?}");
+    assert_eq!(bounds(&["--no-intervals"]).header, ["t"]);
+}
+
 #[test]
 fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -10,7 +10,7 @@ use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use super::series::Series;
 use signorini_bake::tick::baked::replay;
-use signorini_bake::tick::columns::ticks_csv;
+use signorini_bake::tick::columns::{bounds_csv, ticks_csv};
 use signorini_bake::tick::{Budget, TickFields, TickRecord, log, picture, play, schedule};
 use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
@@ -71,8 +71,8 @@ pub struct Arguments {
     /// By the controller that `bake` writes for the scene, with its bits
     #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
     baked: bool,
-    /// No intervals of the outputs: else NAME_least and NAME_most hold the exact value of a force, flux or mean. Above 300 000
-    /// unknowns times ticks there are none without --baked, whose controller has numbers of its own for them
+    /// No intervals of the outputs: else output_bounds.csv has NAME_least and NAME_most around the exact value of each force, flux
+    /// and mean. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
     #[arg(long)]
     no_intervals: bool,
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
@@ -127,9 +127,12 @@ impl Arguments {
             None => error,
         };
         let (model, ticks) = ticks.map_err(blamed)?;
-        let table = ticks_csv(&scene, &ticks).map_err(|error| Error::Check(error.to_string()))?;
+        let failed = |error: csv::Error| Error::Check(error.to_string());
+        let table = ticks_csv(&scene, &ticks).map_err(failed)?;
+        let bounds = bounds_csv(&scene, &ticks).map_err(failed)?;
         let drawing = history(&picture(&scene, &ticks, self.budget_sweeps));
         write_atomically(&out.join("ticks.csv"), &table)?;
+        write_atomically(&out.join("output_bounds.csv"), &bounds)?;
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         series.map_or(Ok(()), Series::close)?;
         report(&problem, &model, &ticks, &out);
