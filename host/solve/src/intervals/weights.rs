@@ -25,7 +25,7 @@ use crate::certify::conductivity::Conductivity;
 use crate::certify::deviation::Deviations;
 use crate::energy_norm::nonconformity;
 use crate::functional::wanted;
-use crate::problem::{EdgeKind, Problem, Sum};
+use crate::problem::{EdgeKind, Parts, Problem, Sum};
 use crate::solve::{ScalarKind, SharedFactor};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Output, Quantity};
@@ -74,6 +74,11 @@ pub fn weights(problem: &Problem, answers: &Answers) -> Result<Vec<Weighed>> {
     let Some(factor) = SharedFactor::of(problem)? else {
         return Ok(vec![Err("its linear problem has no factor".to_owned()); outputs.len()]);
     };
+    if Parts::whatever_inputs(problem)?.counts.contact > 0 {
+        let why =
+            "contact alone holds a part: what a tick leaves open passes through any of its edges";
+        return Ok(vec![Err(why.to_owned()); outputs.len()]);
+    }
     let corners = corners(problem)?;
     let of = Weighing { problem, factor, corners, answers };
     outputs.iter().map(|output| of.output(output)).collect()
