@@ -19,11 +19,12 @@ pub fn play(
             journal.text("refused");
             continue;
         };
-        for output in answer.outputs.to_array() {
-            journal.scalar("output", output);
-        }
-        for by in answer.plus_minus().to_array() {
-            journal.scalar("plus-minus", by);
+        // One call, so that images have its code once.
+        let told = [("output", answer.outputs), ("plus-minus", answer.plus_minus())];
+        for (name, values) in told {
+            for value in values.to_array() {
+                journal.scalar(name, value);
+            }
         }
         answer.report.tell(journal);
     }
