@@ -1,11 +1,12 @@
 //! What controllers say of their outputs holds for all inputs within the ranges: against meshes that are refined twice.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use signorini_bake::engine::{Module, baked};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{adapted, gmsh};
 use signorini_scene::scene::Scene;
+use signorini_solve::certify::ErrorBound;
 use signorini_solve::functional::wanted;
 use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::outputs::outputs;
@@ -47,14 +48,16 @@ fn holds(
     Ok(count)
 }
 
-fn checked(name: &str, scalar: ScalarKind) -> Result<usize> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
-    let scene = Scene::read(&path)?;
-    let meshes = [on_mesh(&scene, 0)?, on_mesh(&scene, 1)?, on_mesh(&scene, 2)?];
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name)
+}
+
+fn checked(name: &str, scene: &Scene, scalar: ScalarKind) -> Result<usize> {
+    let meshes = [on_mesh(scene, 0)?, on_mesh(scene, 1)?, on_mesh(scene, 2)?];
     let [own, once, twice] = &meshes;
     baked(own, Some(scalar), |engine, module: &Module| {
         let mut counts = Vec::new();
-        for inputs in drawn::<f64>(&InputSpace::of(&scene), TRIED) {
+        for inputs in drawn::<f64>(&InputSpace::of(scene), TRIED) {
             engine.tick(&inputs)?;
             let answer = engine.answer(&own.with_inputs(&inputs)?)?;
             let plus_minus = module.plus_minus(answer.bound.as_ref());
@@ -76,7 +79,34 @@ fn every_output_of_the_standard_scenes_is_within_its_interval() -> Result<()> {
     ];
     for (name, with_interval) in scenes {
         for scalar in [ScalarKind::F32, ScalarKind::F64] {
-            assert_eq!(checked(name, scalar)?, with_interval, "{name}");
+            let scene = Scene::read(&path(name))?;
+            assert_eq!(checked(name, &scene, scalar)?, with_interval, "{name}");
+        }
+    }
+    Ok(())
+}
+
+/// With its supplies off by default the mats are a wall of a given flux there, and contact at every other input.
+#[test]
+fn defaults_at_which_a_flux_is_given_say_nothing_of_other_inputs() -> Result<()> {
+    let path = path("antiicing.toml");
+    let text = Scene::read(&path)?
+        .text
+        .replace("default = 1.0\nrange = [0.4, 1.1]", "default = 0.0\nrange = [0.0, 1.1]");
+    let off = Scene::parse(&text, &path)?;
+    let on = Scene::read(&path)?;
+    let weights = |scene: &Scene| {
+        baked(&on_mesh(scene, 0)?, Some(ScalarKind::F64), |_, module: &Module| {
+            let bound = ErrorBound { total: 1.0, ..ErrorBound::default() };
+            Ok(module.plus_minus(Some(&bound)))
+        })
+    };
+    assert_ne!(off.text, on.text);
+    // What may be contact is the same, and so is what is known of it.
+    for (off, on) in weights(&off)?.into_iter().zip(weights(&on)?) {
+        assert_eq!(off.is_some(), on.is_some());
+        if let (Some(off), Some(on)) = (off, on) {
+            assert!((off / on - 1.0).abs() < 1e-9, "{off} {on}");
         }
     }
     Ok(())

@@ -124,7 +124,9 @@ impl ContactEdge {
             may: [true; 2],
             dropped: [0.0; 2],
         };
-        match (least == most, open) {
+        // Inputs may open a range that is a point now.
+        let is_given = least == most && problem.scene.limit_input().is_none();
+        match (is_given, open) {
             (true, _) => Self { clear: [f64::INFINITY; 2], left: [0.0; 2], ..none },
             (_, Some(clear)) => {
                 Self { clear, left: [0.0, f64::INFINITY], may: [false, true], ..none }
