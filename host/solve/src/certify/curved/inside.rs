@@ -24,15 +24,8 @@ pub fn points(
     let Some(found) = of_rough_sides(problem, at, std::slice::from_ref(deviations), rule)? else {
         return Ok(cell.points(rule));
     };
-    let point = |(reference, weight)| {
-        let local = cell.local(reference);
-        Point { x: local.x, reference, weight: weight * local.determinant }
-    };
-    Ok(found.into_iter().map(point).collect())
+    Ok(placed(&cell, found))
 }
-
-/// Reference coordinates, and weights that lack the area element.
-pub type ReferencePoints = Vec<([f64; 3], f64)>;
 
 /// The same for products of what sides carry inside: on triangles the points of smooth data lie along rays from the apices of their
 /// sides, where these functions are polynomials.
@@ -64,12 +57,19 @@ pub fn points_along_sides(
             }
         }
     };
+    Ok(placed(&cell, found))
+}
+
+fn placed(cell: &Cell, found: ReferencePoints) -> Vec<Point> {
     let point = |(reference, weight)| {
         let local = cell.local(reference);
         Point { x: local.x, reference, weight: weight * local.determinant }
     };
-    Ok(found.into_iter().map(point).collect())
+    found.into_iter().map(point).collect()
 }
+
+/// Reference coordinates, and weights that lack the area element.
+pub type ReferencePoints = Vec<([f64; 3], f64)>;
 
 /// Reference points with weights that lack the area element, on cell `at`; `None` where smooth data's points will do
 /// for `all` data on its sides.
