@@ -33,6 +33,30 @@ fn solve(scene: &str, more: &[&str]) -> (i32, tempfile::TempDir, Value) {
     (output.status.code().unwrap_or(-1), folder, summary.expect("valid JSON"))
 }
 
+/// u_D has no value at x = 1/32, which is a vertex of the mesh refined once alone.
+#[test]
+fn what_a_finer_mesh_cannot_hold_costs_the_estimate_alone() {
+    let scene = text(&meshes().join("catalogue/b-tri.toml"));
+    let (before, exact) = scene.split_once("[exact]").expect("an exact solution");
+    assert!(exact.contains("gradient"));
+    let known = before.lines().find(|line| line.starts_with("value = ")).expect("u_D");
+    let value = format!(
+        "{}) + 0*ln(abs(x - 0.03125))\"",
+        known.replace("= \"", "= \"(").trim_end_matches('"')
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    let mesh = meshes().join("catalogue/square-tri-16.msh");
+    let before =
+        before.replace(known, &value).replace("square-tri-16.msh", mesh.to_str().expect("UTF-8"));
+    let outputs = "[output.skin]\nkind = \"mean\"\nof = \"contact\"\n";
+    std::fs::write(&path, before + outputs).expect("a scene");
+    let (status, _, summary) = solve(path.to_str().expect("UTF-8"), &[]);
+    assert_eq!(status, 0);
+    let skin = &summary["output_bounds"]["skin"];
+    assert!(skin["plus_minus"].is_f64() && skin["estimate"].is_null(), "{skin}");
+}
+
 #[test]
 fn solve_writes_its_three_files() {
     let (status, folder, summary) = solve("catalogue/h-mixed.toml", &[]);

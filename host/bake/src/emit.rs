@@ -9,7 +9,6 @@ use crate::intervals;
 use crate::module_api::ModuleApi;
 use crate::ranges;
 use crate::worst;
-use signorini_scene::error::Result;
 use signorini_solve::functional::wanted;
 use signorini_solve::intervals::described;
 use signorini_solve::problem::Problem;
@@ -25,10 +24,7 @@ pub struct Emitted {
 }
 
 /// The module of the model that was chosen.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Emitted> {
+pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Emitted {
     let candidate = choice.candidate();
     let (model, features, worst_case, source) = match &candidate.model {
         Model::Condensed(baked) => {
@@ -52,6 +48,6 @@ pub fn emit<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Emitted>
     let source = source
         + &worst::constants(worst_case)
         + &ranges.map(ranges::constants).unwrap_or_default()
-        + &intervals::constants::<R>(problem, &intervals::of_choice(problem, choice)?);
-    Ok(Emitted { source, chosen })
+        + &intervals::constants::<R>(problem, &intervals::of_choice(problem, choice));
+    Emitted { source, chosen }
 }

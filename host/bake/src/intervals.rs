@@ -6,7 +6,6 @@ use signorini_kernel::device::intervals::OutputWeights;
 
 use crate::choice::{Choice, Model, Origin};
 use crate::text::{code, prose};
-use signorini_scene::error::Result;
 use signorini_solve::functional::wanted;
 use signorini_solve::intervals::weights::{Answers, Weighed, Weights, weights};
 use signorini_solve::problem::Problem;
@@ -17,18 +16,19 @@ use signorini_solve::solve::{Options, solve};
 const ROOM: f64 = 1e-6;
 
 /// Those of the outputs of a chosen model, in their order.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Result<Vec<Weighed>> {
-    let total = solve(problem, &Options::default())?.bound.map_or(0.0, |bound| bound.total);
-    match (&choice.candidate().model, choice.condensed()) {
-        (Model::Condensed(_), Some((_, origin))) => {
-            let answers = Answers { open: &open(problem, origin), total, are_balanced: true };
-            weights(problem, &answers)
-        }
-        _ => weights(problem, &Answers { open: &[], total, are_balanced: false }),
-    }
+pub fn of_choice<R: Scalar>(problem: &Problem, choice: &Choice<R>) -> Vec<Weighed> {
+    let origin = match (&choice.candidate().model, choice.condensed()) {
+        (Model::Condensed(_), Some((_, origin))) => Some(origin),
+        _ => None,
+    };
+    let open = origin.map(|origin| open(problem, origin)).unwrap_or_default();
+    // Where an edge is open, the total tells how far z is best off its value.
+    let total = match open.iter().any(Option::is_some) {
+        true => solve(problem, &Options::default()).ok().and_then(|solution| solution.bound),
+        false => None,
+    };
+    let total = total.map_or(0.0, |bound| bound.total);
+    weights(problem, &Answers { open: &open, total, are_balanced: origin.is_some() })
 }
 
 /// How far s is above ψ on the contact edges whose reaction is 0 in every tick.

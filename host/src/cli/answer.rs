@@ -54,11 +54,11 @@ impl Answer {
         let Self { problem, solution, energy_norm, .. } = self;
         let errors = of_solution(problem, solution)?;
         let declared = outputs(problem, solution)?;
-        let intervals = waiting("intervals of outputs", || -> Result<_> {
-            let mut found = intervals::of_outputs(problem, solution)?;
-            intervals::estimate(problem, &declared, &mut found)?;
-            Ok(found)
-        })?;
+        let intervals = waiting("intervals of outputs", || {
+            let mut found = intervals::of_outputs(problem, solution);
+            intervals::estimate(problem, &declared, &mut found);
+            found
+        });
         let lines = output_lines(problem, &declared, &intervals);
         let summary =
             Summary::new(problem, asked, solution, errors, *energy_norm, declared, &intervals);

@@ -155,7 +155,7 @@ impl Arguments {
         if self.explain {
             say(explanation(problem, &choice));
         }
-        emit(problem, &choice)
+        Ok(emit(problem, &choice))
     }
 }
 
@@ -209,7 +209,7 @@ mod tests {
         let mesh = adapted::of_scene(&scene).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
         let choice = Choice::<f32>::new(&problem, Wanted::model(ModelKind::Condensed));
-        emit(&problem, &choice.expect("a choice")).expect("a module").source
+        emit(&problem, &choice.expect("a choice")).source
     }
 
     #[test]

@@ -52,7 +52,7 @@ fn baked_in<R: Scalar, T>(
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
     let candidate = choice.candidate();
-    let weights: Vec<_> = of_choice(problem, &choice)?.iter().map(narrowed::<R>).collect();
+    let weights: Vec<_> = of_choice(problem, &choice).iter().map(narrowed::<R>).collect();
     let plus_minus = move |bound: &ErrorBound| {
         let certificate = Certificate {
             total: R::narrow(bound.total),

@@ -141,16 +141,16 @@ fn programs_are_told_of_ranges_where_there_are_any() {
     let choice_of = |problem: &Problem| choice(problem, false);
     let full = Choice::<f32>::new(&levee, Wanted::model(ModelKind::Full)).expect("a model");
     assert!(full.condensed().is_none() && section(&levee, &full).is_empty());
-    assert_eq!(crate::emit::emit(&levee, &full).unwrap().chosen.ranges, None);
+    assert_eq!(crate::emit::emit(&levee, &full).chosen.ranges, None);
     let chosen = choice_of(&levee);
-    let emitted = crate::emit::emit(&levee, &chosen).unwrap();
+    let emitted = crate::emit::emit(&levee, &chosen);
     let ranges = emitted.chosen.ranges.expect("ranges");
     assert_eq!(ranges.contact, ranges.always_open + ranges.always_touching + ranges.may_change);
     let constant = format!("pub const MAY_CHANGE: usize = {};", ranges.may_change);
     assert!(emitted.source.contains(&constant) && ranges.may_change < ranges.contact);
     let without = problem("levee", |scene| scene.inputs.iter_mut().for_each(|of| of.range = None));
     let chosen = choice_of(&without);
-    assert_eq!(crate::emit::emit(&without, &chosen).unwrap().chosen.ranges, None);
+    assert_eq!(crate::emit::emit(&without, &chosen).chosen.ranges, None);
     let (baked, origin) = chosen.condensed().expect("condensed");
     let all = constants(found(baked, origin));
     assert!(

@@ -25,7 +25,7 @@ impl Intervals {
         let PlayedTick { certified, bound, .. } = answer;
         let bound = bound.filter(|bound| bound.total.is_finite());
         let answered = Answered { certified, bound, scalar: self.scalar };
-        let mut all = by_factor(problem, &answered, self.factor.as_ref())?;
+        let mut all = by_factor(problem, &answered, self.factor.as_ref());
         let names = problem.scene.outputs.iter().map(|output| &output.name.value);
         let found = names.map(|name| all.remove(name).and_then(std::result::Result::ok));
         let ends = found

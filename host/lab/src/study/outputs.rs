@@ -36,8 +36,8 @@ impl KnownOutputs {
         solution: &Solution,
     ) -> Result<(Self, Vec<Check>)> {
         let values = outputs(problem, solution)?;
-        let mut intervals = of_outputs(problem, solution)?;
-        estimate(problem, &values, &mut intervals)?;
+        let mut intervals = of_outputs(problem, solution);
+        estimate(problem, &values, &mut intervals);
         let all = wanted(&problem.scene);
         let stated: Vec<Stated> =
             all.iter().map(|output| Stated::of(output, &values, &intervals)).collect();

@@ -59,7 +59,7 @@ fn module(problem: &Problem, name: &str) -> Result<Module> {
 }
 
 fn emitted<R: Scalar>(problem: &Problem) -> Result<Emitted> {
-    emit(problem, &Choice::<R>::new(problem, Wanted::default())?)
+    Ok(emit(problem, &Choice::<R>::new(problem, Wanted::default())?))
 }
 
 fn judged(found: std::result::Result<Firmware, NoResult>) -> Result<Measured> {

@@ -12,29 +12,29 @@ use signorini_scene::mesh::adapted::adapted;
 /// Beyond so many unknowns there are none: the finer mesh has four times as many.
 const MOST_UNKNOWNS: usize = 25_000;
 
-/// Adds the estimates to intervals of outputs with these values.
-///
-/// # Errors
-/// Data that are not finite on the finer mesh.
+/// Adds the estimates to intervals of outputs with these values; none where the data have no value on the finer mesh.
 pub fn estimate(
     problem: &Problem,
     values: &BTreeMap<String, Option<f64>>,
     intervals: &mut BTreeMap<String, Found>,
-) -> Result<()> {
+) {
     let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
-    if !is_small || intervals.values().all(std::result::Result::is_err) {
-        return Ok(());
+    if !is_small || intervals.values().all(Found::is_err) {
+        return;
     }
-    let Ok(mesh) = adapted(problem.mesh.as_ref().clone(), None, 1) else { return Ok(()) };
-    let mut finer = Problem::new(&problem.scene, mesh)?;
-    finer.set_time(problem.time)?;
-    let options = Options { solver: SolverKind::Factor, ..Options::default() };
-    let finer_values = outputs(&finer, &solve(&finer, &options)?)?;
+    let Ok(finer) = on_finer_mesh(problem) else { return };
     for (name, found) in intervals {
         let value = |of: &BTreeMap<String, Option<f64>>| of.get(name).copied().flatten();
-        if let (Ok(found), Some(own), Some(finer)) = (found, value(values), value(&finer_values)) {
+        if let (Ok(found), Some(own), Some(finer)) = (found, value(values), value(&finer)) {
             found.estimate = Some((own - finer).abs());
         }
     }
-    Ok(())
+}
+
+/// The outputs on the mesh refined once.
+fn on_finer_mesh(problem: &Problem) -> Result<BTreeMap<String, Option<f64>>> {
+    let mut finer = Problem::new(&problem.scene, adapted(problem.mesh.as_ref().clone(), None, 1)?)?;
+    finer.set_time(problem.time)?;
+    let options = Options { solver: SolverKind::Factor, ..Options::default() };
+    outputs(&finer, &solve(&finer, &options)?)
 }

@@ -30,6 +30,10 @@ const ROUNDINGS: f64 = 512.0;
 pub(super) const UNBOUNDED: &str = "nothing bounds it from both sides: its boundary meets another one that takes flux too, and no \
                          energy tells one flux from the other there";
 
+/// Why it has none where nothing weighs its error.
+pub(super) const UNSOLVED: &str =
+    "the linear problem that weighs its error has no solution, or says nothing of it";
+
 /// What is known of the solution.
 pub(super) struct Known<'p> {
     pub factor: &'p SharedFactor,
@@ -84,9 +88,10 @@ impl Known<'_> {
             }
             part = if trial == 0 { first.part } else { STEP * part };
         }
-        Ok(match best.iter().all(|end| end.is_finite()) {
-            true => Ok(self.around(&goal, best)),
-            false => Err(UNBOUNDED.to_owned()),
+        Ok(match best {
+            [f64::NEG_INFINITY, f64::INFINITY] => Err(UNSOLVED.to_owned()),
+            _ if best.iter().all(|end| end.is_finite()) => Ok(self.around(&goal, best)),
+            _ => Err(UNBOUNDED.to_owned()),
         })
     }
 

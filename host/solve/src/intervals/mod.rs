@@ -46,55 +46,54 @@ use interval::Known;
 pub use output_bound::{Found, OutputBound};
 use products::Residual;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Quantity;
+use signorini_scene::scene::Output;
 
-/// Beyond so many unknowns no intervals are worked out: each takes some factors of its own.
+/// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
 pub const MOST_UNKNOWNS: usize = 200_000;
 
 /// That of every output of a solution, with those that a scene without any has.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn of_outputs(problem: &Problem, solution: &Solution) -> Result<BTreeMap<String, Found>> {
+pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Found> {
     let Some(scaled) = &solution.scaled else { return of_answer(problem, &solution.into()) };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
     let units = solution.units;
-    let mut all = of_answer(scaled, &(&times(&units.inverse(), solution.clone())).into())?;
+    let mut all = of_answer(scaled, &(&times(&units.inverse(), solution.clone())).into());
     for output in wanted(&problem.scene).iter() {
-        let unit = match output.quantity {
-            Quantity::Flux | Quantity::Force => units.flux(),
-            _ => units.u,
-        };
+        let unit = units.of_output(output.quantity);
         if let Some(Ok(found)) = all.get_mut(&output.name.value) {
             *found = found.clone().times(unit);
         }
     }
-    Ok(all)
+    all
 }
 
 /// The same of any answer, whose numbers are near 1.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn of_answer(problem: &Problem, answer: &Answered) -> Result<BTreeMap<String, Found>> {
+pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found> {
     let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
     let is_bounded = answer.bound.is_some() && is_small;
-    let factor = if is_bounded { SharedFactor::of(problem)? } else { None };
+    let factor = if is_bounded { SharedFactor::of(problem).ok().flatten() } else { None };
     by_factor(problem, answer, factor.as_ref())
 }
 
-/// The same by the factor of its matrix.
-///
-/// # Errors
-/// Data that are not finite.
+/// The same by the factor of its matrix. An answer stays one where data have no value at a point that is looked at here alone: that is
+/// the reason then.
 pub fn by_factor(
     problem: &Problem,
     answer: &Answered,
     factor: Option<&SharedFactor>,
-) -> Result<BTreeMap<String, Found>> {
+) -> BTreeMap<String, Found> {
     let all = wanted(&problem.scene);
-    let names = || all.iter().map(|output| output.name.value.clone());
-    let none = |why: &str| Ok(names().map(|name| (name, Err(why.to_owned()))).collect());
+    let found = intervals(problem, answer, factor, &all);
+    let found = found.unwrap_or_else(|error| vec![Err(error.reason()); all.len()]);
+    all.iter().map(|output| output.name.value.clone()).zip(found).collect()
+}
+
+fn intervals(
+    problem: &Problem,
+    answer: &Answered,
+    factor: Option<&SharedFactor>,
+    all: &[Output],
+) -> Result<Vec<Found>> {
+    let none = |why: &str| Ok(vec![Err(why.to_owned()); all.len()]);
     let Some(bound) = answer.bound else { return none("the solution has no error bound") };
     if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
@@ -111,6 +110,7 @@ pub fn by_factor(
         bound,
         doubt: values::doubt(problem)? + values::imbalance(problem, answer),
     };
-    let found = on_two_threads(&all, |output| known.interval(output), || ())?;
-    Ok(names().zip(found).collect())
+    let found =
+        |output: &Output| Ok(known.interval(output).unwrap_or_else(|error| Err(error.reason())));
+    on_two_threads(all, found, || ())
 }

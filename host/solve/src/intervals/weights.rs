@@ -12,11 +12,12 @@
 //! between quads. On triangles with A constant in each, u_h is of the same mean error as σ_h:
 //! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
 
+use super::MOST_UNKNOWNS;
 use super::answer::Answered;
 use super::contact::ContactEdge;
 use super::dual::{self, Dual};
 use super::goal::Goal;
-use super::interval::{FAR, UNBOUNDED};
+use super::interval::{FAR, UNBOUNDED, UNSOLVED};
 use super::kept::{keep, left};
 use super::part::Part;
 use super::products::Residual;
@@ -65,22 +66,27 @@ pub struct Answers<'a> {
     pub are_balanced: bool,
 }
 
-/// Those of every output, in their order.
-///
-/// # Errors
-/// Data that are not finite.
-pub fn weights(problem: &Problem, answers: &Answers) -> Result<Vec<Weighed>> {
+/// Those of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
+pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
     let outputs = wanted(&problem.scene);
-    let Some(factor) = SharedFactor::of(problem)? else {
-        return Ok(vec![Err("its linear problem has no factor".to_owned()); outputs.len()]);
-    };
-    if Parts::whatever_inputs(problem)?.counts.contact > 0 {
-        let why =
-            "contact alone holds a part: what a tick leaves open passes through any of its edges";
-        return Ok(vec![Err(why.to_owned()); outputs.len()]);
+    let found = weighed(problem, answers, &outputs);
+    found.unwrap_or_else(|error| vec![Err(error.reason()); outputs.len()])
+}
+
+fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<Vec<Weighed>> {
+    let none = |why: &str| Ok(vec![Err(why.to_owned()); outputs.len()]);
+    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
+        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
-    let corners = corners(problem)?;
-    let of = Weighing { problem, factor, corners, answers };
+    if Parts::whatever_inputs(problem)?.counts.contact > 0 {
+        return none(
+            "contact alone holds a part: what a tick leaves open passes through any of its edges",
+        );
+    }
+    let Some(factor) = SharedFactor::of(problem)? else {
+        return none("its linear problem has no factor");
+    };
+    let of = Weighing { problem, factor, corners: corners(problem)?, answers };
     outputs.iter().map(|output| of.output(output)).collect()
 }
 
@@ -158,13 +164,13 @@ impl Weighing<'_> {
             });
             let held: Vec<_> = held.collect();
             let Some(solved) = dual.solve(&self.factor, &held, goal, far) else {
-                return Ok(Err("nothing holds the domain".to_owned()));
+                return Ok(Err(UNSOLVED.to_owned()));
             };
             for takes_least in [true, false] {
                 let mut weights = solved.clone();
                 // Nothing is asked of ζ.
                 weights.flux.fill(0.0);
-                keep(problem, goal, &contact, part, takes_least, &mut weights);
+                let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
                 let rest = left(problem, goal, &contact, &weights);
                 let [total, _] = self.sizes(goal, &weights)?;
                 for at in [0, 1] {
@@ -173,6 +179,9 @@ impl Weighing<'_> {
                     if rest.loose[at] == 0.0 {
                         sides[at] = Some(self.less(sides[at], found));
                     }
+                }
+                if !differ {
+                    break;
                 }
             }
         }
@@ -209,7 +218,7 @@ impl Weighing<'_> {
         let (problem, contact) = (self.problem, self.contact());
         let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
         let Some(solved) = solved else {
-            return Ok(Err("contact alone holds the domain".to_owned()));
+            return Ok(Err(UNSOLVED.to_owned()));
         };
         let [_, size] = self.sizes(goal, &solved)?;
         let transfers = !problem.loads.robin.is_empty();

@@ -31,7 +31,7 @@ impl Intervals {
     pub fn by_exact(number: u32, problem: &Problem, answer: &Answered) -> Result<Self> {
         let problem = asked(problem, number, true);
         let mut all = Self::default();
-        for (name, found) in of_answer(&problem, answer)? {
+        for (name, found) in of_answer(&problem, answer) {
             if let Ok(OutputBound { center, plus_minus, exact: Some(exact), doubt, .. }) = found {
                 let off = ((exact - center).abs() - doubt).max(0.0);
                 all.add(name, off, plus_minus);
@@ -52,8 +52,8 @@ impl Intervals {
         finer: (&Problem, &Solution),
     ) -> Result<Self> {
         let (problem, fine) = (asked(problem, number, false), asked(finer.0, number, false));
-        let own = of_answer(&problem, answer)?;
-        let its = of_answer(&fine, &finer.1.into())?;
+        let own = of_answer(&problem, answer);
+        let its = of_answer(&fine, &finer.1.into());
         let mut all = Self::default();
         for (name, found) in own {
             if let (Ok(found), Some(Ok(fine))) = (found, its.get(&name)) {
