@@ -53,10 +53,14 @@ impl ModuleApi {
     /// That of `problem`.
     pub fn new(problem: &Problem) -> Self {
         let names = problem.scene.inputs.iter().map(|input| input.name.value.as_str());
-        let inputs = items(names, problem.scene.inputs.iter().map(effect));
+        let inputs = items(
+            names,
+            problem.scene.inputs.iter().map(|input| effect(input) + &said(&input.unit)),
+        );
         let wanted = wanted(&problem.scene);
         let names = wanted.iter().map(|output| output.name.value.as_str());
-        let outputs = items(names, wanted.iter().map(meaning));
+        let outputs =
+            items(names, wanted.iter().map(|output| meaning(output) + &said(&output.unit)));
         let file =
             problem.scene.file().file_name().unwrap_or_default().to_string_lossy().into_owned();
         Self {
@@ -233,6 +237,11 @@ const VERSION: &str = concat!(
     env!("CARGO_PKG_VERSION"),
     "; bake the scene again\");\n"
 );
+
+/// The unit that the scene gives.
+fn said(unit: &Option<String>) -> String {
+    unit.as_ref().map_or_else(String::new, |unit| format!(" In {}.", code(unit)))
+}
 
 /// What an input does, in a sentence.
 fn effect(input: &Input) -> String {

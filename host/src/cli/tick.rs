@@ -136,6 +136,11 @@ impl Arguments {
         write_atomically(&out.join("ticks.svg"), drawing.as_bytes())?;
         series.map_or(Ok(()), Series::close)?;
         report(&problem, &model, &ticks, &out);
+        if !self.no_intervals && !self.baked && work > MOST_INTERVALS {
+            say(format_args!(
+                "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
+            ));
+        }
         Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
     }
 

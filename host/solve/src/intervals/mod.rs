@@ -87,6 +87,12 @@ pub fn by_factor(
     all.iter().map(|output| output.name.value.clone()).zip(found).collect()
 }
 
+/// The value of an output for the exact solution, where a scene has one and the output is linear, and by how much its quadrature is
+/// in doubt.
+pub fn exact_value(problem: &Problem, output: &Output) -> Option<[f64; 2]> {
+    exact::value(problem, problem.scene.exact.as_ref()?, output).ok()
+}
+
 fn intervals(
     problem: &Problem,
     answer: &Answered,

@@ -125,11 +125,12 @@ impl Weighing<'_> {
             Ok(goal) => goal,
             Err(why) => return Ok(Err(why)),
         };
-        let (balanced, part) = (self.answers.are_balanced, Part::new(self.problem, output));
+        let part = Part::new(self.problem, output);
         match (output.quantity, part.kind()) {
-            (Quantity::Mean, Some(EdgeKind::Dirichlet)) => Ok(Ok(Weights::default())),
-            (Quantity::Flux, Some(EdgeKind::Neumann)) if balanced => Ok(Ok(Weights::default())),
-            (Quantity::Flux, Some(EdgeKind::Neumann)) => none("sweeps leave it open"),
+            (Quantity::Mean, Some(EdgeKind::Dirichlet))
+            | (Quantity::Flux, Some(EdgeKind::Neumann)) => {
+                none("the data give it, up to their quadrature")
+            }
             (Quantity::Mean, kind) => self.mean(&goal, kind == Some(EdgeKind::Contact)),
             _ => self.flux(&goal, &part),
         }

@@ -7,9 +7,9 @@
 //! whatever the exact solution is: an answer that breaks it, or a finer one, has a bound that is wrong.
 
 use super::attempt::{Attempt, SolverAnswer};
-use super::case::{RandomCase, Yardstick};
+use super::case::{RandomCase, Way, Yardstick};
 use super::nested::{Apart, MeshSolution, apart};
-use super::outputs::Intervals;
+use super::outputs::{Asked, Intervals};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
@@ -18,9 +18,10 @@ use signorini_solve::certify::exact::{Distance, distance_on};
 use signorini_solve::certify::robin::missed;
 use signorini_solve::intervals::Answered;
 use signorini_solve::norms::errors;
+use signorini_solve::outputs::Reading;
 use signorini_solve::problem::Problem;
 use signorini_solve::quadrature::{gauss, on_panels};
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, choose_units, solve};
+use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, solve};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -85,11 +86,9 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
     };
     let Some(bound) = answer.bound else { return Ok(None) };
     // An answer without s and τ has nothing to be measured.
-    let number = case.number;
-    let scalar = case.effort.scalar;
-    let held = Held { problem: &problem, answer: &answer, bound, scalar, number };
+    let held = Held { case, problem: &problem, answer: &answer, bound };
     let mut found = match case.truth {
-        Yardstick::Finer => held.by_finer(case)?,
+        Yardstick::Finer => held.by_finer()?,
         Yardstick::Catalogue | Yardstick::Made => Some(held.by_exact()?),
     };
     if let Some(found) = &mut found {
@@ -100,17 +99,24 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
 
 /// An answer in its units.
 struct Held<'a> {
+    case: &'a RandomCase,
     problem: &'a Problem,
     answer: &'a SolverAnswer,
     bound: ErrorBound,
-    scalar: ScalarKind,
-    number: u32,
 }
 
 impl Held<'_> {
-    fn answered(&self) -> Answered<'_> {
-        let certified = &self.answer.certified;
-        Answered { certified, bound: Some(self.bound), scalar: self.scalar }
+    fn asked(&self) -> Asked<'_> {
+        let SolverAnswer { u, flux, certified, .. } = self.answer;
+        let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
+        let total = Some(self.bound.total);
+        Asked {
+            number: self.case.number,
+            problem: self.problem,
+            answer: Answered { certified, bound, scalar },
+            reading: Reading { scalar, u, flux, units: Units::default(), bound: total },
+            is_balanced: self.case.effort.way == Way::Condensed,
+        }
     }
 
     fn side(&self) -> MeshSolution<'_> {
@@ -142,7 +148,7 @@ impl Held<'_> {
             let rounding = |error: f64| distance.rounding / error.max(distance.rounding.sqrt());
             found.uncertain = [found.combined, found.of_u].map(rounding);
             // The identity has the oscillation of f, g and q in it, with its sign, but not that of u_ext.
-            found.intervals = Intervals::by_exact(self.number, problem, &self.answered())?;
+            found.intervals = self.asked().by_exact();
             let known = self.missed()? <= RESOLVED * self.bound.duality_gap;
             found.identity = known.then_some([distance.identity, distance.rounding]);
         }
@@ -164,10 +170,10 @@ impl Held<'_> {
         Ok(squares.sum::<Result<f64>>()?.sqrt())
     }
 
-    fn by_finer(&self, case: &RandomCase) -> Result<Option<Measured>> {
+    fn by_finer(&self) -> Result<Option<Measured>> {
         let (problem, own) = (self.problem, self.side());
         // One in so many cases gets the finest that is allowed for.
-        let most = UNKNOWNS[usize::from(case.number.is_multiple_of(97))];
+        let most = UNKNOWNS[usize::from(self.case.number.is_multiple_of(97))];
         let (mut mesh, mut levels) = (refined(&problem.mesh)?, 1);
         while levels < LEVELS && 8 * mesh.cells() <= most {
             (mesh, levels) = (refined(&mesh)?, levels + 1);
@@ -177,8 +183,7 @@ impl Held<'_> {
         let Ok(solution) = directly(&finer) else { return Ok(None) };
         let Some(its) = solution.bound else { return Ok(None) };
         let Solution { u, certified, .. } = &solution;
-        let intervals =
-            Intervals::by_finer(self.number, problem, &self.answered(), (&finer, &solution))?;
+        let intervals = self.asked().by_finer((&finer, &solution));
         let fine = MeshSolution { problem: &finer, admissible: certified.admissible(), u };
         let most = [self.bound.total + its.total, self.bound.of_u + its.total];
         let is_above = |of: &Apart| of.combined > most[0] || of.of_u > most[1];

@@ -1,14 +1,22 @@
-//! Intervals of outputs: whether they hold what the exact solution says, or meet those of a finer answer.
+//! Intervals of outputs: whether they hold what the exact solution says, or meet those of a finer answer. Those that a controller has
+//! of its weights and its bound are asked the same.
 
-use signorini_scene::error::Result;
+use std::collections::BTreeMap;
+
+use signorini_bake::intervals::narrowed;
+use signorini_kernel::bound::verdict::Certificate;
 use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
 use signorini_solve::certify::cell::Cell;
-use signorini_solve::intervals::{Answered, OutputBound, of_answer};
+use signorini_solve::intervals::weights::{Answers, weights};
+use signorini_solve::intervals::{Answered, exact_value, of_answer};
+use signorini_solve::outputs::{Reading, declared};
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::Solution;
 
 /// Outputs that one case is asked for.
 const EACH: usize = 3;
+/// What sums may round, and the quadrature of data miss, next to the largest number: intervals of controllers leave it out.
+const ROUNDED: f64 = 1e-6;
 
 /// What the intervals of a case came to.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,56 +25,100 @@ pub struct Intervals {
     pub found: usize,
     /// The largest distance of the middle to what is known of the value, over the half-width; with a finer answer over both.
     pub worst: f64,
-    /// Half-widths over the true errors of the middles, where these are known.
-    pub over_error: Vec<f64>,
     /// The output of the worst.
     pub name: String,
 }
 
+/// An answer of which outputs are asked.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked<'a> {
+    /// The number of its case.
+    pub number: u32,
+    /// Its problem.
+    pub problem: &'a Problem,
+    /// s, τ and the bound.
+    pub answer: Answered<'a>,
+    /// What its outputs are read off.
+    pub reading: Reading<'a>,
+    /// Whether all equations but those on contact edges hold.
+    pub is_balanced: bool,
+}
+
+/// What is known of an output: its value, and by how much that may be off.
+type Known = BTreeMap<String, [f64; 2]>;
+
+impl Asked<'_> {
+    /// Its intervals beside the exact solution.
+    pub fn by_exact(&self) -> Intervals {
+        let problem = with_outputs(self.problem, self.number, true);
+        let value =
+            |output: &Output| Some((output.name.value.clone(), exact_value(&problem, output)?));
+        self.beside(&problem, &problem.scene.outputs.iter().filter_map(value).collect())
+    }
+
+    /// Its intervals beside those of a finer answer.
+    pub fn by_finer(&self, finer: (&Problem, &Solution)) -> Intervals {
+        let problem = with_outputs(self.problem, self.number, false);
+        let its = of_answer(&with_outputs(finer.0, self.number, false), &finer.1.into());
+        let known = its.into_iter().filter_map(|(name, found)| {
+            let found = found.ok()?;
+            Some((name, [found.center, found.plus_minus]))
+        });
+        self.beside(&problem, &known.collect())
+    }
+
+    fn beside(&self, problem: &Problem, known: &Known) -> Intervals {
+        let mut all = Intervals::default();
+        for (name, found) in of_answer(problem, &self.answer) {
+            if let (Ok(found), Some([value, slack])) = (found, known.get(&name)) {
+                all.add(name, (value - found.center).abs() - slack, found.plus_minus);
+            }
+        }
+        for (name, value, by) in self.as_a_controller(problem) {
+            if let Some([known, slack]) = known.get(&name) {
+                let off = (known - value).abs() - slack - self.rounded(problem, &name);
+                all.add(format!("weights of {name}"), off, by);
+            }
+        }
+        all
+    }
+
+    /// What rounding and quadrature leave of an output: a part of the largest flux, or of the largest u.
+    fn rounded(&self, problem: &Problem, name: &str) -> f64 {
+        let of_u = |output: &Output| output.name.value == name && output.quantity == Quantity::Mean;
+        let numbers = match problem.scene.outputs.iter().any(of_u) {
+            true => self.reading.u,
+            false => self.reading.flux,
+        };
+        ROUNDED * numbers.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+    }
+
+    /// Outputs with their values, and how far a controller would say that they are off.
+    fn as_a_controller(&self, problem: &Problem) -> Vec<(String, f64, f64)> {
+        let (Some(bound), Ok(values)) = (self.answer.bound, declared(problem, self.reading)) else {
+            return Vec::new();
+        };
+        let certificate = Certificate {
+            total: bound.total,
+            algebraic: bound.algebraic,
+            of_u: bound.of_u,
+            ..Certificate::default()
+        };
+        let answers = Answers { open: &[], total: 0.0, are_balanced: self.is_balanced };
+        let within = weights(problem, &answers)
+            .iter()
+            .map(|of| narrowed::<f64>(of).within(&certificate))
+            .collect::<Vec<_>>();
+        let named = problem.scene.outputs.iter().map(|output| output.name.value.clone());
+        let all = named.zip(values).zip(within).filter(|(_, by)| by.is_finite());
+        all.filter_map(|((name, value), by)| Some((name, value?, by))).collect()
+    }
+}
+
 impl Intervals {
-    /// Those of `answer` beside the exact solution.
-    ///
-    /// # Errors
-    /// Data that are not finite.
-    pub fn by_exact(number: u32, problem: &Problem, answer: &Answered) -> Result<Self> {
-        let problem = asked(problem, number, true);
-        let mut all = Self::default();
-        for (name, found) in of_answer(&problem, answer) {
-            if let Ok(OutputBound { center, plus_minus, exact: Some(exact), doubt, .. }) = found {
-                let off = ((exact - center).abs() - doubt).max(0.0);
-                all.add(name, off, plus_minus);
-                all.over_error.push(plus_minus / (exact - center).abs());
-            }
-        }
-        Ok(all)
-    }
-
-    /// Those of `answer` beside those of a finer one.
-    ///
-    /// # Errors
-    /// Data that are not finite.
-    pub fn by_finer(
-        number: u32,
-        problem: &Problem,
-        answer: &Answered,
-        finer: (&Problem, &Solution),
-    ) -> Result<Self> {
-        let (problem, fine) = (asked(problem, number, false), asked(finer.0, number, false));
-        let own = of_answer(&problem, answer);
-        let its = of_answer(&fine, &finer.1.into());
-        let mut all = Self::default();
-        for (name, found) in own {
-            if let (Ok(found), Some(Ok(fine))) = (found, its.get(&name)) {
-                let apart = (found.center - fine.center).abs();
-                all.add(name, apart, found.plus_minus + fine.plus_minus);
-            }
-        }
-        Ok(all)
-    }
-
     fn add(&mut self, name: String, off: f64, most: f64) {
         self.found += 1;
-        let ratio = if off == 0.0 { 0.0 } else { off / most };
+        let ratio = if off <= 0.0 { 0.0 } else { off / most };
         if ratio >= self.worst || ratio.is_nan() {
             (self.worst, self.name) = (ratio, name);
         }
@@ -74,7 +126,7 @@ impl Intervals {
 }
 
 /// The problem with some of the outputs that it may have; others for each number.
-fn asked(problem: &Problem, number: u32, probes: bool) -> Problem {
+fn with_outputs(problem: &Problem, number: u32, probes: bool) -> Problem {
     let scene = &problem.scene;
     let named = |value: String| Located { value, key: "output".to_owned(), span: 0..0 };
     let mut all = Vec::new();
