@@ -53,6 +53,8 @@ table! {
         "quadrature of the norms where contact ends within a cell";
     ENDS: "values at the ends of an edge", 1e-15,
         "one evaluation of the same expression";
+    OUTPUT_WEIGHTS: "weights of outputs of a bar against resistances on paper, relative", 5e-14,
+        "linear functions on few cells";
     OSCILLATION: "oscillation of a cell against integrals on paper", 1e-14,
         "exact rules for polynomials";
     AGREEMENT: "u of mixed precision and of the factor against other solvers, over the largest", 1e-10,

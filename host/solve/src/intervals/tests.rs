@@ -13,6 +13,7 @@ use crate::solve::{Options, SolverKind, solve};
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{adapted, gmsh};
 use signorini_scene::scene::{Output, Scene};
+use signorini_tolerances::solve::OUTPUT_WEIGHTS;
 
 fn options() -> Options {
     Options { solver: SolverKind::Factor, ..Options::default() }
@@ -227,6 +228,59 @@ fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
         }
         // Of first order: a quarter of the edge is a quarter of the width.
         assert!(widths[1] < 0.3 * widths[0], "{cells:?}: {widths:?}");
+    }
+    Ok(())
+}
+
+/// A bar from x = −1 to 1 and of height 1 with A = 3, u given on the left, heat by a law of transfer with h = 2 on the right.
+const BAR: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "3"
+[source]
+f = "0"
+[boundary.left]
+kind = "dirichlet"
+value = "0"
+[boundary.right]
+kind = "robin"
+coefficient = "2"
+ambient = "1"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "0"
+[boundary.contact]
+kind = "neumann"
+flux = "0"
+[output.cold]
+kind = "flux"
+of = "left"
+[output.skin]
+kind = "mean"
+of = "right"
+[output.roof]
+kind = "mean"
+of = "dirichlet"
+"#;
+
+/// z and ζ are known: z falls from 1 with the slope b, 3b = 2 (1 − 2b), and ‖A∇z‖² = 3 · 2 b² + 2 (1 − 2b)². ζ of the mean on the right
+/// is 1 − 2z there, with ‖ζ‖² = 2 ζ²/3 + (1 − ζ)²/2 where ζ = 3z/2.
+#[test]
+fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (_, problem) = on_grid(BAR, grid(4, cells))?;
+        let found = weights::weights(
+            &problem,
+            &weights::Answers { open: &[], total: 0.0, are_balanced: true },
+        );
+        let slope: f64 = 2.0 / 7.0;
+        let flux = (6.0 * slope * slope + 2.0 * (1.0 - 2.0 * slope).powi(2)).sqrt();
+        let through: f64 = 3.0 / 7.0;
+        let mean = (2.0 * through * through / 3.0 + (1.0 - through).powi(2) / 2.0).sqrt();
+        let weight = |at: usize| found[at].clone().expect("weights").total;
+        OUTPUT_WEIGHTS.check_relative("flux", weight(0), flux);
+        OUTPUT_WEIGHTS.check_relative("mean", weight(1), mean);
+        assert!(weight(2) > 0.0);
     }
     Ok(())
 }
