@@ -4,7 +4,7 @@ use super::text::{array, identifiers};
 
 /// A field of `Inputs` or `Outputs`.
 #[derive(Debug, Clone)]
-pub(super) struct Item {
+pub(crate) struct Item {
     pub name: String,
     pub identifier: String,
     pub doc: String,
@@ -23,14 +23,16 @@ pub(super) fn items<'n>(
         .collect()
 }
 
-/// The type `name` with a field an item.
+/// The type `name` with a field per item, laid out as C does it.
 pub(super) fn structure(name: &str, doc: &str, items: &[Item]) -> String {
     let fields = items
         .iter()
         .map(|item| format!("    /// {}\n    pub {}: Scalar,\n", item.doc, item.identifier));
     let fields: String = fields.collect();
     let body = if fields.is_empty() { "{}".to_owned() } else { format!("{{\n{fields}}}") };
-    format!("\n/// {doc}\n#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {name} {body}\n")
+    format!(
+        "\n/// {doc}\n#[derive(Debug, Clone, Copy, PartialEq)]\n#[repr(C)]\npub struct {name} {body}\n"
+    )
 }
 
 /// The constant with the items' names; `count` is the constant that tells how many they are.

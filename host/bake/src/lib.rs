@@ -8,6 +8,7 @@
 //! `Controller`.
 
 pub mod budget;
+pub mod c;
 pub mod choice;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod compiled;

@@ -23,7 +23,7 @@ pub struct ModuleApi {
 }
 
 /// What the numbers of every module mean.
-const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
+pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
 
@@ -102,6 +102,29 @@ impl ModuleApi {
     /// Identifiers of the outputs.
     pub fn outputs(&self) -> impl Iterator<Item = &str> {
         self.outputs.iter().map(|item| item.identifier.as_str())
+    }
+
+    /// The scene's title and the name of its file.
+    pub(crate) fn title(&self) -> &str {
+        &self.title
+    }
+
+    pub(crate) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Inputs and outputs, with what they mean.
+    pub(crate) fn input_items(&self) -> &[Item] {
+        &self.inputs
+    }
+
+    pub(crate) fn output_items(&self) -> &[Item] {
+        &self.outputs
+    }
+
+    /// The ranges as the scene gives them.
+    pub(crate) fn given_ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
     }
 
     /// The hash of scene, setting, mesh and default inputs.

@@ -22,8 +22,10 @@ pub struct Board {
     triple: &'static str,
     /// Where code for this very core is asked for.
     cpu_flag: Option<&'static str>,
-    machine: &'static str,
-    cpu: &'static str,
+    /// What QEMU calls it.
+    pub machine: &'static str,
+    /// Its core.
+    pub cpu: &'static str,
     /// The memory map, for the images' build script.
     memory: &'static str,
     /// Bytes of flash.

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   module ─┬─ image ─► board ─► ticks ─┬─► firmware (firmware.json)
-//!           └─ program ─► desk ─► ticks ─┘
+//!           ├─ program ─► desk ─► ticks ─┘
+//!           └─ library ─► libNAME.a, for C
 //! ```
 //! Who bakes writes the module: `cargo xtask firmware` by the program `signorini`, `signorini trade` itself. It works in a
 //! checkout of the sources ([`checkout`]), with tools that it installs where it can ([`tools`]).
@@ -13,6 +14,7 @@ pub mod checkout;
 pub mod chosen;
 pub mod firmware;
 pub mod footprint;
+pub mod library;
 pub mod lock;
 pub mod module;
 pub mod programs;

@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::path::Path;
 
 /// Waits until no other holder of the lock file `path` is left; it is free again when what is returned is dropped, or when
-/// this process ends, however that happens. Where a file system /// this process ends, however that happens. Where a file system has no locks, nobody waits.
+/// this process ends, however that happens. Where a file system has no locks, nobody waits.
 ///
 /// # Errors
 /// A file that cannot be made.

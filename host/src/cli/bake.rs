@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::bake_c;
 use super::posed::promised_problem_of;
 use super::{scene_at, write_beside};
 use signorini_bake::choice::{Choice, Wanted};
@@ -11,6 +12,7 @@ use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::promise;
 use signorini_bake::setting;
+use signorini_image::library::MACHINES;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::setting::ModelKind;
@@ -24,6 +26,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini bake meshes/scenes/levee.toml -o levee.rs --explain
   signorini bake slab.toml -o slab.rs --full --scalar f64
+  signorini bake meshes/scenes/levee.toml --c out/levee --board m4
 
 The smallest model that represents the scene exactly and fits its [target] is chosen: \
 condensed to contact edges, inputs and outputs, or full. --condensed and --full ask for one, \
@@ -50,6 +53,12 @@ more at 2 cycles an instruction there is a warning, and for a full model that is
 there is no more than that, since a deadline cuts it off. The error bound is never left out \
 to make room, but by certificate = false in [setting].
 
+--c builds the controller as a library for C, in a checkout of the sources: m4 and m7 pass numbers in \
+floating-point registers, m4-soft in the others, host is this machine. The header says what each \
+function does; the example is a program with a timer, a watchdog and a state that outlives a reset:
+  cmake -S out/levee/example -B out/levee/build
+  cmake --build out/levee/build --target run
+
 In the firmware:
   mod levee;
   static mut CONTROLLER: levee::Controller = levee::Controller::new();
@@ -65,8 +74,14 @@ pub struct Arguments {
     /// The scene file (TOML)
     scene: PathBuf,
     /// The Rust file to write
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "c")]
+    output: Option<PathBuf>,
+    /// The folder for the controller in C: NAME.h, libNAME.a, NAMEConfig.cmake and an example
+    #[arg(long, value_name = "DIR")]
+    c: Option<PathBuf>,
+    /// What the library for C is built for
+    #[arg(long, value_name = "BOARD", requires = "c", default_value = "m4", value_parser = known_machines())]
+    board: String,
     /// The full model: the scene's mesh solved on the target
     #[arg(long, conflicts_with = "condensed")]
     full: bool,
@@ -90,26 +105,38 @@ pub struct Arguments {
     input: Vec<String>,
 }
 
+/// The words that `--board` knows.
+fn known_machines() -> [&'static str; 4] {
+    MACHINES.map(|machine| machine.word)
+}
+
 impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = scene_at(&self.scene, &self.input)?;
         let (problem, promise) = promised_problem_of(&scene)?;
         let promise = promise.as_ref();
         warn(&problem.warnings);
-        let Emitted { source, chosen } = match setting::scalar(&scene, self.scalar)? {
+        let emitted = match setting::scalar(&scene, self.scalar)? {
             ScalarKind::F32 => self.module::<f32>(&problem, promise)?,
             ScalarKind::F64 => self.module::<f64>(&problem, promise)?,
         };
+        let Emitted { source, chosen } = &emitted;
         if let Some(promise) = promise {
             note(&of_the_box(
                 promise.goal,
                 chosen.ranges.and_then(|ranges| ranges.largest_error_bound),
             ));
         }
-        write_beside(&scene, "-o", &self.output, &source)?;
+        if let Some(folder) = &self.c {
+            let on = MACHINES.iter().find(|machine| machine.word == self.board);
+            on.map_or(Ok(()), |on| bake_c::write(&problem, &emitted, on, folder))?;
+        }
+        if let Some(file) = &self.output {
+            write_beside(&scene, "-o", file, source)?;
+        }
         if let Some(file) = &self.json {
             // Numbers, names and flags: nothing here can fail.
-            let chosen = serde_json::to_string_pretty(&chosen).unwrap_or_default();
+            let chosen = serde_json::to_string_pretty(chosen).unwrap_or_default();
             write_beside(&scene, "--json", file, &(chosen + "\n"))?;
         }
         Ok(0)

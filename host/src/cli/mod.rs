@@ -2,6 +2,7 @@
 
 mod answer;
 mod bake;
+mod bake_c;
 mod condense;
 mod export;
 mod extremes;

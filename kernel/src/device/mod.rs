@@ -5,6 +5,7 @@
 //! problem of contact edges alone, or on [`full`], the mesh itself with loads that follow inputs. [`model`] is one problem as
 //! borrowed arrays.
 
+pub mod codes;
 pub mod condensed;
 #[cfg(feature = "workspace")]
 pub mod condition;

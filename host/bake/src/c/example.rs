@@ -1,0 +1,75 @@
+//! The example around a controller: a timer, a state that outlives a reset, a watchdog; for QEMU's boards, or for the desk.
+
+use std::fmt::Write as _;
+
+use super::names::field;
+use crate::module_api::ModuleApi;
+use signorini_image::library::Machine;
+
+const MAIN: &str = include_str!("../../../c/example/main.c");
+const BOARD_H: &str = include_str!("../../../c/example/board.h");
+const BOARD: &str = include_str!("../../../c/example/board.c");
+const LINKER: &str = include_str!("../../../c/example/board.ld");
+const CMAKE: &str = include_str!("../../../c/example/CMakeLists.txt");
+const TOOLCHAIN: &str = include_str!("../../../c/example/toolchain.cmake");
+const BOARD_HOST: &str = include_str!("../../../c/example/board_host.c");
+const CMAKE_HOST: &str = include_str!("../../../c/example/host.cmake");
+
+/// Its files.
+pub(super) fn files(name: &str, api: &ModuleApi, on: &Machine) -> Vec<(String, String)> {
+    let templates: &[(&str, &str)] = match on.board {
+        Some(_) => &[
+            ("main.c", MAIN),
+            ("board.h", BOARD_H),
+            ("board.c", BOARD),
+            ("board.ld", LINKER),
+            ("CMakeLists.txt", CMAKE),
+            ("toolchain.cmake", TOOLCHAIN),
+        ],
+        None => &[
+            ("main.c", MAIN),
+            ("board.h", BOARD_H),
+            ("board.c", BOARD_HOST),
+            ("CMakeLists.txt", CMAKE_HOST),
+        ],
+    };
+    let [machine, cpu] = on.board.map_or([""; 2], |board| [board.machine, board.cpu]);
+    let retained = if on.board.is_some() { "__attribute__((section(\".retained\")))" } else { "" };
+    let filled = |text: &str| {
+        let text =
+            text.replace("@sensors@", &sensors(name, api)).replace("@actuators@", &actuators(api));
+        let text = text
+            .replace("@machine@", machine)
+            .replace("@cpu@", cpu)
+            .replace("@retained@", retained);
+        text.replace("@NAME@", &name.to_uppercase()).replace("@name@", name)
+    };
+    templates.iter().map(|(file, text)| (format!("example/{file}"), filled(text))).collect()
+}
+
+/// A value for each input.
+fn sensors(name: &str, api: &ModuleApi) -> String {
+    let mut text = String::new();
+    for (item, [lo, hi]) in api.input_items().iter().zip(api.given_ranges()) {
+        let field = field(&item.identifier);
+        let ends = match lo.is_finite() && hi.is_finite() {
+            true => ["least", "most"].map(|end| format!("{name}_{end}_inputs.{field}")),
+            false => ["-", "+"].map(|sign| format!("{name}_default_inputs.{field} {sign} 0.1f")),
+        };
+        let _ = writeln!(text, "    inputs->{field} = swing({}, {});", ends[0], ends[1]);
+    }
+    if text.is_empty() { "    (void)inputs;\n    (void)swing;\n".to_owned() } else { text }
+}
+
+/// A line for each output.
+fn actuators(api: &ModuleApi) -> String {
+    let mut text = String::new();
+    for item in api.output_items() {
+        let field = field(&item.identifier);
+        let _ = writeln!(
+            text,
+            "    printf(\"  {field} %g +- %g\\n\", (double)outputs->{field}, (double)report->plus_minus.{field});"
+        );
+    }
+    if text.is_empty() { "    (void)outputs;\n".to_owned() } else { text }
+}

@@ -1,0 +1,58 @@
+//! A controller for C: its header, its library, what CMake reads of it, and an example around it.
+//!
+//! ```text
+//!   Problem, Emitted ─► names, header ─┐
+//!                     signorini_image::library ─► Files
+//!                     cmake, example ──┘
+//! ```
+//! The header states what the library has: inputs and outputs from [`ModuleApi`], numbers and words from the kernel's
+//! [`signorini_kernel::device::codes`], sizes from the library that was built.
+
+mod cmake;
+mod example;
+mod header;
+mod names;
+
+pub use names::name_of;
+
+use crate::emit::Emitted;
+use crate::module_api::ModuleApi;
+use signorini_image::library::{Library, Machine};
+use signorini_solve::problem::Problem;
+
+/// A file: where it goes in the folder, and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct File {
+    /// Its path within the folder.
+    pub path: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    fn text(path: impl Into<String>, text: String) -> Self {
+        Self { path: path.into(), bytes: text.into_bytes() }
+    }
+}
+
+/// All files of a controller for C. They belong together.
+///
+/// # Errors
+/// The library cannot be built: what is missing.
+pub fn files(problem: &Problem, emitted: &Emitted, on: &Machine) -> Result<Vec<File>, String> {
+    let name = name_of(problem);
+    let library = Library::build(&emitted.source, &emitted.chosen.kernel_features, &name, on)?;
+    let api = ModuleApi::new(problem);
+    let header =
+        header::Header { name: &name, api: &api, chosen: &emitted.chosen, library: &library, on };
+    let mut files = vec![
+        File::text(format!("{name}.h"), header.text()),
+        File::text(format!("{name}Config.cmake"), cmake::text(&name, on)),
+    ];
+    files.extend(
+        example::files(&name, &api, on).into_iter().map(|(path, text)| File::text(path, text)),
+    );
+    // Last, since it is what a build waits for.
+    files.push(File { path: format!("lib{name}.a"), bytes: library.archive });
+    Ok(files)
+}

@@ -1,0 +1,60 @@
+//! What a tick came to, as C reads it.
+
+use crate::scene::{Answer, Outputs, Scalar};
+use signorini_kernel::bound::verdict::{Certificate, Verdict};
+use signorini_kernel::device::codes;
+
+/// `NAME_report` of the header, field by field.
+#[repr(C)]
+pub struct Report {
+    status: i32,
+    bounded: i32,
+    exchanges: u32,
+    sweeps: u32,
+    active: u32,
+    pulled: u32,
+    bound: Scalar,
+    gap: Scalar,
+    algebraic: Scalar,
+    oscillation: Scalar,
+    rounding: Scalar,
+    of_u: Scalar,
+    plus_minus: Outputs,
+}
+
+/// Where there is no bound.
+const NONE: Certificate<Scalar> = Certificate {
+    duality_gap: Scalar::INFINITY,
+    algebraic: Scalar::INFINITY,
+    oscillation: Scalar::INFINITY,
+    rounding: Scalar::INFINITY,
+    total: Scalar::INFINITY,
+    of_u: Scalar::INFINITY,
+};
+
+impl Report {
+    /// That of an answer.
+    pub fn new(answer: &Answer) -> Self {
+        let report = &answer.report;
+        let bound = report.certificate().copied().unwrap_or(NONE);
+        let pulled = match report.verdict {
+            Verdict::Pulled { edge } => edge as u32,
+            _ => 0,
+        };
+        Self {
+            status: codes::ended(report.ended) as i32,
+            bounded: codes::bounded(&report.verdict) as i32,
+            exchanges: report.exchanges,
+            sweeps: report.sweeps,
+            active: report.active,
+            pulled,
+            bound: bound.total,
+            gap: bound.duality_gap,
+            algebraic: bound.algebraic,
+            oscillation: bound.oscillation,
+            rounding: bound.rounding,
+            of_u: bound.of_u,
+            plus_minus: answer.plus_minus(),
+        }
+    }
+}
