@@ -6,7 +6,7 @@ use core::ffi::{CStr, c_char, c_void};
 use crate::named;
 use crate::report::Report;
 use crate::scene::{Answer, Inputs, LIMITS, Outputs, Scalar};
-use crate::state::State;
+use crate::state::{Seal, State};
 use signorini_kernel::Error;
 use signorini_kernel::device::codes::{Bounded, EndedCode, Refusal, refusal};
 use signorini_kernel::device::limits::{Deadline, Limits};
@@ -32,13 +32,10 @@ pub struct TickDeadline {
 /// `state` is null or has room for a state.
 #[unsafe(export_name = named!("init"))]
 pub unsafe extern "C" fn init(state: *mut State) -> i32 {
-    if state.is_null() {
-        return Refusal::NullPointer as i32;
-    }
-    // SAFETY: the caller's; what stood there is not read.
-    unsafe {
-        state.write(State::NEW);
-        (*state).seal() as i32
+    match state.is_null() {
+        true => Refusal::NullPointer as i32,
+        // SAFETY: the caller's.
+        false => unsafe { State::begin(state) as i32 },
     }
 }
 
@@ -52,13 +49,14 @@ pub unsafe extern "C" fn tick(
     report: *mut Report,
 ) -> i32 {
     // SAFETY: the caller's.
-    let (Some(state), Some(&inputs)) = (unsafe { (state.as_mut(), inputs.as_ref()) }) else {
-        return Refusal::NullPointer as i32;
+    let (state, inputs) = match unsafe { admitted(state, inputs) } {
+        Ok(both) => both,
+        Err(why) => return why as i32,
     };
-    let Some(controller) = state.open() else { return Refusal::ForeignState as i32 };
+    let (controller, seal) = state.open();
     let answer = controller.tick(inputs);
     // SAFETY: the caller's.
-    unsafe { told(state, answer, outputs, report) }
+    unsafe { told(state, seal, answer, outputs, report) }
 }
 
 /// # Safety
@@ -73,8 +71,9 @@ pub unsafe extern "C" fn tick_within(
     report: *mut Report,
 ) -> i32 {
     // SAFETY: the caller's.
-    let (Some(state), Some(&inputs)) = (unsafe { (state.as_mut(), inputs.as_ref()) }) else {
-        return Refusal::NullPointer as i32;
+    let (state, inputs) = match unsafe { admitted(state, inputs) } {
+        Ok(both) => both,
+        Err(why) => return why as i32,
     };
     // SAFETY: the caller's.
     let (limits, deadline) = unsafe { (limits.as_ref(), deadline.as_ref()) };
@@ -87,18 +86,52 @@ pub unsafe extern "C" fn tick_within(
         sweep: deadline.map_or(0, |deadline| deadline.sweep),
         certificate: deadline.map_or(0, |deadline| deadline.certificate),
     };
-    let Some(controller) = state.open() else { return Refusal::ForeignState as i32 };
+    let (controller, seal) = state.open();
     let answer = controller.tick_within(inputs, limits, &mut deadline);
     // SAFETY: the caller's.
-    unsafe { told(state, answer, outputs, report) }
+    unsafe { told(state, seal, answer, outputs, report) }
 }
 
-/// Puts an answer where the caller wants it; of a refused call only the culprit.
+/// State and inputs of a call, where they may reach the controller.
+///
+/// # Safety
+/// Each pointer is null or valid.
+#[inline]
+unsafe fn admitted<'s>(
+    state: *mut State,
+    inputs: *const Inputs,
+) -> Result<(&'s mut State, Inputs), Refusal> {
+    // SAFETY: the caller's.
+    let (Some(state), Some(&inputs)) = (unsafe { (state.as_mut(), inputs.as_ref()) }) else {
+        return Err(Refusal::NullPointer);
+    };
+    if !state.is_own() {
+        return Err(Refusal::ForeignState);
+    }
+    match infinite(&inputs) {
+        Some(input) => {
+            state.blame(input);
+            Err(Refusal::InputNotFinite)
+        }
+        None => Ok((state, inputs)),
+    }
+}
+
+/// The first input without a range that is no finite number: what has a range is held against it by the controller.
+#[inline]
+fn infinite(inputs: &Inputs) -> Option<usize> {
+    let is_free = |[lo, hi]: [Scalar; 2]| !(lo.is_finite() && hi.is_finite());
+    let mut values = inputs.to_array().into_iter().zip(Inputs::RANGES);
+    values.position(|(value, range)| is_free(range) && !value.is_finite())
+}
+
+/// Puts an answer where the caller wants it; of a refused call only the culprit. The seal stays as it was where an input was refused.
 ///
 /// # Safety
 /// Each pointer is null or valid.
 unsafe fn told(
     state: &mut State,
+    seal: Seal,
     answer: Result<Answer, Error>,
     outputs: *mut Outputs,
     report: *mut Report,
@@ -119,6 +152,9 @@ unsafe fn told(
         Err(error) => {
             let (why, culprit) = refusal(&error);
             state.blame(culprit);
+            if matches!(why, Refusal::InputOutOfRange | Refusal::InputNotFinite) {
+                state.close(seal);
+            }
             why as i32
         }
     }
@@ -129,10 +165,10 @@ unsafe fn told(
 #[unsafe(export_name = named!("reset"))]
 pub unsafe extern "C" fn reset(state: *mut State) -> i32 {
     // SAFETY: the caller's.
-    let Some(state) = (unsafe { state.as_mut() }) else { return Refusal::NullPointer as i32 };
-    let Some(controller) = state.open() else { return Refusal::ForeignState as i32 };
-    controller.reset();
-    state.seal() as i32
+    match unsafe { owned(state) } {
+        Ok(state) => state.reset() as i32,
+        Err(why) => why as i32,
+    }
 }
 
 /// # Safety
@@ -140,10 +176,20 @@ pub unsafe extern "C" fn reset(state: *mut State) -> i32 {
 #[unsafe(export_name = named!("seal_state"))]
 pub unsafe extern "C" fn seal_state(state: *mut State) -> i32 {
     // SAFETY: the caller's.
-    match unsafe { state.as_mut() } {
-        Some(state) => state.seal() as i32,
-        None => Refusal::NullPointer as i32,
+    match unsafe { owned(state) } {
+        Ok(state) => state.seal() as i32,
+        Err(why) => why as i32,
     }
+}
+
+/// A state of this controller.
+///
+/// # Safety
+/// `state` is null or valid.
+unsafe fn owned<'s>(state: *mut State) -> Result<&'s mut State, Refusal> {
+    // SAFETY: the caller's.
+    let state = unsafe { state.as_mut() }.ok_or(Refusal::NullPointer)?;
+    if state.is_own() { Ok(state) } else { Err(Refusal::ForeignState) }
 }
 
 /// # Safety

@@ -5,18 +5,17 @@ use core::mem::{align_of, size_of};
 use crate::scene::{Controller, MODEL, SCENE_HASH, Scalar};
 use signorini_kernel::device::codes::Refusal;
 
-/// What tells an initialised state from any other bytes.
+/// What tells an initialised state from any other bytes. Each of its bytes is checked, as each of the controller's is.
 #[repr(C)]
 struct Header {
     /// Which controller it is of.
     identity: u64,
-    /// [`SEALED`] where the checksum is that of the controller.
-    seal: u32,
-    /// Of the controller's bytes.
+    /// [`SEALED`] where the checksum is that of the state.
+    seal: u64,
+    /// Of all that follows the header, and the culprit.
     checksum: u32,
     /// The number of what the last call was refused for.
     culprit: u32,
-    unused: u32,
 }
 
 /// Header and controller.
@@ -30,7 +29,7 @@ pub struct State {
 const _: () = assert!(align_of::<State>() == 8 && size_of::<State>() % 8 == 0);
 
 /// Bytes as they may stand in memory by chance are hardly these.
-const SEALED: u32 = 0x5ea1_ed00;
+const SEALED: u64 = 0x5ea1_ed00_c0de_57a7;
 
 /// A hash of scene, model, scalar, version and size: a state of another controller has another one.
 const IDENTITY: u64 = {
@@ -52,24 +51,48 @@ const fn fold(mut hash: u64, bytes: &[u8]) -> u64 {
 }
 
 impl State {
-    /// Before the first tick; not sealed yet.
-    pub const NEW: Self = Self {
-        header: Header { identity: IDENTITY, seal: 0, checksum: 0, culprit: 0, unused: 0 },
-        controller: Controller::new(),
-    };
-
-    /// The controller, about to change; none where this is no state of it.
-    pub fn open(&mut self) -> Option<&mut Controller> {
-        if self.header.identity != IDENTITY {
-            return None;
-        }
-        self.header.seal = 0;
-        Some(&mut self.controller)
+    /// Makes `this` a state before the first tick, and seals it.
+    ///
+    /// The controller is written by itself: it is zeros, which take no room in flash, and the header is not.
+    ///
+    /// # Safety
+    /// There is room for a state, whose bytes may be any.
+    pub unsafe fn begin(this: *mut Self) -> Refusal {
+        // SAFETY: the caller's; what stood there is not read.
+        let state = unsafe {
+            (&raw mut (*this).controller).write(const { Controller::new() });
+            (&raw mut (*this).header).write(Header {
+                identity: IDENTITY,
+                seal: 0,
+                checksum: 0,
+                culprit: 0,
+            });
+            &mut *this
+        };
+        state.seal()
     }
 
-    /// Keeps the number of what a call was refused for.
+    /// Whether this is a state of this controller.
+    pub fn is_own(&self) -> bool {
+        self.header.identity == IDENTITY
+    }
+
+    /// The controller, about to change, and the seal that is broken by it.
+    pub fn open(&mut self) -> (&mut Controller, Seal) {
+        let seal = Seal(core::mem::take(&mut self.header.seal));
+        (&mut self.controller, seal)
+    }
+
+    /// Puts a seal back: the controller has not changed after all.
+    pub fn close(&mut self, seal: Seal) {
+        self.header.seal = seal.0;
+    }
+
+    /// Keeps the number of what a call was refused for; a state that is sealed stays so.
     pub fn blame(&mut self, culprit: usize) {
+        let before = self.header.culprit;
         self.header.culprit = culprit as u32;
+        self.header.checksum ^= before ^ self.header.culprit;
     }
 
     /// The number of what the last refused call was refused for.
@@ -77,12 +100,16 @@ impl State {
         self.header.culprit
     }
 
+    /// Forgets all ticks.
+    pub fn reset(&mut self) -> Refusal {
+        self.open().0.reset();
+        self.seal()
+    }
+
     /// Puts the checksum in its place.
     pub fn seal(&mut self) -> Refusal {
-        if self.header.identity != IDENTITY {
-            return Refusal::ForeignState;
-        }
-        self.header.checksum = self.checksum();
+        // SAFETY: it is one.
+        self.header.checksum = unsafe { sum(self) } ^ self.header.culprit;
         self.header.seal = SEALED;
         Refusal::Ok
     }
@@ -93,35 +120,37 @@ impl State {
     /// `this` can be read; its bytes may be any.
     pub unsafe fn check(this: *const Self) -> Refusal {
         // SAFETY: the caller's; numbers of any bits are numbers, and no reference to the controller is made.
-        let (identity, seal, checksum) = unsafe {
-            let header = &raw const (*this).header;
-            ((*header).identity, (*header).seal, (*header).checksum)
-        };
+        let Header { identity, seal, checksum, culprit } =
+            unsafe { (&raw const (*this).header).read() };
         if identity != IDENTITY {
             Refusal::ForeignState
         } else if seal != SEALED {
             Refusal::UnsealedState
         // SAFETY: the caller's.
-        } else if checksum != sum(unsafe { &raw const (*this).controller }) {
+        } else if checksum ^ culprit != unsafe { sum(this) } {
             Refusal::DamagedState
         } else {
             Refusal::Ok
         }
     }
-
-    fn checksum(&self) -> u32 {
-        sum(&raw const self.controller)
-    }
 }
 
-/// FNV-1a by words of 32 bits: each step is one-to-one in the word and in what stood before, so that a change of bits within one
-/// word never stays hidden, and any other does with a probability of 2⁻³².
-fn sum(controller: *const Controller) -> u32 {
-    let words = controller.cast::<u32>();
-    let count = size_of::<Controller>() / 4;
+/// What a state had for a seal.
+pub struct Seal(u64);
+
+/// FNV-1a by words of 32 bits over all that follows the header: each step is one-to-one in the word and in what stood before, so
+/// that a change of bits within one word never stays hidden, and any other does with a probability of 2⁻³².
+///
+/// # Safety
+/// `state` can be read.
+#[inline(never)]
+unsafe fn sum(state: *const State) -> u32 {
+    // SAFETY: inside of the state.
+    let words = unsafe { state.cast::<u32>().add(size_of::<Header>() / 4) };
+    let count = (size_of::<State>() - size_of::<Header>()) / 4;
     let mut sum = 0x811c_9dc5_u32;
     for at in 0..count {
-        // SAFETY: inside of the controller. Volatile, since bytes between its fields have some value too.
+        // SAFETY: inside of the state. Volatile, since bytes between its fields have some value too.
         let word = unsafe { words.add(at).read_volatile() };
         sum = (sum ^ word).wrapping_mul(0x0100_0193);
     }
@@ -129,4 +158,4 @@ fn sum(controller: *const Controller) -> u32 {
 }
 
 // No byte is left out.
-const _: () = assert!(size_of::<Controller>() % 4 == 0 && align_of::<Controller>() % 4 == 0);
+const _: () = assert!(size_of::<Header>() == core::mem::offset_of!(State, controller));

@@ -285,7 +285,8 @@ const FUNCTIONS: &str = "
 name_error name_init(name_state *state);
 
 /* Answers for these inputs, from where the last tick ended. `outputs` and `report` may be null. Where a tick is refused neither
- * changes, and the state is what it was; name_culprit tells which input it was for. */
+ * changes and the next one begins where the last answer did; name_culprit tells which input it was for. A state that is refused
+ * an input stays sealed. */
 name_error name_tick(name_state *state, const name_inputs *inputs, name_outputs *outputs, name_report *report);
 
 /* When a tick ends, where it has sweeps: the exact method of a condensed model needs no limits. */
