@@ -1,15 +1,25 @@
 //! A baked controller behind functions for C.
 //!
 //! ```text
-//!   scene (the module of `signorini bake`) ─► state ─► calls ◄── report
+//!   scene (the module of `signorini bake`) ─► state ─► calls
+//!                                              └─► answer ─► tick, within ◄── report
 //! ```
+//! A library has two objects, `tick` in one and `tick_within` in the other, each with a controller of its own: where two functions
+//! call the same code the compiler no longer makes it part of either, which costs thousands of instructions a tick. A linker leaves
+//! out what is not called.
+//!
 //! The header that belongs to it is written from the same lists: inputs and outputs as the module has them, numbers and words
 //! as the kernel's `device::codes` has them. Memory is the caller's; nothing here is static but constants.
 #![no_std]
 
+mod answer;
 mod calls;
 mod report;
 mod state;
+#[cfg(not(feature = "within"))]
+mod tick;
+#[cfg(feature = "within")]
+mod within;
 
 include!(concat!(env!("OUT_DIR"), "/module.rs"));
 

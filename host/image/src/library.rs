@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   module ─► cargo (host/c) ─► archive ─► ld -r: what the functions reach ─► objcopy: all other names become its own
-//!                                                                               ─► libNAME.a
+//!                └─ the tick with a deadline, the same way: an object of its own ─► ar: libNAME.a
 //! ```
 //! So that two such libraries link into one image, though each has a panic handler and parts of `core`. The panic handler asks
 //! for a function that is defined nowhere: a library that needs more than memcpy and the like is refused.
@@ -51,10 +51,9 @@ pub const MACHINES: [Machine; 4] = [
 ];
 
 /// Functions and constants of a header, without the scene's name and an underscore before each.
-pub const EXPORTS: [&str; 14] = [
+pub const EXPORTS: [&str; 13] = [
     "init",
     "tick",
-    "tick_within",
     "reset",
     "seal_state",
     "check_state",
@@ -67,6 +66,9 @@ pub const EXPORTS: [&str; 14] = [
     "least_inputs",
     "most_inputs",
 ];
+
+/// Those of the second object: host/c says why it is one.
+pub const EXPORTS_WITHIN: [&str; 1] = ["tick_within"];
 
 /// Constants of the build that the library does not have: their sizes are what they tell.
 const SIZES: [&str; 2] = ["size_of_state", "size_of_report"];
@@ -103,12 +105,17 @@ impl Library {
         let _turn = lock::hold(&folder.join("lock"))?;
         let scene = folder.join("scene.rs");
         fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
-        let (mut command, built) = build_command(on, &features_of(features), &scene)?;
-        command.env("SIGNORINI_SCENE", &scene).env("SIGNORINI_C_NAME", name);
-        run_quietly(command)?;
         let tools = Binutils { prefix: if on.board.is_some() { "arm-none-eabi-" } else { "" } };
-        let whole = tools.without_bitcode(&built.join("libsignorini_c.a"), &folder)?;
-        let archive = tools.archived(&whole, name, &folder)?;
+        let built = |more: &[&str]| {
+            let (mut command, built) = build_command(on, &features_of(features, more), &scene)?;
+            command.env("SIGNORINI_SCENE", &scene).env("SIGNORINI_C_NAME", name);
+            run_quietly(command)?;
+            tools.without_bitcode(&built.join("libsignorini_c.a"), &folder)
+        };
+        let within = tools.object(&built(&["within"])?, name, &EXPORTS_WITHIN, &folder)?;
+        let whole = built(&[])?;
+        let object = tools.object(&whole, name, &EXPORTS, &folder)?;
+        let archive = tools.archive(name, &[object, within], &folder)?;
         let [state, report] = tools.sizes(&whole, name, &folder)?;
         let archive =
             fs::read(&archive).map_err(|error| format!("{}: {error}", archive.display()))?;
@@ -116,8 +123,9 @@ impl Library {
     }
 }
 
-fn features_of(features: &[String]) -> Vec<String> {
-    features.iter().map(|feature| format!("signorini-kernel/{feature}")).collect()
+fn features_of(kernel: &[String], own: &[&str]) -> Vec<String> {
+    let kernel = kernel.iter().map(|feature| format!("signorini-kernel/{feature}"));
+    kernel.chain(own.iter().map(|&feature| feature.to_owned())).collect()
 }
 
 /// The command of cargo, and the folder of what it makes.
@@ -177,10 +185,17 @@ impl Binutils {
         self.run(link.arg(whole).arg("-o").arg(object)).map(drop)
     }
 
-    /// The library that shows the exports alone.
-    fn archived(&self, whole: &Path, name: &str, folder: &Path) -> Result<PathBuf, String> {
-        let object = folder.join(format!("{name}.o"));
-        let names = EXPORTS.map(|own| format!("{name}_{own}"));
+    /// An object that shows these exports alone.
+    fn object(
+        &self,
+        whole: &Path,
+        name: &str,
+        exports: &[&str],
+        folder: &Path,
+    ) -> Result<PathBuf, String> {
+        let last = exports.last().copied().unwrap_or_default();
+        let object = folder.join(format!("{name}_{last}.o"));
+        let names: Vec<_> = exports.iter().map(|own| format!("{name}_{own}")).collect();
         self.linked(whole, &names, &object)?;
         let mut hide = self.command("objcopy");
         hide.arg("--strip-debug");
@@ -189,13 +204,16 @@ impl Binutils {
         });
         self.run(hide.arg(&object))?;
         let listing = self.run(self.command("nm").arg("-P").arg(&object))?;
-        needs_nothing(&listing)?;
+        needs_nothing(&listing).map(|()| object)
+    }
+
+    /// The library.
+    fn archive(&self, name: &str, objects: &[PathBuf], folder: &Path) -> Result<PathBuf, String> {
         let archive = folder.join(format!("lib{name}.a"));
         // `ar` adds to what is there.
         let _ = fs::remove_file(&archive);
         // D: without times and users, so that the same scene gives the same bytes.
-        self.run(self.command("ar").arg("rcsD").arg(&archive).arg(&object))?;
-        Ok(archive)
+        self.run(self.command("ar").arg("rcsD").arg(&archive).args(objects)).map(|_| archive)
     }
 
     fn sizes(&self, whole: &Path, name: &str, folder: &Path) -> Result<[usize; 2], String> {

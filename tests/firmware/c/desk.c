@@ -1,0 +1,8 @@
+/* The board of these programs on the desk. */
+#include <stdio.h>
+
+#include "board.h"
+
+void print(const char *text) {
+    fputs(text, stdout);
+}

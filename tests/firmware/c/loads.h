@@ -1,0 +1,15 @@
+/* The inputs of every tick: those of `scene/src/loads.rs`, in the same arithmetic. */
+#ifndef LOADS_H
+#define LOADS_H
+
+#include "scene.h"
+
+enum { TICKS = 101 };
+
+/* The inputs of the next tick; the first has the defaults. */
+void next_inputs(NAMED(inputs) *inputs);
+
+/* The next tick is the first again. */
+void first_inputs(void);
+
+#endif
