@@ -15,7 +15,7 @@ use signorini_bake::tick::{Budget, TickFields, TickRecord, log, picture, play, s
 use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::gmsh;
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_scene::setting::Precision;
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::problem::Problem;
@@ -72,7 +72,7 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["budget_sweeps", "error", "coarse"])]
     baked: bool,
     /// No intervals of the outputs: else output_bounds.csv has NAME_least and NAME_most around the exact value of each force, flux
-    /// and mean. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
+    /// and mean, NAME_cell_least and NAME_cell_most around the mean over a probe's cell. Above 300 000 unknowns times ticks there are none without --baked, whose controller has numbers for them
     #[arg(long)]
     no_intervals: bool,
     /// Also ticks.pvd, a series for ParaView, and a VTU file each tick in the folder ticks
@@ -141,6 +141,7 @@ impl Arguments {
                 "  no intervals of outputs: {work} unknowns times ticks are more than {MOST_INTERVALS}"
             ));
         }
+        without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
         Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
     }
 
@@ -171,6 +172,22 @@ fn report(problem: &Problem, model: &str, ticks: &[TickRecord], out: &Path) {
     ));
     say(format_args!("  {}", endings(ticks)));
     say(format_args!("  written to {}", out.display()));
+}
+
+/// Why outputs have no interval, the first reason of each; lengths never have one.
+fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
+    let is_length = |of: &Output| matches!(of.quantity, Quantity::Length | Quantity::Saturated);
+    let outputs = scene.outputs.iter().enumerate().filter(|(_, of)| !is_length(of));
+    let line = |(at, output): (usize, &Output)| {
+        let reasons = ticks.iter().filter_map(|tick| tick.intervals.get(at)?.as_ref().err());
+        let (first, count) = (reasons.clone().next()?, reasons.count());
+        Some(format!(
+            "no interval of {} in {count} of {} ticks: {first}",
+            output.name.value,
+            ticks.len()
+        ))
+    };
+    outputs.filter_map(line).collect()
 }
 
 /// How many ticks ended in which way, in the order of their first.

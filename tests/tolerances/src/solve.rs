@@ -25,6 +25,8 @@ table! {
         "two levels agree to 1e-9";
     BISECTED_LINE: "integral of a kink across cells by bisection", 1e-4,
         "the number of cuts is limited";
+    GRADED: "integral of a jump beside a side by thin parts", 1e-4,
+        "the number of cuts is limited";
     GUARANTEE: "how far the distance is above the bound on thin cells, relative", 1e-6,
         "quadrature of the norms";
     POINTS: "Robin data at the points of an edge", 1e-13,

@@ -20,13 +20,24 @@ pub struct Module {
     /// Its model, solver and scalar in a few words.
     pub name: String,
     plus_minus: PlusMinus,
+    /// Why outputs have no weights.
+    reasons: Vec<Option<String>>,
 }
 
 impl Module {
-    /// How far each output may be off, as `Answer::plus_minus` says it; none where nothing is guaranteed.
-    pub fn plus_minus(&self, bound: Option<&ErrorBound>) -> Vec<Option<f64>> {
-        let all = bound.map(|bound| (self.plus_minus)(bound)).unwrap_or_default();
-        all.into_iter().map(|by| Some(by).filter(|by| by.is_finite())).collect()
+    /// How far each output may be off, as `Answer::plus_minus` says it; where nothing is guaranteed, why.
+    pub fn plus_minus(&self, bound: Option<&ErrorBound>) -> Vec<std::result::Result<f64, String>> {
+        let Some(bound) = bound else {
+            return vec![Err("the tick has no error bound".to_owned()); self.reasons.len()];
+        };
+        let said = |(by, reason): (f64, &Option<String>)| match reason {
+            Some(reason) => Err(reason.clone()),
+            None if by.is_finite() => Ok(by),
+            None => {
+                Err("the tick was cut off so early that nothing is known of its fluxes".to_owned())
+            }
+        };
+        (self.plus_minus)(bound).into_iter().zip(&self.reasons).map(said).collect()
     }
 }
 
@@ -52,7 +63,9 @@ fn baked_in<R: Scalar, T>(
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
     let candidate = choice.candidate();
-    let weights: Vec<_> = of_choice(problem, &choice).iter().map(narrowed::<R>).collect();
+    let weighed = of_choice(problem, &choice);
+    let reasons = weighed.iter().map(|of| of.as_ref().err().cloned()).collect();
+    let weights: Vec<_> = weighed.iter().map(narrowed::<R>).collect();
     let plus_minus = move |bound: &ErrorBound| {
         let certificate = Certificate {
             total: R::narrow(bound.total),
@@ -63,7 +76,7 @@ fn baked_in<R: Scalar, T>(
         weights.iter().map(|of| of.within(&certificate).wide()).collect()
     };
     let name = format!("{}, {}", candidate.name, R::NAME);
-    let module = Module { name, plus_minus: Box::new(plus_minus) };
+    let module = Module { name, plus_minus: Box::new(plus_minus), reasons };
     match &candidate.model {
         Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &module)),
         Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &module)),

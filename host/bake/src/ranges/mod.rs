@@ -118,7 +118,7 @@ fn outputs(problem: &Problem, origin: &Origin, reach: &Reach) -> String {
     }
     let _ = writeln!(
         text,
-        "Least and largest are proved for the exact solution at all inputs within their ranges.\n\
+        "Least and largest are proved for the exact solution of this model, on its mesh, at all inputs within their ranges.\n\
          Those seen are of {} inputs drawn from them, all corners included where inputs are few.\n\
          The width is the proved one over that seen.",
         reach.inputs

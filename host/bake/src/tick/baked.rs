@@ -65,7 +65,7 @@ fn refused(problem: &Problem) -> TickRecord {
         bound: None,
         combined: None,
         outputs: vec![None; problem.scene.outputs.len()],
-        intervals: vec![None; problem.scene.outputs.len()],
+        intervals: vec![Err("the tick was refused".to_owned()); problem.scene.outputs.len()],
     }
 }
 
@@ -85,9 +85,10 @@ fn read_off(problem: &Problem, answer: &TickSolution, module: &Module) -> Result
     };
     let outputs = answer.outputs.iter().take(problem.scene.outputs.len());
     let plus_minus = module.plus_minus(bound.as_ref());
-    let around = |(&value, by): (&f64, Option<f64>)| by.map(|by| [value - by, value + by]);
-    let of_each = plus_minus.into_iter().chain(std::iter::repeat(None));
-    let intervals = outputs.clone().zip(of_each).map(around).collect();
+    let around = |(&value, by): (&f64, std::result::Result<f64, String>)| {
+        by.map(|by| [value - by, value + by])
+    };
+    let intervals = outputs.clone().zip(plus_minus).map(around).collect();
     Ok(TickRecord {
         time: problem.time,
         status: answer.ended,

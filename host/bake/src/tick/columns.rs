@@ -1,7 +1,7 @@
 //! `ticks.csv` and `output_bounds.csv`: one line a tick.
 
 use super::TickRecord;
-use signorini_scene::scene::Scene;
+use signorini_scene::scene::{Quantity, Scene};
 
 /// The text of `ticks.csv`:
 /// `t,status,sweeps,contact_force,contact_length,error_bound[,error_combined]` and a column for each
@@ -25,18 +25,21 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     writer.into_inner().map_err(|error| error.into_error().into())
 }
 
-/// The text of `output_bounds.csv`: `t`, and `NAME_least` and `NAME_most` of each output whose exact value is known to lie between.
+/// The text of `output_bounds.csv`: `t`, and `NAME_least` and `NAME_most` of each output whose exact value is known to lie between;
+/// of a probe `NAME_cell_least` and `NAME_cell_most`, around the mean over its cell.
 pub fn bounds_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let is_bounded = |at: &usize| ticks.iter().any(|tick| tick.intervals[*at].is_some());
+    let interval = |tick: &TickRecord, at: usize| Some(*tick.intervals.get(at)?.as_ref().ok()?);
+    let is_bounded = |at: &usize| ticks.iter().any(|tick| interval(tick, *at).is_some());
     let bounded: Vec<usize> = (0..scene.outputs.len()).filter(is_bounded).collect();
     let names = bounded.iter().flat_map(|&at| {
-        let name = &scene.outputs[at].name.value;
-        [format!("{name}_least"), format!("{name}_most")]
+        let output = &scene.outputs[at];
+        let of = if matches!(output.quantity, Quantity::Probe { .. }) { "_cell" } else { "" };
+        ["least", "most"].map(|end| format!("{}{of}_{end}", output.name.value))
     });
     writer.write_record(std::iter::once("t".to_owned()).chain(names))?;
     for tick in ticks {
-        let ends = bounded.iter().flat_map(|&at| match tick.intervals[at] {
+        let ends = bounded.iter().flat_map(|&at| match interval(tick, at) {
             Some(ends) => ends.map(digits),
             None => [String::new(), String::new()],
         });

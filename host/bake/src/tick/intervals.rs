@@ -1,5 +1,6 @@
 //! Where the outputs of a tick lie for the exact solution, worked out anew from its answer.
 
+use super::TickInterval;
 use super::player::PlayedTick;
 use signorini_scene::error::Result;
 use signorini_solve::intervals::{Answered, by_factor};
@@ -18,7 +19,7 @@ impl Intervals {
     }
 
     /// Those of the declared outputs, in their order.
-    pub fn of(&mut self, problem: &Problem, answer: &PlayedTick) -> Result<Vec<Option<[f64; 2]>>> {
+    pub fn of(&mut self, problem: &Problem, answer: &PlayedTick) -> Result<Vec<TickInterval>> {
         if self.factor.is_none() || problem.scene.transfer_input().is_some() {
             self.factor = SharedFactor::of(problem)?;
         }
@@ -27,9 +28,7 @@ impl Intervals {
         let answered = Answered { certified, bound, scalar: self.scalar };
         let mut all = by_factor(problem, &answered, self.factor.as_ref());
         let names = problem.scene.outputs.iter().map(|output| &output.name.value);
-        let found = names.map(|name| all.remove(name).and_then(std::result::Result::ok));
-        let ends = found
-            .map(|found| found.map(|of| [of.center - of.plus_minus, of.center + of.plus_minus]));
-        Ok(ends.collect())
+        let found = names.filter_map(|name| all.remove(name));
+        Ok(found.map(|found| found.map(|of| of.ends())).collect())
     }
 }

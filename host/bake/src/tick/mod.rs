@@ -71,9 +71,12 @@ pub struct TickRecord {
     pub combined: Option<f64>,
     /// The declared outputs, in the order of the scene.
     pub outputs: Vec<Option<f64>>,
-    /// Where they lie for the exact solution.
-    pub intervals: Vec<Option<[f64; 2]>>,
+    /// Where they lie for the exact solution, of a probe the mean over its cell, or why nobody knows; empty where nobody has asked.
+    pub intervals: Vec<TickInterval>,
 }
+
+/// The ends of an interval, or why there is none.
+pub type TickInterval = std::result::Result<[f64; 2], String>;
 
 impl TickRecord {
     /// Whether the solve broke down; one that its budget cut off did not.
@@ -94,7 +97,9 @@ impl TickRecord {
         }
         for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
             let unit = units.of_output(of.quantity);
-            *interval = interval.map(|ends| ends.map(|end| end * unit));
+            if let Ok(ends) = interval {
+                *ends = ends.map(|end| end * unit);
+            }
         }
     }
 }
@@ -254,6 +259,6 @@ fn read_off(problem: &Problem, scalar: ScalarKind, answer: &PlayedTick) -> Resul
         bound,
         combined: combined.and_then(finite),
         outputs: declared(problem, reading)?,
-        intervals: vec![None; problem.scene.outputs.len()],
+        intervals: Vec::new(),
     })
 }

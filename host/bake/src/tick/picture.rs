@@ -19,14 +19,13 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Hist
         let unit = output.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
         let label = format!("{}{unit}", output.name.value);
         let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
-        let ends: Vec<_> =
-            ticks.iter().map(|tick| tick.intervals.get(at).copied().flatten()).collect();
-        let label = match output.quantity {
-            Quantity::Probe { .. } => "the exact mean over its cell lies within",
-            _ => "the exact value lies within",
-        };
-        let label = label.to_owned();
-        let band = ends.iter().any(Option::is_some).then_some(Band { label, ends });
+        let interval = |tick: &TickRecord| Some(*tick.intervals.get(at)?.as_ref().ok()?);
+        let ends: Vec<_> = ticks.iter().map(interval).collect();
+        // That of a probe is around another number than the curve: the mean over its cell.
+        let is_drawn =
+            !matches!(output.quantity, Quantity::Probe { .. }) && ends.iter().any(Option::is_some);
+        let label = "the exact value lies within".to_owned();
+        let band = is_drawn.then_some(Band { label, ends });
         Strip { band, ..strip(values) }
     }));
     let bound = curve("error bound", &|tick| tick.bound.map(|bound| bound.total));

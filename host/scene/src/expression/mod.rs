@@ -171,6 +171,11 @@ impl Expression {
         Self { program: self.program.times(factor), ..self.clone() }
     }
 
+    /// Whether no operation of it has a kink, a jump or a pole anywhere: a polynomial, sines, exponentials.
+    pub fn is_smooth(&self) -> bool {
+        self.program.is_smooth()
+    }
+
     /// How often a device calls `function` to evaluate this once.
     pub fn calls(&self, function: Elementary) -> usize {
         self.program.calls(function)

@@ -64,6 +64,27 @@ pub(super) const FUNCTIONS: [(&str, Function); 17] = [
 ];
 
 impl Unary {
+    /// Whether it has derivatives of all orders wherever it has a value.
+    pub fn is_smooth(self) -> bool {
+        match self {
+            Self::Negate
+            | Self::Sin
+            | Self::Cos
+            | Self::Atan
+            | Self::Sinh
+            | Self::Cosh
+            | Self::Tanh
+            | Self::Exp => true,
+            Self::Tan
+            | Self::Asin
+            | Self::Acos
+            | Self::Ln
+            | Self::Sqrt
+            | Self::Abs
+            | Self::Sign => false,
+        }
+    }
+
     /// The value at `a`.
     pub fn apply(self, a: f64) -> f64 {
         match self {
@@ -108,6 +129,14 @@ impl Unary {
 }
 
 impl Binary {
+    /// Whether it has derivatives of all orders whatever its operands are.
+    pub fn is_smooth(self) -> bool {
+        match self {
+            Self::Add | Self::Subtract | Self::Multiply => true,
+            Self::Divide | Self::Power | Self::Atan2 | Self::Min | Self::Max => false,
+        }
+    }
+
     /// The value at `a`, `b`.
     pub fn apply(self, a: f64, b: f64) -> f64 {
         match self {

@@ -56,6 +56,21 @@ impl Program {
         }
     }
 
+    /// Whether no step has a kink or a jump, or a derivative that is infinite somewhere.
+    pub fn is_smooth(&self) -> bool {
+        // The step before an operation is its last operand, where that is a constant.
+        let before = std::iter::once(None).chain(self.steps.iter().map(Some));
+        self.steps.iter().zip(before).all(|(step, before)| match (step, before) {
+            (Step::Constant(_) | Step::Variable(_), _) => true,
+            (Step::Unary(operation), _) => operation.is_smooth(),
+            (Step::Binary(Binary::Divide), Some(Step::Constant(by))) => *by != 0.0,
+            (Step::Binary(Binary::Power), Some(Step::Constant(of))) => {
+                *of >= 0.0 && of.fract() == 0.0
+            }
+            (Step::Binary(operation), _) => operation.is_smooth(),
+        })
+    }
+
     pub fn uses_time(&self) -> bool {
         self.steps.contains(&Step::Variable(Variable::T))
     }

@@ -125,7 +125,7 @@ fn opposite(cell: &Cell, side: usize) -> [f64; 2] {
 }
 
 /// The smallest eigenvalue of A on a cell; where A varies, of A at the quadrature points.
-fn alpha(problem: &Problem, at: usize) -> f64 {
+pub fn alpha(problem: &Problem, at: usize) -> f64 {
     let (cell, a) = (Cell::of(problem, at), Conductivity::of(problem, at));
     if a.is_constant() {
         return smallest_eigenvalue(&a.at(cell.corners()[0]));

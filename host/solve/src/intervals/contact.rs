@@ -96,14 +96,17 @@ impl Above {
         self.ends == [0.0; 2] && self.bubble == 0.0 && self.peak == 0.0
     }
 
-    /// What `sign`·(s − ψ) is above at both ends and between.
-    fn clear(&self, sign: f64) -> [f64; 2] {
+    /// What `sign`·(s − ψ) is above at both ends and between; nothing where a bubble leaves no more than rounding of it.
+    fn clear(&self, sign: f64, epsilon: f64) -> [f64; 2] {
         let ends = self.ends.map(|end| (sign * end).max(0.0));
         let roots = ends[0].sqrt() + ends[1].sqrt();
         // (1 − θ) of the chord is left by a bubble of −θ (√a + √b)²/4.
         let left = match sign * self.bubble {
             up if up >= 0.0 => 1.0,
-            down => (1.0 + 4.0 * down / (roots * roots)).max(0.0),
+            down => match 1.0 + 4.0 * down / (roots * roots) {
+                left if left <= epsilon => 0.0,
+                left => left,
+            },
         };
         let is_on_its_side = self.ends.iter().all(|end| sign * end >= 0.0) && left.is_finite();
         ends.map(|end| if is_on_its_side { (left * end - self.peak).max(0.0) } else { 0.0 })
@@ -175,13 +178,13 @@ impl ContactEdge {
         let is_above = above.ends.iter().all(|&end| end >= 0.0);
         match is_above {
             true if is_at(least) => Self {
-                clear: above.clear(1.0),
+                clear: above.clear(1.0, epsilon),
                 may: [false, true],
                 dropped: [dropped, off(least)],
                 ..none
             },
             false if is_at(most) => Self {
-                clear: above.clear(-1.0),
+                clear: above.clear(-1.0, epsilon),
                 may: [true, false],
                 dropped: [dropped, off(most)],
                 ..none

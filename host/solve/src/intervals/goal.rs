@@ -13,8 +13,11 @@
 use super::answer::Answered;
 use super::part::Part;
 use super::values::{self, Value};
+use std::f64::consts::PI;
+
 use crate::certify::cell::Cell;
 use crate::certify::deviation::Deviations;
+use crate::certify::oscillation::alpha;
 use crate::problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Output, Quantity};
@@ -31,6 +34,11 @@ pub(super) struct Goal {
     pub densities: Vec<f64>,
     /// The cell, triangles first, in which ζ has a source of 1.
     pub cell: Option<usize>,
+    /// How far J(u) − J(s) may be from {…}, for an error of 1 in the energy norm: a source of ζ is no constant on a quad that is no
+    /// parallelogram.
+    pub beside: f64,
+    /// Where the conditions keep J(σ), whatever the solution is.
+    pub law: [f64; 2],
     /// What it is the value of.
     pub of: String,
 }
@@ -50,6 +58,47 @@ pub fn described(output: &Output) -> String {
         Quantity::Probe { at: [x, y] } => format!("u at ({x}, {y})"),
         Quantity::Bound => "the error bound".to_owned(),
     }
+}
+
+const EVERYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// Where lo ≤ σ·n ≤ hi keeps a flux, and 0 ≤ λ a force.
+fn law(problem: &Problem, part: &Part, is_force: bool) -> [f64; 2] {
+    let free = problem.topology.counts.free;
+    let of_edge = |edge: usize| match problem.kinds[edge] {
+        EdgeKind::Contact => {
+            let [lo, hi] = problem.loads.flux_range(edge - free).ends();
+            // Data are integrated up to this.
+            let off = |end: f64| if end.is_finite() { values::INTEGRATED * end.abs() } else { 0.0 };
+            let [lo, hi] = [lo - off(lo), hi + off(hi)];
+            if is_force { [0.0, hi - lo] } else { [lo, hi] }
+        }
+        _ if is_force => [0.0; 2],
+        _ => EVERYTHING,
+    };
+    part.edges().map(of_edge).fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]])
+}
+
+/// ‖1/|T| − w‖ d/π√α: w is the source of ζ, d the diameter of the cell, α the least eigenvalue of A there. By Poincaré's inequality on
+/// convex cells (Payne and Weinberger) no more is between two means of a function whose energy is 1. w is monotone along both
+/// reference coordinates, so that corners tell its largest distance from 1/|T|.
+fn beside(problem: &Problem, at: usize) -> f64 {
+    let cell = Cell::of(problem, at);
+    if cell.is_affine() {
+        return 0.0;
+    }
+    // The area elements at the corners, whose mean is |T|; w is the inverse of the area element.
+    let corners = cell.corners();
+    let side = |from: usize, to: usize| [0, 1].map(|k| corners[to % 4][k] - corners[from % 4][k]);
+    let element = |at: usize| {
+        let [there, back] = [side(at, at + 1), side(at, at + 3)];
+        there[0] * back[1] - there[1] * back[0]
+    };
+    let elements = [0, 1, 2, 3].map(element);
+    let area = elements.iter().sum::<f64>() / 4.0;
+    let most = elements.map(|element| (1.0 / area - 1.0 / element).abs());
+    let most = most.into_iter().fold(0.0, f64::max);
+    most * area.sqrt() * cell.diameter() / (PI * alpha(problem, at).sqrt())
 }
 
 impl Goal {
@@ -93,6 +142,8 @@ impl Goal {
             values: vec![0.0; tables.len()],
             densities: tables.map(|at| if part.has_table(at) { density } else { 0.0 }).collect(),
             cell: None,
+            beside: 0.0,
+            law: EVERYTHING,
             of: described(output),
         })
     }
@@ -102,7 +153,8 @@ impl Goal {
         let [x, y] = Cell::of(problem, cell).middle();
         let of = format!("the mean of u over the cell around ({x}, {y})");
         let (values, densities) = (none.clone(), none);
-        Self { sign: 1.0, start, values, densities, cell: Some(cell), of }
+        let beside = beside(problem, cell);
+        Self { sign: 1.0, start, values, densities, cell: Some(cell), beside, law: EVERYTHING, of }
     }
 
     fn of_flux(problem: &Problem, answer: &Answered, output: &Output) -> Result<Self> {
@@ -117,7 +169,8 @@ impl Goal {
         let start = values::flux(problem, answer, part, is_force)?;
         let of = described(output);
         let densities = vec![0.0; values.len()];
-        Ok(Self { sign: -1.0, start, values, densities, cell: None, of })
+        let law = law(problem, part, is_force);
+        Ok(Self { sign: -1.0, start, values, densities, cell: None, beside: 0.0, law, of })
     }
 
     /// ζ·n that is given on a boundary edge.

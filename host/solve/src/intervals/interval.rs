@@ -114,20 +114,29 @@ impl Known<'_> {
         let [less, more] = left.part.map(|part| most(distance, middle, part));
         let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
         let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
-        let rest = (oscillation + rounding + self.rounding() * total) * sizes + self.doubt * most_z;
+        let rest = (oscillation + rounding + self.rounding() * total) * sizes
+            + self.doubt * most_z
+            + goal.beside * total;
         let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
         let ends = [0.5 * both + low, 0.5 * both + high];
         Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))
     }
 
-    /// J from {…}.
+    /// J from {…}, where the conditions keep it.
     fn around(&self, goal: &Goal, braces: [f64; 2]) -> OutputBound {
         let Value { value, terms, largest } = goal.start;
         let rounding = self.rounding() * (terms + largest) + INTEGRATED * terms;
-        let [low, high] = braces;
+        let [low, high] = if goal.sign < 0.0 { [-braces[1], -braces[0]] } else { braces };
+        let ends = [value + low - rounding, value + high + rounding];
+        let [least, most] = goal.law.map(|end| end + self.doubt * end.signum());
+        let [low, high] = match [ends[0].max(least), ends[1].min(most)] {
+            kept @ [low, high] if low <= high => kept,
+            _ => ends,
+        };
+        let [center, plus_minus] = around_ends([low, high], value);
         OutputBound {
-            center: value + goal.sign * 0.5 * (low + high),
-            plus_minus: 0.5 * (high - low) + rounding,
+            center,
+            plus_minus,
             of: goal.of.clone(),
             estimate: None,
             exact: None,
@@ -139,6 +148,12 @@ impl Known<'_> {
     fn rounding(&self) -> f64 {
         ROUNDINGS * self.answer.scalar.epsilon()
     }
+}
+
+/// Middle and half-width of what holds two ends, each rounded next to `value`: a large end leaves less of a small one than it rounds.
+fn around_ends([low, high]: [f64; 2], value: f64) -> [f64; 2] {
+    let rounded = 4.0 * f64::EPSILON * (low.abs() + high.abs() + value.abs());
+    [0.5 * (low + high), 0.5 * (high - low) + rounded]
 }
 
 /// Where {…} lies.
@@ -160,5 +175,18 @@ fn most(distance: f64, middle: f64, part: f64) -> f64 {
     match 2.0 * part * middle > distance {
         true => part * middle * middle + distance * distance / (4.0 * part),
         false => distance * middle,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_end_does_not_cut_off_a_small_one() {
+        for ends in [[-1.65, 1.25e19], [-1e20, 3.0], [0.1, 0.3], [-1e300, 1e300], [0.0, 0.0]] {
+            let [center, plus_minus] = around_ends(ends, 0.2);
+            assert!(center - plus_minus <= ends[0] && ends[1] <= center + plus_minus, "{ends:?}");
+        }
     }
 }

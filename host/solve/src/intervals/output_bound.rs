@@ -22,6 +22,11 @@ pub struct OutputBound {
 }
 
 impl OutputBound {
+    /// Its ends.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.center - self.plus_minus, self.center + self.plus_minus]
+    }
+
     /// In other units.
     pub(super) fn times(self, unit: f64) -> Self {
         let Self { center, plus_minus, estimate, exact, doubt, .. } = self;

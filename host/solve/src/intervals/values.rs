@@ -9,8 +9,8 @@ use crate::field::CellField;
 use crate::functional::Functional;
 use crate::problem::{EdgeKind, Problem, Sum};
 use crate::quadrature::bisected::{
-    graded_mean, mean_on_edge, over_quad, over_triangle, quad_and_doubt, quarters_of_quad,
-    quarters_of_triangle, triangle_and_doubt,
+    graded_mean, graded_over_quad, mean_on_edge, over_quad, over_triangle, quad_and_doubt,
+    quarters_of_quad, quarters_of_triangle, triangle_and_doubt,
 };
 use crate::quadrature::gauss;
 use crate::threads::in_portions;
@@ -20,8 +20,8 @@ use signorini_scene::scene::{Condition, Field, Output};
 /// What the quadrature of smooth data may miss, next to their size.
 pub(super) const INTEGRATED: f64 = 2e-9;
 
-/// Cells up to which f is integrated on their quarters too.
-const LOOKS: usize = 20_000;
+/// Cells up to which f is integrated on their quarters too, and on thin parts along their sides where it may have kinks.
+const LOOKS: [usize; 2] = [20_000, 5_000];
 
 /// The value of an output, and what it may be off beside the error of s and τ.
 #[derive(Debug, Clone, Copy)]
@@ -96,21 +96,27 @@ fn of_source(problem: &Problem) -> Result<f64> {
         return Ok(0.0);
     }
     let at = |x: f64, y: f64| f.at(x, y);
-    // A kink beside a corner no rule on the whole cell sees.
-    let looks = problem.cells() <= LOOKS;
-    let of_cell = |cell| {
-        let ([load, doubt], finer) = match Cell::of(problem, cell) {
-            Cell::Triangle(corners) => (
-                triangle_and_doubt(corners, &at),
-                looks.then(|| quarters_of_triangle(&corners).map(|of| over_triangle(of, &at))),
-            ),
-            Cell::Quad(corners) => (
-                quad_and_doubt(corners, &at),
-                looks.then(|| quarters_of_quad(&corners).map(|of| over_quad(of, &at))),
-            ),
+    // A kink beside a corner, or a jump beside a side, no rule on the whole cell sees.
+    let [looks, grades] = LOOKS.map(|most| problem.cells() <= most);
+    let grades = grades && !f.is_smooth();
+    let of_cell = |at_cell| {
+        let cell = Cell::of(problem, at_cell);
+        let [load, doubt] = match cell {
+            Cell::Triangle(corners) => triangle_and_doubt(corners, &at),
+            Cell::Quad(corners) => quad_and_doubt(corners, &at),
         };
-        let off = finer.map_or(0.0, |finer| (finer.iter().sum::<f64>() - load).abs());
-        INTEGRATED * load.abs() + doubt + off
+        let [finer, more] = match cell {
+            _ if !looks => [load, 0.0],
+            Cell::Triangle([a, b, c]) if grades => graded_over_quad([a, b, c, c], &at),
+            Cell::Quad(corners) if grades => graded_over_quad(corners, &at),
+            Cell::Triangle(corners) => {
+                [quarters_of_triangle(&corners).map(|of| over_triangle(of, &at)).iter().sum(), 0.0]
+            }
+            Cell::Quad(corners) => {
+                [quarters_of_quad(&corners).map(|of| over_quad(of, &at)).iter().sum(), 0.0]
+            }
+        };
+        INTEGRATED * load.abs() + doubt + more + (finer - load).abs()
     };
     let sums = in_portions(problem.cells(), |cells| Ok(cells.map(of_cell).sum::<f64>()))?;
     Ok(sums.iter().sum())
@@ -140,7 +146,7 @@ fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// The cell with a probe, and the mean of s over it; on quads that in its reference coordinates.
+/// The cell with a probe, and the mean of s over it.
 pub(super) fn cell(
     problem: &Problem,
     answer: &Answered,
@@ -150,13 +156,13 @@ pub(super) fn cell(
     let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(None) };
     let (cell, s) = (Cell::of(problem, at), answer.certified.admissible());
     let on_cell = s.on_cell(problem, at, deviations);
-    let [mut value, mut terms] = [0.0; 2];
+    let [mut value, mut terms, mut area] = [0.0; 3];
     for point in curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))? {
-        let local = cell.local(point.reference);
-        let here = on_cell.at(&local)?.value;
-        let weight = cell.spread(point.weight, local.determinant);
-        (value, terms) = (value + weight * here, terms + weight * here.abs());
+        let here = on_cell.at(&cell.local(point.reference))?.value;
+        (value, terms) = (value + point.weight * here, terms + point.weight * here.abs());
+        area += point.weight;
     }
+    let [value, terms] = [value, terms].map(|sum| sum / area);
     Ok(Some((at, Value { value, terms, largest: largest(s.vertices) })))
 }
 

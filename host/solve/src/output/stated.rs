@@ -40,18 +40,19 @@ impl<'a> Stated<'a> {
     pub fn words(&self) -> String {
         let unit = self.unit();
         let value = self.value.map_or("no value".to_owned(), |value| rounded(value, UNKNOWN, 0.0));
-        let estimate = |found: &OutputBound| {
-            found.estimate.map_or_else(String::new, |by| {
-                format!("; {value} on this mesh, by an estimate {} off", rounded(by, 2, 0.0))
-            })
-        };
         match self.interval {
             Some(Ok(found)) => {
-                let of = match self.output.quantity {
-                    Quantity::Probe { .. } => " in the mean over its cell",
-                    _ => "",
+                let (of, at) = match self.output.quantity {
+                    Quantity::Probe { .. } => (" in the mean over its cell", "at the point "),
+                    _ => ("", ""),
                 };
-                format!("{}{unit}{of}, guaranteed{}", with_error(found), estimate(found))
+                let estimate = found.estimate.map_or_else(String::new, |by| {
+                    format!(", which moves by {} where it is refined once", rounded(by, 2, 0.0))
+                });
+                format!(
+                    "{}{unit}{of}, guaranteed; {value} {at}on this mesh{estimate}",
+                    with_error(found)
+                )
             }
             Some(Err(why))
                 if !matches!(self.output.quantity, Quantity::Length | Quantity::Saturated) =>
@@ -74,7 +75,7 @@ pub fn sentence(all: &[Stated]) -> Option<String> {
     let Some(Ok(found)) = flux.interval else { return None };
     let length = all.iter().find(|of| of.output.quantity == Quantity::Length);
     let told = |(of, value): (&Stated, f64)| {
-        format!(", over {}{} of contact", rounded(value, UNKNOWN, 0.0), of.unit())
+        format!("; on this mesh {}{} are in contact", rounded(value, UNKNOWN, 0.0), of.unit())
     };
     let length = length.and_then(|of| Some((of, of.value?))).map_or_else(String::new, told);
     let name = flux.output.name.value.replace('_', " ");

@@ -75,6 +75,11 @@ impl<'s> Sum<'s> {
         inputs.fold(self.base.value.is_constant(), |sum, input| Some(sum? + input?))
     }
 
+    /// Whether no term has a kink, a jump or a pole.
+    pub fn is_smooth(&self) -> bool {
+        self.base.value.is_smooth() && self.inputs.iter().all(|(_, of)| of.value.is_smooth())
+    }
+
     /// The value at a point.
     pub fn at(&self, x: f64, y: f64) -> f64 {
         let base = self.base.value.eval(x, y, self.time);
