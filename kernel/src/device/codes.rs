@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn words_and_meanings_differ() {
         for (at, one) in Refusal::ALL.iter().enumerate() {
-            for other in &Refusal::ALL[..at] {
+            for other in Refusal::ALL.iter().take(at) {
                 assert!(one.word() != other.word() && one.meaning() != other.meaning());
             }
         }

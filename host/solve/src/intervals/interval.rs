@@ -128,7 +128,7 @@ impl Known<'_> {
         let rounding = self.rounding() * (terms + largest) + INTEGRATED * terms;
         let [low, high] = if goal.sign < 0.0 { [-braces[1], -braces[0]] } else { braces };
         let ends = [value + low - rounding, value + high + rounding];
-        let [least, most] = goal.law.map(|end| end + self.doubt * end.signum());
+        let [least, most] = [goal.law[0] - self.doubt, goal.law[1] + self.doubt];
         let [low, high] = match [ends[0].max(least), ends[1].min(most)] {
             kept @ [low, high] if low <= high => kept,
             _ => ends,
