@@ -66,7 +66,7 @@ pub fn panel(n: u32, mixed: bool) -> ScenePanel {
         contact: (0..2 * n).map(edge).collect(),
         boundary: vec![BoundaryEdge { ends: [at(0, 0), at(0, n)], kind: BoundaryKind::Dirichlet }],
         sentence: Some(
-            "The seepage is (3.31 ± 0.15)e-5 m2/s, guaranteed, over 6.08 m of contact.".to_owned(),
+            "The seepage is (3.31 ± 0.15)·10⁻⁵ m2/s, guaranteed, over 6.08 m of contact on this mesh.".to_owned(),
         ),
         facts: vec![("unknowns".to_owned(), "6112".to_owned())],
         vertices,

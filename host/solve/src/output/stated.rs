@@ -75,11 +75,24 @@ pub fn sentence(all: &[Stated]) -> Option<String> {
     let Some(Ok(found)) = flux.interval else { return None };
     let length = all.iter().find(|of| of.output.quantity == Quantity::Length);
     let told = |(of, value): (&Stated, f64)| {
-        format!("; on this mesh {}{} are in contact", rounded(value, UNKNOWN, 0.0), of.unit())
+        format!(", over {}{} of contact on this mesh", rounded(value, UNKNOWN, 0.0), of.unit())
     };
     let length = length.and_then(|of| Some((of, of.value?))).map_or_else(String::new, told);
     let name = flux.output.name.value.replace('_', " ");
-    Some(format!("The {name} is {}{}, guaranteed{length}.", with_error(found), flux.unit()))
+    let value = printed_power(&with_error(found));
+    Some(format!("The {name} is {value}{}, guaranteed{length}.", flux.unit()))
+}
+
+/// "(3.31 ± 0.15)·10⁻⁵" for "(3.31 ± 0.15)e-5", as in print.
+fn printed_power(number: &str) -> String {
+    let Some((head, exponent)) = number.split_once(")e") else { return number.to_owned() };
+    let raised = exponent.chars().map(|letter| match letter {
+        '-' => '⁻',
+        digit => digit.to_digit(10).map_or(letter, |digit| {
+            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]
+        }),
+    });
+    format!("{head})·10{}", raised.collect::<String>())
 }
 
 /// "27.5 ± 3.6", "(3.31 ± 0.15)e-5": both numbers with the same places, the second rounded up so that all of the interval is said.
@@ -115,6 +128,13 @@ mod tests {
     fn of(center: f64, plus_minus: f64) -> String {
         let of = String::new();
         with_error(&OutputBound { center, plus_minus, of, estimate: None, exact: None, doubt: 0.0 })
+    }
+
+    #[test]
+    fn powers_are_raised_in_print() {
+        assert_eq!(printed_power("(3.31 ± 0.15)e-5"), "(3.31 ± 0.15)·10⁻⁵");
+        assert_eq!(printed_power("(1.2 ± 0.3)e12"), "(1.2 ± 0.3)·10¹²");
+        assert_eq!(printed_power("27.5 ± 3.6"), "27.5 ± 3.6");
     }
 
     #[test]
