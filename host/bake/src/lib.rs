@@ -7,6 +7,7 @@
 //! Whatever the model, the module has one interface ([`module_api`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
 //! `Controller`.
 
+pub mod asked;
 pub mod budget;
 pub mod c;
 pub mod choice;

@@ -14,6 +14,8 @@
 
 mod answer;
 mod calls;
+#[cfg(feature = "counted")]
+mod counted;
 mod report;
 mod state;
 #[cfg(not(feature = "within"))]

@@ -30,6 +30,8 @@ pub unsafe extern "C" fn tick(
 
 /// A call of its own: then the compiler makes of the controller what it makes of it in Rust.
 #[inline(never)]
-fn answered(controller: &mut Controller, inputs: Inputs) -> Result<Answer, Error> {
+pub fn answered(controller: &mut Controller, inputs: Inputs) -> Result<Answer, Error> {
+    #[cfg(feature = "broken-panic")]
+    assert!(inputs.to_array().iter().all(|&value| value < 1e3), "out of bounds");
     controller.tick(inputs)
 }

@@ -98,6 +98,21 @@ impl Library {
         name: &str,
         on: &Machine,
     ) -> Result<Self, String> {
+        Self::build_with(&[], &[], module, features, name, on)
+    }
+
+    /// The same with features of host/c's own, and more functions in its first object: what `cargo xtask` tries on it.
+    ///
+    /// # Errors
+    /// As for [`Library::build`].
+    pub fn build_with(
+        own: &[&str],
+        more: &[&str],
+        module: &str,
+        features: &[String],
+        name: &str,
+        on: &Machine,
+    ) -> Result<Self, String> {
         if on.board.is_some() {
             tools::ensure()?;
         }
@@ -106,15 +121,15 @@ impl Library {
         let scene = folder.join("scene.rs");
         fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
         let tools = Binutils { prefix: if on.board.is_some() { "arm-none-eabi-" } else { "" } };
-        let built = |more: &[&str]| {
-            let (mut command, built) = build_command(on, &features_of(features, more), &scene)?;
+        let built = |own: &[&str]| {
+            let (mut command, built) = build_command(on, &features_of(features, own), &scene)?;
             command.env("SIGNORINI_SCENE", &scene).env("SIGNORINI_C_NAME", name);
             run_quietly(command)?;
             tools.without_bitcode(&built.join("libsignorini_c.a"), &folder)
         };
         let within = tools.object(&built(&["within"])?, name, &EXPORTS_WITHIN, &folder)?;
-        let whole = built(&[])?;
-        let object = tools.object(&whole, name, &EXPORTS, &folder)?;
+        let whole = built(own)?;
+        let object = tools.object(&whole, name, &[&EXPORTS[..], more].concat(), &folder)?;
         let archive = tools.archive(name, &[object, within], &folder)?;
         let [state, report] = tools.sizes(&whole, name, &folder)?;
         let archive =

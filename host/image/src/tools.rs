@@ -14,6 +14,37 @@ const PACKAGES: [&str; 6] =
 /// Programs that must answer, beside the toolchain.
 const PROGRAMS: [&str; 4] = ["ld.lld", "qemu-system-arm", "arm-none-eabi-nm", "arm-none-eabi-size"];
 
+/// Compilers for C on boards and on the desk, the board's C library, and what builds examples.
+const C_PACKAGES: [&str; 6] =
+    ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi", "gcc", "g++", "cmake", "make"];
+
+/// Programs that must answer for them.
+const C_PROGRAMS: [&str; 6] =
+    ["arm-none-eabi-gcc", "arm-none-eabi-g++", "gcc", "g++", "cmake", "make"];
+
+/// `Ok` where all tools for C are there too, installed just now where need be and possible.
+///
+/// # Errors
+/// What is missing, and what to do about it.
+pub fn ensure_for_c() -> Result<(), String> {
+    ensure()?;
+    let Err(why) = missing_for_c() else { return Ok(()) };
+    install_packages(&C_PACKAGES).map_err(|remedy| format!("{why}; {remedy}"))?;
+    missing_for_c()
+}
+
+fn missing_for_c() -> Result<(), String> {
+    for program in C_PROGRAMS {
+        output(Command::new(program).arg("--version"))?;
+    }
+    // GCC says where a file of the C library is, or just its name.
+    let specs = output(Command::new("arm-none-eabi-gcc").arg("-print-file-name=nano.specs"))?;
+    match Path::new(specs.trim()).is_absolute() {
+        true => Ok(()),
+        false => Err("arm-none-eabi-gcc has no C library".to_owned()),
+    }
+}
+
 /// `Ok` where all tools are there, installed just now where need be and possible.
 ///
 /// # Errors

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::picture::{Drawn, picture};
 use super::series::Series;
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
@@ -12,6 +11,7 @@ use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::digits::percent_above;
+use signorini_solve::output::fields::{Drawn, picture};
 use signorini_solve::progress::{say, waiting};
 use signorini_solve::solve::Solution;
 

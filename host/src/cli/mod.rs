@@ -8,7 +8,6 @@ mod export;
 mod extremes;
 mod honoured;
 mod levels;
-mod picture;
 mod posed;
 mod scene_arguments;
 mod series;

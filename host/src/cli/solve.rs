@@ -4,22 +4,21 @@ use std::path::Path;
 
 use clap::Args;
 
-use super::answer::Answer;
+use super::answer::Told;
 use super::levels;
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
-use signorini_bake::engine;
+use signorini_bake::asked::Asked;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
-use signorini_scene::setting::{Precision, Setting};
+use signorini_scene::setting::Precision;
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted};
 use signorini_solve::energy_norm;
-use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::solve::{ScalarKind, SolverKind};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,51 +74,56 @@ impl Arguments {
         let scene = self.place.scene()?;
         let out = self.place.out()?;
         self.check(&scene)?;
-        let answer = match self.max_error {
+        let told = match self.max_error {
             None => self.on_its_mesh(&scene)?,
             Some(goal) => self.refined(&scene, goal, &out)?,
         };
-        answer.write(self.solver.unwrap_or(SolverKind::Auto), &out)?;
+        told.write(&out)?;
         say(format_args!("  written to {}", out.display()));
         // Sweeps that a setting asks for are what was to be done.
         let prescribed =
-            self.follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
-        Ok(match answer.stop {
+            self.asked().follows_setting() && scene.setting.is_some_and(|set| set.sweeps.is_some());
+        Ok(match told.stop {
             Some(stop) => levels::status(&stop),
-            None if answer.solution.converged() || prescribed => 0,
+            None if told.converged() || prescribed => 0,
             None => 3,
         })
     }
 
-    fn on_its_mesh(&self, scene: &Scene) -> Result<Answer> {
+    fn on_its_mesh(&self, scene: &Scene) -> Result<Told> {
         let mut problem = problem_of(scene)?;
         problem.warnings.extend(at_rest_warning(scene));
         warn(&problem.warnings);
         let unknowns = problem.topology.counts.unknowns();
-        let solution = waiting(&format!("solving {unknowns} unknowns"), || self.solved(&problem))?;
+        let solution =
+            waiting(&format!("solving {unknowns} unknowns"), || self.asked().solve(&problem))?;
         let energy_norm = energy_norm::of_solution(&problem, &solution)?;
         say(format_args!("{}", scene.title));
-        Answer::new(problem, solution, energy_norm, None)
+        Told::new(problem, solution, energy_norm, self.solver.unwrap_or_default(), None)
     }
 
-    fn refined(&self, scene: &Scene, goal: Goal, out: &Path) -> Result<Answer> {
+    fn refined(&self, scene: &Scene, goal: Goal, out: &Path) -> Result<Told> {
         say(format_args!("{}", scene.title));
-        let options = self.options(scene.setting.and_then(|setting| setting.scalar));
+        let options = self.asked().options(scene.setting.and_then(|setting| setting.scalar));
         let wanted =
             Wanted { goal, most_unknowns: self.max_unknowns.unwrap_or(MOST_UNKNOWNS), options };
         let (level, stop) = levels::refined(scene, adapted::of_scene(scene)?, &wanted, out)?;
         let mut problem = level.problem;
         problem.warnings.extend(at_rest_warning(scene));
         warn(&problem.warnings);
-        Answer::new(problem, level.solution, level.energy_norm, Some(stop))
+        Told::new(
+            problem,
+            level.solution,
+            level.energy_norm,
+            self.solver.unwrap_or_default(),
+            Some(stop),
+        )
     }
 
-    /// A number of sweeps is for who sweeps.
-    fn solver(&self) -> SolverKind {
-        match (self.solver, self.max_sweeps) {
-            (None | Some(SolverKind::Auto), Some(_)) => SolverKind::Kernel,
-            (asked, _) => asked.unwrap_or(SolverKind::Auto),
-        }
+    /// How the scene is to be solved.
+    fn asked(&self) -> Asked {
+        let Self { scalar, solver, tolerance, max_sweeps, .. } = *self;
+        Asked { scalar, solver, tolerance, max_sweeps, refined: self.max_error.is_some() }
     }
 
     /// Refuses what cannot be followed at the same time; warns of what the command line takes the place of.
@@ -130,7 +134,7 @@ impl Arguments {
             let hint = "leave it out, or use --solver kernel";
             return Err(InputError::new(message).hint(hint).into());
         }
-        let Some(setting) = scene.setting.filter(|_| !self.follows_setting()) else {
+        let Some(setting) = scene.setting.filter(|_| !self.asked().follows_setting()) else {
             return Ok(());
         };
         let foreign = match (self.scalar, setting.scalar) {
@@ -151,42 +155,5 @@ impl Arguments {
             eprintln!("warning: the command line takes the place of {}", keys.join(", "));
         }
         Ok(())
-    }
-
-    /// Whether the command line leaves how to solve to the scene.
-    fn follows_setting(&self) -> bool {
-        let chosen = self.solver.is_some() || self.tolerance.is_some();
-        !chosen && self.max_sweeps.is_none() && self.max_error.is_none()
-    }
-
-    /// As the scene's setting says, where it has one and nothing else was asked for.
-    fn solved(&self, problem: &Problem) -> Result<Solution> {
-        let own = problem.scene.setting.and_then(|setting| setting.scalar);
-        let setting = problem.scene.setting.filter(|setting| {
-            let mixed = setting.scalar == Some(Precision::Mixed) && self.scalar.is_none();
-            self.follows_setting() && (mixed || !setting.of_method().is_empty())
-        });
-        if let Some(setting) = setting {
-            let scalar = self.scalar.map(|scalar| match scalar {
-                ScalarKind::F32 => Precision::F32,
-                ScalarKind::F64 => Precision::F64,
-            });
-            let setting = Setting { scalar: scalar.or(own), ..setting };
-            return engine::solve(&problem.with_setting(Some(setting)));
-        }
-        solve(problem, &self.options(own))
-    }
-
-    /// As the command line says; `own` is the scalar of the scene's setting.
-    fn options(&self, own: Option<Precision>) -> Options {
-        let single = own == Some(Precision::F32);
-        let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
-        Options {
-            scalar,
-            solver: self.solver(),
-            tolerance: self.tolerance,
-            to_the_floor: false,
-            max_sweeps: self.max_sweeps.unwrap_or(1_000_000),
-        }
     }
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::honoured::Command;
-use super::picture::{Drawn, picture as vtu};
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use super::series::Series;
@@ -18,6 +17,7 @@ use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_scene::setting::Precision;
 use signorini_solve::output::atomic::write_atomically;
+use signorini_solve::output::fields::{Drawn, picture as vtu};
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, steps, warn};
 use signorini_solve::solve::{Options, ScalarKind};
@@ -111,8 +111,12 @@ impl Arguments {
         let done = |tick: &TickRecord, fields: &TickFields| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
-            match (&mut series, Drawn::of_tick(fields)) {
-                (Some(series), Some(drawn)) => series.add(tick.time, &vtu(&problem, &drawn)),
+            let TickFields { u, flux, vertices } = fields;
+            match &mut series {
+                // A tick that was refused has no fields.
+                Some(series) if !u.is_empty() => {
+                    series.add(tick.time, &vtu(&problem, &Drawn::plain(u, flux, vertices)))
+                }
                 _ => Ok(()),
             }
         };

@@ -36,10 +36,11 @@ impl ScalarKind {
 }
 
 /// Who solves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverKind {
     /// What one would choose for the size of the problem: sweeps on a small mesh, a factor on a large one.
+    #[default]
     Auto,
     /// The kernel's projected SOR, and its factor where that does not end.
     Kernel,

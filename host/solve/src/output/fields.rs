@@ -1,16 +1,15 @@
 //! Fields as ParaView shows them.
 
-use signorini_bake::tick::TickFields;
+use crate::adaptive::indicators;
+use crate::certify::conductivity::Conductivity;
+use crate::field::CellField;
+use crate::output::vtu::{Field, vtu};
+use crate::problem::Problem;
+use crate::solve::Solution;
 use signorini_scene::error::Result;
-use signorini_solve::adaptive::indicators;
-use signorini_solve::certify::conductivity::Conductivity;
-use signorini_solve::field::CellField;
-use signorini_solve::output::vtu::{Field, vtu};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::Solution;
 
 /// What is drawn.
-pub(super) struct Drawn<'a> {
+pub struct Drawn<'a> {
     /// Mean of u_h over each edge.
     u: &'a [f64],
     /// ∫_E σ·n of each edge.
@@ -36,20 +35,31 @@ impl<'a> Drawn<'a> {
         Ok(Self { u, flux, vertices: &certified.vertices, indicators })
     }
 
-    /// The answer of a tick; none where it was refused.
-    pub fn of_tick(TickFields { u, flux, vertices }: &'a TickFields) -> Option<Self> {
-        (!u.is_empty()).then_some(Self { u, flux, vertices, indicators: Vec::new() })
+    /// Means of u over edges, fluxes through them and s at vertices, with no bound.
+    pub fn plain(u: &'a [f64], flux: &'a [f64], vertices: &'a [f64]) -> Self {
+        Self { u, flux, vertices, indicators: Vec::new() }
+    }
+
+    /// u_h and σ in the middle of each cell.
+    pub fn in_cells(&self, problem: &Problem) -> (Vec<f64>, Vec<[f64; 2]>) {
+        let fields =
+            (0..problem.cells()).map(|cell| CellField::new(problem, cell, self.u, self.flux));
+        fields.map(|field| (field.mean(), field.middle_flux())).unzip()
+    }
+
+    /// What each cell has of the bound.
+    pub fn indicators(&self) -> &[f64] {
+        &self.indicators
     }
 }
 
 /// A VTU file of all cells.
-pub(super) fn picture(problem: &Problem, of: &Drawn) -> String {
+pub fn picture(problem: &Problem, of: &Drawn) -> String {
     let mesh = &problem.mesh;
-    let cells = 0..mesh.triangles.len() + mesh.quads.len();
-    let fields: Vec<_> =
-        cells.clone().map(|cell| CellField::new(problem, cell, of.u, of.flux)).collect();
-    let conductivity = cells.zip(&fields).map(|(cell, field)| {
-        let a = Conductivity::of(problem, cell).at(field.middle());
+    let (cell_u, cell_flux) = of.in_cells(problem);
+    let conductivity = (0..problem.cells()).map(|cell| {
+        let middle = CellField::new(problem, cell, of.u, of.flux).middle();
+        let a = Conductivity::of(problem, cell).at(middle);
         [a.xx, a.xy, a.yy]
     });
     let materials = problem.scene.materials.iter().map(|material| material.name.value.as_str());
@@ -57,8 +67,8 @@ pub(super) fn picture(problem: &Problem, of: &Drawn) -> String {
         vertices: &mesh.vertices,
         triangles: &mesh.triangles,
         quads: &mesh.quads,
-        cell_u: &fields.iter().map(CellField::mean).collect::<Vec<_>>(),
-        cell_flux: &fields.iter().map(CellField::middle_flux).collect::<Vec<_>>(),
+        cell_u: &cell_u,
+        cell_flux: &cell_flux,
         indicator: &of.indicators,
         conductivity: &conductivity.collect::<Vec<_>>(),
         region: &problem.binding.materials,
