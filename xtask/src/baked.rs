@@ -12,6 +12,7 @@ use signorini_image::chosen::Chosen;
 use signorini_image::firmware::NoResult;
 use signorini_image::module::Module;
 use signorini_image::room::NoImage;
+use signorini_image::toolchain::output;
 
 /// What to bake.
 #[derive(Debug, Clone)]
@@ -111,9 +112,15 @@ impl Recipe {
 
     /// The command that writes the module to `file`, and what was chosen to `facts`.
     fn baking(&self, file: &Path, facts: &Path) -> Command {
+        let mut command = self.asked();
+        command.arg("-o").arg(file).arg("--json").arg(facts);
+        command
+    }
+
+    /// The command that bakes, but for where to.
+    fn asked(&self) -> Command {
         let mut command = self.command();
-        command.arg("bake").arg(&self.scene).arg("-o").arg(file).arg("--json").arg(facts);
-        command.args(&self.model);
+        command.arg("bake").arg(&self.scene).args(&self.model);
         if let Some(scalar) = &self.scalar {
             command.args(["--scalar", scalar]);
         }
@@ -134,6 +141,14 @@ impl Recipe {
             let _ = fs::remove_file(&facts);
             chosen
         })
+    }
+
+    /// Writes the controller for C into `folder`, for a board by the word of `--board`.
+    pub fn bake_c(&self, board: &str, folder: &Path) -> Result<(), String> {
+        let mut command = self.asked();
+        command.arg("--c").arg(folder).args(["--board", board]);
+        // What it says is how to run the example.
+        output(&mut command).map(drop)
     }
 
     fn write(&self, file: &Path, facts: &Path) -> Result<Chosen, Failure> {

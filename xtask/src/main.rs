@@ -6,6 +6,7 @@ mod audit;
 mod audit_baked;
 mod baked;
 mod boards;
+mod c;
 mod cost;
 mod counted;
 mod cross;
@@ -56,7 +57,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 17] = [
+const VERBS: [Verb; 18] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -113,6 +114,11 @@ const VERBS: [Verb; 17] = [
         work: Work::Steps(cost::run),
     },
     Verb {
+        name: "c",
+        about: "controllers from C: bits, instructions, headers, states, examples",
+        work: Work::Steps(c::run),
+    },
+    Verb {
         name: "firmware",
         about: "any scene on an emulated board: bits, instructions, RAM, flash, stack",
         work: Work::Command(firmware::run),
@@ -148,7 +154,7 @@ const EXAMPLES: &str = "\
 Examples:
   cargo xtask test      before every commit, and what CI runs
   cargo xtask no-std    after a change of the kernel's dependencies
-  cargo xtask cost --bless    writes the record anew (boards, cost, peers and size have one)
+  cargo xtask cost --bless    writes the record anew (boards, c, cost, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
   cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 

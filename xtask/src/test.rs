@@ -3,7 +3,7 @@
 use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
 use crate::{
-    audit, boards, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, ranks,
+    audit, boards, c, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, ranks,
     results, sanitize, seen, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
@@ -61,6 +61,7 @@ pub fn run(steps: &mut Steps) {
     boards::run(steps);
     firmware::check(steps);
     firmware::check_worst(steps);
+    c::run(steps);
     audit::run(steps);
     size::run(steps);
     cost::run(steps);

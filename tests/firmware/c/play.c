@@ -1,6 +1,7 @@
 /* A controller from C: the ticks of `scene/src/play.rs`, line by line the same, whatever the scene.
  *
- *   @ instructions 6612      of a call of NAME_tick with outputs and report, where COUNTED
+ *   @ instructions 6612      of a call, the call included, where COUNTED: 1 NAME_tick with outputs and report, and in a library
+ *                            that has them 2 the tick and its intervals as Rust calls them, 3 the tick alone
  */
 #include <string.h>
 
@@ -10,16 +11,11 @@
 
 #ifdef COUNTED
 #include "counter.h"
-#else
-static void start_counter(void) {
-}
-static uint32_t counted(void) {
-    return 0;
-}
 #endif
 
 static NAMED(state) state;
 
+#ifndef COUNTED
 static void tell_values(const char *name, const output_values values) {
     for (int at = 0; at < OUTPUTS; at++) {
         tell_scalar(name, values[at]);
@@ -92,39 +88,57 @@ static void tell_answer(const NAMED(outputs) *outputs, const NAMED(report) *repo
     tell_count("active", report->active);
     tell_bound(report);
 }
+#endif
 
-/* One tick; its count in instructions. */
-static uint32_t tick(const NAMED(inputs) *inputs, uint32_t empty) {
+#ifdef COUNTED
+void NAMED(answered)(NAMED(state) *state, const NAMED(inputs) *inputs);
+void NAMED(ticked)(NAMED(state) *state, const NAMED(inputs) *inputs);
+
+static void tick(const NAMED(inputs) *inputs) {
+    uint32_t before, empty, after;
+    before = counted();
+    empty = counted() - before;
+#if COUNTED == 1
     static NAMED(outputs) outputs;
     static NAMED(report) report;
-    uint32_t before = counted();
-    NAMED(error) error = NAMED(tick)(&state, inputs, &outputs, &report);
-    uint32_t after = counted();
-#ifdef COUNTED
-    tell_count("@ instructions", after - before - empty);
+    before = counted();
+    (void)NAMED(tick)(&state, inputs, &outputs, &report);
+#elif COUNTED == 2
+    before = counted();
+    NAMED(answered)(&state, inputs);
+#else
+    before = counted();
+    NAMED(ticked)(&state, inputs);
 #endif
-    if (error != CODE(OK)) {
-        tell("refused");
-    } else {
-        tell_answer(&outputs, &report);
-    }
-    return after - before - empty;
+    after = counted();
+    tell_count("@ instructions", after - before - empty);
 }
+#else
+static void start_counter(void) {
+}
+
+static void tick(const NAMED(inputs) *inputs) {
+    static NAMED(outputs) outputs;
+    static NAMED(report) report;
+    if (NAMED(tick)(&state, inputs, &outputs, &report) == CODE(OK)) {
+        tell_answer(&outputs, &report);
+    } else {
+        tell("refused");
+    }
+}
+#endif
 
 int main(void) {
     NAMED(inputs) inputs;
-    uint32_t before, empty;
     if (NAMED(init)(&state) != CODE(OK)) {
         return 1;
     }
     start_counter();
-    before = counted();
-    empty = counted() - before;
     first_inputs();
     for (uint32_t at = 1; at <= TICKS; at++) {
         next_inputs(&inputs);
         tell_count("tick", at);
-        (void)tick(&inputs, empty);
+        tick(&inputs);
     }
     return 0;
 }

@@ -1,0 +1,184 @@
+//! What a call from C takes beside one from Rust, instruction by instruction, and what a library takes of a device.
+//!
+//! Both calls are in one image, on the same machine code of the controller, which a compiler may otherwise arrange in other ways
+//! and take a thousandth more or less. Three programs play the same ticks on the board that counts to the instruction:
+//! ```text
+//!   from C          NAME_tick with outputs and report, the intervals of outputs in it
+//!   from Rust       Controller::tick, Answer::plus_minus
+//!   the tick alone  Controller::tick
+//! ```
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use super::package::{Package, machine, write};
+use super::program::{play, sources};
+use crate::baked::Recipe;
+use crate::record;
+use crate::steps::Steps;
+use signorini_image::board::{M4F_192K, emulator};
+use signorini_image::library::Library;
+use signorini_image::ticks::Ticks;
+use signorini_image::toolchain::{Toolchain, first_words, output};
+
+const RECORD: &str = "tests/firmware/c.txt";
+
+/// Instructions that a call from C may take more than one from Rust, in any tick.
+const MOST: i64 = 60;
+
+/// Scenes and models, all in f32: what the board's unit is for.
+const COUNTED: [(&str, &str); 7] = [
+    ("meshes/scenes/levee.toml", "--condensed"),
+    ("meshes/scenes/slab.toml", "--condensed"),
+    ("meshes/scenes/strip.toml", "--condensed"),
+    ("meshes/scenes/antiicing.toml", "--condensed"),
+    ("tests/firmware/scenes/slab-swept.toml", "--full"),
+    ("tests/firmware/scenes/strip-swept.toml", "--full"),
+    ("tests/firmware/scenes/strip-factored.toml", "--full"),
+];
+
+/// Functions that the library has for this count alone.
+const RUST: [&str; 2] = ["answered", "ticked"];
+
+/// The programs: how each is told what to count.
+const CALLS: [&str; 3] = ["-DCOUNTED=1", "-DCOUNTED=2", "-DCOUNTED=3"];
+
+/// Counts, prints, compares.
+pub fn run(steps: &mut Steps) {
+    let bless = steps.blesses();
+    steps.check("a call from C takes hardly more than one from Rust", || {
+        let mut table = format!(
+            "{:<16}{:<8}{:>9}{:>8}{:>12}{:>12}{:>12}{:>10}{:>8}{:>8}\n",
+            "scene",
+            "scalar",
+            "flash",
+            "state",
+            "tick alone",
+            "from Rust",
+            "from C",
+            "most",
+            "more",
+            "+alone"
+        );
+        let mut wrong = Vec::new();
+        for (scene, model) in COUNTED {
+            let recipe = Recipe::of(scene, model);
+            let row = Row::measure(&recipe)?;
+            let _ = writeln!(table, "{}", row.line(&recipe));
+            if row.more() > MOST {
+                wrong.push(format!("{}: {} instructions more", recipe.scene_name(), row.more()));
+            }
+        }
+        println!("{table}");
+        if !wrong.is_empty() {
+            return Err(format!("{}; {MOST} are allowed", wrong.join("; ")));
+        }
+        record::compare(RECORD, &versions()?, &table, bless).map(drop)
+    });
+}
+
+/// What is told of a scene.
+struct Row {
+    flash: u64,
+    state: usize,
+    /// Instructions of every tick, by call.
+    from_c: Vec<i64>,
+    from_rust: Vec<i64>,
+    alone: Vec<i64>,
+}
+
+impl Row {
+    fn measure(recipe: &Recipe) -> Result<Self, String> {
+        let machine = machine("m4")?;
+        let package = Package::bake(recipe, machine)?;
+        let module = recipe.bake()?;
+        let text = fs::read_to_string(module.file()).map_err(|error| error.to_string())?;
+        let features = &module.chosen.kernel_features;
+        let counted =
+            Library::build_with(&["counted"], &RUST, &text, features, &package.name, machine)?;
+        let library = package.folder.join("counted.a");
+        write(&library, &counted.archive)?;
+        let [from_c, from_rust, alone] = CALLS.map(|call| counts(&package, &library, call));
+        let flashed = counts(&package, &package.library(), CALLS[0])?;
+        let from_c = from_c?;
+        if flashed != from_c {
+            return Err(format!("{}: what is counted is not what is shipped", package.name));
+        }
+        let flash = flash(&package.library())?;
+        Ok(Self { flash, state: counted.state, from_c, from_rust: from_rust?, alone: alone? })
+    }
+
+    /// The largest difference of a tick from C and from Rust.
+    fn more(&self) -> i64 {
+        largest(&self.from_c, &self.from_rust)
+    }
+
+    fn line(&self, recipe: &Recipe) -> String {
+        let [alone, from_rust, from_c] =
+            [&self.alone, &self.from_rust, &self.from_c].map(|counts| median(counts));
+        let most = self.from_c.iter().max().copied().unwrap_or(0);
+        format!(
+            "{:<16}{:<8}{:>9}{:>8}{alone:>12}{from_rust:>12}{from_c:>12}{most:>10}{:>8}{:>8}",
+            recipe.scene_name(),
+            "f32",
+            self.flash,
+            self.state,
+            self.more(),
+            largest(&self.from_c, &self.alone)
+        )
+    }
+}
+
+fn largest(of: &[i64], than: &[i64]) -> i64 {
+    of.iter().zip(than).map(|(of, than)| of - than).max().unwrap_or(i64::MAX)
+}
+
+fn median(counts: &[i64]) -> i64 {
+    let mut sorted = counts.to_vec();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0)
+}
+
+/// Instructions of each tick.
+fn counts(package: &Package, library: &Path, call: &str) -> Result<Vec<i64>, String> {
+    let memory = sources().join("netduinoplus2.ld");
+    let image = play(package, library, &[call], &memory, &M4F_192K)?;
+    let ticks = Ticks::parse(&M4F_192K.run(&image, true)?);
+    let counts = ticks.numbers("instructions")?;
+    match counts.len() {
+        101 => Ok(counts.iter().map(|&count| count as i64).collect()),
+        other => Err(format!("{other} ticks are counted")),
+    }
+}
+
+/// Bytes of the first object, which has all but the tick with a deadline: text, constants, data.
+fn flash(library: &Path) -> Result<u64, String> {
+    let table = output(Command::new("arm-none-eabi-size").arg(library))?;
+    let line = table.lines().nth(1).unwrap_or_default();
+    let mut words = line.split_whitespace().map(|word| word.parse::<u64>().ok());
+    match (words.next().flatten(), words.next().flatten()) {
+        (Some(text), Some(data)) => Ok(text + data),
+        _ => Err(format!("`{line}` has no sizes")),
+    }
+}
+
+fn versions() -> Result<String, String> {
+    let rustc = Toolchain::find("thumbv7em-none-eabihf")?.version()?;
+    let gcc = output(Command::new("arm-none-eabi-gcc").arg("-dumpfullversion"))?;
+    Ok(format!("{rustc}, {}, GCC {}", emulator()?, first_words(&gcc, 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_difference_is_that_of_a_tick() {
+        assert_eq!(largest(&[100, 250, 90], &[90, 200, 95]), 50);
+        assert_eq!(largest(&[90], &[100]), -10);
+        assert_eq!(largest(&[], &[]), i64::MAX);
+        assert_eq!(median(&[3, 1, 2]), 2);
+    }
+}

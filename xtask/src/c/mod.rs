@@ -1,0 +1,32 @@
+//! `cargo xtask c`: controllers for C, as `signorini bake --c` writes them.
+//!
+//! ```text
+//!   bits       every kind of scene on every board: the lines of the desk's Rust program
+//!   cost       what a call from C takes beside one from Rust, on the same code of the controller
+//!   headers    C and C++ of every age, without a warning; what a library is not built for is refused
+//!   states     several libraries in one program: states that are saved, damaged, exchanged, refused
+//!   example    the program that a bake writes, built by CMake, to its end
+//! ```
+
+mod bits;
+mod cost;
+mod example;
+mod headers;
+mod package;
+mod program;
+mod states;
+
+use crate::setup;
+use crate::steps::Steps;
+use signorini_image::tools::ensure_for_c;
+
+/// All of it.
+pub fn run(steps: &mut Steps) {
+    setup::run(steps);
+    steps.check_once("tools for C", ensure_for_c);
+    headers::run(steps);
+    states::run(steps);
+    example::run(steps);
+    cost::run(steps);
+    if std::env::var_os("NOBITS").is_none() { bits::run(steps); }
+}

@@ -1,0 +1,57 @@
+//! C programs around a controller, compiled by GCC and run on a board or on the desk.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::package::{Package, folder};
+use signorini_image::board::Board;
+use signorini_image::cargo::root;
+use signorini_image::toolchain::output;
+
+/// All warnings that C programs of this repository and the headers of controllers are free of.
+pub const WARNINGS: [&str; 8] = [
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wundef",
+    "-Wshadow",
+    "-Wconversion",
+    "-Wcast-align",
+    "-Werror",
+];
+
+/// Products and sums are rounded one by one, as in Rust; what is not called is left out.
+const CODE: [&str; 5] =
+    ["-std=c99", "-O2", "-ffp-contract=off", "-ffunction-sections", "-fdata-sections"];
+
+/// The program that plays the ticks.
+const PLAY: [&str; 3] = ["play.c", "journal.c", "loads.c"];
+
+/// Builds the program that plays the ticks of a package, with its own library or another one.
+pub fn play(
+    package: &Package,
+    library: &Path,
+    defines: &[&str],
+    memory: &Path,
+    board: &Board,
+) -> Result<PathBuf, String> {
+    let made = package.folder.join(format!("play{}.elf", defines.concat()));
+    let peers = root().join("tests/firmware/peers");
+    let support = folder().join(format!("board-{}.o", package.machine.word));
+    let mut compile = Command::new("arm-none-eabi-gcc");
+    compile.args(package.machine.flags).args(["-O2", "-ffunction-sections", "-c"]);
+    output(compile.arg(peers.join("board.c")).arg("-o").arg(&support))?;
+    let mut link = Command::new("arm-none-eabi-gcc");
+    link.args(package.machine.flags).args(CODE).args(WARNINGS).arg("-Wstrict-prototypes");
+    link.args(defines).args(package.defines()).arg("-I").arg(&peers);
+    link.args(PLAY.map(|source| sources().join(source))).arg(&support).arg(library);
+    link.args(["-nostartfiles", "-Wl,--gc-sections,-z,noexecstack,--no-warn-rwx-segments", "-T"]);
+    output(link.arg(memory).arg("-o").arg(&made))
+        .map_err(|why| format!("{}: {why}", board.name))?;
+    Ok(made)
+}
+
+/// The folder of the C programs.
+pub fn sources() -> PathBuf {
+    root().join("tests/firmware/c")
+}
