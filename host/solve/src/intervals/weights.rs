@@ -9,7 +9,7 @@
 //! c e, which adds c/2 · total². Where boundaries of C meet, z jumps, and an edge beside counts with its λ: 0 where it is always open.
 //!
 //! A controller gives u_h and σ_h. σ_h is τ but for the algebraic part of the bound. Means of s and u_h over an edge are equal
-//! between quads. On triangles with A constant in each, u_h is of the same mean error as σ_h:
+//! between quads, where s is that of a mesh: that of a condensed model is the best one, whatever its means. On triangles with A constant in each, u_h is of the same mean error as σ_h:
 //! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
 
 use super::MOST_UNKNOWNS;
@@ -62,7 +62,7 @@ pub struct Answers<'a> {
     pub open: &'a [Option<[f64; 2]>],
     /// A total as answers have it.
     pub total: f64,
-    /// Whether all equations but those on contact edges hold, for all answers.
+    /// Whether all equations but those on contact edges hold, for all answers: those of a condensed model.
     pub are_balanced: bool,
 }
 
@@ -226,7 +226,7 @@ impl Weighing<'_> {
         let (total, of_u) = (Weights { total: size, ..Weights::default() }, size);
         Ok(if !size.is_finite() {
             Err(UNBOUNDED.to_owned())
-        } else if problem.mesh.triangles.is_empty() && !on_contact {
+        } else if problem.mesh.triangles.is_empty() && !on_contact && !self.answers.are_balanced {
             Ok(total)
         } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {
             Ok(Weights { algebraic: size, ..total })
