@@ -2,6 +2,7 @@
 
 pub mod adapted;
 pub mod adaptive;
+pub mod arrays;
 pub mod check;
 pub mod coincident;
 pub mod cut;

@@ -1,0 +1,232 @@
+//! A mesh from arrays, as programs hold them: coordinates, cells by kind, named edges and cells.
+//!
+//! Clockwise cells are turned round and vertices without a cell dropped, as in a file that is read. Errors call cells and vertices by
+//! their positions in the arrays.
+
+use std::collections::HashSet;
+
+use super::check::edges as edges_of;
+use super::shape::{Orientation, orientation};
+use super::{Curve, Mesh, Surface};
+use crate::error::{InputError, Result};
+
+/// What a mesh is made of.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Arrays {
+    /// Coordinates of the vertices.
+    pub points: Vec<[f64; 2]>,
+    /// Vertices of the triangles, in either sense.
+    pub triangles: Vec<[u32; 3]>,
+    /// Vertices of the quads, in either sense.
+    pub quads: Vec<[u32; 4]>,
+    /// Names of curves, and the ends of their edges.
+    pub curves: Vec<(String, Vec<[u32; 2]>)>,
+    /// Names of surfaces, and their cells: triangles first, then quads.
+    pub surfaces: Vec<(String, Vec<u32>)>,
+}
+
+impl Arrays {
+    /// The mesh, and for each of its vertices the position that it had among the points.
+    ///
+    /// # Errors
+    /// Coordinates that are no numbers, positions outside of an array, cells that are not convex or meet as no plane mesh does, edges
+    /// that no cell has.
+    pub fn mesh(mut self) -> Result<(Mesh, Vec<u32>)> {
+        self.check()?;
+        let mut triangles = (0..).zip(&mut self.triangles);
+        triangles.try_for_each(|(at, cell)| turned(&self.points, "triangle", at, cell))?;
+        let mut quads = (0..).zip(&mut self.quads);
+        quads.try_for_each(|(at, cell)| turned(&self.points, "quad", at, cell))?;
+        let origins = self.drop_lonely();
+        let mesh = Mesh {
+            vertices: self.points,
+            triangles: self.triangles,
+            quads: self.quads,
+            surfaces: self.surfaces.into_iter().map(surface).collect(),
+            curves: self.curves.into_iter().map(curve).collect(),
+        };
+        connected(&mesh, &origins)?;
+        Ok((mesh, origins))
+    }
+
+    fn check(&self) -> Result<()> {
+        let points = self.points.len();
+        if self.triangles.is_empty() && self.quads.is_empty() {
+            return Err(InputError::new("the mesh has no cell: expected triangles or quads").into());
+        }
+        if let Some(at) = self.points.iter().position(|point| point.iter().any(|x| !x.is_finite()))
+        {
+            return Err(InputError::new(format!(
+                "point {at} is {:?}, expected numbers",
+                self.points[at]
+            ))
+            .into());
+        }
+        let outside =
+            |vertices: &[u32]| vertices.iter().find(|&&at| at as usize >= points).copied();
+        let cells =
+            self.triangles.iter().map(|of| &of[..]).chain(self.quads.iter().map(|of| &of[..]));
+        for (at, cell) in cells.enumerate() {
+            if let Some(vertex) = outside(cell) {
+                let name = self.cell_name(at as u32);
+                let message =
+                    format!("{name} has the vertex {vertex}, and there are {points} points");
+                return Err(InputError::new(message).hint("vertices count from 0").into());
+            }
+        }
+        for (name, edges) in &self.curves {
+            if let Some(vertex) = edges.iter().find_map(|edge| outside(edge)) {
+                let message = format!(
+                    "curve `{name}` has the vertex {vertex}, and there are {points} points"
+                );
+                return Err(InputError::new(message).hint("vertices count from 0").into());
+            }
+        }
+        let cells = (self.triangles.len() + self.quads.len()) as u32;
+        for (name, inside) in &self.surfaces {
+            if let Some(cell) = inside.iter().find(|&&cell| cell >= cells) {
+                let message =
+                    format!("surface `{name}` has the cell {cell}, and there are {cells} cells");
+                return Err(InputError::new(message)
+                    .hint("cells count from 0, triangles first")
+                    .into());
+            }
+        }
+        Ok(())
+    }
+
+    fn cell_name(&self, cell: u32) -> String {
+        match (cell as usize).checked_sub(self.triangles.len()) {
+            None => format!("triangle {cell}"),
+            Some(quad) => format!("quad {quad}"),
+        }
+    }
+
+    /// Drops vertices without a cell; where the others were.
+    fn drop_lonely(&mut self) -> Vec<u32> {
+        let mut number = vec![u32::MAX; self.points.len()];
+        let cells = self.triangles.as_flattened().iter().chain(self.quads.as_flattened());
+        cells.for_each(|&vertex| number[vertex as usize] = 0);
+        let kept: Vec<u32> =
+            (0..).zip(&number).filter(|(_, at)| **at == 0).map(|(at, _)| at).collect();
+        (0..).zip(&kept).for_each(|(new, &old)| number[old as usize] = new);
+        let renumber = |vertex: &mut u32| *vertex = number[*vertex as usize];
+        self.triangles.as_flattened_mut().iter_mut().for_each(renumber);
+        self.quads.as_flattened_mut().iter_mut().for_each(renumber);
+        self.curves
+            .iter_mut()
+            .for_each(|(_, edges)| edges.as_flattened_mut().iter_mut().for_each(renumber));
+        self.points = kept.iter().map(|&old| self.points[old as usize]).collect();
+        kept
+    }
+}
+
+/// Turns a clockwise cell round.
+fn turned<const N: usize>(
+    points: &[[f64; 2]],
+    kind: &str,
+    at: usize,
+    cell: &mut [u32; N],
+) -> Result<()> {
+    let corners = cell.map(|vertex| points[vertex as usize]);
+    match orientation(&corners) {
+        Ok(Orientation::Counterclockwise) => Ok(()),
+        Ok(Orientation::Clockwise) => {
+            cell[1..].reverse();
+            Ok(())
+        }
+        Err(defect) => {
+            let corner = defect
+                .corner()
+                .map_or_else(String::new, |corner| format!(" at vertex {}", cell[corner]));
+            Err(InputError::new(format!("{kind} {at} {defect}{corner}")).into())
+        }
+    }
+}
+
+fn curve((name, edges): (String, Vec<[u32; 2]>)) -> Curve {
+    let mut edges: Vec<_> = edges.into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    Curve { name, edges }
+}
+
+fn surface((name, mut cells): (String, Vec<u32>)) -> Surface {
+    cells.sort_unstable();
+    cells.dedup();
+    Surface { name, cells }
+}
+
+/// `Ok` where cells meet as they may, and each edge of a curve is one of a cell's.
+fn connected(mesh: &Mesh, origins: &[u32]) -> Result<()> {
+    let vertex = |at: u32| format!("vertex {}", origins.get(at as usize).unwrap_or(&at));
+    let name = |cell: u32| match (cell as usize).checked_sub(mesh.triangles.len()) {
+        None => format!("triangle {cell}"),
+        Some(quad) => format!("quad {quad}"),
+    };
+    let edges = edges_of(mesh).map_err(|fault| InputError::new(fault.describe(name, vertex)))?;
+    let known: HashSet<[u32; 2]> = edges.into_iter().collect();
+    for Curve { name, edges } in &mesh.curves {
+        if let Some(&[a, b]) = edges.iter().find(|edge| !known.contains(*edge)) {
+            let message =
+                format!("curve `{name}`: no cell has the edge from {} to {}", vertex(a), vertex(b));
+            return Err(InputError::new(message)
+                .hint("an edge is a pair of vertices of one cell side")
+                .into());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Arrays {
+        Arrays {
+            points: vec![[9.0, 9.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]],
+            triangles: vec![[2, 3, 5]],
+            quads: vec![[1, 2, 3, 4]],
+            curves: vec![("left".to_owned(), vec![[4, 1], [1, 4]])],
+            surfaces: vec![("all".to_owned(), vec![1, 0, 1])],
+        }
+    }
+
+    #[test]
+    fn cells_are_turned_and_lonely_vertices_dropped() {
+        let (mesh, origins) = square().mesh().expect("a mesh");
+        assert_eq!(origins, [1, 2, 3, 4, 5]);
+        assert_eq!((mesh.triangles, mesh.quads), (vec![[1, 4, 2]], vec![[0, 1, 2, 3]]));
+        assert_eq!(mesh.curves[0].edges, [[0, 3]]);
+        assert_eq!(mesh.surfaces[0].cells, [0, 1]);
+        assert_eq!(mesh.vertices[4], [2.0, 0.5]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_as_it_was_given() {
+        let refused = |change: &dyn Fn(&mut Arrays)| {
+            let mut arrays = square();
+            change(&mut arrays);
+            arrays.mesh().expect_err("refused").to_string()
+        };
+        let said = refused(&|of| of.quads[0][2] = 7);
+        assert_eq!(said, "quad 0 has the vertex 7, and there are 6 points");
+        let said = refused(&|of| of.points[3] = [f64::NAN, 0.0]);
+        assert!(said.starts_with("point 3 is [NaN, 0.0]"), "{said}");
+        let said = refused(&|of| of.triangles[0] = [2, 3, 3]);
+        assert!(said.starts_with("triangle 0 is degenerate"), "{said}");
+        let said = refused(&|of| of.points[3] = [0.2, 0.2]);
+        assert!(
+            said.starts_with("quad 0 is not convex") && said.ends_with("at vertex 3"),
+            "{said}"
+        );
+        let said = refused(&|of| of.triangles.push([1, 2, 5]));
+        assert!(said.contains("triangle 1 and quad 0 overlap"), "{said}");
+        let said = refused(&|of| of.curves[0].1.push([1, 3]));
+        assert_eq!(said, "curve `left`: no cell has the edge from vertex 1 to vertex 3");
+        let said = refused(&|of| of.surfaces[0].1.push(2));
+        assert_eq!(said, "surface `all` has the cell 2, and there are 2 cells");
+        let said = refused(&|of| (of.triangles, of.quads) = Default::default());
+        assert!(said.contains("no cell"), "{said}");
+    }
+}
