@@ -4,7 +4,10 @@
 
 #include "scene.h"
 
-enum { TICKS = 101 };
+/* Ticks that are played. */
+#ifndef TICKS
+#define TICKS 101
+#endif
 
 /* The inputs of the next tick; the first has the defaults. */
 void next_inputs(NAMED(inputs) *inputs);

@@ -1,2 +1,54 @@
+//! The program that a bake writes beside a library, as its user builds and runs it: by CMake, to its end.
+
+use std::fs;
+use std::process::Command;
+
+use super::package::{Package, machine};
+use crate::baked::Recipe;
 use crate::steps::Steps;
-pub fn run(_: &mut Steps) {}
+use signorini_image::toolchain::output;
+
+/// What it says last: 40 steps, one of which hangs on a board, until the watchdog resets it.
+const LAST: [(&str, &str); 3] = [
+    ("m4", "done: 40 steps, 1 resets"),
+    ("m7", "done: 40 steps, 1 resets"),
+    ("host", "done: 40 steps, 0 resets"),
+];
+
+/// Inputs with ranges, none at all, and names that are words of C.
+const SCENES: [&str; 3] = [
+    "meshes/scenes/levee.toml",
+    "tests/firmware/scenes/bare.toml",
+    "tests/firmware/scenes/words.toml",
+];
+
+/// Seconds that an example may take: it hangs where no watchdog resets it.
+const LIMIT: &str = "120";
+
+/// A step for each scene.
+pub fn run(steps: &mut Steps) {
+    for scene in SCENES {
+        let recipe = Recipe::of(scene, "--condensed");
+        let name = format!("the example of {}, by CMake, to its end", recipe.scene_name());
+        steps.check(&name, || LAST.iter().try_for_each(|(word, last)| check(&recipe, word, last)));
+    }
+}
+
+fn check(recipe: &Recipe, word: &str, last: &str) -> Result<(), String> {
+    let package = Package::bake(recipe, machine(word)?)?;
+    let build = package.folder.join("build");
+    let _ = fs::remove_dir_all(&build);
+    let mut configure = Command::new("cmake");
+    output(configure.arg("-S").arg(package.folder.join("example")).arg("-B").arg(&build))?;
+    let mut run = Command::new("timeout");
+    run.args([LIMIT, "cmake", "--build"]).arg(&build).args(["--target", "run"]);
+    let ran = run.output().map_err(|error| format!("timeout: {error}"))?;
+    // The emulator's console is standard error.
+    let said = [ran.stdout, ran.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let said = said.concat();
+    let steps = said.lines().filter(|line| line.starts_with("step ")).count();
+    match said.lines().any(|line| line.trim() == last) && ran.status.success() && steps == 40 {
+        true => Ok(()),
+        false => Err(format!("{word}: {}, {steps} steps, not `{last}`: {said}", ran.status)),
+    }
+}

@@ -2,10 +2,14 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use crate::baked::Recipe;
 use signorini_image::cargo::target_dir;
 use signorini_image::library::{MACHINES, Machine};
+
+/// What this run has baked: several steps look at the same one.
+static BAKED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Header, library, package of CMake, example.
 #[derive(Debug, Clone)]
@@ -19,14 +23,20 @@ pub struct Package {
 }
 
 impl Package {
-    /// Bakes it.
+    /// Bakes it, once.
     pub fn bake(recipe: &Recipe, machine: &Machine) -> Result<Self, String> {
         let name = recipe.scene_name().replace('-', "_");
-        let kind = format!("{name}-{}", recipe.scalar.as_deref().unwrap_or("f32"));
+        let [scalar, model] =
+            [&recipe.scalar, &recipe.model].map(|of| of.as_deref().unwrap_or("-"));
+        let kind = format!("{name}-{scalar}{model}");
         let folder = folder().join(machine.word).join(kind);
-        // What is left of another bake must not pass for one of this.
-        let _ = fs::remove_dir_all(&folder);
-        recipe.bake_c(machine.word, &folder)?;
+        let mut baked = BAKED.lock().unwrap_or_else(PoisonError::into_inner);
+        if !baked.contains(&folder) {
+            // What is left of another run must not pass for a file of this one.
+            let _ = fs::remove_dir_all(&folder);
+            recipe.bake_c(machine.word, &folder)?;
+            baked.push(folder.clone());
+        }
         Ok(Self { name, machine: *machine, folder })
     }
 
