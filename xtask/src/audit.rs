@@ -6,11 +6,13 @@
 //! * Formatting, f64 helpers, code for quads or contact: by the image's symbols. The features
 //!   `broken-…` bring each of them in on purpose, so that a renamed function cannot hide one.
 //! * What a baked scene has no need of: by the functions of its image, inlined ones included.
+//! * Libraries for C: by all their symbols, local ones included.
 
 use std::path::PathBuf;
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
 use crate::audit_baked;
+use crate::audit_c;
 use crate::export::scenes;
 use crate::setup;
 use crate::steps::Steps;
@@ -63,6 +65,7 @@ pub fn run(steps: &mut Steps) {
         });
     }
     audit_baked::run(steps);
+    audit_c::run(steps);
 }
 
 /// `Err` where the image does not link, or names one of the symbols.

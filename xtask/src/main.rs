@@ -4,6 +4,7 @@
 mod absence;
 mod audit;
 mod audit_baked;
+mod audit_c;
 mod baked;
 mod boards;
 mod c;

@@ -26,6 +26,38 @@ pub fn sized(image: &Path) -> Result<Vec<(String, u64)>, String> {
     Ok(listing.lines().filter_map(|line| Some((name(line)?, size(line).unwrap_or(0)))).collect())
 }
 
+/// The symbols of an ARM archive, by whom they are for.
+#[derive(Debug, Default, PartialEq)]
+pub struct Shown {
+    /// What others may call.
+    pub shown: Vec<String>,
+    /// What it asks of others.
+    pub asked: Vec<String>,
+    /// What it keeps for itself.
+    pub own: Vec<String>,
+}
+
+impl Shown {
+    /// Of this archive.
+    pub fn of(archive: &Path) -> Result<Self, String> {
+        Ok(Self::parse(&output(Command::new("arm-none-eabi-nm").arg("-P").arg(archive))?))
+    }
+
+    fn parse(listing: &str) -> Self {
+        let mut symbols = Self::default();
+        for line in listing.lines() {
+            let Some(name) = name(line) else { continue };
+            let kind = line.split(' ').nth(1).and_then(|kind| kind.chars().next());
+            match kind {
+                Some('U') => symbols.asked.push(name),
+                Some(kind) if kind.is_uppercase() => symbols.shown.push(name),
+                _ => symbols.own.push(name),
+            }
+        }
+        symbols
+    }
+}
+
 /// The functions that the debug information of an ARM image names: what was inlined, too.
 pub fn inlined(image: &Path) -> Result<Vec<String>, String> {
     let listing = output(Command::new("arm-none-eabi-objdump").arg("--dwarf=info").arg(image))?;
@@ -58,6 +90,15 @@ mod tests {
         assert_eq!(name("libkernel.a[bar.o]:"), None);
         assert_eq!(name("memcpy U         "), Some("memcpy".to_owned()));
         assert_eq!(name("force_f32_u16 T 0 8"), Some("force_f32_u16".to_owned()));
+    }
+
+    #[test]
+    fn symbols_are_told_apart() {
+        let symbols =
+            Shown::parse("lib.a[levee.o]:\nlevee_tick T 0 8c\nmemcpy U         \ntold t 8 4\n");
+        let one = |name: &str| vec![name.to_owned()];
+        let expected = Shown { shown: one("levee_tick"), asked: one("memcpy"), own: one("told") };
+        assert_eq!(symbols, expected);
     }
 
     #[test]

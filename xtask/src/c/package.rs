@@ -30,12 +30,12 @@ impl Package {
             [&recipe.scalar, &recipe.model].map(|of| of.as_deref().unwrap_or("-"));
         let kind = format!("{name}-{scalar}{model}");
         let folder = folder().join(machine.word).join(kind);
-        let mut baked = BAKED.lock().unwrap_or_else(PoisonError::into_inner);
-        if !baked.contains(&folder) {
+        let baked = || BAKED.lock().unwrap_or_else(PoisonError::into_inner);
+        if !baked().contains(&folder) {
             // What is left of another run must not pass for a file of this one.
             let _ = fs::remove_dir_all(&folder);
             recipe.bake_c(machine.word, &folder)?;
-            baked.push(folder.clone());
+            baked().push(folder.clone());
         }
         Ok(Self { name, machine: *machine, folder })
     }

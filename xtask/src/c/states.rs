@@ -13,9 +13,9 @@ use signorini_image::toolchain::output;
 /// Controllers of one program, all there are in CMakeLists.txt.
 const CONTROLLERS: usize = 6;
 
-/// A step for the desk, and one for each kind of board.
+/// A step for the desk, and one for a board.
 pub fn run(steps: &mut Steps) {
-    for word in ["host", "m4", "m4-soft", "m7"] {
+    for word in ["host", "m4"] {
         steps.check(&format!("states of six controllers in one program, {word}"), || check(word));
     }
 }
