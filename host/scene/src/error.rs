@@ -66,6 +66,16 @@ impl InputError {
         &self.message
     }
 
+    /// The file it stands in and the line, where they are known.
+    pub fn place(&self) -> (Option<&Path>, Option<usize>) {
+        (self.file.as_deref(), self.line)
+    }
+
+    /// What to do about it.
+    pub fn said_hint(&self) -> Option<&str> {
+        self.hint.as_deref()
+    }
+
     /// Adds what to do about it.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());

@@ -203,6 +203,37 @@ impl Scene {
         }
     }
 
+    /// The position of an input.
+    ///
+    /// # Errors
+    /// No input of this name.
+    pub fn input_number(&self, name: &str) -> Result<usize> {
+        let found = self.inputs.iter().position(|input| input.name.value == name);
+        found.ok_or_else(|| {
+            let message = format!("no input `{name}` in the scene");
+            InputError::new(message).file(self.file()).hint(self.known_inputs()).into()
+        })
+    }
+
+    /// `Ok` where the input at this position may have this value.
+    ///
+    /// # Errors
+    /// A value that is no number, or outside the input's range.
+    pub fn check_input(&self, at: usize, value: f64) -> Result<()> {
+        let Some(input) = self.inputs.get(at) else { return Ok(()) };
+        let wrong = match value.is_finite() {
+            true => input.refusal(value),
+            false => Some(format!("{value} is not a finite number")),
+        };
+        wrong.map_or(Ok(()), |why| {
+            let hint = "a range in the scene says what the input may be";
+            Err(InputError::new(format!("input.{}: {why}", input.name.value))
+                .file(self.file())
+                .hint(hint)
+                .into())
+        })
+    }
+
     /// Sets the default of an input from `NAME=VALUE`, as on the command line.
     pub fn set_input(&mut self, assignment: &str) -> Result<()> {
         let known = self.known_inputs();

@@ -45,7 +45,19 @@ const BATCH: usize = 50;
 /// # Errors
 /// A file that is no mesh; a refinement too fine; an error that no mesh reaches, with the inputs and the reason.
 pub fn mesh_of_scene(scene: &Scene) -> Result<MeshOfScene> {
-    let mesh = adapted::of_scene(scene)?;
+    of_adapted(scene, adapted::of_scene(scene)?)
+}
+
+/// The same of another mesh than that of the scene's file.
+///
+/// # Errors
+/// As for [`mesh_of_scene`].
+pub fn mesh_for_scene(scene: &Scene, mesh: Mesh) -> Result<MeshOfScene> {
+    let setting = scene.setting.unwrap_or_default();
+    of_adapted(scene, adapted::adapted(mesh, setting.cells, setting.refine)?)
+}
+
+fn of_adapted(scene: &Scene, mesh: Mesh) -> Result<MeshOfScene> {
     match scene.setting.and_then(|setting| setting.error) {
         None => Ok(MeshOfScene { mesh, promise: None }),
         Some(goal) => {

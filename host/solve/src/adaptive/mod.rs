@@ -16,7 +16,7 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use for_inputs::{mesh_of_scene, promised_mesh};
+pub use for_inputs::{mesh_for_scene, mesh_of_scene, promised_mesh};
 pub use promise::{Allowed, MeshOfScene, Promise, Promised, Refining};
 pub use stop::{Stall, Stop, Term};
 

@@ -1,0 +1,127 @@
+"""`signorini.bake` and `signorini.Controller`."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+
+from . import _native
+from .scenes import Mesh, Scene, given
+
+
+@dataclass(frozen=True)
+class Baked:
+    """A scene as a module of firmware."""
+
+    source: str
+    """Its Rust source."""
+    chosen: Dict[str, Any]
+    """What was chosen: model, scalar, features of the kernel, bytes, instructions, ranges, worst case."""
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the source to a file, whole or not at all."""
+        fresh = Path(f"{os.fspath(path)}.{os.getpid()}")
+        fresh.write_text(self.source, encoding="utf-8")
+        fresh.replace(path)
+
+
+def bake(
+    scene: Scene, mesh: Optional[Mesh] = None, *, scalar: Optional[str] = None, model: Optional[str] = None
+) -> Baked:
+    """The smallest model that represents the scene exactly, as a module of firmware.
+
+    Parameters
+    ----------
+    scalar : "f32" or "f64" [the scene's setting, else f32].
+    model : "full" or "condensed" [what is smaller and fits].
+    """
+    known(scalar, "scalar", ("f32", "f64"))
+    known(model, "model", ("full", "condensed"))
+    source, chosen = _native.bake(given(scene, mesh, None), scalar, model)
+    return Baked(source, json.loads(chosen))
+
+
+def known(value: Optional[str], name: str, words: Tuple[str, ...]) -> None:
+    """Refuses other words."""
+    if value is not None and value not in words:
+        raise ValueError(f"{name} is {value!r}, expected {' or '.join(words)}")
+
+
+@dataclass(frozen=True)
+class ControllerAnswer:
+    """What a tick came to."""
+
+    outputs: Dict[str, float]
+    plus_minus: Dict[str, float]
+    """How far each output may be from its exact value, in its own unit; infinite where nothing is guaranteed."""
+    ended: str
+    """exact, accurate, settled, out-of-sweeps, out-of-time or not-finite."""
+    bound: Optional[float]
+    """The error in the energy norm is at most this."""
+    of_u: Optional[float]
+    """The same for the means of u over edges."""
+    sweeps: int
+    contact_force: float
+    contact_length: float
+
+    def __getitem__(self, name: str) -> float:
+        return self.outputs[name]
+
+
+class Controller:
+    """The model that firmware gets, on this machine, with the bits of the device.
+
+    >>> controller = signorini.Controller("levee.toml")
+    >>> controller(rain=2.0, river=0.1)["seepage"]
+
+    A call starts from where the last one ended. Inputs that are left out have the values of the scene. Threads may share a controller:
+    their calls come one after the other.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        mesh: Optional[Mesh] = None,
+        *,
+        inputs: Optional[Mapping[str, float]] = None,
+        scalar: Optional[str] = None,
+    ) -> None:
+        known(scalar, "scalar", ("f32", "f64"))
+        self._native = _native.Controller(given(scene, mesh, inputs), scalar)
+        self.defaults: Dict[str, float] = {name: default for name, default, _ in self._native.inputs}
+        """The inputs with the values of the scene."""
+        self.ranges: Dict[str, Tuple[float, float]] = {name: tuple(ends) for name, _, ends in self._native.inputs}
+        """What each may be."""
+        self.outputs: List[str] = list(self._native.outputs)
+        """Their names."""
+        self.name: str = self._native.name
+        """Model, solver and scalar."""
+
+    def __call__(self, **inputs: float) -> ControllerAnswer:
+        """One tick."""
+        unknown = set(inputs) - set(self.defaults)
+        if unknown:
+            names = ", ".join(self.defaults) or "none"
+            raise TypeError(f"no input {', '.join(sorted(unknown))}; inputs of the scene: {names}")
+        values = [float(inputs.get(name, default)) for name, default in self.defaults.items()]
+        ended, outputs, plus_minus, bound, sweeps, (force, length) = self._native.tick(values)
+        return ControllerAnswer(
+            outputs=dict(zip(self.outputs, outputs)),
+            plus_minus=dict(zip(self.outputs, plus_minus)),
+            ended=ended,
+            bound=bound and bound[0],
+            of_u=bound and bound[1],
+            sweeps=sweeps,
+            contact_force=force,
+            contact_length=length,
+        )
+
+    def reset(self) -> None:
+        """Forgets all ticks: the next one is the first again."""
+        self._native.reset()
+
+    def __repr__(self) -> str:
+        return f"<signorini.Controller: {self.name}>"

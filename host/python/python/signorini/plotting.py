@@ -1,0 +1,56 @@
+"""A picture of a result, by matplotlib."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .results import Result
+
+STATES = {1: ("open", "#1f77b4"), 0: ("touching", "#d62728"), -1: ("at its limit", "#9467bd")}
+"""The name and colour of each state of a contact edge."""
+
+
+def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
+    """u over the mesh: continuous where there is a bound, else one value a cell; contact edges in the colour of their state."""
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import LineCollection
+
+    if ax is None:
+        _, ax = plt.subplots(layout="constrained")
+    triangles, cells = split(result)
+    x, y = result.points.T
+    if len(result.vertex_u):
+        drawn = ax.tripcolor(x, y, triangles, result.vertex_u, shading="gouraud", cmap=cmap)
+    else:
+        drawn = ax.tripcolor(x, y, triangles, facecolors=result.cell_u[cells], cmap=cmap)
+    ax.figure.colorbar(drawn, ax=ax, label="u")
+    segments = result.edges["ends"].reshape(-1, 2, 2)
+    for state, (name, colour) in STATES.items():
+        edges = result.contact["edge"][result.contact["state"] == state]
+        if contact and len(edges):
+            lines = LineCollection(segments[edges], colors=colour, linewidths=3, label=name, capstyle="round")
+            ax.add_collection(lines)
+    if contact and len(result.contact["edge"]):
+        ax.legend(title="contact", loc="best")
+    ax.set_aspect("equal")
+    ax.set_title(title(result))
+    return ax
+
+
+def split(result: Result) -> tuple[np.ndarray, np.ndarray]:
+    """All cells as triangles, and the cell of each."""
+    halves = [result.quads[:, [0, 1, 2]], result.quads[:, [0, 2, 3]]]
+    count = len(result.triangles)
+    quads = np.arange(count, count + len(result.quads))
+    return np.concatenate([result.triangles, *halves]), np.concatenate([np.arange(count), quads, quads])
+
+
+def title(result: Result) -> str:
+    """The scene's title, and how wrong the solution can be."""
+    name = result.summary["title"]
+    if result.relative_bound is None:
+        return name
+    bound = f"error at most {100 * result.relative_bound:.2g} % in energy"
+    return f"{name}\n{bound}" if name else bound

@@ -1,0 +1,103 @@
+"""`signorini.solve`."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _native
+from .results import Result, outputs_of
+from .scenes import Mesh, Scene, given
+
+
+@dataclass
+class _How:
+    scalar: Optional[str]
+    solver: Optional[str]
+    tolerance: Optional[float]
+    max_sweeps: Optional[int]
+    max_error: Optional[str]
+    max_unknowns: Optional[int]
+
+
+def solve(
+    scene: Scene,
+    mesh: Optional[Mesh] = None,
+    *,
+    inputs: Optional[Mapping[str, float]] = None,
+    max_error: Optional[Union[str, float]] = None,
+    max_unknowns: Optional[int] = None,
+    scalar: Optional[str] = None,
+    solver: Optional[str] = None,
+    tolerance: Optional[float] = None,
+    max_sweeps: Optional[int] = None,
+    out: Optional[Union[str, "os.PathLike[str]"]] = None,
+) -> Result:
+    """Solves a scene.
+
+    Parameters
+    ----------
+    scene : the path of a scene file, or the same as nested dictionaries.
+    mesh : instead of the scene's own: a Gmsh file, a `meshio.Mesh`, or arrays
+        ``(points, {"triangle": …, "quad": …}, {"boundary": edges})``.
+    inputs : values of the scene's inputs.
+    max_error : refine the mesh where the bound says until it is below this: "5%" of the energy norm, or an energy.
+    max_unknowns : the largest mesh that may be tried for it.
+    scalar, solver, tolerance, max_sweeps : as for `signorini solve`; the scene's own setting where left out.
+    out : a folder for the files of `signorini solve`.
+
+    Raises
+    ------
+    SceneError : scene, mesh or inputs are wrong; it has file, line, key and hint.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> points = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> bar = {
+    ...     "material": {"default": {"conductivity": 3}},
+    ...     "boundary": {
+    ...         "cold": {"kind": "dirichlet", "value": 0},
+    ...         "heater": {"kind": "contact", "gap": 2},
+    ...         "default": {"kind": "neumann", "flux": 0},
+    ...     },
+    ... }
+    >>> mesh = (points, {"quad": [[0, 1, 2, 3]]}, {"cold": [[3, 0]], "heater": [[1, 2]]})
+    >>> round(signorini.solve(bar, mesh).summary["contact_force"], 9)
+    6.0
+    """
+    if max_error is not None and not isinstance(max_error, str):
+        max_error = repr(float(max_error))
+    how = _How(scalar, solver, tolerance, max_sweeps, max_error, max_unknowns)
+    found = _native.solve(given(scene, mesh, inputs), how, None if out is None else os.fspath(out))
+    summary = json.loads(found["summary"])
+    boundaries = np.array([*found["boundaries"], ""])
+    edges = found["edges"]
+    edges["kind"] = np.array(edges["kind"])
+    edges["boundary"] = boundaries[edges["boundary"]]
+    contact = found["contact"]
+    contact["boundary"] = edges["boundary"][contact["edge"]]
+    return Result(
+        u=found["u"],
+        flux=found["flux"],
+        edges=edges,
+        contact=contact,
+        bound=found["bound"],
+        relative_bound=found["relative_bound"],
+        indicators=found["indicators"],
+        summary=summary,
+        points=found["points"],
+        triangles=found["triangles"],
+        quads=found["quads"],
+        point_numbers=found["origins"],
+        vertex_u=found["vertex_u"],
+        cell_u=found["cell_u"],
+        cell_flux=found["cell_flux"],
+        regions=np.array(found["materials"])[found["materials_of_cells"]],
+        converged=found["converged"],
+        outputs=outputs_of(summary),
+    )

@@ -1,0 +1,91 @@
+"""`signorini.tick`."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _native
+from .scenes import Mesh, Scene, given
+
+
+@dataclass
+class _Ticks:
+    count: Optional[int]
+    log: Optional[str]
+    times: Optional[List[float]]
+    inputs: list
+    baked: bool
+    budget_sweeps: Optional[int]
+    intervals: bool
+
+
+@dataclass(frozen=True)
+class Ticks:
+    """A scene over time: a number for each tick in every array, NaN where there is none."""
+
+    t: np.ndarray
+    status: np.ndarray
+    sweeps: np.ndarray
+    contact_force: np.ndarray
+    contact_length: np.ndarray
+    error_bound: np.ndarray
+    outputs: Dict[str, np.ndarray]
+    output_bounds: Dict[str, np.ndarray]
+    """For each output two columns: the exact value lies between; for a probe the mean over its cell."""
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        return f"<signorini.Ticks: {len(self)} ticks from t = {self.t[0]:g} to {self.t[-1]:g}>"
+
+
+def tick(
+    scene: Scene,
+    mesh: Optional[Mesh] = None,
+    *,
+    ticks: Optional[int] = None,
+    times: Optional[Sequence[float]] = None,
+    inputs: Optional[Mapping[str, Any]] = None,
+    log: Optional[Union[str, "os.PathLike[str]"]] = None,
+    baked: bool = False,
+    budget_sweeps: Optional[int] = None,
+    intervals: bool = True,
+) -> Ticks:
+    """Plays a scene over time, each tick from the answer of the one before.
+
+    Parameters
+    ----------
+    ticks : how many, in steps of the scene's `[time]`; or
+    times : when they are, with
+    inputs : a number for all of them, or one for each of `times`, by the name of the input; or
+    log : a CSV file with a column t and columns of inputs.
+    baked : by the controller that `bake` writes, with its bits.
+    budget_sweeps : most sweeps of one tick.
+    intervals : whether `output_bounds` are worked out; `baked` always has those of the controller.
+    """
+    if sum(of is not None for of in (ticks, times, log)) > 1:
+        raise ValueError("give one of ticks, times and log")
+    constant: Dict[str, float] = {}
+    varying = []
+    for name, values in (inputs or {}).items():
+        if np.ndim(values) == 0:
+            constant[name] = float(values)
+        elif times is None or len(values) != len(times):
+            raise ValueError(f"inputs[{name!r}]: expected a number, or one for each of times")
+        else:
+            varying.append((str(name), [float(value) for value in values]))
+    if times is not None:
+        times = [float(time) for time in times]
+        if any(b <= a for a, b in zip(times, times[1:])):
+            raise ValueError("times: expected each to come after the one before")
+    found = _native.tick(
+        given(scene, mesh, constant),
+        _Ticks(ticks, None if log is None else os.fspath(log), times, varying, baked, budget_sweeps, intervals),
+    )
+    found["status"] = np.array(found["status"])
+    return Ticks(**found)

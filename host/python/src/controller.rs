@@ -1,0 +1,188 @@
+//! `signorini.Controller`: the model that firmware gets, on this machine.
+//!
+//! It lives on a thread of its own, to which calls come one after the other; any Python thread may make them.
+
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use signorini_bake::engine::{Engine, Module, TickSolution, baked};
+use signorini_bake::setting;
+use signorini_scene::error::{Error, Result};
+use signorini_scene::scene::{Input, Scene};
+use signorini_solve::functional::wanted;
+use signorini_solve::problem::Problem;
+use signorini_solve::solve::ScalarKind;
+
+use crate::error::raised;
+use crate::posed::GivenScene;
+use crate::work::work;
+
+/// As large as that of a main thread: a controller may be.
+const STACK: usize = 64 << 20;
+
+/// A call.
+enum Call {
+    Tick(Vec<f64>, Sender<Result<Told>>),
+    Reset(Sender<()>),
+}
+
+/// What a tick came to: how it ended, outputs, how far each may be off (∞ where nothing is guaranteed), bound and its part of u,
+/// exchanges and sweeps, contact force and length.
+type Told = (String, Vec<f64>, Vec<f64>, Option<[f64; 2]>, u32, [f64; 2]);
+
+/// What is known before the first tick.
+struct Known {
+    name: String,
+    scalar: &'static str,
+    inputs: Vec<(String, f64, [f64; 2])>,
+    outputs: Vec<String>,
+}
+
+/// The controller of a scene.
+#[pyclass(module = "signorini._native", frozen)]
+pub struct Controller {
+    calls: Mutex<Sender<Call>>,
+    known: Known,
+    scene: Scene,
+    is_file: bool,
+}
+
+#[pymethods]
+impl Controller {
+    #[new]
+    fn new(py: Python<'_>, scene: GivenScene, scalar: Option<String>) -> PyResult<Self> {
+        let is_file = scene.is_file();
+        let asked = match scalar.as_deref() {
+            Some("f32") => Some(ScalarKind::F32),
+            Some("f64") => Some(ScalarKind::F64),
+            _ => None,
+        };
+        let (send, calls) = channel();
+        let found = work(py, move |_| {
+            let posed = scene.read()?;
+            let problem = posed.problem()?;
+            let scalar = setting::scalar(&posed.scene, asked)?;
+            let name = started(problem, asked, calls)?;
+            Ok((posed.scene, name, scalar))
+        })?;
+        let (scene, name, scalar) = found.map_err(|error: Error| raised(py, error, is_file))?;
+        let input = |of: &Input| (of.name.value.clone(), of.default, of.interval());
+        let known = Known {
+            name,
+            scalar: if scalar == ScalarKind::F32 { "f32" } else { "f64" },
+            inputs: scene.inputs.iter().map(input).collect(),
+            outputs: wanted(&scene).iter().map(|of| of.name.value.clone()).collect(),
+        };
+        Ok(Self { calls: Mutex::new(send), known, scene, is_file })
+    }
+
+    /// Model, solver and scalar in a few words.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.known.name
+    }
+
+    #[getter]
+    fn scalar(&self) -> &str {
+        self.known.scalar
+    }
+
+    /// Name, default and range of each input.
+    #[getter]
+    fn inputs(&self) -> Vec<(String, f64, [f64; 2])> {
+        self.known.inputs.clone()
+    }
+
+    #[getter]
+    fn outputs(&self) -> Vec<String> {
+        self.known.outputs.clone()
+    }
+
+    fn tick(&self, py: Python<'_>, inputs: Vec<f64>) -> PyResult<Told> {
+        let checked = || -> Result<()> {
+            (0..).zip(&inputs).try_for_each(|(at, &value)| self.scene.check_input(at, value))
+        };
+        checked().map_err(|error| raised(py, error, self.is_file))?;
+        let told = self.ask(py, |answer| Call::Tick(inputs, answer))?;
+        told.map_err(|error| raised(py, error, self.is_file))
+    }
+
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        self.ask(py, Call::Reset)
+    }
+}
+
+impl Controller {
+    /// Makes a call, and waits for its answer without the interpreter's lock.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        call: impl FnOnce(Sender<T>) -> Call + Send,
+    ) -> PyResult<T> {
+        let ended =
+            || PyRuntimeError::new_err("the controller has ended: this is a fault of signorini");
+        py.detach(|| {
+            let (send, receive) = channel();
+            let calls = self.calls.lock().unwrap_or_else(PoisonError::into_inner);
+            calls.send(call(send)).ok()?;
+            drop(calls);
+            receive.recv().ok()
+        })
+        .ok_or_else(ended)
+    }
+}
+
+/// Starts the thread of a controller; its name where it has begun.
+fn started(problem: Problem, asked: Option<ScalarKind>, calls: Receiver<Call>) -> Result<String> {
+    let (send, receive) = channel();
+    let run = move || {
+        let begun = send.clone();
+        let lent = baked(&problem, asked, |engine, module| {
+            let _ = begun.send(Ok(module.name.clone()));
+            serve(&problem, engine, module, &calls);
+            Ok(())
+        });
+        if let Err(error) = lent {
+            let _ = send.send(Err(error));
+        }
+    };
+    let thread = thread::Builder::new().stack_size(STACK).spawn(run);
+    thread.map_err(|error| Error::Check(format!("no thread: {error}")))?;
+    receive.recv().unwrap_or_else(|_| Err(Error::Check("the controller has not begun".to_owned())))
+}
+
+/// Answers calls until nobody can make another one.
+fn serve(problem: &Problem, engine: &mut dyn Engine, module: &Module, calls: &Receiver<Call>) {
+    for call in calls {
+        match call {
+            Call::Tick(inputs, answer) => {
+                let _ = answer.send(told(problem, engine, module, &inputs));
+            }
+            Call::Reset(done) => {
+                engine.restart();
+                let _ = done.send(());
+            }
+        }
+    }
+}
+
+fn told(
+    problem: &Problem,
+    engine: &mut dyn Engine,
+    module: &Module,
+    inputs: &[f64],
+) -> Result<Told> {
+    engine.tick(inputs)?;
+    let problem = problem.with_inputs(inputs)?;
+    let answer = engine.answer(&problem)?;
+    let plus_minus = module.plus_minus(answer.bound.as_ref());
+    let plus_minus = plus_minus.into_iter().map(|by| by.unwrap_or(f64::INFINITY)).collect();
+    let length = answer.length(&problem);
+    let TickSolution { ended, outputs, bound, sweeps, force, .. } = answer;
+    let bound = bound.map(|bound| [bound.total, bound.of_u]);
+    Ok((ended.to_owned(), outputs, plus_minus, bound, sweeps, [force, length]))
+}

@@ -1,0 +1,49 @@
+//! Errors of the host as Python exceptions.
+
+use pyo3::create_exception;
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use signorini_scene::error::{Error, InputError};
+
+create_exception!(
+    signorini,
+    SceneError,
+    PyValueError,
+    "The scene, its mesh or an argument is wrong.\n\nAttributes: message, file, line, key and hint; each is None where there is none."
+);
+
+/// The exception of an error; `is_file` tells whether the scene is a file that a person can look into.
+pub fn raised(py: Python<'_>, error: Error, is_file: bool) -> PyErr {
+    match error {
+        Error::Input(error) => scene_error(py, &error, is_file),
+        Error::Io { path, cause } => PyOSError::new_err(format!("{}: {cause}", path.display())),
+        Error::Check(what) => PyRuntimeError::new_err(what),
+    }
+}
+
+fn scene_error(py: Python<'_>, error: &InputError, is_file: bool) -> PyErr {
+    let message = error.message();
+    let place = if is_file { error.to_string() } else { message.to_owned() };
+    let hint = error.said_hint();
+    let text = hint.map_or_else(|| place.clone(), |hint| format!("{place}\nhint: {hint}"));
+    let raised = SceneError::new_err(text);
+    let value = raised.value(py);
+    let file = error.place().0.filter(|_| is_file).map(|file| file.display().to_string());
+    let line = error.place().1.filter(|_| is_file);
+    // Setting an attribute of a new exception cannot fail.
+    let _ = value.setattr("message", message);
+    let _ = value.setattr("file", file);
+    let _ = value.setattr("line", line);
+    let _ = value.setattr("key", key(message));
+    let _ = value.setattr("hint", hint);
+    raised
+}
+
+/// `boundary.river.value` of "boundary.river.value: expected …".
+fn key(message: &str) -> Option<&str> {
+    let (key, _) = message.split_once(": ")?;
+    let is_key = !key.is_empty()
+        && key.chars().all(|letter| letter.is_alphanumeric() || "._-\"".contains(letter))
+        || key.contains('.') && key.contains('"');
+    is_key.then_some(key)
+}
