@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
 
 from .results import Result
+
+TITLE = 50
+"""Letters of a line of the title."""
 
 STATES = {1: ("open", "#1f77b4"), 0: ("touching", "#d62728"), -1: ("at its limit", "#9467bd")}
 """The name and colour of each state of a contact edge."""
@@ -17,15 +21,18 @@ def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection
 
-    if ax is None:
-        _, ax = plt.subplots(layout="constrained")
-    triangles, cells = split(result)
     x, y = result.points.T
+    is_wide = np.ptp(x) > np.ptp(y)
+    has_own = ax is None
+    if has_own:
+        size = 7.0 * np.array([np.ptp(x), np.ptp(y)]) / max(np.ptp(x), np.ptp(y))
+        _, ax = plt.subplots(layout="constrained", figsize=np.maximum(size, 2.0) + [1.0, 2.0])
+    triangles, cells = split(result)
     if len(result.vertex_u):
         drawn = ax.tripcolor(x, y, triangles, result.vertex_u, shading="gouraud", cmap=cmap)
     else:
         drawn = ax.tripcolor(x, y, triangles, facecolors=result.cell_u[cells], cmap=cmap)
-    ax.figure.colorbar(drawn, ax=ax, label="u")
+    ax.figure.colorbar(drawn, ax=ax, label="u", location="bottom" if is_wide else "right")
     segments = result.edges["ends"].reshape(-1, 2, 2)
     for state, (name, colour) in STATES.items():
         edges = result.contact["edge"][result.contact["state"] == state]
@@ -33,9 +40,11 @@ def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
             lines = LineCollection(segments[edges], colors=colour, linewidths=3, label=name, capstyle="round")
             ax.add_collection(lines)
     if contact and len(result.contact["edge"]):
-        ax.legend(title="contact", loc="best")
+        # Beside the picture, where there is room.
+        place = {"loc": "outside upper right"} if has_own else {"loc": "best"}
+        (ax.figure if has_own else ax).legend(title="contact", **place)
     ax.set_aspect("equal")
-    ax.set_title(title(result))
+    ax.set_title(title(result), loc="left", fontsize="medium")
     return ax
 
 
@@ -49,7 +58,7 @@ def split(result: Result) -> tuple[np.ndarray, np.ndarray]:
 
 def title(result: Result) -> str:
     """The scene's title, and how wrong the solution can be."""
-    name = result.summary["title"]
+    name = textwrap.fill(result.summary["title"], TITLE)
     if result.relative_bound is None:
         return name
     bound = f"error at most {100 * result.relative_bound:.2g} % in energy"

@@ -1,0 +1,128 @@
+"""`tick`, `bake` and `Controller` beside the files of the command line."""
+
+import csv
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import signorini
+
+
+def columns(path):
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {key: [row[key] for row in rows] for key in rows[0]}
+
+
+def numbers(values):
+    return np.array([float(value) if value else np.nan for value in values])
+
+
+@pytest.mark.parametrize("baked", [False, True])
+def test_ticks_are_those_of_the_command_line(baked, scenes, command):
+    words = ["tick", scenes / "levee.toml", "--ticks", "6", *(["--baked"] if baked else [])]
+    out = command(*words)
+    ticks = signorini.tick(scenes / "levee.toml", ticks=6, baked=baked)
+    table = columns(out / "ticks.csv")
+    for key in ("t", "contact_force", "contact_length", "error_bound", "sweeps"):
+        assert np.array_equal(getattr(ticks, key), numbers(table[key]), equal_nan=True), key
+    assert ticks.status.tolist() == table["status"]
+    for name, values in ticks.outputs.items():
+        assert np.array_equal(values, numbers(table[name])), name
+    bounds = columns(out / "output_bounds.csv")
+    assert np.array_equal(ticks.output_bounds["seepage"][:, 0], numbers(bounds["seepage_least"]))
+    assert np.array_equal(ticks.output_bounds["seepage"][:, 1], numbers(bounds["seepage_most"]))
+    assert np.isnan(ticks.output_bounds["wet"]).all()
+
+
+def test_times_with_inputs_are_a_log(scenes, tmp_path):
+    log = tmp_path / "log.csv"
+    log.write_text("t,rain,river\n0,0,0\n0.5,2,0.1\n2,5,-1\n")
+    scene = scenes / "levee.toml"
+    by_log = signorini.tick(scene, log=log, baked=True)
+    by_times = signorini.tick(scene, times=[0, 0.5, 2], inputs={"rain": [0, 2, 5], "river": [0, 0.1, -1]}, baked=True)
+    assert np.array_equal(by_log.outputs["seepage"], by_times.outputs["seepage"])
+    constant = signorini.tick(scene, times=[0, 1], inputs={"rain": 3}, intervals=False)
+    assert len(constant) == 2 and np.isnan(constant.output_bounds["seepage"]).all()
+
+
+def test_wrong_ticks(scenes):
+    scene = scenes / "levee.toml"
+    with pytest.raises(ValueError, match="one of ticks"):
+        signorini.tick(scene, ticks=3, times=[0, 1])
+    with pytest.raises(ValueError, match="one for each of times"):
+        signorini.tick(scene, times=[0, 1], inputs={"rain": [1, 2, 3]})
+    with pytest.raises(ValueError, match="come after"):
+        signorini.tick(scene, times=[1, 1])
+    with pytest.raises(signorini.SceneError, match="outside the range"):
+        signorini.tick(scene, times=[0, 1], inputs={"rain": [1, 9]})
+    with pytest.raises(signorini.SceneError, match="no input `snow`") as raised:
+        signorini.tick(scene, times=[0, 1], inputs={"snow": [1, 2]})
+    assert "rain" in raised.value.hint
+
+
+def test_a_module_is_that_of_the_command_line(scenes, command, tmp_path):
+    written = tmp_path / "levee.rs"
+    subprocess.run([command.program, "bake", scenes / "levee.toml", "-o", written], check=True, capture_output=True)
+    baked = signorini.bake(scenes / "levee.toml")
+    assert baked.source == written.read_text()
+    assert baked.chosen["model"] == "condensed"
+    baked.save(tmp_path / "again.rs")
+    assert (tmp_path / "again.rs").read_text() == baked.source
+    assert signorini.bake(scenes / "levee.toml", model="full", scalar="f64").chosen["model"] == "full"
+    with pytest.raises(ValueError, match="full or condensed"):
+        signorini.bake(scenes / "levee.toml", model="half")
+
+
+@pytest.mark.parametrize("name", ["levee", "antiicing"])
+def test_a_controller_has_the_bits_of_the_baked_ticks(name, scenes):
+    scene = scenes / f"{name}.toml"
+    controller = signorini.Controller(scene)
+    ends = controller.ranges
+    random = np.random.default_rng(5)
+    drawn = {input: random.uniform(*ends[input], size=8).tolist() for input in ends}
+    ticks = signorini.tick(scene, times=range(8), inputs=drawn, baked=True)
+    for at in range(8):
+        answer = controller(**{input: values[at] for input, values in drawn.items()})
+        for output, value in answer.outputs.items():
+            assert value == ticks.outputs[output][at], (output, at)
+            by = answer.plus_minus[output]
+            if np.isfinite(by):
+                assert [value - by, value + by] == ticks.output_bounds[output][at].tolist()
+        assert answer.bound == ticks.error_bound[at]
+        assert answer.ended == ticks.status[at]
+
+
+def test_a_refused_input_leaves_the_state(scenes):
+    one, other = (signorini.Controller(scenes / "levee.toml") for _ in range(2))
+    one(rain=1), other(rain=1)
+    with pytest.raises(signorini.SceneError) as raised:
+        one(rain=50)
+    assert raised.value.key == "input.rain"
+    with pytest.raises(signorini.SceneError, match="finite"):
+        one(rain=float("nan"))
+    with pytest.raises(TypeError, match="rain, river"):
+        one(snow=1)
+    assert one(rain=2, river=0.2) == other(rain=2, river=0.2)
+    one.reset()
+    assert one() == signorini.Controller(scenes / "levee.toml")()
+
+
+def test_threads_share_a_controller(scenes):
+    controller = signorini.Controller(scenes / "levee.toml")
+    expected = {rain: round(controller(rain=rain)["seepage"], 9) for rain in range(5)}
+    wrong = []
+
+    def ask(rain):
+        for _ in range(20):
+            if round(controller(rain=rain)["seepage"], 9) != expected[rain]:
+                wrong.append(rain)
+
+    threads = [threading.Thread(target=ask, args=(rain,)) for rain in range(5)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
