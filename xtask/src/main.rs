@@ -21,6 +21,7 @@ mod no_std;
 mod oldest;
 mod osqp;
 mod peers;
+mod python;
 mod ranks;
 mod record;
 mod replay;
@@ -33,6 +34,7 @@ mod snapshot;
 mod steps;
 mod symbols;
 mod test;
+mod venv;
 mod wide;
 
 use std::process::ExitCode;
@@ -58,7 +60,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 18] = [
+const VERBS: [Verb; 19] = [
     Verb {
         name: "test",
         about: "everything: formatting, clippy, tests, and all that follows",
@@ -83,6 +85,11 @@ const VERBS: [Verb; 18] = [
         name: "results",
         about: "meshio and PyVista read the files of a solve and of ticks (Python, from its registry)",
         work: Work::Steps(results::run),
+    },
+    Verb {
+        name: "python",
+        about: "the Python module: built by pip in a fresh environment, tested beside the command line",
+        work: Work::Steps(python::run),
     },
     Verb {
         name: "setup",

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::steps::Steps;
+use crate::venv;
 use signorini_image::cargo::{cargo, root, run as run_command, target_dir};
 use signorini_image::toolchain::output;
-use signorini_image::tools::install_packages;
 
 const REQUIREMENTS: &str = "tests/python/requirements.txt";
 const READER: &str = "tests/python/read_back.py";
@@ -17,7 +17,7 @@ const TICKED: &str = "meshes/catalogue/moving-tri.toml";
 /// The step.
 pub fn run(steps: &mut Steps) {
     steps.check("meshio and PyVista read the results", || {
-        let python = ensure()?;
+        let python = venv::with("environment", &["-r", REQUIREMENTS], &[])?;
         // As the tests before have built it.
         let mut build = cargo(&["test", "--quiet", "--workspace", "--locked", "--no-run"]);
         build.env("CARGO_TARGET_DIR", target_dir(""));
@@ -38,32 +38,4 @@ fn signorini(arguments: &[&str], out: &Path) -> Result<(), String> {
     let mut command = Command::new(target_dir("").join("debug/signorini"));
     command.args(arguments).arg("--out").arg(out).current_dir(root());
     output(&mut command).map(drop)
-}
-
-/// A Python with what is required, made just now where need be and possible.
-fn ensure() -> Result<std::path::PathBuf, String> {
-    let folder = target_dir("python").join("environment");
-    let python = folder.join("bin/python");
-    if !python.exists() {
-        let make = || output(Command::new("python3").args(["-m", "venv"]).arg(&folder)).map(drop);
-        if let Err(why) = make() {
-            // What a failed attempt has left has a Python and no pip.
-            let _ = std::fs::remove_dir_all(&folder);
-            install_packages(&["python3-venv"]).map_err(|remedy| format!("{why}; {remedy}"))?;
-            make()?;
-        }
-    }
-    let mut pip = Command::new(&python);
-    pip.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-        "-r",
-        REQUIREMENTS,
-    ]);
-    pip.current_dir(root());
-    output(&mut pip)?;
-    Ok(python)
 }

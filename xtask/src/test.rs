@@ -3,8 +3,8 @@
 use crate::counted::counted_by;
 use crate::steps::{Steps, Tally};
 use crate::{
-    audit, boards, c, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, ranks,
-    results, sanitize, seen, size,
+    audit, boards, c, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, python,
+    ranks, results, sanitize, seen, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
 
@@ -40,6 +40,7 @@ pub fn run(steps: &mut Steps) {
         run_cargo(doc)
     });
     results::run(steps);
+    python::run(steps);
     oldest::run(steps);
     no_std::run(steps);
     sanitize::run(steps);

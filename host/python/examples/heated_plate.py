@@ -76,7 +76,7 @@ scene = {
 result = signorini.solve(scene, mesh)
 power = result.outputs["power"]
 print(result)
-print(f"power {power.center:.1f} ± {power.plus_minus:.1f} W/m, guaranteed")
+print(f"power {power.center:.1f} ± {power.plus_minus:.2g} W/m, guaranteed")
 
 # %% [markdown]
 # ## As exact as asked for
@@ -85,7 +85,7 @@ print(f"power {power.center:.1f} ± {power.plus_minus:.1f} W/m, guaranteed")
 finer = signorini.solve(scene, mesh, max_error="2%")
 power = finer.outputs["power"]
 print(finer)
-print(f"power {power.center:.2f} ± {power.plus_minus:.2f} W/m, guaranteed")
+print(f"power {power.center:.2f} ± {power.plus_minus:.2g} W/m, guaranteed")
 assert finer.relative_bound < 0.02 and power.plus_minus < result.outputs["power"].plus_minus
 
 # %% [markdown]

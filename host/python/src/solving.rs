@@ -173,7 +173,8 @@ fn dictionary<'py>(
     all.set("relative_bound", solution.relative_bound(energy_norm))?;
     all.set("converged", solution.converged())?;
     all.set("summary", told.summary)?;
-    let flux = solution.flux.iter().zip(problem.lengths.iter()).map(|(flux, length)| flux / length + 0.0);
+    let flux =
+        solution.flux.iter().zip(problem.lengths.iter()).map(|(flux, length)| flux / length + 0.0);
     all.numbers("flux", flux.collect())?;
     all.numbers("u", solution.u)?;
     all.numbers("vertex_u", solution.certified.vertices)?;

@@ -1,0 +1,39 @@
+//! `cargo xtask python`: the module `signorini` is built by pip in a fresh environment, and its tests run there beside the command line.
+
+use std::process::Command;
+
+use crate::steps::Steps;
+use crate::venv;
+use signorini_image::cargo::{cargo, root, run as run_command, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
+
+/// What the library of Gmsh asks of a system.
+const OF_GMSH: [&str; 6] =
+    ["libglu1-mesa", "libxrender1", "libxcursor1", "libxft2", "libxinerama1", "libgl1"];
+
+/// The folder of the environment: removed first, so that nothing of an earlier build is left.
+const ENVIRONMENT: &str = "module-environment";
+
+/// The steps.
+pub fn run(steps: &mut Steps) {
+    steps.check("formatting, host/python", || {
+        run_command(cargo(&["fmt", "--manifest-path", "host/python/Cargo.toml", "--check"]))
+    });
+    steps.check("pip builds the module signorini, and its tests pass", || {
+        let _ = std::fs::remove_dir_all(target_dir("python").join(ENVIRONMENT));
+        let target = ("CARGO_TARGET_DIR", target_dir("python").join("module"));
+        let python = venv::with(ENVIRONMENT, &["./host/python[test]"], &[target])?;
+        if output(Command::new(&python).args(["-c", "import gmsh"])).is_err() {
+            install_packages(&OF_GMSH)?;
+        }
+        // As the tests before have built it.
+        let mut build = cargo(&["test", "--quiet", "--workspace", "--locked", "--no-run"]);
+        build.env("CARGO_TARGET_DIR", target_dir(""));
+        run_command(build)?;
+        let mut tests = Command::new(&python);
+        tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "host/python/tests"]);
+        tests.env("SIGNORINI", target_dir("").join("debug/signorini")).current_dir(root());
+        run_command(tests)
+    });
+}

@@ -1,0 +1,32 @@
+//! Environments of Python, each in a folder below `target/python`.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use signorini_image::cargo::{root, target_dir};
+use signorini_image::toolchain::output;
+use signorini_image::tools::install_packages;
+
+/// The Python of the environment `name`, made just now where need be and possible, after `pip install` with these words; `variables` are
+/// for what pip runs.
+///
+/// # Errors
+/// No Python, or a package that pip does not find or cannot build.
+pub fn with(name: &str, words: &[&str], variables: &[(&str, PathBuf)]) -> Result<PathBuf, String> {
+    let folder = target_dir("python").join(name);
+    let python = folder.join("bin/python");
+    if !python.exists() {
+        let make = || output(Command::new("python3").args(["-m", "venv"]).arg(&folder)).map(drop);
+        if let Err(why) = make() {
+            // What a failed attempt has left has a Python and no pip.
+            let _ = std::fs::remove_dir_all(&folder);
+            install_packages(&["python3-venv"]).map_err(|remedy| format!("{why}; {remedy}"))?;
+            make()?;
+        }
+    }
+    let mut pip = Command::new(&python);
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(words);
+    pip.envs(variables.iter().map(|(name, value)| (name, value))).current_dir(root());
+    output(&mut pip)?;
+    Ok(python)
+}
