@@ -303,3 +303,31 @@ fn the_dense_problem_is_a_c_header() {
     assert!((0..64).all(|i| numbers[65 * i] == 1.0), "a unit diagonal");
     assert!((0..64 * 64).all(|at| numbers[at] == numbers[at % 64 * 64 + at / 64]), "symmetric");
 }
+
+/// What a module prints for a Cargo.toml builds as it stands, in a package anywhere.
+#[test]
+fn the_dependency_line_builds_as_printed() {
+    let (status, _, _, source) = bake("scenes/levee.toml", &[], &[]);
+    assert_eq!(status, 0);
+    let source = source.expect("a module");
+    let line = source.lines().find_map(|line| line.strip_prefix("//! signorini-kernel = "));
+    let line = line.expect("a dependency line");
+    let package = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = package.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, text).expect("a file");
+    };
+    let head = "[package]\nname = \"firmware\"\nedition = \"2024\"\n\n[dependencies]\n";
+    write("Cargo.toml", &format!("{head}signorini-kernel = {line}\n"));
+    write("src/levee.rs", &source);
+    write("src/main.rs", "mod levee;\nfn main() {\n    let _ = levee::Controller::new();\n}\n");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dependency-line");
+    let checked = Command::new(env!("CARGO"))
+        .args(["check", "--quiet", "--offline", "--target-dir"])
+        .arg(target)
+        .current_dir(package.path())
+        .output()
+        .expect("cargo");
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+}

@@ -1,5 +1,7 @@
 #![no_std]
 #![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+// Pages of a lean build name what it leaves out.
+#![cfg_attr(not(feature = "workspace"), allow(rustdoc::broken_intra_doc_links))]
 // `!(a < b)` is meant: it is true where a or b is NaN.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 //! # Signorini, the kernel

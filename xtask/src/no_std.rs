@@ -52,6 +52,15 @@ pub fn run(steps: &mut Steps) {
             },
         )
     });
+    steps.check("the kernel as a package, and its pages without a warning", || {
+        let package = ["package", "--package", "signorini-kernel", "--allow-dirty", "--locked"];
+        run_cargo(cargo(&package))?;
+        [&["--all-features"][..], &["--no-default-features"], &[]].iter().try_for_each(|features| {
+            let mut doc = cargo(&["doc", "--package", "signorini-kernel", "--no-deps", "--locked"]);
+            doc.args(*features).env("RUSTDOCFLAGS", "-D warnings");
+            run_cargo(doc)
+        })
+    });
     steps.check("a kernel with std is caught", || refused("broken-std", "panic_impl"));
     steps.check("a kernel with alloc is caught", || {
         refused("broken-alloc", "no global memory allocator")

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::item::{Item, braced, from_array, items, names, structure, to_array};
 use super::text::{code, prose};
+use signorini_image::checkout;
 use signorini_scene::scene::{Field, Input, Output, Quantity};
 use signorini_solve::functional::wanted;
 use signorini_solve::inputs;
@@ -147,10 +148,7 @@ impl ModuleApi {
             format!("Written by `signorini bake` {}; do not edit.", env!("CARGO_PKG_VERSION")),
             String::new(),
             "```toml".to_owned(),
-            format!(
-                "signorini-kernel = {{ default-features = false, features = [{}] }}",
-                features.join(", ")
-            ),
+            dependency(&features),
             "```".to_owned(),
             format!("Kernel features: {}.", features_or_none(about.features)),
             String::new(),
@@ -307,6 +305,18 @@ fn meaning(output: &Output) -> String {
             "Bound on the error in the energy norm; infinite where there is none.".to_owned()
         }
     }
+}
+
+/// The line of a Cargo.toml. The kernel is on no registry: it is found where the checkout stands that has baked this.
+fn dependency(features: &[String]) -> String {
+    let (place, remark) = match checkout::find() {
+        Ok(root) => (root.join("kernel").display().to_string(), "the checkout that has baked this"),
+        Err(_) => ("kernel".to_owned(), "the folder kernel of a checkout of signorini"),
+    };
+    let features = features.join(", ");
+    format!(
+        "signorini-kernel = {{ path = {place:?}, default-features = false, features = [{features}] }} # {remark}"
+    )
 }
 
 /// The features by name.
