@@ -127,7 +127,7 @@ impl State {
         } else if seal != SEALED {
             Refusal::UnsealedState
         // SAFETY: the caller's.
-        } else if checksum ^ culprit == unsafe { sum(this) } {
+        } else if checksum ^ culprit != unsafe { sum(this) } {
             Refusal::DamagedState
         } else {
             Refusal::Ok

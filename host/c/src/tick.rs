@@ -24,7 +24,6 @@ pub unsafe extern "C" fn tick(
     };
     let (controller, seal) = state.open();
     let answer = answered(controller, inputs);
-    let _ = state.seal();
     // SAFETY: the caller's.
     unsafe { told(state, seal, answer, outputs, report) }
 }
