@@ -26,7 +26,7 @@ pub struct State {
 }
 
 // C sees an array of `uint64_t`.
-const _: () = assert!(align_of::<State>() == 8 && size_of::<State>() % 8 == 0);
+const _: () = assert!(align_of::<State>() == 8 && size_of::<State>().is_multiple_of(8));
 
 /// Bytes as they may stand in memory by chance are hardly these.
 const SEALED: u64 = 0x5ea1_ed00_c0de_57a7;
