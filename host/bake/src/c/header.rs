@@ -310,7 +310,8 @@ typedef struct name_deadline {
 } name_deadline;
 
 /* The same with limits and until a deadline; null is: the library's own limits, no deadline. Whatever ends the tick, the answer
- * is feasible and the report says how wrong it can be. */
+ * is feasible and the report says how wrong it can be. It has code and constants of its own: a program that calls this tick alone,
+ * or the other alone, has them in flash once. */
 name_error name_tick_within(name_state *state, const name_inputs *inputs, const name_limits *limits,
                             const name_deadline *deadline, name_outputs *outputs, name_report *report);
 
