@@ -29,7 +29,7 @@ pub fn run(mut command: Command) -> Result<(), String> {
     verdict(status)
 }
 
-/// Runs `command` with its output out of sight; an error ends with what it said last.
+/// Runs `command` with its output out of sight; an error ends with the first error that it told, or else with what it said last.
 ///
 /// # Errors
 /// It does not start, or fails.
@@ -37,8 +37,10 @@ pub fn run_quietly(mut command: Command) -> Result<(), String> {
     let ran = command.stdin(Stdio::null()).output();
     let ran = ran.map_err(|error| not_started(&command, &error))?;
     let said = String::from_utf8_lossy(&ran.stderr);
-    let last = said.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or_default();
-    verdict(ran.status).map_err(|status| format!("{status}: {last}"))
+    let mut lines = said.lines().map(str::trim).filter(|line| !line.is_empty());
+    let first = lines.clone().find(|line| line.starts_with("error"));
+    let why = first.or_else(|| lines.next_back()).unwrap_or_default();
+    verdict(ran.status).map_err(|status| format!("{status}: {why}"))
 }
 
 /// Runs `command` with its output in sight, and hands each line of its standard output on.

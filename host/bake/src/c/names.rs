@@ -16,12 +16,13 @@ pub fn field(identifier: &str) -> String {
     if WORDS.contains(&identifier) { format!("{identifier}_") } else { identifier.to_owned() }
 }
 
-/// The headers of C, and of the systems that most C libraries are for.
-const HEADERS: [&str; 35] = [
+/// The headers of C, and of the systems that most C libraries are for; and what begins the macros of one.
+const HEADERS: [&str; 36] = [
     "assert",
     "complex",
     "ctype",
     "errno",
+    "fe",
     "fenv",
     "float",
     "inttypes",
