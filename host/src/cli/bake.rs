@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::bake_c;
 use super::posed::promised_problem_of;
@@ -70,11 +70,12 @@ In the firmware:
 /// Arguments of `bake`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group = ArgGroup::new("what").required(true).multiple(true).args(["output", "c"]))]
 pub struct Arguments {
     /// The scene file (TOML)
     scene: PathBuf,
     /// The Rust file to write
-    #[arg(short, long, value_name = "FILE", required_unless_present = "c")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The folder for the controller in C: NAME.h, libNAME.a, NAMEConfig.cmake and an example
     #[arg(long, value_name = "DIR")]

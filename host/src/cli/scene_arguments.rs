@@ -40,7 +40,7 @@ impl SceneArguments {
     pub fn out(&self) -> Result<PathBuf> {
         let default = || Path::new("out").join(self.scene.file_stem().unwrap_or_default());
         let out = self.out.clone().unwrap_or_else(default);
-        writable(&out)?;
+        writable("--out", &out)?;
         Ok(out)
     }
 }
@@ -49,9 +49,9 @@ impl SceneArguments {
 ///
 /// # Errors
 /// Such a place.
-pub(super) fn writable(out: &Path) -> Result<()> {
+pub(super) fn writable(option: &str, out: &Path) -> Result<()> {
     if out.ancestors().find(|path| path.exists()).is_some_and(|path| !path.is_dir()) {
-        let message = format!("--out {}: is a file, expected a directory", out.display());
+        let message = format!("{option} {}: is a file, expected a directory", out.display());
         let hint = "name a directory, or one that does not exist yet";
         return Err(InputError::new(message).hint(hint).into());
     }

@@ -43,14 +43,14 @@ impl Header<'_> {
         let Chosen { model, scalar, ram_bytes, flash_bytes, .. } = self.chosen;
         let about = format!(
             "The {model} model in {scalar}, built for {}. From {}, scene hash {:016x}. Written by signorini bake {}; do not edit. \
-             As told before it was built: {flash_bytes} bytes of flash, {ram_bytes} bytes of RAM with the stack of a tick.",
+             Estimated: {flash_bytes} bytes of flash, {ram_bytes} bytes of RAM with the stack of a tick.",
             self.on.word,
             as_is(self.api.file()),
             self.api.hash(),
             env!("CARGO_PKG_VERSION"),
         );
         let title = as_is(self.api.title());
-        let paragraphs = [title.as_str(), &about, UNITS, USE];
+        let paragraphs = [title.as_str(), &about, UNITS, SYMBOLS, USE];
         format!(
             "/*\n{}\n */\n#ifndef NAME_H\n#define NAME_H\n\n#include <stddef.h>\n#include <stdint.h>\n\n",
             paragraphs.map(|text| wrapped(text, " * ")).join("\n *\n")
@@ -68,7 +68,7 @@ impl Header<'_> {
             _ => "0",
         };
         let flags = match self.on.flags {
-            [] => "the machine that baked it".to_owned(),
+            [] => format!("this kind of machine, {}", std::env::consts::ARCH),
             flags => flags.join(" "),
         };
         format!(
@@ -224,6 +224,10 @@ fn wrapped(text: &str, margin: &str) -> String {
 
 const WIDTH: usize = 110;
 
+const SYMBOLS: &str = "On contact edges u is at least the gap ψ and the flux σ·n is at least q; one of both holds as an equation. Where the flux \
+                       has a limit u may fall below ψ. The error bound is in the energy norm, in which the errors of u and σ are \
+                       weighed together; plus_minus is in the unit of each output.";
+
 const USE: &str = "Memory is the caller's: one name_state for each controller of this kind that runs, however many. Nothing is \
                    allocated, nothing is static, and no function blocks. Calls with different states may run at the same time; \
                    two calls with one state may not, so that an interrupt must not tick a state in the middle of its tick.";
@@ -261,7 +265,7 @@ typedef struct name_report {
     uint32_t pulled;
     /* The error in the energy norm is at most this. */
     name_scalar bound;
-    /* Parts of it: the duality gap, what more sweeps would remove, data between the points, rounding. */
+    /* Parts of it: the duality gap (no gap of the scene), what more sweeps would remove, data between the points, rounding. */
     name_scalar gap;
     name_scalar algebraic;
     name_scalar oscillation;
@@ -276,8 +280,10 @@ const PLUS_MINUS: &str = "    /* How far each output may be from its value for t
 ";
 
 const STATE: &str = "
-/* The memory of one controller. It holds no address: it may be copied, kept over a reset, put elsewhere, or written to a file.
- * To keep one: name_seal_state, then take its bytes. To go on with it: put the bytes back, name_check_state, tick. */
+/* The memory of one controller. It depends on no address: it may be copied, kept over a reset, put elsewhere, or written to a file.
+ * Bytes between its fields may be any, so that two states that are alike may differ in them.
+ * To keep one: name_seal_state, then take its bytes. To go on with it: put the bytes back, name_check_state, tick.
+ * A tick trusts its state. Where memory may have been damaged, check first: a tick on damaged bytes may read anywhere. */
 ";
 
 const FUNCTIONS: &str = "
@@ -286,7 +292,8 @@ name_error name_init(name_state *state);
 
 /* Answers for these inputs, from where the last tick ended. `outputs` and `report` may be null. Where a tick is refused neither
  * changes and the next one begins where the last answer did; name_culprit tells which input it was for. A state that is refused
- * an input stays sealed. */
+ * an input stays sealed. NAME_OK says that there is an
+ * answer; how good it is, say `status` and `bounded` of the report. */
 name_error name_tick(name_state *state, const name_inputs *inputs, name_outputs *outputs, name_report *report);
 
 /* When a tick ends, where it has sweeps: the exact method of a condensed model needs no limits. */
@@ -301,7 +308,7 @@ typedef struct name_limits {
 
 /* Time left, in a unit of the caller's. A step is begun only while there is time for it and a certificate after it. */
 typedef struct name_deadline {
-    /* Time left now; called with `context`. */
+    /* Time left now; called with `context`. Null: there is no deadline. */
     uint32_t (*remaining)(void *context);
     void *context;
     /* Most that a sweep or an exchange takes, and most that the certificate takes. */
@@ -328,7 +335,8 @@ name_error name_check_state(const name_state *state);
 /* The number of what the last refused tick was refused for, as the error says; inputs count from 0 in the order of their struct. */
 uint32_t name_culprit(const name_state *state);
 
-/* Moves inputs to the nearest values within their ranges, for a caller who wants no refusal. */
+/* Moves inputs to the nearest values within their ranges, for a caller who wants no refusal. What is not a number
+ * stays so, and is refused. */
 void name_clamp(name_inputs *inputs);
 
 /* The words behind NAME_ above. */

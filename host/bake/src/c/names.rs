@@ -7,7 +7,7 @@ use signorini_solve::problem::Problem;
 pub fn name_of(problem: &Problem) -> String {
     let stem = problem.scene.file().file_stem().unwrap_or_default().to_string_lossy();
     let name = identifiers(std::iter::once(stem.as_ref())).pop().unwrap_or_default();
-    // A header of this name would stand in the way of the library's own.
+    // A header or a library of this name would stand in the way of another one.
     if HEADERS.contains(&name.as_str()) { format!("{name}_scene") } else { name }
 }
 
@@ -16,20 +16,34 @@ pub fn field(identifier: &str) -> String {
     if WORDS.contains(&identifier) { format!("{identifier}_") } else { identifier.to_owned() }
 }
 
-/// The headers of C, and of the systems that most C libraries are for; and what begins the macros of one.
-const HEADERS: [&str; 36] = [
+/// The headers and libraries of C and of the systems that most are for, what begins the macros of one, and the header of the example.
+const HEADERS: [&str; 46] = [
+    "alloca",
     "assert",
+    "board",
+    "c",
     "complex",
     "ctype",
+    "dl",
     "errno",
     "fe",
     "fenv",
     "float",
+    "g",
+    "gcc",
     "inttypes",
     "iso646",
     "limits",
     "locale",
+    "m",
+    "malloc",
     "math",
+    "memory",
+    "new",
+    "nosys",
+    "pthread",
+    "rdimon",
+    "rt",
     "setjmp",
     "signal",
     "stdalign",
@@ -47,13 +61,9 @@ const HEADERS: [&str; 36] = [
     "threads",
     "time",
     "uchar",
+    "unistd",
     "wchar",
     "wctype",
-    "memory",
-    "new",
-    "unistd",
-    "alloca",
-    "malloc",
 ];
 
 /// Words of C and C++ that are no words of Rust, and macros of compilers and of C's own headers.
