@@ -94,11 +94,16 @@ impl GivenScene {
             scene.mesh.value = file;
         }
         for (name, value) in &self.inputs {
-            scene.set_input(&format!("{name}={value}"))?;
+            let at = scene.input_number(name)?;
+            scene.check_input(at, *value)?;
+            scene.inputs[at].default = *value;
         }
         let (mesh, origins) = match self.arrays {
             None => (None, Vec::new()),
-            Some(Arrays32(arrays)) => arrays.mesh().map(|(mesh, origins)| (Some(mesh), origins))?,
+            Some(Arrays32(arrays)) => {
+                scene.mesh.value = "the mesh that was given".into();
+                arrays.mesh().map(|(mesh, origins)| (Some(mesh), origins))?
+            }
         };
         Ok(PosedScene { scene, mesh, origins })
     }

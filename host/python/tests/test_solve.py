@@ -122,9 +122,12 @@ def test_surfaces_have_materials():
 def test_an_error_that_is_asked_for(scenes):
     result = signorini.solve(scenes / "levee.toml", max_error="8%")
     assert result.converged and result.relative_bound < 0.08
-    limited = signorini.solve(scenes / "levee.toml", max_error="1%", max_unknowns=4000)
-    assert limited.summary["unknowns"] <= 4000
-    assert any("more than the 4000" in warning for warning in limited.summary["warnings"])
+    with pytest.warns(signorini.SolveWarning, match="more than the 4000"):
+        limited = signorini.solve(scenes / "levee.toml", max_error="1%", max_unknowns=4000)
+    assert limited.summary["unknowns"] <= 4000 and limited.warnings
+    with pytest.warns(signorini.SolveWarning, match="out-of-sweeps"):
+        cut = signorini.solve(scenes / "levee.toml", max_sweeps=3)
+    assert not cut.converged and "not converged: out-of-sweeps" in repr(cut)
 
 
 def test_arrays_are_not_copies():
@@ -152,6 +155,9 @@ def test_a_wrong_file_names_file_line_key_and_hint(tmp_path, scenes):
     "scene, mesh, said",
     [
         ({**BAR, "boundary": {"cold": {"kind": "dirichlet", "value": "1+"}}}, None, "boundary.cold.value"),
+        ({**BAR, "boundary": {"cold": {"kind": None}}}, None, "boundary.cold.kind: None"),
+        (BAR, (SQUARE, {"quad": [[0, 1, 2, 3]]}, {**CURVES, "hot": np.empty((0, 2), int)}), "`hot` has no edge"),
+        ({**BAR, "boundary": {**BAR["boundary"], "hot": {"kind": "contact", "gap": 1}}}, None, "the mesh that was given"),
         (BAR, (SQUARE, {"quad": [[0, 1, 2, 7]]}, CURVES), "quad 0 has the vertex 7"),
         (BAR, (SQUARE, {"quad": [[0, 1, 3, 2]]}, CURVES), "quad 0 crosses itself"),
         (BAR, (SQUARE, {"quad": [[0, 1, 2, 3]]}, {"cold": [[0, 2]]}), "curve `cold`: no cell has the edge"),
@@ -184,7 +190,23 @@ def test_a_missing_file_is_named():
         signorini.solve("nowhere.toml")
 
 
+def test_sets_of_meshio_are_boundaries():
+    cells = [("quad", [[0, 1, 2, 3]]), ("line", [[3, 0], [1, 2]])]
+    sets = {"cold": [[], [0]], "heater": [[], [1]], "plate": [[0], []]}
+    sets = {name: [np.array(of, dtype=int) for of in members] for name, members in sets.items()}
+    mesh = meshio.Mesh(SQUARE.astype(float), cells, cell_sets=sets)
+    assert signorini.solve(BAR, mesh).summary["contact_force"] == pytest.approx(6)
+    with pytest.raises(ValueError, match="triangle6"):
+        signorini.solve(BAR, meshio.Mesh(np.zeros((6, 2)), [("triangle6", [[0, 1, 2, 3, 4, 5]])]))
+
+
 def test_words_of_how_to_solve(scenes):
+    for wrong in ({"tolerance": -1}, {"tolerance": float("nan")}, {"max_sweeps": -1}, {"max_unknowns": 0}):
+        with pytest.raises(ValueError, match=next(iter(wrong))):
+            signorini.solve(scenes / "levee.toml", **wrong)
+    with pytest.raises(signorini.SceneError, match="input.rain") as raised:
+        signorini.solve(scenes / "levee.toml", inputs={"rain": 50})
+    assert raised.value.key == "input.rain" and "--input" not in str(raised.value)
     with pytest.raises(ValueError, match="auto, kernel or direct"):
         signorini.solve(scenes / "levee.toml", solver="fast")
     with pytest.raises(ValueError, match="max_error"):

@@ -12,7 +12,7 @@ Rust, and `Controller` is that firmware on this machine, with the same bits. Wro
 
 from ._native import SceneError
 from .baking import Baked, Controller, ControllerAnswer, bake
-from .results import Output, Result
+from .results import Output, Result, SolveWarning
 from .solving import solve
 from .ticking import Ticks, tick
 
@@ -23,6 +23,7 @@ __all__ = [
     "Output",
     "Result",
     "SceneError",
+    "SolveWarning",
     "Ticks",
     "bake",
     "solve",

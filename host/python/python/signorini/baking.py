@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
@@ -16,7 +16,7 @@ from .scenes import Mesh, Scene, given
 class Baked:
     """A scene as a module of firmware."""
 
-    source: str
+    source: str = field(repr=False)
     """Its Rust source."""
     chosen: Dict[str, Any]
     """What was chosen: model, scalar, features of the kernel, bytes, instructions, ranges, worst case."""

@@ -18,8 +18,11 @@ STATES = {1: ("open", "#1f77b4"), 0: ("touching", "#d62728"), -1: ("at its limit
 
 def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
     """u over the mesh: continuous where there is a bound, else one value a cell; contact edges in the colour of their state."""
-    import matplotlib.pyplot as plt
-    from matplotlib.collections import LineCollection
+    try:
+        import matplotlib.pyplot as plt
+        from matplotlib.collections import LineCollection
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError("plot needs matplotlib: pip install matplotlib") from error
 
     x, y = result.points.T
     is_wide = np.ptp(x) > np.ptp(y)

@@ -24,7 +24,11 @@ class Output:
     """Why there is no interval."""
 
 
-@dataclass(frozen=True)
+class SolveWarning(UserWarning):
+    """A solution is not what was asked for, or may not be what is meant."""
+
+
+@dataclass(frozen=True, eq=False)
 class Result:
     """A solution. Arrays take over the solver's memory."""
 
@@ -61,12 +65,15 @@ class Result:
     regions: np.ndarray
     """The name of each cell's material."""
     converged: bool
+    """Whether the solver came to its end."""
     outputs: Dict[str, Output] = field(default_factory=dict)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with the fields of `solution.vtu`."""
-        import meshio
-
+        try:
+            import meshio
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError("to_meshio needs meshio: pip install meshio") from error
         parts = [("triangle", self.triangles), ("quad", self.quads)]
         cells = [(kind, of) for kind, of in parts if len(of)]
         cut = len(self.triangles)
@@ -81,6 +88,11 @@ class Result:
         point_data = {"u_continuous": self.vertex_u} if len(self.vertex_u) else {}
         return meshio.Mesh(points, cells, point_data=point_data, cell_data=data)
 
+    @property
+    def warnings(self) -> List[str]:
+        """What may not be meant: a sentence each."""
+        return list(self.summary["warnings"])
+
     def plot(self, ax: Any = None, *, cmap: str = "viridis", contact: bool = True) -> Any:
         """u over the mesh, and contact edges by their state; returns matplotlib's axes."""
         from .plotting import plot
@@ -91,7 +103,8 @@ class Result:
         unknowns = self.summary["unknowns"]
         bound = "no bound" if self.bound is None else f"bound {self.bound:.3g}"
         part = "" if self.relative_bound is None else f" ({100 * self.relative_bound:.2g} %)"
-        return f"<signorini.Result: {unknowns} unknowns, {bound}{part}>"
+        ended = "" if self.converged else f", not converged: {self.summary['status']}"
+        return f"<signorini.Result: {unknowns} unknowns, {bound}{part}{ended}>"
 
 
 def outputs_of(summary: Mapping[str, Any]) -> Dict[str, Output]:

@@ -18,7 +18,7 @@ Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Mesh = Union[str, "os.PathLike[str]", Sequence[Any], Any]
 """A Gmsh file; (points, cells, curves) with an optional fourth entry, surfaces; or a `meshio.Mesh`.
 
-points: n × 2 (a third column must be 0). cells: {"triangle": n × 3, "quad": n × 4}, positions in points. curves: {name: n × 2}, the
+A mesh that is given wins over the one that the scene names. points: n × 2 (a third column must be 0). cells: {"triangle": n × 3, "quad": n × 4}, positions in points. curves: {name: n × 2}, the
 edges of each named boundary. surfaces: {name: numbers of cells, triangles first}.
 """
 
@@ -52,17 +52,28 @@ def given(scene: Scene, mesh: Optional[Mesh], inputs: Optional[Mapping[str, floa
     return GivenScene(place, tomli_w.dumps(tables), mesh_file, arrays, values)
 
 
-def plain(value: Any) -> Any:
-    """Numbers of numpy and paths as TOML has them."""
+def plain(value: Any, key: str = "") -> Any:
+    """Numbers of numpy and paths as TOML has them; `key` is where it stands."""
     if isinstance(value, Mapping):
-        return {str(key): plain(of) for key, of in value.items()}
-    if isinstance(value, np.generic):
-        return value.item()
+        inner = f"{key}." if key else ""
+        return {str(name): plain(of, f"{inner}{name}") for name, of in value.items()}
+    if isinstance(value, np.generic) or isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(of) for of in value]
+        return [plain(of, key) for of in value]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
+    if not isinstance(value, (str, bool, int, float)):
+        raise refused(key, f"{value!r} is no text, number or list")
     return value
+
+
+def refused(key: str, why: str) -> SceneError:
+    """The error of a key of a dictionary."""
+    error = SceneError(f"{key}: {why}")
+    error.message, error.file, error.line = str(error), None, None
+    error.key, error.hint = key, None
+    return error
 
 
 def mesh_arrays(mesh: Any) -> tuple:
@@ -114,6 +125,9 @@ def indices(of: Any, width: int, what: str) -> np.ndarray:
 
 def of_meshio(mesh: Any) -> tuple:
     """A `meshio.Mesh` with its physical groups, by name where it has names."""
+    unknown = set(mesh.cells_dict) - {"triangle", "quad", "line", "vertex"}
+    if unknown:
+        raise ValueError(f"mesh: cells of the kind {sorted(unknown)}, expected triangle and quad, line and vertex")
     triangles = mesh.cells_dict.get("triangle", np.zeros((0, 3), dtype=int))
     quads = mesh.cells_dict.get("quad", np.zeros((0, 4), dtype=int))
     names = {(int(dim), int(tag)): name for name, (tag, dim) in mesh.field_data.items()}
@@ -130,6 +144,15 @@ def of_meshio(mesh: Any) -> tuple:
         for tag in np.unique(of_cells)
         if tag != 0
     }
+    for name, of in mesh.cell_sets_dict.items():
+        # Gmsh's own sets of entities are not for scenes.
+        if name.startswith("gmsh:"):
+            continue
+        if "line" in of:
+            curves[name] = np.asarray(lines)[np.asarray(of["line"])]
+        inside = [np.asarray(of.get("triangle", []), dtype=int), len(triangles) + np.asarray(of.get("quad", []), dtype=int)]
+        if sum(map(len, inside)):
+            surfaces[name] = np.concatenate(inside)
     return mesh.points, {"triangle": triangles, "quad": quads}, curves, surfaces
 
 

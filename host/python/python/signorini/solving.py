@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _native
-from .results import Result, outputs_of
+from .results import Result, SolveWarning, outputs_of
 from .scenes import Mesh, Scene, given
 
 
@@ -54,6 +55,10 @@ def solve(
     ------
     SceneError : scene, mesh or inputs are wrong; it has file, line, key and hint.
 
+    Warns
+    -----
+    SolveWarning : the solver did not converge, an error that was asked for is not reached, or something may not be meant.
+
     Examples
     --------
     >>> import numpy as np
@@ -70,6 +75,9 @@ def solve(
     >>> round(signorini.solve(bar, mesh).summary["contact_force"], 9)
     6.0
     """
+    check("tolerance", tolerance, lambda of: of >= 0 and np.isfinite(of), "a number ≥ 0")
+    check("max_sweeps", max_sweeps, lambda of: 0 <= of < 2**32, "a count")
+    check("max_unknowns", max_unknowns, lambda of: of > 0, "a count above 0")
     if max_error is not None and not isinstance(max_error, str):
         max_error = repr(float(max_error))
     how = _How(scalar, solver, tolerance, max_sweeps, max_error, max_unknowns)
@@ -81,6 +89,10 @@ def solve(
     edges["boundary"] = boundaries[edges["boundary"]]
     contact = found["contact"]
     contact["boundary"] = edges["boundary"][contact["edge"]]
+    for sentence in summary["warnings"]:
+        warnings.warn(sentence, SolveWarning, stacklevel=2)
+    if not summary["converged"]:
+        warnings.warn(f"the solver has not converged: {summary['status']}", SolveWarning, stacklevel=2)
     return Result(
         u=found["u"],
         flux=found["flux"],
@@ -101,3 +113,9 @@ def solve(
         converged=found["converged"],
         outputs=outputs_of(summary),
     )
+
+
+def check(name: str, value: Any, is_right: Any, expected: str) -> None:
+    """Refuses a value."""
+    if value is not None and not is_right(value):
+        raise ValueError(f"{name} is {value!r}, expected {expected}")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native
 from .scenes import Mesh, Scene, given
@@ -49,7 +50,7 @@ def tick(
     mesh: Optional[Mesh] = None,
     *,
     ticks: Optional[int] = None,
-    times: Optional[Sequence[float]] = None,
+    times: Optional[ArrayLike] = None,
     inputs: Optional[Mapping[str, Any]] = None,
     log: Optional[Union[str, "os.PathLike[str]"]] = None,
     baked: bool = False,
@@ -70,22 +71,21 @@ def tick(
     """
     if sum(of is not None for of in (ticks, times, log)) > 1:
         raise ValueError("give one of ticks, times and log")
+    moments = None if times is None else [float(time) for time in np.asarray(times).ravel()]
     constant: Dict[str, float] = {}
     varying = []
     for name, values in (inputs or {}).items():
         if np.ndim(values) == 0:
             constant[name] = float(values)
-        elif times is None or len(values) != len(times):
+        elif moments is None or len(values) != len(moments):
             raise ValueError(f"inputs[{name!r}]: expected a number, or one for each of times")
         else:
             varying.append((str(name), [float(value) for value in values]))
-    if times is not None:
-        times = [float(time) for time in times]
-        if any(b <= a for a, b in zip(times, times[1:])):
-            raise ValueError("times: expected each to come after the one before")
+    if moments is not None and any(b <= a for a, b in zip(moments, moments[1:])):
+        raise ValueError("times: expected each to come after the one before")
     found = _native.tick(
         given(scene, mesh, constant),
-        _Ticks(ticks, None if log is None else os.fspath(log), times, varying, baked, budget_sweeps, intervals),
+        _Ticks(ticks, None if log is None else os.fspath(log), moments, varying, baked, budget_sweeps, intervals),
     )
     found["status"] = np.array(found["status"])
     return Ticks(**found)

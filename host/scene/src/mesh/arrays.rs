@@ -74,6 +74,15 @@ impl Arrays {
                 return Err(InputError::new(message).hint("vertices count from 0").into());
             }
         }
+        let lacking = self.curves.iter().map(|(name, of)| ("curve", name, "edge", of.is_empty()));
+        let of_surfaces =
+            self.surfaces.iter().map(|(name, of)| ("surface", name, "cell", of.is_empty()));
+        if let Some((kind, name, part, _)) = lacking.chain(of_surfaces).find(|of| of.3) {
+            let message = format!("{kind} `{name}` has no {part}");
+            return Err(InputError::new(message)
+                .hint("leave it out, or name what is in it")
+                .into());
+        }
         for (name, edges) in &self.curves {
             if let Some(vertex) = edges.iter().find_map(|edge| outside(edge)) {
                 let message = format!(
@@ -226,6 +235,8 @@ mod tests {
         assert_eq!(said, "curve `left`: no cell has the edge from vertex 1 to vertex 3");
         let said = refused(&|of| of.surfaces[0].1.push(2));
         assert_eq!(said, "surface `all` has the cell 2, and there are 2 cells");
+        let said = refused(&|of| of.curves[0].1.clear());
+        assert_eq!(said, "curve `left` has no edge");
         let said = refused(&|of| (of.triangles, of.quads) = Default::default());
         assert!(said.contains("no cell"), "{said}");
     }
