@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import textwrap
-from typing import Any
+from typing import Any, Dict, Mapping, Optional, Protocol, Tuple
 
 import numpy as np
-
-from .results import Result
 
 TITLE = 50
 """Letters of a line of the title."""
@@ -16,7 +14,21 @@ STATES = {1: ("open", "#1f77b4"), 0: ("touching", "#d62728"), -1: ("at its limit
 """The name and colour of each state of a contact edge."""
 
 
-def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
+class Drawn(Protocol):
+    """What a picture needs of a result."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+    quads: np.ndarray
+    vertex_u: np.ndarray
+    cell_u: np.ndarray
+    edges: Dict[str, np.ndarray]
+    contact: Dict[str, np.ndarray]
+    summary: Mapping[str, Any]
+    relative_bound: Optional[float]
+
+
+def plot(result: Drawn, ax: Any, *, cmap: str, contact: bool) -> Any:
     """u over the mesh: continuous where there is a bound, else one value a cell; contact edges in the colour of their state."""
     try:
         import matplotlib.pyplot as plt
@@ -51,7 +63,7 @@ def plot(result: Result, ax: Any, *, cmap: str, contact: bool) -> Any:
     return ax
 
 
-def split(result: Result) -> tuple[np.ndarray, np.ndarray]:
+def split(result: Drawn) -> Tuple[np.ndarray, np.ndarray]:
     """All cells as triangles, and the cell of each."""
     halves = [result.quads[:, [0, 1, 2]], result.quads[:, [0, 2, 3]]]
     count = len(result.triangles)
@@ -59,7 +71,7 @@ def split(result: Result) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([result.triangles, *halves]), np.concatenate([np.arange(count), quads, quads])
 
 
-def title(result: Result) -> str:
+def title(result: Drawn) -> str:
     """The scene's title, and how wrong the solution can be."""
     name = textwrap.fill(result.summary["title"], TITLE)
     if result.relative_bound is None:

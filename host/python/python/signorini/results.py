@@ -7,6 +7,8 @@ from typing import Any, Dict, List, Mapping, Optional
 
 import numpy as np
 
+from . import plotting
+
 
 @dataclass(frozen=True)
 class Output:
@@ -95,9 +97,7 @@ class Result:
 
     def plot(self, ax: Any = None, *, cmap: str = "viridis", contact: bool = True) -> Any:
         """u over the mesh, and contact edges by their state; returns matplotlib's axes."""
-        from .plotting import plot
-
-        return plot(self, ax, cmap=cmap, contact=contact)
+        return plotting.plot(self, ax, cmap=cmap, contact=contact)
 
     def __repr__(self) -> str:
         unknowns = self.summary["unknowns"]
