@@ -24,6 +24,7 @@ pub mod export;
 pub mod full;
 pub mod intervals;
 mod item;
+mod meanings;
 pub mod module_api;
 pub mod promise;
 pub mod range;

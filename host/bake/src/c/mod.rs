@@ -9,9 +9,11 @@
 //! [`signorini_kernel::device::codes`], sizes from the library that was built.
 
 mod cmake;
+mod comment;
 mod example;
 mod header;
 mod names;
+mod words;
 
 pub use names::name_of;
 
