@@ -12,6 +12,7 @@ use signorini_solve::solve::ScalarKind;
 
 use crate::error::raised;
 use crate::posed::GivenScene;
+use crate::words;
 use crate::work::work;
 
 /// The source of the module of a scene, and what was chosen as JSON.
@@ -23,16 +24,8 @@ pub fn bake(
     model: Option<String>,
 ) -> PyResult<(String, String)> {
     let is_file = scene.is_file();
-    let asked = match scalar.as_deref() {
-        Some("f32") => Some(ScalarKind::F32),
-        Some("f64") => Some(ScalarKind::F64),
-        _ => None,
-    };
-    let model = match model.as_deref() {
-        Some("full") => Some(ModelKind::Full),
-        Some("condensed") => Some(ModelKind::Condensed),
-        _ => None,
-    };
+    let asked = words::scalar(scalar.as_deref())?;
+    let model = words::model(model.as_deref())?;
     let found = work(py, move |_| {
         let posed = scene.read()?;
         let problem = posed.problem()?;

@@ -19,6 +19,7 @@ use signorini_solve::solve::ScalarKind;
 
 use crate::error::raised;
 use crate::posed::GivenScene;
+use crate::words;
 use crate::work::work;
 
 /// As large as that of a main thread: a controller may be.
@@ -56,11 +57,7 @@ impl Controller {
     #[new]
     fn new(py: Python<'_>, scene: GivenScene, scalar: Option<String>) -> PyResult<Self> {
         let is_file = scene.is_file();
-        let asked = match scalar.as_deref() {
-            Some("f32") => Some(ScalarKind::F32),
-            Some("f64") => Some(ScalarKind::F64),
-            _ => None,
-        };
+        let asked = words::scalar(scalar.as_deref())?;
         let (send, calls) = channel();
         let found = work(py, move |_| {
             let posed = scene.read()?;

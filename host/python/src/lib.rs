@@ -16,6 +16,7 @@ mod error;
 mod posed;
 mod solving;
 mod ticking;
+mod words;
 mod work;
 
 use pyo3::prelude::*;

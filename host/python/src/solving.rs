@@ -15,11 +15,12 @@ use signorini_solve::output::answer::Answer;
 use signorini_solve::output::contact::State;
 use signorini_solve::output::fields::Drawn;
 use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::solve::{FreeLevel, ScalarKind, Solution, SolverKind, free_levels};
+use signorini_solve::solve::{FreeLevel, Solution, free_levels};
 
 use crate::arrays::Filled;
 use crate::error::raised;
 use crate::posed::{GivenScene, PosedScene};
+use crate::words;
 use crate::work::{GivenUp, work};
 
 /// How to solve.
@@ -69,19 +70,8 @@ pub fn solve<'py>(
 
 impl How {
     fn asked(&self) -> PyResult<Asked> {
-        let scalar = match self.scalar.as_deref() {
-            None => None,
-            Some("f32") => Some(ScalarKind::F32),
-            Some("f64") => Some(ScalarKind::F64),
-            Some(other) => return Err(wrong("scalar", other, "f32 or f64")),
-        };
-        let solver = match self.solver.as_deref() {
-            None => None,
-            Some("auto") => Some(SolverKind::Auto),
-            Some("kernel") => Some(SolverKind::Kernel),
-            Some("direct") => Some(SolverKind::Direct),
-            Some(other) => return Err(wrong("solver", other, "auto, kernel or direct")),
-        };
+        let scalar = words::scalar(self.scalar.as_deref())?;
+        let solver = words::solver(self.solver.as_deref())?;
         let refined = self.max_error.is_some();
         Ok(Asked {
             scalar,
@@ -91,10 +81,6 @@ impl How {
             refined,
         })
     }
-}
-
-fn wrong(name: &str, found: &str, expected: &str) -> PyErr {
-    PyValueError::new_err(format!("{name} is {found:?}, expected {expected}"))
 }
 
 fn on_its_mesh(posed: &PosedScene, asked: &Asked) -> Result<Answer> {

@@ -8,8 +8,6 @@ use signorini_bake::tick::baked::replay;
 use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, log, play, schedule};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
-use signorini_scene::setting::Precision;
-use signorini_solve::solve::{Options, ScalarKind};
 
 use crate::arrays::Filled;
 use crate::error::raised;
@@ -39,7 +37,12 @@ pub fn tick<'py>(py: Python<'py>, scene: GivenScene, ticks: Ticks) -> PyResult<B
         let moments = ticks.moments(&posed.scene)?;
         let records = match ticks.baked {
             true => replay(&problem, &moments, None, |_, _| Ok(()))?.1,
-            false => play(&problem, None, &moments, &ticks.budget(&posed.scene), |_, _| Ok(()))?,
+            false => {
+                let own = Budget::of(&posed.scene);
+                let sweeps = ticks.budget_sweeps.unwrap_or(own.sweeps);
+                let budget = Budget { sweeps, intervals: ticks.intervals, ..own };
+                play(&problem, None, &moments, &budget, |_, _| Ok(()))?
+            }
         };
         let names = posed.scene.outputs.iter().map(|of| of.name.value.clone()).collect();
         Ok((records, names))
@@ -64,16 +67,6 @@ impl Ticks {
             }
         }
         Ok(moments)
-    }
-
-    fn budget(&self, scene: &Scene) -> Budget {
-        let single = scene.setting.and_then(|setting| setting.scalar) == Some(Precision::F32);
-        Budget {
-            scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
-            sweeps: self.budget_sweeps.unwrap_or(Options::default().max_sweeps),
-            error: 0.0,
-            intervals: self.intervals,
-        }
     }
 }
 

@@ -15,12 +15,11 @@ use signorini_draw::history;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Output, Quantity, Scene};
-use signorini_scene::setting::Precision;
 use signorini_solve::output::atomic::write_atomically;
 use signorini_solve::output::fields::{Drawn, picture as vtu};
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, steps, warn};
-use signorini_solve::solve::{Options, ScalarKind};
+use signorini_solve::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -102,9 +101,12 @@ impl Arguments {
             warn(&coarse.warnings);
         }
         let work = problem.topology.counts.unknowns() * moments.len();
+        let own = Budget::of(&scene);
         let budget = Budget {
+            scalar: self.scalar.unwrap_or(own.scalar),
+            sweeps: self.budget_sweeps.unwrap_or(own.sweeps),
+            error: self.error.unwrap_or(own.error),
             intervals: !self.no_intervals && work <= MOST_INTERVALS,
-            ..self.budget(&scene)
         };
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
@@ -147,17 +149,6 @@ impl Arguments {
         }
         without_interval(&scene, &ticks).iter().for_each(|line| say(format_args!("  {line}")));
         Ok(if ticks.iter().any(TickRecord::failed) { 3 } else { 0 })
-    }
-
-    fn budget(&self, scene: &Scene) -> Budget {
-        let single = scene.setting.and_then(|setting| setting.scalar) == Some(Precision::F32);
-        let own = if single { ScalarKind::F32 } else { ScalarKind::F64 };
-        Budget {
-            scalar: self.scalar.unwrap_or(own),
-            sweeps: self.budget_sweeps.unwrap_or(Options::default().max_sweeps),
-            error: self.error.unwrap_or(0.0),
-            intervals: false,
-        }
     }
 }
 

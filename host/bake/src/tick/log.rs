@@ -80,7 +80,7 @@ fn columns(reader: &mut Reader<std::fs::File>, path: &Path, scene: &Scene) -> Re
     }
     let mut columns: Vec<Column> = Vec::new();
     for name in header.iter().skip(1) {
-        let Some(input) = scene.inputs.iter().position(|input| input.name.value == name) else {
+        let Some(input) = scene.find_input(name) else {
             let message = format!("column `{name}`: no such input in the scene");
             return Err(error(message).hint(scene.known_inputs()).into());
         };

@@ -29,6 +29,7 @@ use player::{PlayedTick, Player};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_scene::setting::Precision;
 use signorini_solve::certify::ErrorBound;
 use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
@@ -138,6 +139,17 @@ pub struct Budget {
 }
 
 impl Budget {
+    /// That of a scene: in the scalar of its setting, as far as sweeps buy anything, with intervals.
+    pub fn of(scene: &Scene) -> Self {
+        let single = scene.setting.and_then(|setting| setting.scalar) == Some(Precision::F32);
+        Self {
+            scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
+            sweeps: Options::default().max_sweeps,
+            error: 0.0,
+            intervals: true,
+        }
+    }
+
     /// Whether nobody has asked for a number of sweeps.
     fn is_open(&self) -> bool {
         self.sweeps == Options::default().max_sweeps

@@ -38,16 +38,8 @@ def bake(
     scalar : "f32" or "f64" [the scene's setting, else f32].
     model : "full" or "condensed" [what is smaller and fits].
     """
-    known(scalar, "scalar", ("f32", "f64"))
-    known(model, "model", ("full", "condensed"))
     source, chosen = _native.bake(given(scene, mesh, None), scalar, model)
     return Baked(source, json.loads(chosen))
-
-
-def known(value: Optional[str], name: str, words: Tuple[str, ...]) -> None:
-    """Refuses other words."""
-    if value is not None and value not in words:
-        raise ValueError(f"{name} is {value!r}, expected {' or '.join(words)}")
 
 
 @dataclass(frozen=True)
@@ -89,7 +81,6 @@ class Controller:
         inputs: Optional[Mapping[str, float]] = None,
         scalar: Optional[str] = None,
     ) -> None:
-        known(scalar, "scalar", ("f32", "f64"))
         self._native = _native.Controller(given(scene, mesh, inputs), scalar)
         self.defaults: Dict[str, float] = {name: default for name, default, _ in self._native.inputs}
         """The inputs with the values of the scene."""

@@ -204,12 +204,16 @@ impl Scene {
     }
 
     /// The position of an input.
+    pub fn find_input(&self, name: &str) -> Option<usize> {
+        self.inputs.iter().position(|input| input.name.value == name)
+    }
+
+    /// The same of one that must be there.
     ///
     /// # Errors
     /// No input of this name.
     pub fn input_number(&self, name: &str) -> Result<usize> {
-        let found = self.inputs.iter().position(|input| input.name.value == name);
-        found.ok_or_else(|| {
+        self.find_input(name).ok_or_else(|| {
             let message = format!("no input `{name}` in the scene");
             InputError::new(message).file(self.file()).hint(self.known_inputs()).into()
         })
@@ -242,11 +246,8 @@ impl Scene {
         };
         let (name, value) =
             assignment.rsplit_once('=').ok_or_else(|| error("expected NAME=VALUE".to_owned()))?;
-        let input = self
-            .inputs
-            .iter_mut()
-            .find(|input| input.name.value == name)
-            .ok_or_else(|| error(format!("no input `{name}` in the scene")))?;
+        let found = self.find_input(name).and_then(|at| self.inputs.get_mut(at));
+        let input = found.ok_or_else(|| error(format!("no input `{name}` in the scene")))?;
         let value = value
             .parse()
             .ok()
