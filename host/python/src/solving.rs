@@ -15,7 +15,7 @@ use signorini_solve::output::answer::Answer;
 use signorini_solve::output::contact::State;
 use signorini_solve::output::fields::Drawn;
 use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::solve::{FreeLevel, Solution, free_levels};
+use signorini_solve::solve::Solution;
 
 use crate::arrays::Filled;
 use crate::error::raised;
@@ -88,7 +88,7 @@ fn on_its_mesh(posed: &PosedScene, asked: &Asked) -> Result<Answer> {
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let solution = asked.solve(&problem)?;
     let energy_norm = energy_norm::of_solution(&problem, &solution)?;
-    answered(problem, solution, energy_norm, asked, None)
+    Answer::new(problem, solution, energy_norm, asked.solver.unwrap_or_default(), None)
 }
 
 fn refined(
@@ -105,19 +105,7 @@ fn refined(
     let mut problem = level.problem;
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let why = stop.why(&level.solution);
-    answered(problem, level.solution, level.energy_norm, asked, why)
-}
-
-fn answered(
-    mut problem: Problem,
-    solution: Solution,
-    energy_norm: Option<f64>,
-    asked: &Asked,
-    why: Option<String>,
-) -> Result<Answer> {
-    let levels = free_levels(&problem, &solution)?;
-    problem.warnings.extend(levels.iter().map(FreeLevel::sentence).chain(why));
-    Answer::new(problem, solution, energy_norm, asked.solver.unwrap_or_default())
+    Answer::new(problem, level.solution, level.energy_norm, asked.solver.unwrap_or_default(), why)
 }
 
 /// What takes long to work out, and no interpreter.

@@ -13,7 +13,7 @@ use signorini_solve::output::digits::{percent_above, rounded, supported};
 use signorini_solve::output::stated::Stated;
 use signorini_solve::problem::Problem;
 use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{FreeLevel, Solution, SolverKind, free_levels};
+use signorini_solve::solve::{Solution, SolverKind};
 
 /// A solution and what is told of it.
 pub(super) struct Told {
@@ -23,21 +23,20 @@ pub(super) struct Told {
 }
 
 impl Told {
-    /// With warnings of what is seen in the solution alone.
+    /// With warnings of what is seen in the solution alone; those of the problem are told already.
     pub fn new(
-        mut problem: Problem,
+        problem: Problem,
         solution: Solution,
         energy_norm: Option<f64>,
         asked: SolverKind,
         stop: Option<Stop>,
     ) -> Result<Self> {
-        let levels = free_levels(&problem, &solution)?;
-        let mut warnings: Vec<_> = levels.iter().map(FreeLevel::sentence).collect();
-        warnings.extend(stop.as_ref().and_then(|stop| levels::why(stop, &solution)));
-        warn(&warnings);
-        problem.warnings.extend(warnings);
-        let answer = || Answer::new(problem, solution, energy_norm, asked);
-        Ok(Self { answer: waiting("intervals of outputs", answer)?, stop })
+        let (known, why) = (problem.warnings.len(), stop.as_ref());
+        let why = why.and_then(|stop| levels::why(stop, &solution));
+        let answer = || Answer::new(problem, solution, energy_norm, asked, why);
+        let answer = waiting("intervals of outputs", answer)?;
+        warn(&answer.problem.warnings[known..]);
+        Ok(Self { answer, stop })
     }
 
     /// Whether the solver came to its end.

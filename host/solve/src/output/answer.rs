@@ -13,7 +13,7 @@ use crate::intervals::{self, Found};
 use crate::norms::{Errors, of_solution};
 use crate::outputs::outputs;
 use crate::problem::Problem;
-use crate::solve::{Solution, SolverKind};
+use crate::solve::{FreeLevel, Solution, SolverKind, free_levels};
 use crate::threads::on_two_threads;
 use signorini_scene::error::Result;
 
@@ -37,16 +37,19 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Works out what follows from a solution.
+    /// Works out what follows from a solution; `more` is what there is to warn of beside what is seen in it.
     ///
     /// # Errors
     /// Data that are not finite where outputs or errors ask for them; a probe outside the mesh.
     pub fn new(
-        problem: Problem,
+        mut problem: Problem,
         solution: Solution,
         energy_norm: Option<f64>,
         asked: SolverKind,
+        more: Option<String>,
     ) -> Result<Self> {
+        let levels = free_levels(&problem, &solution)?;
+        problem.warnings.extend(levels.iter().map(FreeLevel::sentence).chain(more));
         let errors = of_solution(&problem, &solution)?;
         let outputs = outputs(&problem, &solution)?;
         let mut intervals = intervals::of_outputs(&problem, &solution);
