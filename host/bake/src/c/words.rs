@@ -116,9 +116,9 @@ uint32_t name_culprit(const name_state *state);
 void name_clamp(name_inputs *inputs);
 
 /* The words behind NAME_ above. */
-pub(super) const char *name_error_name(name_error error);
-pub(super) const char *name_status_name(name_status status);
-pub(super) const char *name_bounded_name(name_bounded bounded);
+const char *name_error_name(name_error error);
+const char *name_status_name(name_status status);
+const char *name_bounded_name(name_bounded bounded);
 ";
 
 pub(super) const INPUT_VALUES: &str = "

@@ -3,30 +3,28 @@
 use super::TickInterval;
 use super::player::PlayedTick;
 use signorini_scene::error::Result;
-use signorini_solve::intervals::{Answered, by_factor};
+use signorini_solve::intervals::{Answered, Lasting, of_next};
 use signorini_solve::problem::Problem;
-use signorini_solve::solve::{ScalarKind, SharedFactor};
+use signorini_solve::solve::ScalarKind;
 
 /// What stays from tick to tick.
 pub(super) struct Intervals {
     scalar: ScalarKind,
-    factor: Option<SharedFactor>,
+    lasting: Lasting,
 }
 
 impl Intervals {
     pub fn new(scalar: ScalarKind) -> Self {
-        Self { scalar, factor: None }
+        Self { scalar, lasting: Lasting::default() }
     }
 
     /// Those of the declared outputs, in their order.
     pub fn of(&mut self, problem: &Problem, answer: &PlayedTick) -> Result<Vec<TickInterval>> {
-        if self.factor.is_none() || problem.scene.transfer_input().is_some() {
-            self.factor = SharedFactor::of(problem)?;
-        }
+        self.lasting.renew(problem)?;
         let PlayedTick { certified, bound, .. } = answer;
         let bound = bound.filter(|bound| bound.total.is_finite());
         let answered = Answered { certified, bound, scalar: self.scalar };
-        let mut all = by_factor(problem, &answered, self.factor.as_ref());
+        let mut all = of_next(problem, &answered, &self.lasting);
         let names = problem.scene.outputs.iter().map(|output| &output.name.value);
         let found = names.filter_map(|name| all.remove(name));
         Ok(found.map(|found| found.map(|of| of.ends())).collect())

@@ -46,7 +46,7 @@ use interval::Known;
 pub use output_bound::{Found, OutputBound};
 use products::Residual;
 use signorini_scene::error::Result;
-use signorini_scene::scene::Output;
+use signorini_scene::scene::{Field, Input, Output};
 
 /// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
 pub const MOST_UNKNOWNS: usize = 200_000;
@@ -69,20 +69,47 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
 /// The same of any answer, whose numbers are near 1.
 pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found> {
     let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
-    let is_bounded = answer.bound.is_some() && is_small;
-    let factor = if is_bounded { SharedFactor::of(problem).ok().flatten() } else { None };
-    by_factor(problem, answer, factor.as_ref())
+    let mut lasting = Lasting::default();
+    if answer.bound.is_some() && is_small {
+        // Without a factor there is a reason instead of an interval.
+        let _ = lasting.renew(problem);
+    }
+    of_next(problem, answer, &lasting)
 }
 
-/// The same by the factor of its matrix. An answer stays one where data have no value at a point that is looked at here alone: that is
-/// the reason then.
-pub fn by_factor(
-    problem: &Problem,
-    answer: &Answered,
-    factor: Option<&SharedFactor>,
-) -> BTreeMap<String, Found> {
+/// What stays from answer to answer of one scene on one mesh.
+#[derive(Default)]
+pub struct Lasting {
+    /// The factor of its matrix.
+    factor: Option<SharedFactor>,
+    /// What is in doubt of the integrals of f.
+    source: Option<f64>,
+}
+
+impl Lasting {
+    /// Works out anew what is not that of `problem` any more.
+    ///
+    /// # Errors
+    /// A matrix without a factor.
+    pub fn renew(&mut self, problem: &Problem) -> Result<()> {
+        let scene = &problem.scene;
+        if self.factor.is_none() || scene.transfer_input().is_some() {
+            self.factor = SharedFactor::of(problem)?;
+        }
+        let is_source = |input: &Input| input.field.value == Field::Source;
+        let varies = scene.source.value.uses_time() || scene.inputs.iter().any(is_source);
+        if self.source.is_none() || varies {
+            self.source = values::doubt_of_source(problem).ok();
+        }
+        Ok(())
+    }
+}
+
+/// The same with what stays from answer to answer. An answer stays one where data have no value at a point that is looked at here alone:
+/// that is the reason then.
+pub fn of_next(problem: &Problem, answer: &Answered, lasting: &Lasting) -> BTreeMap<String, Found> {
     let all = wanted(&problem.scene);
-    let found = intervals(problem, answer, factor, &all);
+    let found = intervals(problem, answer, lasting, &all);
     let found = found.unwrap_or_else(|error| vec![Err(error.reason()); all.len()]);
     all.iter().map(|output| output.name.value.clone()).zip(found).collect()
 }
@@ -96,7 +123,7 @@ pub fn exact_value(problem: &Problem, output: &Output) -> Option<[f64; 2]> {
 fn intervals(
     problem: &Problem,
     answer: &Answered,
-    factor: Option<&SharedFactor>,
+    lasting: &Lasting,
     all: &[Output],
 ) -> Result<Vec<Found>> {
     let none = |why: &str| Ok(vec![Err(why.to_owned()); all.len()]);
@@ -104,8 +131,9 @@ fn intervals(
     if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
         return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
     }
-    let Some(factor) = factor else { return none("its linear problem has no factor") };
+    let Some(factor) = &lasting.factor else { return none("its linear problem has no factor") };
     let deviations = followed(problem, &answer.certified.admissible())?;
+    let source = lasting.source.map_or_else(|| values::doubt_of_source(problem), Ok)?;
     let known = Known {
         factor,
         problem,
@@ -114,7 +142,7 @@ fn intervals(
         residual: Residual::new(problem, answer, &deviations)?,
         deviations: &deviations,
         bound,
-        doubt: values::doubt(problem)? + values::imbalance(problem, answer),
+        doubt: source + values::doubt_on_edges(problem)? + values::imbalance(problem, answer),
     };
     let found =
         |output: &Output| Ok(known.interval(output).unwrap_or_else(|error| Err(error.reason())));

@@ -59,12 +59,12 @@ fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
     Ok([length * data.finite(mean, segment[0])?, length * (size + doubt / INTEGRATED)])
 }
 
-/// What is in doubt of the integrals of all loads: f, given fluxes, and the ends of fluxes on C.
+/// What is in doubt of the integrals of given fluxes, and of the ends of fluxes on C.
 ///
 /// # Errors
 /// Data that are not finite.
-pub(super) fn doubt(problem: &Problem) -> Result<f64> {
-    let mut sum = of_source(problem)?;
+pub(super) fn doubt_on_edges(problem: &Problem) -> Result<f64> {
+    let mut sum = 0.0;
     for edge in 0..problem.kinds.len() {
         if let EdgeKind::Neumann | EdgeKind::Contact = problem.kinds[edge] {
             for field in [Field::Flux, Field::Limit] {
@@ -90,7 +90,11 @@ pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     cells + on_neumann.map(|edge| (tau[edge] - given[edge]).abs()).sum::<f64>()
 }
 
-fn of_source(problem: &Problem) -> Result<f64> {
+/// What is in doubt of the integrals of f.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn doubt_of_source(problem: &Problem) -> Result<f64> {
     let f = Sum::source(&problem.scene, problem.time);
     if f.constant().is_some() {
         return Ok(0.0);
