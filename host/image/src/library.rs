@@ -1,4 +1,4 @@
-//! A baked controller as a static library for C: one object that shows the functions of its header and nothing else.
+//! A baked controller as a static library for C: objects that show the functions of its header and nothing else.
 //!
 //! ```text
 //!   module ─► cargo (host/c) ─► archive ─► ld -r: what the functions reach ─► objcopy: all other names become its own

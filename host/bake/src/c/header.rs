@@ -194,3 +194,76 @@ fn enumeration<'w>(
         .collect();
     format!("\n/* {doc} */\ntypedef int32_t {name};\nenum {{\n{}\n}};\n", values.join(",\n"))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::process::Command;
+
+    use super::*;
+    use crate::choice::{Choice, Wanted};
+    use crate::emit::emit;
+    use signorini_image::library::MACHINES;
+    use signorini_scene::mesh::adapted;
+    use signorini_scene::scene::Scene;
+    use signorini_solve::problem::Problem;
+
+    /// The header of a standard scene for this machine, with the sizes of a state and a report.
+    fn header(name: &str, state: usize, report: usize) -> String {
+        let path = format!("../../meshes/scenes/{name}.toml");
+        let scene = Scene::read(Path::new(&path)).expect("a standard scene");
+        let problem = Problem::new(&scene, adapted::of_scene(&scene).expect("its mesh"));
+        let problem = problem.expect("a problem");
+        let chosen = Choice::<f32>::new(&problem, Wanted::default()).expect("a model");
+        let chosen = emit(&problem, &chosen).chosen;
+        let (api, on) = (ModuleApi::new(&problem), &MACHINES[3]);
+        let library = Library { archive: Vec::new(), state, report };
+        Header { name, api: &api, chosen: &chosen, library: &library, on }.text()
+    }
+
+    /// What the C compiler that Rust links with says of it.
+    fn compiled(header: &str) -> Result<(), String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("scene.h"), header).expect("a file");
+        std::fs::write(folder.path().join("main.c"), "#include \"scene.h\"\n").expect("a file");
+        let said = Command::new("cc")
+            .args([
+                "-std=c99",
+                "-Wall",
+                "-Wextra",
+                "-Wpedantic",
+                "-Werror",
+                "-fsyntax-only",
+                "main.c",
+            ])
+            .current_dir(folder.path())
+            .output()
+            .expect("a C compiler");
+        match said.status.success() {
+            true => Ok(()),
+            false => Err(String::from_utf8_lossy(&said.stderr).into_owned()),
+        }
+    }
+
+    #[test]
+    fn it_is_c_and_asserts_the_sizes_of_the_library() {
+        // Three outputs: 12 numbers and words of 4 bytes, and three intervals.
+        let levee = header("levee", 624, 60);
+        assert_eq!(compiled(&levee), Ok(()));
+        assert!(compiled(&header("levee", 624, 64)).is_err_and(|why| why.contains("report_has")));
+        assert!(
+            compiled(&levee.replace("words[78]", "words[77]"))
+                .is_err_and(|why| why.contains("state_has"))
+        );
+        for line in [
+            "levee_error levee_init(levee_state *state);",
+            "extern const levee_inputs levee_default_inputs;",
+            "    LEVEE_INPUT_OUT_OF_RANGE = 5,",
+            "#define LEVEE_WORST_EXCHANGES 10u",
+        ] {
+            assert!(levee.lines().any(|of| of == line), "{line}");
+        }
+        assert!(!levee.contains("name_") && !levee.contains(MARK));
+        assert_eq!(compiled(&header("slab", 8, 60)), Ok(()));
+    }
+}

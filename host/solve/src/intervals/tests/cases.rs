@@ -1,0 +1,145 @@
+//! Small scenes of which something is known: a polynomial, a trapezoid, a wall.
+
+use super::*;
+
+/// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
+const HARMONIC: &str = r#"
+mesh = "grid"
+[material.default]
+conductivity = "1"
+[source]
+f = "0"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "-2"
+[boundary.left]
+kind = "robin"
+coefficient = "2 + y"
+ambient = "1 - y^2 + 2/(2 + y)"
+[boundary.right]
+kind = "dirichlet"
+value = "1 - y^2"
+[boundary.contact]
+kind = "neumann"
+flux = "0"
+[output.top]
+kind = "mean"
+of = "dirichlet"
+[output.bottom]
+kind = "flux"
+of = "contact"
+[output.cold]
+kind = "flux"
+of = "left"
+[output.skin]
+kind = "mean"
+of = "left"
+[output.warm]
+kind = "flux"
+of = "right"
+[output.given]
+kind = "mean"
+of = "right"
+"#;
+
+#[test]
+fn they_hold_the_values_of_an_exact_solution() -> Result<()> {
+    // Means of x² − 1 over (−1, 1) and of 1 − y² over (0, 1); fluxes ±2x over sides of length 1.
+    let exact = [
+        ("top", -2.0 / 3.0),
+        ("bottom", 0.0),
+        ("cold", 2.0),
+        ("skin", 2.0 / 3.0),
+        ("warm", 2.0),
+        ("given", 2.0 / 3.0),
+    ];
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        let mut widths = Vec::new();
+        for n in [4, 16] {
+            let (_, problem) = on_grid(HARMONIC, grid(n, cells))?;
+            let solution = solve(&problem, &options())?;
+            let found = of_outputs(&problem, &solution);
+            for (name, value) in exact {
+                let interval = found[name].as_ref().unwrap_or_else(|why| panic!("{name}: {why}"));
+                check(name, interval, value);
+            }
+            widths.push(found["warm"].as_ref().map_or(f64::NAN, |found| found.plus_minus));
+        }
+        // Of first order: a quarter of the edge is a quarter of the width.
+        assert!(widths[1] < 0.3 * widths[0], "{cells:?}: {widths:?}");
+    }
+    Ok(())
+}
+
+/// On a trapezoid the mean over the area is not the mean in the cell's own coordinates.
+#[test]
+fn the_mean_over_a_trapezoid_is_that_over_its_area() -> Result<()> {
+    const TRAPEZOID: &str = r#"
+title = "a linear u"
+mesh = "none.msh"
+[material.default]
+conductivity = "1"
+[boundary.default]
+kind = "dirichlet"
+value = "x + 2*y"
+[output.middle]
+kind = "probe"
+at = [-0.2, 0.4]
+[setting]
+element = "nonparametric"
+"#;
+    let mut mesh = grid(1, Cells::Quads);
+    // Left of x = 0 a quad with the corners (−1, 0), (0, 0), (0, 3), (−1, 1), of the area 2 and the middle (−5/12, 13/12).
+    for vertex in &mut mesh.vertices {
+        *vertex = [vertex[0], if vertex[0] < 0.0 { vertex[1] } else { 3.0 * vertex[1] }];
+    }
+    let (_, problem) = on_grid(TRAPEZOID, mesh)?;
+    let found = of_outputs(&problem, &solve(&problem, &options())?);
+    let middle = found["middle"].as_ref().expect("an interval");
+    check("the area's", middle, -5.0 / 12.0 + 2.0 * 13.0 / 12.0);
+    assert!(middle.plus_minus < 1e-6, "{middle:?}");
+    Ok(())
+}
+
+const ROOF: &str = r#"
+title = "an outlet below"
+mesh = "none.msh"
+[material.default]
+conductivity = "1"
+[source]
+f = "-1"
+[boundary.contact]
+kind = "contact"
+gap = "0"
+flux = "0"
+[boundary.left]
+kind = "robin"
+coefficient = "2"
+ambient = "0.1"
+[boundary.right]
+kind = "robin"
+coefficient = "0"
+ambient = "3"
+[boundary.dirichlet]
+kind = "neumann"
+flux = "0"
+[output.below]
+kind = "flux"
+of = "contact"
+[output.side]
+kind = "flux"
+of = "left"
+"#;
+
+/// Where no heat is transferred the condition is that of a wall.
+#[test]
+fn without_transfer_there_are_intervals_that_hold() -> Result<()> {
+    let (_, fine) = on_grid(ROOF, grid(32, Cells::Triangles))?;
+    let exact = outputs(&fine, &solve(&fine, &options())?)?;
+    let (_, problem) = on_grid(ROOF, grid(4, Cells::Triangles))?;
+    let found = of_outputs(&problem, &solve(&problem, &options())?);
+    for name in ["below", "side"] {
+        check(name, found[name].as_ref().expect("an interval"), exact[name].expect("a value"));
+    }
+    Ok(())
+}
