@@ -20,6 +20,13 @@ pub fn run(steps: &mut Steps) {
     steps.check("formatting, host/python", || {
         run_command(cargo(&["fmt", "--manifest-path", "host/python/Cargo.toml", "--check"]))
     });
+    steps.check("clippy, host/python", || {
+        let mut clippy =
+            cargo(&["clippy", "--manifest-path", "host/python/Cargo.toml", "--locked"]);
+        clippy.arg("--target-dir").arg(target_dir("python").join("module"));
+        clippy.args(["--", "-D", "warnings"]);
+        run_command(clippy)
+    });
     steps.check("pip builds the module signorini, and its tests pass", || {
         let _ = std::fs::remove_dir_all(target_dir("python").join(ENVIRONMENT));
         let target = ("CARGO_TARGET_DIR", target_dir("python").join("module"));

@@ -28,17 +28,20 @@ struct Arrays32(Arrays);
 
 type Named2 = Vec<(String, Vec<[u32; 2]>)>;
 
+/// The same as numpy has them.
+type Given<'py> = (
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray2<'py, u32>,
+    PyReadonlyArray2<'py, u32>,
+    Vec<(String, PyReadonlyArray2<'py, u32>)>,
+    Vec<(String, Vec<u32>)>,
+);
+
 impl<'py> FromPyObject<'_, 'py> for Arrays32 {
     type Error = PyErr;
 
     fn extract(of: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let (points, triangles, quads, curves, surfaces): (
-            PyReadonlyArray2<f64>,
-            PyReadonlyArray2<u32>,
-            PyReadonlyArray2<u32>,
-            Vec<(String, PyReadonlyArray2<u32>)>,
-            Vec<(String, Vec<u32>)>,
-        ) = of.extract()?;
+        let (points, triangles, quads, curves, surfaces): Given = of.extract()?;
         let curves: Named2 = curves
             .iter()
             .map(|(name, edges)| Ok((name.clone(), rows(edges)?)))

@@ -156,10 +156,7 @@ fn dictionary<'py>(
     all.rows("cell_flux", told.cell_flux)?;
     all.numbers("indicators", told.indicators)?;
     all.numbers("origins", origins)?;
-    all.numbers(
-        "materials_of_cells",
-        problem.binding.materials.iter().map(|&at| at as u32).collect(),
-    )?;
+    all.numbers("materials_of_cells", problem.binding.materials.to_vec())?;
     // The mesh is the problem's alone by now, unless something else still reads it.
     let mesh = std::sync::Arc::unwrap_or_clone(problem.mesh);
     all.rows("points", mesh.vertices)?;
