@@ -57,14 +57,19 @@ fn error_figure(scene: &ScenePanel) -> String {
     format!("<figure>\n{map}<ul class=\"legend\">{notes}</ul>\n</figure>\n")
 }
 
+/// Letters of a fact that a column has room for.
+const LETTERS: usize = 24;
+
 fn facts(scene: &ScenePanel) -> String {
     if scene.facts.is_empty() {
         return String::new();
     }
     let mut html = String::from("<dl class=\"facts\">\n");
     for (name, value) in &scene.facts {
+        // A sentence has a line of its own.
+        let class = if value.chars().count() > LETTERS { " class=\"wide\"" } else { "" };
         let (name, value) = (escape(name), escape(value));
-        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}</dd></div>");
+        let _ = writeln!(html, "<div{class}><dt>{name}</dt><dd>{value}</dd></div>");
     }
     html + "</dl>\n"
 }
