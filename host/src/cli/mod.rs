@@ -50,7 +50,7 @@ enum Command {
     Solve(solve::Arguments),
     /// Solve a scene over time, each tick from the last one's answer; write ticks.csv and ticks.svg
     Tick(tick::Arguments),
-    /// Write a scene as a module of firmware: its data and a controller for them
+    /// Write a scene as firmware: a module in Rust, or a library for C, with its data and a controller
     Bake(bake::Arguments),
     /// Measure speed against accuracy: many settings of a scene, and the one to take
     Trade(trade::Arguments),
