@@ -126,3 +126,39 @@ def test_threads_share_a_controller(scenes):
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+def refined(scene, error):
+    """The mesh that an error takes, as arrays."""
+    result = signorini.solve(scene, max_error=error)
+    boundaries = [name for name in np.unique(result.edges["boundary"]) if name]
+    curves = {name: result.edges["vertices"][result.edges["boundary"] == name] for name in boundaries}
+    regions = [name for name in np.unique(result.regions) if name != "default"]
+    surfaces = {name: np.flatnonzero(result.regions == name) for name in regions}
+    return result.points, {"triangle": result.triangles, "quad": result.quads}, curves, surfaces
+
+
+@pytest.mark.parametrize(
+    "name, error", [("levee", "4%"), ("slab", "5%"), ("strip", "4%"), ("pit", "5%"), ("antiicing", "10%")]
+)
+def test_intervals_of_ticks_hold_what_a_finer_mesh_says(name, error, scenes):
+    scene = scenes / f"{name}.toml"
+    controller = signorini.Controller(scene)
+    random = np.random.default_rng(7)
+
+    def drawn(input):
+        ends = controller.ranges[input]
+        near = controller.defaults[input] + np.array([-0.1, 0.1])
+        return random.uniform(*(ends if np.isfinite(ends).all() else near), size=4)
+
+    inputs = {input: drawn(input) for input in controller.ranges}
+    times = range(4)
+    own, baked = (signorini.tick(scene, times=times, inputs=inputs, baked=of) for of in (False, True))
+    finer = signorini.tick(scene, refined(scene, error), times=times, inputs=inputs)
+    # A controller has no interval of a probe, whose own is about another number: the mean over a cell.
+    known = [output for output, ends in baked.output_bounds.items() if np.isfinite(ends).all()]
+    assert known
+    for output in known:
+        for ticks in (own, baked):
+            least, most = ticks.output_bounds[output].T
+            assert ((least <= finer.outputs[output]) & (finer.outputs[output] <= most)).all(), output
