@@ -24,6 +24,9 @@ pub struct Chosen {
     /// What each output is the value of.
     #[serde(default)]
     pub outputs: Vec<String>,
+    /// Why an output has no interval; none where it has one.
+    #[serde(default)]
+    pub without_interval: Vec<Option<String>>,
 }
 
 /// The most that a tick takes, whatever the inputs are within their ranges, and whatever state it begins in.

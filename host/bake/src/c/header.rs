@@ -117,14 +117,12 @@ impl Header<'_> {
         });
         let inputs =
             structure("name_inputs", "What the controller sets.", self.api.input_items(), ends);
-        let none = std::iter::repeat_with(String::new);
+        let why = self.chosen.without_interval.iter().map(|why| match why {
+            Some(why) => format!(" Its plus_minus is infinite: {}.", as_is(why)),
+            None => String::new(),
+        });
         inputs
-            + &structure(
-                "name_outputs",
-                "What the controller reads.",
-                self.api.output_items(),
-                none,
-            )
+            + &structure("name_outputs", "What the controller reads.", self.api.output_items(), why)
     }
 
     fn codes(&self) -> String {
@@ -259,6 +257,7 @@ mod tests {
             "levee_error levee_init(levee_state *state);",
             "extern const levee_inputs levee_default_inputs;",
             "    LEVEE_INPUT_OUT_OF_RANGE = 5,",
+            "     * contact set has none. */",
             "#define LEVEE_WORST_EXCHANGES 10u",
         ] {
             assert!(levee.lines().any(|of| of == line), "{line}");
