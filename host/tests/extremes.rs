@@ -1,32 +1,23 @@
 //! `signorini extremes` as users and scripts meet it: its files, its outcomes, its messages.
 
 use signorini_tolerances::command::GUARANTEE;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn extremes(only: &str, out: &Path) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.args(["extremes", "--only", only, "--out"]).arg(out);
-    command.output().expect("the binary runs")
-}
+use crate::command::{Folder, json, run, text};
 
 /// The cases that `only` names; nothing may be wrong with them.
 fn cases(only: &str) -> Vec<Value> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = extremes(only, folder.path());
-    let told = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{told}{}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stderr.is_empty(), "quiet in a pipe");
-    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
-    let record: Value = serde_json::from_str(&read("extremes.json")).expect("JSON");
+    let folder = Folder::new();
+    let told = run(&["extremes", "--only", only, "--out", &folder.word("")]).succeeds();
+    assert_eq!(told.stderr, "", "quiet in a pipe");
+    let record = json(folder.path("extremes.json"));
     let cases = record["cases"].as_array().expect("cases").clone();
-    assert_eq!(read("extremes.csv").lines().count(), cases.len() + 1);
-    let page = read("extremes.html");
+    assert_eq!(text(folder.path("extremes.csv")).lines().count(), cases.len() + 1);
+    let page = text(folder.path("extremes.html"));
     // A square a case, and four in the legend.
     assert_eq!(page.matches("class=\"outcome ").count(), cases.len() + 4);
-    assert!(told.contains(&format!("{} cases: ", cases.len())), "{told}");
+    assert!(told.stdout.contains(&format!("{} cases: ", cases.len())), "{told:?}");
     cases
 }
 
@@ -50,10 +41,8 @@ fn quads_that_collapse_keep_their_bound_until_they_are_refused() {
         assert!(outcomes.starts_with("tt") && outcomes.ends_with("c"), "{scalar}: {outcomes}");
     }
     let refused = &found[0];
-    assert!(
-        refused["note"].as_str().is_some_and(|note| note.contains("crosses itself")),
-        "{refused}"
-    );
+    let note = refused["note"].as_str();
+    assert!(note.is_some_and(|note| note.contains("crosses itself")), "{refused}");
     assert!(refused["sweeps"].is_null() && refused["error_over_bound"].is_null());
 }
 
@@ -80,39 +69,33 @@ fn a_layer_at_the_end_of_an_edge_keeps_its_bound() {
 
 #[test]
 fn an_unknown_case_is_wrong_input() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = extremes("no such case", folder.path());
-    assert_eq!(output.status.code(), Some(2));
-    let message = String::from_utf8_lossy(&output.stderr);
+    let folder = Folder::new();
+    let words = ["extremes", "--only", "no such case", "--out", &folder.word("")];
+    let message = run(&words).refuses();
     assert!(message.contains("--only no such case"), "{message}");
 }
 
 /// One scene of a seed is the same alone, with its files.
 #[test]
 fn a_random_scene_can_be_had_alone() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let run = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-        command.args(["extremes", "--seed", "18", "--out"]).arg(folder.path()).args(more);
-        let output = command.output().expect("the binary runs");
-        let told = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert_eq!(output.status.code(), Some(0), "{told}");
-        assert!(output.stderr.is_empty(), "quiet in a pipe");
-        let read = |name| std::fs::read_to_string(folder.path().join(name)).expect(name);
-        let record: Value = serde_json::from_str(&read("random.json")).expect("JSON");
+    let folder = Folder::new();
+    let drawn = |more: &[&str]| {
+        let words = ["extremes", "--seed", "18", "--out", &folder.word("")];
+        let told = run(&[&words, more].concat()).succeeds();
+        assert_eq!(told.stderr, "", "quiet in a pipe");
         // All but the seconds, which come last but two.
-        let lines: Vec<_> = read("random.csv").lines().map(str::to_owned).collect();
-        let kept = |line: &String| line.split(',').take(12).collect::<Vec<_>>().join(",");
-        (record, lines.iter().map(kept).collect::<Vec<_>>())
+        let kept = |line: &str| line.split(',').take(12).collect::<Vec<_>>().join(",");
+        let lines: Vec<_> = text(folder.path("random.csv")).lines().map(kept).collect();
+        (json(folder.path("random.json")), lines)
     };
-    let (record, all) = run(&["--random", "4"]);
+    let (record, all) = drawn(&["--random", "4"]);
     assert_eq!((&record["seed"], &record["cases"]), (&18.into(), &4.into()));
     assert_eq!(record["violations"], Value::Array(Vec::new()));
-    let (record, alone) = run(&["--random", "1", "--case", "3"]);
+    let (record, alone) = drawn(&["--random", "1", "--case", "3"]);
     assert_eq!(record["cases"], 1);
     assert_eq!(alone[1], all[4]);
     for name in ["scene.toml", "mesh.msh"] {
-        assert!(folder.path().join("case-3").join(name).is_file(), "{name}");
+        assert!(folder.path("case-3").join(name).is_file(), "{name}");
     }
 }
 

@@ -1,25 +1,21 @@
 //! Runs that are killed: what stands under a final name is whole, and what stood there before is not lost.
-#![cfg(unix)]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Instant;
 
+use crate::command::{Folder, meshes, signorini, word};
+
 /// A run of `signorini` that writes into `out`.
-fn start(words: &[&str], scene: &Path, out: &Path) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.arg(words[0]).arg(scene).arg("--out").arg(out).args(&words[1..]);
+fn start(words: &[&str], scene: &str, out: &Path) -> Child {
+    let mut command = signorini(&[&[words[0], scene, "--out", &word(out)], &words[1..]].concat());
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the binary runs")
 }
 
 fn finish(mut child: Child) {
     let status = child.wait().expect("it ends");
     assert!(status.code().is_some(), "{status}");
-}
-
-fn meshes(scene: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes").join(scene)
 }
 
 /// The files under names that users know, not the temporary ones beside them.
@@ -50,8 +46,8 @@ fn timeless((name, bytes): &(String, Vec<u8>)) -> (String, String) {
 
 /// Kills a run again and again, a little later each time, with `signal`.
 fn killed(words: &[&str], scene: &str, signal: &str) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (complete, out) = (folder.path().join("complete"), folder.path().join("out"));
+    let folder = Folder::new();
+    let (complete, out) = (folder.path("complete"), folder.path("out"));
     let begin = Instant::now();
     finish(start(words, &meshes(scene), &complete));
     let takes = begin.elapsed();
@@ -59,12 +55,11 @@ fn killed(words: &[&str], scene: &str, signal: &str) {
     assert!(expected.len() > 1, "{expected:?}");
     let mut seen = 0;
     for step in 0..STEPS {
-        let child = start(words, &meshes(scene), &out);
+        let mut child = start(words, &meshes(scene), &out);
         // The files come last: most of the kills fall there.
         sleep(takes.mul_f64(0.6 + 0.8 * f64::from(step) / f64::from(STEPS)));
         let kill = Command::new("kill").args([signal, &child.id().to_string()]).output();
         kill.expect("kill runs");
-        let mut child = child;
         child.wait().expect("it ends");
         let found = files(&out);
         assert!(found.len() >= seen, "a file is lost");

@@ -5,10 +5,11 @@ use std::path::Path;
 use miette::Diagnostic as _;
 use signorini_scene::scene::Scene;
 
+use crate::command::{repository, text};
+
 /// A page of the repository.
 fn page(name: &str) -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    std::fs::read_to_string(root.join(name)).expect(name)
+    text(repository(name))
 }
 
 /// The first block of TOML on a page.
@@ -24,11 +25,7 @@ fn examples_are_scenes() {
         Scene::parse(example(&page), Path::new(name)).expect(name);
     }
     // A piece of a scene: the levee has it.
-    let page = page("docs/firmware.md");
-    let levee = std::fs::read_to_string(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes/levee.toml"),
-    );
-    let levee = levee.expect("the levee");
+    let (page, levee) = (page("docs/firmware.md"), page("meshes/scenes/levee.toml"));
     let (head, _) = levee.split_once("[input.").expect("inputs");
     Scene::parse(&(head.to_owned() + example(&page)), Path::new("levee.toml")).expect("a piece");
 }

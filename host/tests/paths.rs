@@ -3,12 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::command::{repository, text};
+
 /// Where paths of the repository start, as pages write them.
 const FOLDERS: [&str; 6] = ["docs/", "host/", "kernel/", "meshes/", "tests/", "xtask/"];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 fn pages(folder: &Path, all: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
@@ -32,15 +30,14 @@ fn paths(page: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn files_that_pages_name_exist() {
     let mut all: Vec<_> = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "kernel/README.md"]
-        .map(|page| root().join(page))
+        .map(|page| repository(page))
         .into();
-    pages(&root().join("docs"), &mut all);
+    pages(&repository("docs"), &mut all);
     let mut count = 0;
     for page in all {
-        let text = fs::read_to_string(&page).expect("a page");
-        for path in paths(&text) {
+        for path in paths(&text(&page)) {
             count += 1;
-            assert!(root().join(path).exists(), "{}: {path}", page.display());
+            assert!(repository(path).exists(), "{}: {path}", page.display());
         }
     }
     assert!(count > 50, "{count} paths");

@@ -1,4 +1,4 @@
-//! Campaigns on two ranks of MPI: `cargo test --package signorini-host --features mpi --test ranks`.
+//! Campaigns on two ranks of MPI: `cargo test --package signorini --features mpi --test ranks`.
 
 use std::env;
 use std::path::{Path, PathBuf};

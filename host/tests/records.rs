@@ -1,13 +1,12 @@
 //! What the page on robustness says of the extremes, of fuzzing and of mutants is what their committed records hold.
 
-use std::path::Path;
-
 use serde_json::Value;
+
+use crate::command::{json, repository, text};
 
 /// A file of the repository.
 fn read(path: &str) -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    std::fs::read_to_string(root.join(path)).expect(path)
+    text(repository(path))
 }
 
 /// Every phrase stands on the page, wherever its lines break.
@@ -30,8 +29,7 @@ fn number(word: &str) -> Option<u64> {
 
 #[test]
 fn the_page_quotes_the_record_of_the_extremes() {
-    let record: Value =
-        serde_json::from_str(&read("host/benches/extremes/extremes.json")).expect("JSON");
+    let record = json(repository("host/benches/extremes/extremes.json"));
     let cases = record["cases"].as_array().expect("cases");
     let count = |outcome: &str| cases.iter().filter(|case| case["outcome"] == outcome).count();
     let [correct, poor, refused, wrong] =
@@ -48,8 +46,7 @@ fn the_page_quotes_the_record_of_the_extremes() {
 
 #[test]
 fn the_page_quotes_the_record_of_random_scenes() {
-    let record: Value =
-        serde_json::from_str(&read("host/benches/extremes/random.json")).expect("JSON");
+    let record = json(repository("host/benches/extremes/random.json"));
     let count = |outcome: &str| record["outcomes"][outcome].as_u64().unwrap_or(0);
     let [correct, poor, refused, wrong] =
         ["correct", "certified-poor", "typed-error", "wrong"].map(count);

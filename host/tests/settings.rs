@@ -1,37 +1,26 @@
 //! Every key of `[setting]` by every command: followed, or refused by its name.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::command::{Folder, Run, meshes, run};
 
 /// Small enough to be baked in every way; held, with an input and an output.
 const SCENE: &str = r#"
-[material.default]
-conductivity = 1
-[boundary.default]
-kind = "dirichlet"
-value = "0"
-[boundary.contact]
-kind = "contact"
-gap = "-1"
-[input.heat]
-of = "source"
-field = "f"
-pattern = "1"
-default = -20.0
-[output.force]
-kind = "force"
+material.default.conductivity = 1
+boundary.default = { kind = "dirichlet", value = "0" }
+boundary.contact = { kind = "contact", gap = "-1" }
+input.heat = { of = "source", field = "f", pattern = "1", default = -20.0 }
+output.force = { kind = "force" }
 "#;
 
-/// The commands with what follows the scene; `OUT` stands for a file to write.
+/// The commands with what follows the scene.
 const COMMANDS: [(&str, &[&str]); 8] = [
     ("solve", &[]),
     ("solve", &["--solver", "direct"]),
     ("solve", &["--max-sweeps", "100000"]),
-    ("bake", &["-o", "OUT"]),
+    ("bake", &[]),
     ("tick", &["--ticks", "2", "--baked"]),
     ("tick", &["--ticks", "2"]),
-    ("export", &["-o", "OUT"]),
-    ("condense", &["-o", "OUT"]),
+    ("export", &[]),
+    ("condense", &[]),
 ];
 
 /// Keys, and for each command whether it follows them (or says what takes their place).
@@ -61,41 +50,21 @@ const FOLLOWED: &[(&str, [bool; 8])] = &[
 const REPLACED: [&str; 8] =
     ["math", "model", "solver", "start", "omega", "sweeps", "share", "certificate"];
 
-/// Exit status and standard error.
-fn run(command: &str, more: &[&str], scene: &Path, folder: &Path) -> (Option<i32>, String) {
-    let (file, out) = (folder.join("written"), folder.join("out"));
-    let mut process = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    process.arg(command).arg(scene);
-    if matches!(command, "solve" | "tick") {
-        process.arg("--out").arg(&out);
-    }
-    for word in more {
-        match *word {
-            "OUT" => process.arg(&file),
-            word => process.arg(word),
-        };
-    }
-    let output = process.output().expect("the binary runs");
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
-}
-
-fn mesh() -> PathBuf {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/catalogue");
-    folder.join("square-tri-16.msh").canonicalize().expect("a mesh")
-}
-
 #[test]
 fn every_key_is_followed_or_refused_by_its_name() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let scene = folder.path().join("scene.toml");
+    let folder = Folder::new();
+    let (mesh, out) = (meshes("catalogue/square-tri-16.msh"), folder.word("out"));
+    let file = folder.word("written");
     for (lines, expected) in FOLLOWED {
-        let text = format!("mesh = {:?}\n{SCENE}[setting]\n{lines}\n", mesh());
-        std::fs::write(&scene, text).expect("a scene");
+        let text = format!("mesh = {mesh:?}\n{SCENE}[setting]\n{lines}\n");
+        let scene = folder.write("scene.toml", text);
         let key = lines.split(' ').next().unwrap_or_default();
         for ((command, more), follows) in COMMANDS.into_iter().zip(expected) {
-            let (status, stderr) = run(command, more, &scene, folder.path());
-            let what = format!("{lines}: {command} {more:?}: {status:?} {stderr}");
-            let expected = if *follows { &[Some(0), Some(3)][..] } else { &[Some(2)] };
+            let has_folder = matches!(command, "solve" | "tick");
+            let to = if has_folder { &["--out", &out][..] } else { &["-o", &file] };
+            let Run { status, stderr, .. } = run(&[&[command, &scene], more, to].concat());
+            let what = format!("{lines}: {command} {more:?}: {status} {stderr}");
+            let expected = if *follows { &[0, 3][..] } else { &[2] };
             assert!(expected.contains(&status), "{what}");
             let refused = stderr.contains("setting.") && stderr.contains("scene.toml");
             assert!(*follows || refused, "{what}");

@@ -3,8 +3,7 @@
 use signorini_tolerances::command::{
     BAKED, COARSE_START, LIMIT_OF_TICKS, MOVING_FORCE, REPLAYED, STATED,
 };
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_scene::mesh::gmsh;
@@ -16,17 +15,27 @@ use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::problem::Problem;
 use signorini_solve::solve::{Options, ScalarKind, solve};
 
+use crate::command::{Folder, Run, meshes, repository, run, text};
+
 const MOVING: &str = "catalogue/moving-tri.toml";
 const LEVEE: &str = "scenes/levee.toml";
 
-fn meshes(scene: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes").join(scene)
+/// Ticks of a scene, into the folder `out`.
+fn tick(scene: &str, folder: &Folder, more: &[&str]) -> Run {
+    run(&[&["tick", scene, "--out", &folder.word("out")], more].concat())
 }
 
-fn tick(scene: &Path, out: &Path, more: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.arg("tick").arg(scene).arg("--out").arg(out).args(more);
-    command.output().expect("the binary runs")
+/// The message of a `tick` that must refuse its input, and leave nothing behind.
+#[track_caller]
+fn refused(scene: &str, folder: &Folder, more: &[&str]) -> String {
+    let message = tick(scene, folder, more).refuses();
+    assert!(!folder.path("out").exists(), "{more:?}: {message}");
+    message
+}
+
+/// A scene of the repository.
+fn standard(name: &str) -> Scene {
+    Scene::read(&repository("meshes").join(name)).expect("a scene")
 }
 
 /// `ticks.csv`: the names of its columns, and the fields of each line.
@@ -36,7 +45,7 @@ struct Table {
 }
 
 impl Table {
-    fn read(path: &Path) -> Self {
+    fn read(path: impl AsRef<Path>) -> Self {
         let mut reader = csv::Reader::from_path(path).expect("ticks.csv");
         let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
         let header = fields(reader.headers().expect("a header"));
@@ -56,13 +65,12 @@ impl Table {
 
 /// Plays a scene of the repository, which must end with status 0.
 fn played(scene: &str, more: &[&str]) -> Table {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = tick(&meshes(scene), folder.path(), more);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stderr.is_empty(), "quiet in a pipe");
-    let picture = std::fs::read_to_string(folder.path().join("ticks.svg")).expect("a picture");
+    let folder = Folder::new();
+    let run = tick(&meshes(scene), &folder, more).succeeds();
+    assert_eq!(run.stderr, "", "quiet in a pipe");
+    let picture = text(folder.path("out/ticks.svg"));
     assert!(picture.starts_with("<svg ") && !picture.contains("NaN"));
-    Table::read(&folder.path().join("ticks.csv"))
+    Table::read(folder.path("out/ticks.csv"))
 }
 
 #[test]
@@ -81,10 +89,9 @@ fn a_line_a_tick_and_a_column_an_output() {
 #[test]
 fn outputs_have_bounds_beside_them() {
     let bounds = |more: &[&str]| {
-        let folder = tempfile::tempdir().expect("a folder");
-        let output = tick(&meshes(LEVEE), folder.path(), &[&["--ticks", "2"], more].concat());
-        assert_eq!(output.status.code(), Some(0), "{output:?}");
-        Table::read(&folder.path().join("output_bounds.csv"))
+        let folder = Folder::new();
+        tick(&meshes(LEVEE), &folder, &[&["--ticks", "2"], more].concat()).succeeds();
+        Table::read(folder.path("out/output_bounds.csv"))
     };
     let (own, baked) = (bounds(&[]), bounds(&["--baked"]));
     // Around the mean over the cell, which is not what ticks.csv has under the name of a probe.
@@ -105,17 +112,14 @@ fn outputs_have_bounds_beside_them() {
 
 #[test]
 fn a_series_has_a_file_for_each_tick_and_none_of_an_earlier_run() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let listed = |more: &[&str]| {
-        let output = tick(&meshes(LEVEE), folder.path(), more);
-        assert_eq!(output.status.code(), Some(0), "{output:?}");
-        let series = std::fs::read_to_string(folder.path().join("ticks.pvd")).expect("a series");
-        let files = std::fs::read_dir(folder.path().join("ticks")).expect("files").count();
+        tick(&meshes(LEVEE), &folder, more).succeeds();
+        let series = text(folder.path("out/ticks.pvd"));
+        let files = std::fs::read_dir(folder.path("out/ticks")).expect("files").count();
         assert_eq!(series.matches("<DataSet").count(), files);
-        assert!(
-            series.contains("timestep=\"0.01\" part=\"0\" file=\"ticks/0001.vtu\""),
-            "{series}"
-        );
+        let second = "timestep=\"0.01\" part=\"0\" file=\"ticks/0001.vtu\"";
+        assert!(series.contains(second), "{series}");
         files
     };
     assert_eq!(listed(&["--vtu", "--ticks", "4"]), 4);
@@ -152,10 +156,8 @@ fn a_budget_cuts_off_and_is_carried_on() {
 
 #[test]
 fn a_log_replays_what_inputs_say() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let log = folder.path().join("inputs.csv");
-    std::fs::write(&log, "t,rain,river\n-1,2,0.5\n0.25, 2, 0.5\n").expect("a log");
-    let log = log.to_str().expect("UTF-8");
+    let folder = Folder::new();
+    let log = &*folder.write("inputs.csv", "t,rain,river\n-1,2,0.5\n0.25, 2, 0.5\n");
     let replayed = played(LEVEE, &["--log", log]);
     let set = played(LEVEE, &["--ticks", "1", "--input", "rain=2", "--input", "river=0.5"]);
     assert_eq!(replayed.column("t"), ["-1.0", "0.25"]);
@@ -165,17 +167,15 @@ fn a_log_replays_what_inputs_say() {
     REPLAYED.check("nothing changed", moved);
     assert!(replayed.numbers("sweeps")[1] <= 4.0, "nothing changed");
 
-    std::fs::write(log, "t,rain\n0,2\n").expect("a log");
+    folder.write("inputs.csv", "t,rain\n0,2\n");
     let rest = played(LEVEE, &["--log", log, "--input", "river=0.5"]);
     assert_eq!(rest.lines[0][1..], set.lines[0][1..]);
 }
 
 #[test]
 fn a_log_is_replayed_by_the_baked_controller() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let log = folder.path().join("inputs.csv");
-    std::fs::write(&log, "t,rain,river\n0,0,0\n1,2,0.5\n2,2,0.5\n").expect("a log");
-    let log = log.to_str().expect("UTF-8");
+    let folder = Folder::new();
+    let log = &*folder.write("inputs.csv", "t,rain,river\n0,0,0\n1,2,0.5\n2,2,0.5\n");
     let (full, baked) = (played(LEVEE, &["--log", log]), played(LEVEE, &["--log", log, "--baked"]));
     assert_eq!((&baked.header, baked.column("t")), (&full.header, full.column("t")));
     assert_eq!(baked.column("status"), ["exact"; 3]);
@@ -187,10 +187,9 @@ fn a_log_is_replayed_by_the_baked_controller() {
     // Outputs are in the controller's scalar, f32.
     let narrow = |x: &f64| f64::from(*x as f32) == *x;
     assert!(baked.numbers("seepage").iter().all(narrow));
-    let out = folder.path().join("out");
     for other in [&["--budget-sweeps", "9"][..], &["--error", "0.1"], &["--coarse", "a.msh"]] {
         let arguments = [&["--log", log, "--baked"], other].concat();
-        assert!(refused(&meshes(LEVEE), &out, &arguments).contains(other[0]));
+        assert!(refused(&meshes(LEVEE), &folder, &arguments).contains(other[0]));
     }
 }
 
@@ -210,15 +209,6 @@ const WRONG_LOGS: &[(&str, &str, &str)] = &[
     ("t,rain\n0,1\n1\n", "3", "1 fields, expected 2"),
 ];
 
-/// Runs `tick`, which must refuse its input; returns the message.
-fn refused(scene: &Path, out: &Path, more: &[&str]) -> String {
-    let output = tick(scene, out, more);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{more:?}: {message}");
-    assert!(!message.contains("panicked") && !out.exists(), "{more:?}: {message}");
-    message
-}
-
 /// What is far from 1 plays in other units, and each number of the table comes back in the scene's.
 #[test]
 fn other_units_change_no_digit() {
@@ -229,8 +219,7 @@ fn other_units_change_no_digit() {
         (MOVING, ScalarKind::F64),
         ("scenes/membrane.toml", ScalarKind::F64),
     ] {
-        let path = meshes(name);
-        let scene = Scene::read(&path).expect("a scene");
+        let scene = standard(name);
         let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
         let played = |units: Units| {
             let scene = units.inverse().scene(&scene);
@@ -253,25 +242,25 @@ fn other_units_change_no_digit() {
 
 #[test]
 fn wrong_logs_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (log, out) = (folder.path().join("inputs.csv"), folder.path().join("out"));
+    let folder = Folder::new();
+    let said = |log: &[u8]| {
+        let log = folder.write("inputs.csv", log);
+        refused(&meshes(LEVEE), &folder, &["--log", &log])
+    };
     for (text, line, expected) in WRONG_LOGS {
-        std::fs::write(&log, text).expect("a log");
-        let message = refused(&meshes(LEVEE), &out, &["--log", log.to_str().expect("UTF-8")]);
+        let message = said(text.as_bytes());
         assert!(message.contains(&format!("inputs.csv:{line}:")), "{text:?}: {message}");
         assert!(message.contains(expected), "{text:?}: {message}");
     }
-    std::fs::write(&log, b"t,rain\n0,\xff\n").expect("a log");
-    let message = refused(&meshes(LEVEE), &out, &["--log", log.to_str().expect("UTF-8")]);
+    let message = said(b"t,rain\n0,\xff\n");
     assert!(message.contains("inputs.csv:2: not UTF-8"), "{message}");
-    let message = refused(&meshes(LEVEE), &out, &["--log", "nowhere.csv"]);
+    let message = refused(&meshes(LEVEE), &folder, &["--log", "nowhere.csv"]);
     assert!(message.contains("nowhere.csv"), "{message}");
 }
 
 #[test]
 fn a_scene_without_time_needs_a_number_of_ticks() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let message = refused(&meshes("catalogue/h-tri.toml"), &folder.path().join("out"), &[]);
+    let message = refused(&meshes("catalogue/h-tri.toml"), &Folder::new(), &[]);
     assert!(message.contains("h-tri.toml: time:") && message.contains("--ticks"), "{message}");
     let table = played("catalogue/h-tri.toml", &["--ticks", "2"]);
     assert_eq!(table.column("t"), ["0.0", "1.0"]);
@@ -280,22 +269,24 @@ fn a_scene_without_time_needs_a_number_of_ticks() {
 /// The mesh holds u exactly, and rounding of its large values is all that is left.
 #[test]
 fn ticks_end_where_rounding_is_all_that_is_left() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (scene, out) = (folder.path().join("a.toml"), folder.path().join("out"));
+    let folder = Folder::new();
     let mesh = meshes("catalogue/square-quad-16.msh");
-    let text = format!(
-        "mesh = {mesh:?}\n[material.default]\nconductivity = 1\n[boundary.dirichlet]\n\
-         kind = \"dirichlet\"\nvalue = \"1000.3 + x + t\"\n[boundary.contact]\n\
-         kind = \"contact\"\ngap = \"900\"\n"
-    );
-    std::fs::write(&scene, text).expect("a scene");
+    let scene = folder.write("a.toml", in_time(&mesh, "1000.3 + x + t", "900", ""));
     for scalar in ["f64", "f32"] {
-        let output = tick(&scene, &out, &["--ticks", "6", "--scalar", scalar]);
-        assert_eq!(output.status.code(), Some(0));
-        let table = Table::read(&out.join("ticks.csv"));
+        tick(&scene, &folder, &["--ticks", "6", "--scalar", scalar]).succeeds();
+        let table = Table::read(folder.path("out/ticks.csv"));
         assert!(table.column("status").iter().all(|status| *status == "settled"));
         assert!(table.numbers("sweeps").iter().all(|sweeps| *sweeps < 5000.0), "{scalar}");
     }
+}
+
+/// A scene with this Dirichlet value, this gap and further sections.
+fn in_time(mesh: &str, value: &str, gap: &str, more: &str) -> String {
+    format!(
+        "mesh = {mesh:?}\n[material.default]\nconductivity = 1\n\n[boundary.dirichlet]\n\
+         kind = \"dirichlet\"\nvalue = \"{value}\"\n[boundary.contact]\nkind = \"contact\"\n\
+         gap = \"{gap}\"\n{more}"
+    )
 }
 
 /// What to put for the Dirichlet value and the gap of a scene, further sections, and parts of the
@@ -309,26 +300,17 @@ const WRONG_IN_TIME: &[(&str, &str, &str, &[&str])] = &[
 
 #[test]
 fn data_that_turn_wrong_are_refused_with_their_time() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (scene, out) = (folder.path().join("a.toml"), folder.path().join("out"));
-    let mesh = meshes("catalogue/square-tri-16.msh");
+    let (folder, mesh) = (Folder::new(), meshes("catalogue/square-tri-16.msh"));
     for (value, gap, more, expected) in WRONG_IN_TIME {
-        let text = format!(
-            "mesh = {mesh:?}\n[material.default]\nconductivity = 1\n\n[boundary.dirichlet]\n\
-             kind = \"dirichlet\"\nvalue = \"{value}\"\n[boundary.contact]\nkind = \"contact\"\n\
-             gap = \"{gap}\"\n{more}"
-        );
-        std::fs::write(&scene, text).expect("a scene");
+        let scene = folder.write("a.toml", in_time(&mesh, value, gap, more));
         let count: &[&str] = if more.is_empty() { &["--ticks", "4"] } else { &[] };
-        let message = refused(&scene, &out, count);
+        let message = refused(&scene, &folder, count);
         expected.iter().for_each(|part| assert!(message.contains(part), "{part}: {message}"));
     }
 }
 
 #[test]
 fn wrong_arguments_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("out");
     for (arguments, expected) in [
         (&["--ticks", "0"][..], "--ticks"),
         (&["--ticks", "1000001"], "--ticks"),
@@ -336,7 +318,7 @@ fn wrong_arguments_are_refused() {
         (&["--ticks", "2", "--log", "inputs.csv"], "--log"),
         (&["--input", "snow=1"], "snow"),
     ] {
-        let message = refused(&meshes(LEVEE), &out, arguments);
+        let message = refused(&meshes(LEVEE), &Folder::new(), arguments);
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }
@@ -344,38 +326,34 @@ fn wrong_arguments_are_refused() {
 /// A heater whose supply sags: each tick ends where a solve with this limit does, within its bound.
 #[test]
 fn a_limit_may_change_from_tick_to_tick() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let text = std::fs::read_to_string(meshes("limits/l-tri.toml")).expect("a scene");
-    let mesh = meshes("catalogue/square-tri-16.msh");
-    let text = text.replace("../catalogue/square-tri-16.msh", mesh.to_str().expect("UTF-8"));
-    let (text, _) = text.split_once("[exact]").expect("an exact solution");
+    let folder = Folder::new();
+    let whole = text(meshes("limits/l-tri.toml"));
+    let (_, exact) = whole.split_once("[exact]").expect("an exact solution");
     let outputs = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\n\
                    [output.power]\nkind = \"flux\"\nof = \"contact\"\n\
                    [output.short]\nkind = \"saturated\"\n[output.kept]\nkind = \"length\"\n";
-    let (scene, log) = (folder.path().join("sags.toml"), folder.path().join("log.csv"));
-    std::fs::write(&scene, format!("{text}{outputs}")).expect("a scene");
+    let changed = [(&*format!("[exact]{exact}"), outputs)];
+    let scene = folder.scene("sags.toml", "limits/l-tri.toml", &changed);
     let supply = [0.0, -0.5, -1.2, -1.5, 3.0, 1e6, 0.0];
     let lines = supply.iter().enumerate().map(|(t, supply)| format!("{t},{supply}\n"));
-    std::fs::write(&log, format!("t,supply\n{}", lines.collect::<String>())).expect("a log");
-    let out = folder.path().join("out");
-    let found = tick(&scene, &out, &["--log", log.to_str().expect("UTF-8")]);
-    assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
-    let table = Table::read(&out.join("ticks.csv"));
-    let posed = Scene::read(&scene).expect("a scene");
-    let posed = Problem::new(&posed, gmsh::read(&mesh).expect("a mesh")).expect("a problem");
+    let log = folder.write("log.csv", format!("t,supply\n{}", lines.collect::<String>()));
+    tick(&scene, &folder, &["--log", &log]).succeeds();
+    let table = Table::read(folder.path("out/ticks.csv"));
+    let posed = Scene::read(Path::new(&scene)).expect("a scene");
+    let mesh = gmsh::read(&posed.mesh.value).expect("a mesh");
+    let posed = Problem::new(&posed, mesh).expect("a problem");
     for (at, &supply) in supply.iter().enumerate() {
         let now = posed.with_inputs(&[supply]).expect("loads");
         let solved = solve(&now, &Options::default()).expect("a solution");
         let values = outputs_of(&now, &solved).expect("outputs");
         for name in ["power", "short", "kept"] {
             let (ticked, exact) = (table.numbers(name)[at], values[name].expect("a value"));
-            LIMIT_OF_TICKS
-                .check(format_args!("{name} at {supply}: {ticked} {exact}"), ticked - exact);
+            let what = format!("{name} at {supply}: {ticked} {exact}");
+            LIMIT_OF_TICKS.check(what, ticked - exact);
         }
         assert!(table.numbers("error_bound")[at] >= solved.bound.expect("a bound").total * 0.99);
     }
-    let refusal = tick(&scene, &out, &["--ticks", "1", "--input", "supply=-2"]);
-    let said = String::from_utf8_lossy(&refusal.stderr).into_owned();
+    let said = tick(&scene, &folder, &["--ticks", "1", "--input", "supply=-2"]).refuses();
     assert!(said.contains("the limit is -0.5") && said.contains("less than flux = 0"), "{said}");
 }
 
@@ -383,32 +361,29 @@ fn a_limit_may_change_from_tick_to_tick() {
 /// module's.
 #[test]
 fn a_coefficient_that_an_input_sets_is_the_one_that_the_scene_states() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let scene = folder.path().join("slab.toml");
-    std::fs::copy(meshes("scenes/slab.msh"), folder.path().join("slab.msh")).expect("a mesh");
-    let text = std::fs::read_to_string(meshes("scenes/slab.toml")).expect("a scene");
-    let input = "[input.h]\nof = \"air\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 15\nrange = [5, 80]\n";
-    let own = text.replace("coefficient = \"15\"", "coefficient = \"0\"") + input;
-    std::fs::write(&scene, own).expect("a scene");
-    let power = |scene: &Path, name: &str, more: &[&str]| {
-        let out = folder.path().join(name);
-        let output = tick(scene, &out, &[&["--ticks", "2"], more].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-        Table::read(&out.join("ticks.csv")).numbers("power")
+    let folder = Folder::new();
+    let stated = "coefficient = \"15\"";
+    let input = "[input.h]\nof = \"air\"\nfield = \"coefficient\"\npattern = \"1\"\n\
+                 default = 15\nrange = [5, 80]\n[output.power]";
+    let own = [(stated, "coefficient = \"0\""), ("[output.power]", input)];
+    let scene = folder.scene("slab.toml", "scenes/slab.toml", &own);
+    let power = |scene: &str, more: &[&str]| {
+        tick(scene, &folder, &[&["--ticks", "2"], more].concat()).succeeds();
+        Table::read(folder.path("out/ticks.csv")).numbers("power")
     };
-    let stated = power(&meshes("scenes/slab.toml"), "stated", &[]);
+    let stated = power(&meshes("scenes/slab.toml"), &[]);
     for (name, more) in [("own", &[][..]), ("module", &["--baked", "--scalar", "f64"])] {
-        for (own, stated) in power(&scene, name, more).iter().zip(&stated) {
+        for (own, stated) in power(&scene, more).iter().zip(&stated) {
             STATED.check_relative(name, *own, *stated);
         }
     }
-    let message = refused(&scene, &folder.path().join("out"), &["--input", "h=81"]);
+    let message = refused(&scene, &Folder::new(), &["--input", "h=81"]);
     assert!(message.contains("--input h=81"), "{message}");
 }
 
 #[test]
 fn errors_are_measured_at_the_time_of_the_problem() {
-    let scene = Scene::read(&meshes(MOVING)).expect("a scene");
+    let scene = standard(MOVING);
     let exact = scene.exact.as_ref().expect("an exact solution");
     let mut problem = Problem::new(&scene, grid(8, Cells::Triangles)).expect("a problem");
     let error = |problem: &Problem| {
@@ -427,7 +402,7 @@ fn errors_are_measured_at_the_time_of_the_problem() {
 
 #[test]
 fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
-    let scene = Scene::read(&meshes(MOVING)).expect("a scene");
+    let scene = standard(MOVING);
     for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
         let on = |n| Problem::new(&scene, grid(n, cells)).expect("a problem");
         let (fine, coarse) = (on(24), on(12));
@@ -447,18 +422,17 @@ fn a_coarser_mesh_saves_sweeps_at_the_first_tick() {
 /// A heater whose supply sags below what it gives at least: the log's line says so, not the scene's.
 #[test]
 fn ends_that_a_log_turns_round_are_blamed_on_its_line() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (scene, log) = (folder.path().join("l.toml"), folder.path().join("sagging.csv"));
+    let folder = Folder::new();
     let mesh = meshes("catalogue/square-tri-16.msh");
-    std::fs::copy(mesh, folder.path().join("square.msh")).expect("a mesh");
-    let text = "mesh = \"square.msh\"\n[material.default]\nconductivity = \"1\"\n\
-        [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"0\"\n\
-        [boundary.contact]\nkind = \"contact\"\nflux = \"-2\"\nlimit = \"0\"\n\
-        [input.cap]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\ndefault = 1\n";
-    std::fs::write(&scene, text).expect("a scene");
-    std::fs::write(&log, "t,cap\n0,1\n1,-3\n2,1\n").expect("a log");
-    let log = log.to_str().expect("UTF-8");
-    let message = refused(&scene, &folder.path().join("out"), &["--log", log]);
+    let text = format!(
+        "mesh = {mesh:?}\n[material.default]\nconductivity = \"1\"\n\
+         [boundary.dirichlet]\nkind = \"dirichlet\"\nvalue = \"0\"\n\
+         [boundary.contact]\nkind = \"contact\"\nflux = \"-2\"\nlimit = \"0\"\n\
+         [input.cap]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\ndefault = 1\n"
+    );
+    let scene = folder.write("l.toml", text);
+    let log = folder.write("sagging.csv", "t,cap\n0,1\n1,-3\n2,1\n");
+    let message = refused(&scene, &folder, &["--log", &log]);
     assert!(message.contains("sagging.csv:3:") && message.contains("at t = 1"), "{message}");
     assert!(message.contains("the limit is -3") && !message.contains("l.toml"), "{message}");
 }

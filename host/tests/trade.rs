@@ -2,115 +2,52 @@
 //! interruptions.
 
 use signorini_tolerances::command::{KEPT, PROMISED};
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 
 use serde_json::Value;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh::gmsh::write;
+use signorini_scene::mesh::structured::{Cells, grid};
 
-/// Exit status, standard output and error of `signorini`.
-fn signorini(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(arguments).output();
-    let output = output.expect("the binary runs");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let stderr = text(&output.stderr);
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    (output.status.code().unwrap_or(-1), text(&output.stdout), stderr)
-}
+use crate::command::{Folder, Run, json as read, repository, run, text, word};
 
 /// A strip of 8 × 4 squares, cut, warmed from above, with an input.
 const SCENE: &str = r#"
 title = "a small strip"
 mesh = "strip.msh"
-[material.default]
-conductivity = "1"
-[source]
-f = "-2"
-[boundary.contact]
-kind = "contact"
-gap = "-0.2"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "0.1*x"
-[input.load]
-of = "source"
-field = "f"
-pattern = "1"
-default = 0.5
+material.default.conductivity = "1"
+source.f = "-2"
+boundary.contact = { kind = "contact", gap = "-0.2" }
+boundary.dirichlet = { kind = "dirichlet", value = "0.1*x" }
+input.load = { of = "source", field = "f", pattern = "1", default = 0.5 }
 "#;
-
-/// The mesh of [`SCENE`]: MSH 2.2.
-fn mesh() -> String {
-    let (columns, rows) = (8, 4);
-    let vertex = |i: usize, j: usize| j * (columns + 1) + i + 1;
-    let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"contact\"\n1 2 \
-                    \"dirichlet\"\n2 3 \"plate\"\n$EndPhysicalNames\n"
-        .to_owned();
-    text += &format!("$Nodes\n{}\n", (columns + 1) * (rows + 1));
-    for j in 0..=rows {
-        for i in 0..=columns {
-            text += &format!("{} {} {} 0\n", vertex(i, j), i as f64 / 4.0 - 1.0, j as f64 / 4.0);
-        }
-    }
-    let mut elements = Vec::new();
-    for i in 0..columns {
-        elements.push(format!("1 2 1 1 {} {}", vertex(i, 0), vertex(i + 1, 0)));
-        elements.push(format!("1 2 2 2 {} {}", vertex(i, rows), vertex(i + 1, rows)));
-    }
-    for j in 0..rows {
-        for i in [0, columns] {
-            elements.push(format!("1 2 2 2 {} {}", vertex(i, j), vertex(i, j + 1)));
-        }
-        for i in 0..columns {
-            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
-            let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
-            elements.push(format!("2 2 3 3 {a} {b} {c}"));
-            elements.push(format!("2 2 3 3 {a} {c} {d}"));
-        }
-    }
-    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
-    for (at, element) in elements.iter().enumerate() {
-        text += &format!("{} {element}\n", at + 1);
-    }
-    text + "$EndElements\n"
-}
 
 /// A folder with the scene in it.
 struct Bench {
-    folder: tempfile::TempDir,
+    folder: Folder,
+    scene: String,
 }
 
 impl Bench {
     fn new() -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("strip.msh"), mesh()).expect("a mesh");
-        std::fs::write(folder.path().join("strip.toml"), SCENE).expect("a scene");
-        assert!(gmsh::read(&folder.path().join("strip.msh")).is_ok());
-        Self { folder }
+        let folder = Folder::new();
+        folder.write("strip.msh", write::text(&grid(4, Cells::Triangles)));
+        let scene = folder.write("strip.toml", SCENE);
+        Self { folder, scene }
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
+        self.folder.path(name)
     }
 
     /// `signorini trade` on the scene, into `out`.
-    fn trade(&self, out: &str, more: &[&str]) -> (i32, String, String) {
-        let (scene, out) = (self.path("strip.toml"), self.path(out));
-        let (scene, out) = (scene.to_str().unwrap(), out.to_str().unwrap());
-        let mut arguments = vec!["trade", scene, "--no-peers", "--out", out];
-        arguments.extend(more);
-        signorini(&arguments)
+    fn trade(&self, out: &str, more: &[&str]) -> Run {
+        let out = self.folder.word(out);
+        run(&[&["trade", &self.scene, "--no-peers", "--out", &out], more].concat())
     }
 
     fn record(&self, out: &str) -> Value {
-        read(&self.path(out).join("trade.json"))
+        read(self.path(out).join("trade.json"))
     }
-}
-
-fn read(path: &Path) -> Value {
-    let text =
-        std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    serde_json::from_str(&text).expect("JSON")
 }
 
 fn number(point: &Value, key: &str) -> f64 {
@@ -126,8 +63,7 @@ fn points(record: &Value) -> &[Value] {
 #[test]
 fn a_study_says_what_it_measured() {
     let bench = Bench::new();
-    let (status, stdout, stderr) = bench.trade("out", &[]);
-    assert_eq!(status, 0, "{stderr}");
+    let stdout = bench.trade("out", &[]).succeeds().stdout;
     let record = bench.record("out");
     let all = points(&record);
     assert!(all.len() > 30 && all.len() <= 60, "{}", all.len());
@@ -135,18 +71,15 @@ fn a_study_says_what_it_measured() {
     every_point_is_sound(all);
     the_front_is_the_front(all);
     the_recommendation_is_kept(&bench, &record);
-    let text = record["recommendation"]["text"].as_str().unwrap();
-    assert!(stdout.contains(text.split(':').next().unwrap()), "{stdout}");
+    let said = record["recommendation"]["text"].as_str().unwrap();
+    assert!(stdout.contains(said.split(':').next().unwrap()), "{stdout}");
     for file in ["trade.csv", "trade.svg", "recommended.toml"] {
         assert!(bench.path("out").join(file).is_file(), "{file}");
     }
-    let lines = std::fs::read_to_string(bench.path("out/trade.csv")).unwrap();
-    assert_eq!(lines.lines().count(), all.len() + 1);
-    let left: Vec<_> = std::fs::read_dir(bench.path("out")).unwrap().flatten().collect();
-    assert!(
-        !left.iter().any(|entry| entry.file_name().to_string_lossy().starts_with("unfinished")),
-        "{left:?}"
-    );
+    assert_eq!(text(bench.path("out/trade.csv")).lines().count(), all.len() + 1);
+    let mut left = std::fs::read_dir(bench.path("out")).unwrap().flatten();
+    let is_left = left.any(|at| at.file_name().to_string_lossy().starts_with("unfinished"));
+    assert!(!is_left);
 }
 
 fn every_point_is_sound(all: &[Value]) {
@@ -185,29 +118,18 @@ fn the_front_is_the_front(all: &[Value]) {
 /// The fragment, studied and solved alone, gives the error that was promised.
 fn the_recommendation_is_kept(bench: &Bench, record: &Value) {
     let promised = &record["recommendation"]["point"];
-    let fragment = bench.path("out/recommended.toml");
-    let (status, _, stderr) = signorini(&[
-        "trade",
-        fragment.to_str().unwrap(),
-        "--out",
-        bench.path("alone").to_str().unwrap(),
-    ]);
-    assert_eq!(status, 0, "{stderr}");
+    let place = |name: &str| bench.folder.word(name);
+    let fragment = place("out/recommended.toml");
+    run(&["trade", &fragment, "--out", &place("alone")]).succeeds();
     let alone = bench.record("alone");
     assert_eq!(points(&alone).len(), 1);
     let [found, asked] = [&alone["points"][0], promised].map(|point| number(point, "error.energy"));
     PROMISED.check_relative("energy", found, asked);
-    let solved = bench.path("solved");
-    let (status, _, stderr) =
-        signorini(&["solve", fragment.to_str().unwrap(), "--out", solved.to_str().unwrap()]);
-    assert_eq!(status, 0, "{stderr}");
-    let summary = read(&solved.join("summary.json"));
+    run(&["solve", &fragment, "--out", &place("solved")]).succeeds();
+    let summary = read(bench.path("solved/summary.json"));
     assert_eq!(summary["unknowns"], promised["unknowns"]);
-    let module = bench.path("module.rs");
-    let (status, _, stderr) =
-        signorini(&["bake", fragment.to_str().unwrap(), "-o", module.to_str().unwrap()]);
-    assert_eq!(status, 0, "{stderr}");
-    let source = std::fs::read_to_string(module).unwrap();
+    run(&["bake", &fragment, "-o", &place("module.rs")]).succeeds();
+    let source = text(bench.path("module.rs"));
     let model = format!("pub const MODEL: &str = {};", promised["model"]);
     assert!(source.contains(&model), "{model}");
 }
@@ -215,9 +137,8 @@ fn the_recommendation_is_kept(bench: &Bench, record: &Value) {
 #[test]
 fn wishes_pick_the_best_point_or_say_that_there_is_none() {
     let bench = Bench::new();
-    let shards = [bench.trade("out", &["--shard", "1/2"]), bench.trade("out", &["--shard", "2/2"])];
-    for (status, stdout, stderr) in shards {
-        assert_eq!(status, 0, "{stderr}");
+    for shard in ["1/2", "2/2"] {
+        let stdout = bench.trade("out", &["--shard", shard]).succeeds().stdout;
         assert!(stdout.contains("without --shard"), "{stdout}");
     }
     assert!(!bench.path("out/trade.json").exists());
@@ -225,8 +146,7 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
     let journal = bench.path("out/unfinished-host/points-2-of-2.jsonl");
     let text = std::fs::read(&journal).unwrap();
     std::fs::write(&journal, &text[..text.len() - 7]).unwrap();
-    let (status, _, stderr) = bench.trade("out", &["--max-error", "30%"]);
-    assert_eq!(status, 0, "{stderr}");
+    bench.trade("out", &["--max-error", "30%"]).succeeds();
     let record = bench.record("out");
     let energy = number(&record, "energy");
     let chosen = &record["recommendation"]["point"];
@@ -234,8 +154,7 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
     let least = good.map(|point| number(point, "cycles")).fold(f64::INFINITY, f64::min);
     assert_eq!(number(chosen, "cycles"), least);
 
-    let (status, _, stderr) = bench.trade("none", &["--max-error", "1e-30"]);
-    assert_eq!(status, 2, "{stderr}");
+    let stderr = bench.trade("none", &["--max-error", "1e-30"]).refuses();
     assert!(stderr.contains("the most accurate"), "{stderr}");
     let record = bench.record("none");
     assert!(record["recommendation"]["point"].is_null());
@@ -245,9 +164,8 @@ fn wishes_pick_the_best_point_or_say_that_there_is_none() {
 #[test]
 fn a_promised_error_has_its_firmware_in_the_folder_of_the_scene() {
     let bench = Bench::new();
-    let (status, stdout, stderr) = bench.trade("promised", &["--promise", "60%,30%"]);
-    assert_eq!(status, 0, "{stderr}");
-    let table = std::fs::read_to_string(bench.path("promised/promised.txt")).expect("a table");
+    let stdout = bench.trade("promised", &["--promise", "60%,30%"]).succeeds().stdout;
+    let table = text(bench.path("promised/promised.txt"));
     assert!(stdout.contains(&table), "{stdout}");
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split_whitespace().collect()).collect();
     let unknowns = |row: &[&str]| row.iter().skip(1).find_map(|cell| cell.parse::<usize>().ok());
@@ -268,32 +186,22 @@ fn wrong_words_are_named() {
         (&["--budget-cycles", "0"], "--budget-cycles"),
         (&["--target", "m3"], "m3"),
     ] {
-        let (status, _, stderr) = bench.trade("out", more);
-        assert_eq!(status, 2, "{stderr}");
+        let stderr = bench.trade("out", more).refuses();
         assert!(stderr.contains(part), "{part}: {stderr}");
     }
-    let scene = bench.path("strip.toml");
-    let scene = scene.to_str().unwrap();
-    let (status, _, stderr) = signorini(&["trade", scene, scene]);
-    assert_eq!(status, 2);
+    let stderr = run(&["trade", &bench.scene, &bench.scene]).refuses();
     assert!(stderr.contains("two scenes of one name"), "{stderr}");
-    let (status, _, stderr) = signorini(&["trade", "--no-peers"]);
-    assert_eq!(status, 2);
+    let stderr = run(&["trade", "--no-peers"]).refuses();
     assert!(stderr.contains("--no-peers without a scene"), "{stderr}");
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// The studies of one target in the committed record, by their folders.
 fn recorded(target: &str) -> Vec<(PathBuf, Value)> {
-    let folders =
-        std::fs::read_dir(root().join("host/benches/trade").join(target)).expect("a record");
-    let mut all: Vec<_> = folders
-        .map(|entry| entry.expect("a folder").path())
-        .map(|folder| (folder.clone(), read(&folder.join("trade.json"))))
-        .collect();
+    let records = repository("host/benches/trade").join(target);
+    let folders = std::fs::read_dir(records).expect("a record");
+    let folders = folders.map(|entry| entry.expect("a folder").path());
+    let mut all: Vec<_> =
+        folders.map(|folder| (folder.clone(), read(folder.join("trade.json")))).collect();
     all.sort_by(|a, b| a.0.cmp(&b.0));
     all
 }
@@ -301,7 +209,7 @@ fn recorded(target: &str) -> Vec<(PathBuf, Value)> {
 /// Cycles are of a build, and the record says of which.
 #[test]
 fn committed_records_name_the_registers_of_their_cycles() {
-    let sizes = read(&root().join("host/benches/trade/sizes.json"));
+    let sizes = read(repository("host/benches/trade/sizes.json"));
     let studies = recorded("host").into_iter().chain(recorded("m4f")).map(|(_, record)| record);
     for record in studies.chain([sizes]) {
         assert!(record["registers"].as_str().is_some_and(|name| name.contains("x86-64")));
@@ -311,18 +219,17 @@ fn committed_records_name_the_registers_of_their_cycles() {
 /// `solve` on each committed recommendation, where the exact solution tells.
 #[test]
 fn committed_recommendations_keep_their_promise() {
-    let out = tempfile::tempdir().expect("a folder");
+    let out = Folder::new();
     let mut kept = 0;
     for (folder, record) in recorded("host").into_iter().chain(recorded("m4f")) {
         let fragment = folder.join("recommended.toml");
         if record["truth"] != "the exact solution" || !fragment.exists() {
             continue;
         }
-        let place = out.path().join(kept.to_string());
-        let (fragment, place) = (fragment.to_str().unwrap(), place.to_str().unwrap());
-        let (status, _, stderr) = signorini(&["solve", fragment, "--out", place]);
-        assert_eq!(status, 0, "{fragment}: {stderr}");
-        let found = number(&read(&Path::new(place).join("summary.json")), "errors.energy");
+        let (fragment, place) = (&word(&fragment), out.word(&kept.to_string()));
+        run(&["solve", fragment, "--out", &place]).succeeds();
+        let summary = read(out.path(&format!("{kept}/summary.json")));
+        let found = number(&summary, "errors.energy");
         let promised = number(&record["recommendation"]["point"], "error.energy");
         // A patch is exact to rounding, and rounding is no promise.
         let size = promised + 2e-5 * number(&record, "energy");
@@ -336,7 +243,7 @@ fn committed_recommendations_keep_their_promise() {
 fn every_standard_scene_is_in_the_record() {
     let mut scenes = Vec::new();
     for folder in ["catalogue", "scenes"] {
-        for entry in std::fs::read_dir(root().join("meshes").join(folder)).expect("scenes") {
+        for entry in std::fs::read_dir(repository("meshes").join(folder)).expect("scenes") {
             let path = entry.expect("a file").path();
             if path.extension().is_some_and(|extension| extension == "toml") {
                 scenes.push(path.file_stem().unwrap().to_string_lossy().into_owned());
@@ -363,7 +270,7 @@ fn cycles(baselines: &Value, solver: &str, problem: &str, start: &str) -> Option
 
 /// The page on benchmarks.
 fn page() -> String {
-    std::fs::read_to_string(root().join("docs/benchmarks.md")).expect("the page on benchmarks")
+    text(repository("docs/benchmarks.md"))
 }
 
 /// Three digits, as the page on benchmarks has them.
@@ -384,7 +291,7 @@ fn the_page_quotes_the_record() {
         "Clarabel",
         "OSQP",
     ];
-    let sizes = read(&root().join("host/benches/trade/sizes.json"));
+    let sizes = read(repository("host/benches/trade/sizes.json"));
     let page = page();
     let lines: Vec<Vec<&str>> =
         page.lines().map(|line| line.split_whitespace().collect()).collect();

@@ -160,22 +160,13 @@ fn oblique_and_stretched_tensors() {
 /// B with x mirrored, no flux data on C to the left, sides Neumann.
 const MIRRORED: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = 1
-[boundary.contact]
-kind = "contact"
-[boundary.top]
-kind = "dirichlet"
-value = "-sqrt(x^2+y^2)^1.5*sin(1.5*atan2(y,x))"
-[boundary.left]
-kind = "neumann"
-flux = "1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))"
-[boundary.right]
-kind = "neumann"
-flux = "-1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))"
-[exact]
-u = "-sqrt(x^2+y^2)^1.5*sin(1.5*atan2(y,x))"
-gradient = ["-1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))", "-1.5*sqrt(sqrt(x^2+y^2))*cos(0.5*atan2(y,x))"]
+material.default.conductivity = 1
+boundary.contact = { kind = "contact" }
+boundary.top = { kind = "dirichlet", value = "-sqrt(x^2+y^2)^1.5*sin(1.5*atan2(y,x))" }
+boundary.left = { kind = "neumann", flux = "1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))" }
+boundary.right = { kind = "neumann", flux = "-1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))" }
+exact.u = "-sqrt(x^2+y^2)^1.5*sin(1.5*atan2(y,x))"
+exact.gradient = ["-1.5*sqrt(sqrt(x^2+y^2))*sin(0.5*atan2(y,x))", "-1.5*sqrt(sqrt(x^2+y^2))*cos(0.5*atan2(y,x))"]
 "#;
 
 fn sides([x, y]: [f64; 2]) -> &'static str {
@@ -216,18 +207,11 @@ fn trapezoids_keep_the_rate_of_the_flux_only() {
 
 const BENCHMARK_SCENE: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = 1
-[source]
-f = "2*pi*sin(2*pi*x)"
-[boundary.bottom]
-kind = "contact"
-[boundary.top]
-kind = "dirichlet"
-value = 0
-[boundary.default]
-kind = "neumann"
-flux = 0
+material.default.conductivity = 1
+source.f = "2*pi*sin(2*pi*x)"
+boundary.bottom = { kind = "contact" }
+boundary.top = { kind = "dirichlet", value = 0 }
+boundary.default = { kind = "neumann", flux = 0 }
 "#;
 
 #[test]

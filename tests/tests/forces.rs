@@ -268,6 +268,5 @@ fn condensed_models_that_are_cut_off() {
         pulled[0] += condensed_ticks::<f64>(name, &problem, condensed, &mut random);
         pulled[1] += condensed_ticks::<f32>(name, &problem, condensed, &mut random);
     }
-    println!("{pulled:?}");
     assert!(pulled.iter().all(|&pulled| pulled > 0), "{pulled:?}");
 }

@@ -2,7 +2,7 @@
 
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::fixtures::{EVERY_INPUT, full_at, on_grid};
+use signorini_solve::fixtures::{EVERY_INPUT, changed, full_at, on_grid};
 use signorini_solve::outputs::outputs;
 use signorini_tolerances::bake::LENGTH;
 
@@ -11,7 +11,8 @@ use signorini_tolerances::bake::LENGTH;
 fn declared_lengths_of_a_condensed_solve() -> Result<()> {
     for scalar in ["f32", "f64"] {
         let setting = format!("[setting]\nmodel = \"condensed\"\nscalar = \"{scalar}\"\n");
-        let text = EVERY_INPUT.replace("[input.rain]", "default = 0.3\n[input.rain]") + &setting;
+        let depth = "pattern = \"(1 - x)*(0.2 + 0.1*x)*(1+x)\"";
+        let text = changed(EVERY_INPUT, &[(depth, &format!("{depth}, default = 0.3"))]) + &setting;
         let (scene, problem) = on_grid(&text, grid(5, Cells::Mixed))?;
         let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
         let p: Vec<f64> = std::iter::once(1.0).chain(inputs).collect();

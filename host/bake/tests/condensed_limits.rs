@@ -1,82 +1,36 @@
 //! A condensed model with limits of the flux, tick after tick: against the direct solver on the mesh, and its bound against that
 //! of the same numbers in f64.
 
+use crate::direct::{HEATER, directly, narrowed};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::device::report::Ended;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_solve::condense::{CondensedModel, condense};
-use signorini_solve::fixtures::on_grid;
-use signorini_solve::outputs::outputs;
+use signorini_solve::fixtures::{changed, on_grid};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     LIMITED_BOUND, LIMITED_BOUND_NARROW, LIMITED_TICK, LIMITED_TICK_NARROW,
 };
 
-/// A heated face below keeps 2, and may cool by 1; its limits vary along it. u ≤ 3 on the right, air on the left.
-const HEATER: &str = r#"
-mesh = "grid"
-[material.default]
-conductivity = ["2", "0.3", "1"]
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "2 - x/4"
-[boundary.left]
-kind = "robin"
-coefficient = "3"
-ambient = "0"
-[boundary.right]
-kind = "contact"
-gap = "2 + y"
-flux = "-inf"
-limit = "0.5*y"
-[boundary.contact]
-kind = "contact"
-gap = "2"
-flux = "-1"
-limit = "6 - 3*x^2"
-[input.air]
-of = "left"
-field = "ambient"
-pattern = "1"
-default = -3.0
-[input.sun]
-of = "source"
-field = "f"
-pattern = "1 - x"
-[input.wanted]
-of = "contact"
-field = "gap"
-pattern = "(1 - x)/2"
-[output.power]
-kind = "flux"
-of = "contact"
-[output.short]
-kind = "saturated"
-of = "contact"
-[output.kept]
-kind = "length"
-of = "contact"
-[output.held]
-kind = "force"
-of = "right"
-[output.all]
-kind = "force"
-[output.skin]
-kind = "mean"
-of = "contact"
-"#;
+/// The heater with limits that vary along it, and a gap that is not constant on the right.
+fn heater() -> String {
+    let bent = ("gap = \"3\"", "gap = \"2 + y\"");
+    let wanted = ("field = \"gap\", pattern = \"1\"", "field = \"gap\", pattern = \"(1 - x)/2\"");
+    changed(HEATER, &[bent, wanted]) + "output.all = { kind = \"force\" }\n"
+}
 
 /// The gap is given in place of what it was; both ends of the flux below change.
 fn with_supply() -> String {
-    let fixed = HEATER.replace("6 - 3*x^2", "0").replace("value = \"2 - x/4\"", "value = \"2\"");
-    fixed.replace(
-        "field = \"gap\"\npattern = \"(1 - x)/2\"",
-        "field = \"limit\"\npattern = \"3\"\ndefault = 1.0",
-    )
+    let supply = "field = \"limit\", pattern = \"3\", default = 1.0";
+    let changes = [
+        ("6 - 3*x^2", "0"),
+        ("value = \"2 - x/4\"", "value = \"2\""),
+        ("field = \"gap\", pattern = \"(1 - x)/2\"", supply),
+    ];
+    changed(&heater(), &changes)
 }
 
 /// Inputs, among them some for each state alone, and back again.
@@ -105,13 +59,13 @@ fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]>
     let mut controller = Controller::new(&baked);
     let mut seen = [false; 3];
     for values in STEPS {
-        let narrowed: Vec<R> = values.iter().map(|&value| R::narrow(value)).collect();
-        let (found, report) = controller.tick(&narrowed).expect("a tick");
+        let inputs: Vec<R> = narrowed(&values);
+        let (found, report) = controller.tick(&inputs).expect("a tick");
         let x: Vec<f64> = controller.x().iter().map(|x| x.wide()).collect();
         for x in &x {
             seen[usize::from(*x < 0.0) + 2 * usize::from(*x > 0.0)] = true;
         }
-        let p: Vec<f64> = std::iter::once(1.0).chain(narrowed.iter().map(|p| p.wide())).collect();
+        let p: Vec<f64> = std::iter::once(1.0).chain(inputs.iter().map(|p| p.wide())).collect();
         let bound = expected.model.bound(&p, &x).expect("a bound");
         let certificate = report.verdict.certificate().expect("a bound");
         let (total, rounding) = (certificate.total.wide(), certificate.rounding.wide());
@@ -124,9 +78,7 @@ fn ticks<R: Scalar>(problem: &Problem, expected: &Expected) -> Result<[bool; 3]>
             continue;
         }
         assert_eq!(report.ended, Ended::Exact);
-        let now = problem.with_inputs(&values)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let direct = outputs(&now, &solve(&now, &options)?)?;
+        let (now, _, direct) = directly(problem, &values)?;
         for (output, found) in now.scene.outputs.iter().zip(&found) {
             let name = &output.name.value;
             let value = direct[name].expect("a value");
@@ -142,7 +94,7 @@ const EXACT: Work = Work { pivots: Some(400), sweeps: 40 };
 
 #[test]
 fn exact_ticks_are_those_of_the_mesh() -> Result<()> {
-    for text in [HEATER.to_owned(), with_supply()] {
+    for text in [heater(), with_supply()] {
         for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
             let (_, problem) = on_grid(&text, grid(6, cells))?;
             let model = &condense(&problem)?;
@@ -159,7 +111,7 @@ fn exact_ticks_are_those_of_the_mesh() -> Result<()> {
 /// Any answer has its bound, whatever ends the tick.
 #[test]
 fn ticks_that_are_cut_off_are_bounded_as_on_the_host() -> Result<()> {
-    for text in [HEATER.to_owned(), with_supply()] {
+    for text in [heater(), with_supply()] {
         let (_, problem) = on_grid(&text, grid(6, Cells::Mixed))?;
         let model = &condense(&problem)?;
         for (pivots, sweeps) in

@@ -1,21 +1,19 @@
 //! Inputs on either end of a limited flux, tick after tick: against the direct solver and an exact solution, and where they
 //! leave no flux.
 
+use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
-use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_kernel::Error;
 use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::certify::CertifiedFields;
-use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::exact::distance;
-use signorini_solve::fixtures::on_grid;
-use signorini_solve::outputs::outputs;
+use signorini_solve::fixtures::limited::crossing;
+use signorini_solve::fixtures::{changed, on_grid};
+use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     GUARANTEE, LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW,
@@ -24,93 +22,31 @@ use signorini_tolerances::bake::{
 /// A heater below whose supply sags and whose least flux leaks, a limit from above on the right, air on the left.
 const SUPPLY: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.3", "1"]
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "2 - x/4"
-[boundary.left]
-kind = "robin"
-coefficient = "3"
-ambient = "0"
-[boundary.right]
-kind = "contact"
-gap = "3"
-flux = "-inf"
-limit = "0.5*y"
-[boundary.contact]
-kind = "contact"
-gap = "2"
-flux = "-1 + 0.3*x"
-limit = "0.3*x"
-[input.supply]
-of = "contact"
-field = "limit"
-pattern = "6"
-default = 1.0
-range = [0.0, 1.5]
-[input.leak]
-of = "contact"
-field = "flux"
-pattern = "-0.5"
-range = [-2.0, 4.0]
-[input.drain]
-of = "right"
-field = "limit"
-pattern = "1 - y"
-range = [-1.0, 3.0]
-[input.air]
-of = "left"
-field = "ambient"
-pattern = "1"
-default = -3.0
-range = [-40.0, 6.0]
-[output.power]
-kind = "force"
-of = "contact"
-[output.flux]
-kind = "flux"
-of = "contact"
-[output.short]
-kind = "saturated"
-of = "contact"
-[output.kept]
-kind = "length"
-of = "contact"
-[output.held]
-kind = "force"
-of = "right"
-[output.skin]
-kind = "mean"
-of = "contact"
+material.default.conductivity = ["2", "0.3", "1"]
+boundary.dirichlet = { kind = "dirichlet", value = "2 - x/4" }
+boundary.left = { kind = "robin", coefficient = "3", ambient = "0" }
+boundary.right = { kind = "contact", gap = "3", flux = "-inf", limit = "0.5*y" }
+boundary.contact = { kind = "contact", gap = "2", flux = "-1 + 0.3*x", limit = "0.3*x" }
+input.supply = { of = "contact", field = "limit", pattern = "6", default = 1.0, range = [0.0, 1.5] }
+input.leak = { of = "contact", field = "flux", pattern = "-0.5", range = [-2.0, 4.0] }
+input.drain = { of = "right", field = "limit", pattern = "1 - y", range = [-1.0, 3.0] }
+input.air = { of = "left", field = "ambient", pattern = "1", default = -3.0, range = [-40.0, 6.0] }
+output.power = { kind = "force", of = "contact" }
+output.flux = { kind = "flux", of = "contact" }
+output.short = { kind = "saturated", of = "contact" }
+output.kept = { kind = "length", of = "contact" }
+output.held = { kind = "force", of = "right" }
+output.skin = { kind = "mean", of = "contact" }
 "#;
 
-/// Random inputs within the ranges (an xorshift), and the corners where both ends of the heater's flux meet.
+/// The corners where both ends of the heater's flux meet, and inputs drawn within the ranges.
 fn steps(problem: &Problem, ticks: usize) -> Vec<Vec<f64>> {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut unit = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut drawn = || {
-        let inputs = problem.scene.inputs.iter().map(|input| {
-            let [low, high] = input.interval();
-            low + (high - low) * unit()
-        });
-        inputs.collect::<Vec<f64>>()
-    };
     let corners = [[0.0, -2.0, 0.0, -3.0], [1.0, 0.0, 0.0, -3.0], [0.0, -2.0, 3.0, 6.0]];
-    corners.map(Vec::from).into_iter().chain((0..ticks).map(|_| drawn())).collect()
-}
-
-fn narrowed<R: Scalar>(values: &[f64]) -> Vec<R> {
-    values.iter().map(|&value| R::narrow(value)).collect()
-}
-
-fn to_the_end<R: Scalar>() -> Limits<R> {
-    Limits { share: R::narrow(1e-9), ..Limits::default() }
+    corners
+        .map(Vec::from)
+        .into_iter()
+        .chain(drawn(&InputSpace::of(&problem.scene), ticks))
+        .collect()
 }
 
 fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
@@ -118,34 +54,17 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     ticks: usize,
     allowed: Tolerance,
 ) -> Result<()> {
-    let baked = Baked::<R>::new(problem)?;
-    assert!(baked.has_bound() && baked.features().contains(&"limited"));
-    let mut controller = Controller::<R, WIDTH>::new(&baked);
+    // Where both ends are equal u may pass through the gap, and no length is defined but by rounding.
+    let is_undefined = |values: &[f64], name: &str| {
+        values[0] == 0.0 && values[1] == -2.0 && ["short", "kept"].contains(&name)
+    };
+    let steps = steps(problem, ticks);
+    let beside = Beside { problem, feature: "limited", steps, least: |_| 10.0, is_undefined };
     let mut seen = [[false; 2]; 2];
-    for values in steps(problem, ticks) {
-        let (found, report) =
-            controller.tick_within(&narrowed(&values), to_the_end()).expect("a tick");
-        let now = problem.with_inputs(&values)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&now, &options)?;
-        let expected = outputs(&now, &solution)?;
-        let equal = values[0] == 0.0 && values[1] == -2.0;
-        for (output, found) in now.scene.outputs.iter().zip(&found) {
-            let name = &output.name.value;
-            let expected = expected[name].expect("a value");
-            // Where both ends are equal u may pass through the gap, and no length is defined but by rounding.
-            if equal && ["short", "kept"].contains(&name.as_str()) {
-                continue;
-            }
-            let size = expected.abs().max(10.0);
-            allowed.check_over(format_args!("{name} {values:?}"), found.wide() - expected, size);
-        }
-        let gap = report.verdict.certificate().expect("a bound").duality_gap.wide();
-        let bound = solution.bound.expect("a bound").duality_gap;
-        allowed.check_relative(format_args!("gap {values:?}"), gap, bound);
+    beside.ticks::<R, WIDTH>(allowed, |found, _, _| {
         seen[0][usize::from(found[2] > R::ZERO)] = true;
         seen[1][usize::from(found[3] > R::ZERO)] = true;
-    }
+    })?;
     assert_eq!(seen, [[true; 2]; 2]);
     Ok(())
 }
@@ -173,21 +92,8 @@ fn a_factor_serves_every_range() -> Result<()> {
 fn ticks_on_the_desk_know_the_same_ends() -> Result<()> {
     let (_, problem) = on_grid(SUPPLY, grid(4, Cells::Mixed))?;
     let steps = steps(&problem, 6);
-    let moments: Vec<_> = steps
-        .iter()
-        .enumerate()
-        .map(|(at, values)| ScheduledTick {
-            time: at as f64,
-            inputs: values.iter().copied().enumerate().collect(),
-        })
-        .collect();
-    let sweeps = Options::default().max_sweeps;
-    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
-    for (tick, values) in play(&problem, None, &moments, &budget, |_, _| Ok(()))?.iter().zip(&steps)
-    {
-        let now = problem.with_inputs(values)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let expected = outputs(&now, &solve(&now, &options)?)?;
+    for (tick, values) in played(&problem, &steps)?.iter().zip(&steps) {
+        let (now, _, expected) = directly(&problem, values)?;
         for (output, found) in now.scene.outputs.iter().zip(&tick.outputs) {
             let name = output.name.value.as_str();
             if ["power", "flux", "held", "skin"].contains(&name) {
@@ -204,57 +110,18 @@ fn ticks_on_the_desk_know_the_same_ends() -> Result<()> {
 /// All three sides of the law with the r^{3/2} of both transitions at ±0.55, as `l-tri` of the catalogue has it, times p: the
 /// limit is 1.5 p, the Dirichlet value p u.
 fn transitions(p: f64) -> String {
-    let size = "((x-0.55)^2+y^2)^0.25*((x+0.55)^2+y^2)^0.25";
-    let angle = "(0.5*atan2(y,x-0.55) + 0.5*atan2(y,x+0.55))";
-    let [re, im] = ["cos", "sin"].map(|of| format!("{size}*{of}{angle}"));
-    let xi = format!("(pi/2 - atan2(y + {im}, x + {re}))");
-    let eta = format!("(0.5*ln(((x + {re})^2 + (y + {im})^2)/0.55^2))");
-    let u = format!("(1.5/pi*(x*{eta} + y*{xi} - {re}) - 0.75*y)");
+    let [u, dx, dy] = crossing([0.0, 1.5]);
     format!(
         "
 mesh = \"grid\"
-[material.default]
-conductivity = \"1\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"0\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"0\"
-flux = \"0\"
-limit = \"0\"
-[input.above]
-of = \"dirichlet\"
-field = \"value\"
-pattern = \"{u}\"
-default = {p}
-[input.supply]
-of = \"contact\"
-field = \"limit\"
-pattern = \"1.5\"
-default = {p}
-range = [0, 1e3]
-[exact]
-u = \"{p}*{u}\"
-gradient = [\"{p}*1.5/pi*{eta}\", \"{p}*(1.5/pi*{xi} - 0.75)\"]
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"0\", flux = \"0\", limit = \"0\" }}
+input.above = {{ of = \"dirichlet\", field = \"value\", pattern = \"{u}\", default = {p} }}
+input.supply = {{ of = \"contact\", field = \"limit\", pattern = \"1.5\", default = {p}, range = [0, 1e3] }}
+exact = {{ u = \"{p}*({u})\", gradient = [\"{p}*({dx})\", \"{p}*({dy})\"] }}
 "
     )
-}
-
-fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -> CertifiedFields {
-    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
-    let tau = wide(controller.tau());
-    let bubbles = match controller.bubbles() {
-        [] => vec![0.0; tau.len()],
-        bubbles => wide(bubbles),
-    };
-    CertifiedFields {
-        vertices: wide(controller.vertices()),
-        bubbles,
-        tau,
-        indicators: Vec::new(),
-        following: Following::WhereNeeded,
-    }
 }
 
 fn bounds<R: Scalar, const WIDTH: usize>(cells: Cells) -> Result<()> {
@@ -287,7 +154,7 @@ fn the_bound_holds_for_every_supply() -> Result<()> {
 
 /// Without its ranges.
 fn unranged() -> String {
-    SUPPLY.replace("range = [0.0, 1.5]\n", "").replace("range = [-2.0, 4.0]\n", "")
+    changed(SUPPLY, &[(", range = [0.0, 1.5]", ""), (", range = [-2.0, 4.0]", "")])
 }
 
 fn refused_and_kept<R: Scalar>() -> Result<()> {
@@ -350,9 +217,7 @@ fn a_span_that_varies_along_edges_has_no_bound() -> Result<()> {
     let values = [0.8, 0.5, 0.0, -9.0];
     let (found, report) = controller.tick_within(&values, to_the_end()).expect("a tick");
     assert!(report.verdict.certificate().is_none());
-    let now = problem.with_inputs(&values)?;
-    let options = Options { solver: SolverKind::Direct, ..Options::default() };
-    let expected = outputs(&now, &solve(&now, &options)?)?;
+    let (_, _, expected) = directly(&problem, &values)?;
     LIMITED_INPUT_TICK.check("power", found[0] - expected["power"].expect("a value"));
     Ok(())
 }

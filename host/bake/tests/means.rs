@@ -18,32 +18,13 @@ fn text(gap: &str, level: f64) -> String {
     let mut text = format!(
         "
 mesh = \"grid\"
-[material.default]
-conductivity = \"1\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"2 + 2*x\"
-[boundary.left]
-kind = \"neumann\"
-flux = \"-2\"
-[boundary.right]
-kind = \"robin\"
-coefficient = \"3\"
-ambient = \"3 + y + 2/3\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"{gap}\"
-flux = \"-1\"
-[input.level]
-of = \"dirichlet\"
-field = \"value\"
-pattern = \"1\"
-default = {level}
-[input.outside]
-of = \"right\"
-field = \"ambient\"
-pattern = \"1\"
-default = {level}
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"2 + 2*x\" }}
+boundary.left = {{ kind = \"neumann\", flux = \"-2\" }}
+boundary.right = {{ kind = \"robin\", coefficient = \"3\", ambient = \"3 + y + 2/3\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"{gap}\", flux = \"-1\" }}
+input.level = {{ of = \"dirichlet\", field = \"value\", pattern = \"1\", default = {level} }}
+input.outside = {{ of = \"right\", field = \"ambient\", pattern = \"1\", default = {level} }}
 "
     );
     for name in NAMES {

@@ -1,19 +1,16 @@
 //! Transfer coefficients that inputs change, tick after tick: against solvers, resistances and an exact solution.
 
+use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
-use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_kernel::device::tick::{Limits, Report};
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::certify::CertifiedFields;
-use signorini_solve::certify::admissible::Following;
 use signorini_solve::certify::exact::distance;
-use signorini_solve::fixtures::{SMOOTH, on_grid};
-use signorini_solve::outputs::outputs;
+use signorini_solve::fixtures::{self, SMOOTH, changed, on_grid};
 use signorini_solve::problem::Problem;
 use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::solve::Solution;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     GUARANTEE, OSCILLATION, TRANSFER, TRANSFER_NARROW, TRANSFER_TICK, TRANSFER_TICK_NARROW,
@@ -23,79 +20,27 @@ use signorini_tolerances::bake::{
 /// Inputs of both factors of h u_ext, with patterns that vary along the edges, one with a kink, and contact that opens and closes.
 const PRODUCTS: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "-1"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "0.3"
-[boundary.left]
-kind = "robin"
-coefficient = "2 + y"
-ambient = "y^2 - 2"
-[boundary.right]
-kind = "robin"
-coefficient = "x - 2"
-ambient = "-1"
-[boundary.contact]
-kind = "contact"
-gap = "-0.3*x^2"
-flux = "-0.1"
-[input.wind]
-of = "left"
-field = "coefficient"
-pattern = "1 - y/2"
-default = 1.0
-range = [0.0, 20.0]
-[input.shelter]
-of = "left"
-field = "coefficient"
-pattern = "y"
-range = [-1.0, 1.0]
-[input.air]
-of = "left"
-field = "ambient"
-pattern = "1 - abs(y - 0.37)"
-default = 0.5
-[input.other]
-of = "right"
-field = "coefficient"
-pattern = "2"
-default = 1.0
-range = [0.5, 10.0]
-[input.outside]
-of = "right"
-field = "ambient"
-pattern = "3"
-[output.left]
-kind = "flux"
-of = "left"
-[output.right]
-kind = "flux"
-of = "right"
-[output.force]
-kind = "force"
-[output.skin]
-kind = "mean"
-of = "right"
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "-1"
+boundary.dirichlet = { kind = "dirichlet", value = "0.3" }
+boundary.left = { kind = "robin", coefficient = "2 + y", ambient = "y^2 - 2" }
+boundary.right = { kind = "robin", coefficient = "x - 2", ambient = "-1" }
+boundary.contact = { kind = "contact", gap = "-0.3*x^2", flux = "-0.1" }
+input.wind = { of = "left", field = "coefficient", pattern = "1 - y/2", default = 1.0, range = [0.0, 20.0] }
+input.shelter = { of = "left", field = "coefficient", pattern = "y", range = [-1.0, 1.0] }
+input.air = { of = "left", field = "ambient", pattern = "1 - abs(y - 0.37)", default = 0.5 }
+input.other = { of = "right", field = "coefficient", pattern = "2", default = 1.0, range = [0.5, 10.0] }
+input.outside = { of = "right", field = "ambient", pattern = "3" }
+output.left = { kind = "flux", of = "left" }
+output.right = { kind = "flux", of = "right" }
+output.force = { kind = "force" }
+output.skin = { kind = "mean", of = "right" }
 "#;
-
-fn to_the_end<R: Scalar>() -> Limits<R> {
-    Limits { share: R::narrow(1e-9), ..Limits::default() }
-}
-
-fn narrowed<R: Scalar>(values: &[f64]) -> Vec<R> {
-    values.iter().map(|&value| R::narrow(value)).collect()
-}
 
 fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
     problem: &Problem,
     allowed: Tolerance,
 ) -> Result<()> {
-    let baked = Baked::<R>::new(problem)?;
-    assert!(baked.has_bound() && baked.features().contains(&"transfer"));
-    let mut warm = Controller::<R, WIDTH>::new(&baked);
     let steps = [
         [1.0, 0.0, 0.5, 1.0, 0.0],
         [20.0, -1.0, -2.0, 0.5, 1.5],
@@ -103,27 +48,16 @@ fn against_the_direct_solver<R: Scalar, const WIDTH: usize>(
         [0.0, 0.5, 3.0, 0.5, 1.0],
         [1.0, 0.0, 0.5, 1.0, 0.0],
     ];
-    for values in steps {
-        let (found, report) = warm.tick_within(&narrowed(&values), to_the_end()).expect("a tick");
-        let of_tick = report.verdict.certificate().expect("a bound");
-        let now = problem.with_inputs(&values)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let solution = solve(&now, &options)?;
-        let expected = outputs(&now, &solution)?;
-        let largest = solution.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
-        for (output, found) in now.scene.outputs.iter().zip(&found) {
-            let name = &output.name.value;
-            let expected = expected[name].expect("a value");
-            let size = expected.abs().max(largest);
-            allowed.check_over(format_args!("{name} {values:?}"), found.wide() - expected, size);
-        }
+    let steps = steps.map(Vec::from).into();
+    let (least, is_undefined): (fn(&Solution) -> f64, fn(&_, &_) -> bool) =
+        (Solution::largest_flux, |_, _| false);
+    let beside = Beside { problem, feature: "transfer", steps, least, is_undefined };
+    beside.ticks::<R, WIDTH>(allowed, |_, report, solution| {
         // What a tick leaves out is at least what this coefficient does.
-        let bound = solution.bound.expect("a bound");
-        let gap = of_tick.duality_gap.wide();
-        allowed.check_relative(format_args!("gap {values:?}"), gap, bound.duality_gap);
-        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick.oscillation.wide());
-    }
-    Ok(())
+        let of_tick = report.verdict.certificate().expect("a bound").oscillation.wide();
+        let bound = solution.bound.as_ref().expect("a bound");
+        OSCILLATION.check_at_most("oscillation", bound.oscillation, of_tick);
+    })
 }
 
 #[test]
@@ -143,38 +77,12 @@ fn smooth() -> String {
     let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
     let text = text.replace(" + (3*y - 6.5)/(2+y)\"", "\"");
     text + "
-[input.h]
-of = \"left\"
-field = \"coefficient\"
-pattern = \"2+y\"
-default = 1.0
-range = [0.01, 100.0]
-[input.push]
-of = \"left\"
-field = \"ambient\"
-pattern = \"(3*y - 6.5)/(2+y)\"
-default = 1.0
+input.h = { of = \"left\", field = \"coefficient\", pattern = \"2+y\", default = 1.0, range = [0.01, 100.0] }
+input.push = { of = \"left\", field = \"ambient\", pattern = \"(3*y - 6.5)/(2+y)\", default = 1.0 }
 "
 }
 
 const SMOOTH_STEPS: [f64; 5] = [1.0, 0.01, 100.0, 0.1, 3.0];
-
-fn certified<R: Scalar, const WIDTH: usize>(controller: &Controller<R, WIDTH>) -> CertifiedFields {
-    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
-    let tau = wide(controller.tau());
-    let bubbles = match controller.bubbles() {
-        [] => vec![0.0; tau.len()],
-        bubbles => wide(bubbles),
-    };
-    let vertices = wide(controller.vertices());
-    CertifiedFields {
-        vertices,
-        bubbles,
-        tau,
-        indicators: Vec::new(),
-        following: Following::WhereNeeded,
-    }
-}
 
 fn bounds<R: Scalar, const WIDTH: usize>(problem: &Problem) -> Result<()> {
     let baked = Baked::<R>::new(problem)?;
@@ -205,18 +113,6 @@ fn the_bound_holds_for_every_coefficient() -> Result<()> {
     bounds::<f64, QUADS>(&problem)
 }
 
-fn moments(steps: &[Vec<f64>]) -> Vec<ScheduledTick> {
-    let inputs = |values: &Vec<f64>| values.iter().copied().enumerate().collect();
-    let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
-    steps.iter().enumerate().map(moment).collect()
-}
-
-fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> {
-    let sweeps = Options::default().max_sweeps;
-    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
-    play(problem, None, &moments(steps), &budget, |_, _| Ok(()))
-}
-
 #[test]
 fn ticks_on_the_desk_bound_their_error_too() -> Result<()> {
     let (_, problem) = on_grid(&smooth(), grid(4, Cells::Mixed))?;
@@ -230,37 +126,20 @@ fn ticks_on_the_desk_bound_their_error_too() -> Result<()> {
     Ok(())
 }
 
-/// A wall of conductivity 2 and width 2 between u = 1 above and air at −1 below, where h is as the input says.
+/// A wall of width 2 between u = 1 above and air at −1 below, where h is as the input says.
 fn wall(coefficient: &str, range: &str) -> String {
-    format!(
-        "
-mesh = \"grid\"
-[material.default]
-conductivity = \"2\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"1\"
-[boundary.left]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.right]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.contact]
-kind = \"robin\"
-coefficient = \"{coefficient}\"
-ambient = \"-1\"
-[input.h]
-of = \"contact\"
-field = \"coefficient\"
-pattern = \"1\"
-default = 1.0
-range = {range}
-[output.heat]
-kind = \"flux\"
-of = \"contact\"
+    let air = "kind = \"robin\", ambient = \"-1\", coefficient";
+    fixtures::wall("1", &format!("{air} = \"{coefficient}\""))
+        + &format!(
+            "
+input.h.of = \"contact\"
+input.h.field = \"coefficient\"
+input.h.pattern = \"1\"
+input.h.default = 1.0
+input.h.range = {range}
+output.heat = {{ kind = \"flux\", of = \"contact\" }}
 "
-    )
+        )
 }
 
 /// In series: 1/R = 1/(1/h + 1/2) over a width of 2, with a drop of 2. Where h vanishes nothing passes, and the bound knows.
@@ -316,8 +195,8 @@ fn a_wall_in_other_units_passes_as_much() -> Result<()> {
 #[test]
 fn a_part_that_a_vanishing_coefficient_holds_is_refused_by_its_range() -> Result<()> {
     let alone = |range: &str| {
-        wall("0", range)
-            .replace("kind = \"dirichlet\"\nvalue = \"1\"", "kind = \"neumann\"\nflux = \"1\"")
+        let given = ("kind = \"dirichlet\", value = \"1\"", "kind = \"neumann\", flux = \"1\"");
+        changed(&wall("0", range), &[given])
     };
     let (_, problem) = on_grid(&alone("[0.5, 2.0]"), grid(3, Cells::Mixed))?;
     Baked::<f64>::new(&problem)?;
@@ -331,22 +210,22 @@ fn a_part_that_a_vanishing_coefficient_holds_is_refused_by_its_range() -> Result
 /// Contact holds the domain where h vanishes: ticks on the desk shift it then, and their matrix follows h.
 #[test]
 fn a_part_that_contact_holds_at_times_is_played_by_solves() -> Result<()> {
-    let text = PRODUCTS
-        .replace("kind = \"dirichlet\"\nvalue = \"0.3\"", "kind = \"neumann\"\nflux = \"-0.2\"")
-        .replace("coefficient = \"2 + y\"", "coefficient = \"y/2\"")
-        .replace("pattern = \"1 - y/2\"", "pattern = \"1 - y/2 - y/2\"")
-        .replace("coefficient = \"x - 2\"", "coefficient = \"0\"")
-        .replace("range = [-1.0, 1.0]", "range = [-0.5, 1.0]")
-        .replace("range = [0.5, 10.0]", "range = [0.0, 10.0]");
+    let changes = [
+        ("kind = \"dirichlet\", value = \"0.3\"", "kind = \"neumann\", flux = \"-0.2\""),
+        ("coefficient = \"2 + y\"", "coefficient = \"y/2\""),
+        ("pattern = \"1 - y/2\"", "pattern = \"1 - y/2 - y/2\""),
+        ("coefficient = \"x - 2\"", "coefficient = \"0\""),
+        ("range = [-1.0, 1.0]", "range = [-0.5, 1.0]"),
+        ("range = [0.5, 10.0]", "range = [0.0, 10.0]"),
+    ];
+    let text = changed(PRODUCTS, &changes);
     let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
     let error = Baked::<f64>::new(&problem).expect_err("no tick").to_string();
     assert!(error.contains("within it nothing may pass, and then contact alone holds"), "{error}");
     let steps = [[1.0, 0.0, 0.5, 1.0, 0.0], [0.0, -0.5, 0.5, 0.0, 0.0], [2.0, 0.3, -1.0, 5.0, 1.0]]
         .map(Vec::from);
     for (tick, values) in played(&problem, &steps)?.iter().zip(&steps) {
-        let now = problem.with_inputs(values)?;
-        let options = Options { solver: SolverKind::Direct, ..Options::default() };
-        let expected = outputs(&now, &solve(&now, &options)?)?;
+        let (now, _, expected) = directly(&problem, values)?;
         for (output, found) in now.scene.outputs.iter().zip(&tick.outputs) {
             let expected = expected[&output.name.value].expect("a value");
             let off = found.expect("a value") - expected;

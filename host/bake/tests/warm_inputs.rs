@@ -7,20 +7,11 @@ use signorini_solve::fixtures::on_grid;
 use signorini_solve::solve::{Options, ScalarKind, solve};
 
 const HELD_BY_CONTACT: &str = r#"mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "-1"
-[boundary.contact]
-kind = "contact"
-[boundary.default]
-kind = "neumann"
-flux = "0"
-[input.rain]
-of = "source"
-field = "f"
-pattern = "-x^2"
-default = 0.0
+material.default.conductivity = "1"
+source.f = "-1"
+boundary.contact = { kind = "contact" }
+boundary.default = { kind = "neumann", flux = "0" }
+input.rain = { of = "source", field = "f", pattern = "-x^2", default = 0.0 }
 "#;
 
 /// The oscillation of −1 is 0, and that of −1 − x² is not: it belongs to the tick's own bound.

@@ -12,20 +12,11 @@ use signorini_solve::scalar::Scalar;
 
 const SCENE: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = "1"
-[source]
-f = "-0.1"
-[boundary.contact]
-kind = "contact"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "0"
-[input.rise]
-of = "dirichlet"
-field = "value"
-pattern = "(x^2 + y^2)^0.75 * cos(1.5*atan2(y, x))"
-default = 1.0
+material.default.conductivity = "1"
+source.f = "-0.1"
+boundary.contact = { kind = "contact" }
+boundary.dirichlet = { kind = "dirichlet", value = "0" }
+input.rise = { of = "dirichlet", field = "value", pattern = "(x^2 + y^2)^0.75 * cos(1.5*atan2(y, x))", default = 1.0 }
 "#;
 
 /// The scene with u_D that is `factor` times its default.

@@ -17,128 +17,79 @@ use signorini_scene::scene::Scene;
 /// σ·n = −2.5x² (bottom), 5y + 6.5 (right), 3y − 6.5 (left).
 pub const SMOOTH: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "-(4*y + 14*x + 2)"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "x^2*y + y^2 + x^3"
-[boundary.left]
-kind = "robin"
-coefficient = "2+y"
-ambient = "y + y^2 - 1 + (3*y - 6.5)/(2+y)"
-[boundary.right]
-kind = "neumann"
-flux = "5*y + 6.5"
-[boundary.contact]
-kind = "contact"
-gap = "x^3"
-flux = "-3.5*x^2 - 1"
-[exact]
-u = "x^2*y + y^2 + x^3"
-gradient = ["2*x*y + 3*x^2", "x^2 + 2*y"]
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "-(4*y + 14*x + 2)"
+boundary.dirichlet = { kind = "dirichlet", value = "x^2*y + y^2 + x^3" }
+boundary.left = { kind = "robin", coefficient = "2+y", ambient = "y + y^2 - 1 + (3*y - 6.5)/(2+y)" }
+boundary.right = { kind = "neumann", flux = "5*y + 6.5" }
+boundary.contact = { kind = "contact", gap = "x^3", flux = "-3.5*x^2 - 1" }
+exact = { u = "x^2*y + y^2 + x^3", gradient = ["2*x*y + 3*x^2", "x^2 + 2*y"] }
 "#;
 
 /// Curved data on two sides of corner cells, a full tensor.
 pub const CURVED: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "0"
-[boundary.default]
-kind = "dirichlet"
-value = "sin(2*x) + y^3 - 0.3*x*y^2"
-[boundary.contact]
-kind = "contact"
-gap = "-2 + exp(x)*(1 + x^2)/20"
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "0"
+boundary.default = { kind = "dirichlet", value = "sin(2*x) + y^3 - 0.3*x*y^2" }
+boundary.contact = { kind = "contact", gap = "-2 + exp(x)*(1 + x^2)/20" }
 "#;
 
 /// A parabola for a gap, all else affine.
 pub const PARABOLA: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "0"
-[boundary.default]
-kind = "dirichlet"
-value = "20 + 1e6*y"
-[boundary.contact]
-kind = "contact"
-gap = "-x^2"
+material.default.conductivity = "1"
+source.f = "0"
+boundary.default = { kind = "dirichlet", value = "20 + 1e6*y" }
+boundary.contact = { kind = "contact", gap = "-x^2" }
 "#;
 
 /// Every field has an input, data are curved, A is full, r and x are of both signs.
 pub const EVERY_INPUT: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "-(1 + x*y)"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "0.3 + 0.1*sin(3*x)"
-[boundary.left]
-kind = "robin"
-coefficient = "2+y"
-ambient = "y - 0.2"
-[boundary.right]
-kind = "neumann"
-flux = "0.5*y - 0.2"
-[boundary.contact]
-kind = "contact"
-gap = "0.35 - 0.4*x^2 + 0.1*x^3"
-flux = "-0.1*x^2"
-[input.depth]
-of = "contact"
-field = "gap"
-pattern = "(1 - x)*(0.2 + 0.1*x)*(1+x)"
-[input.rain]
-of = "contact"
-field = "flux"
-pattern = "1 + x"
-default = 0.1
-[input.level]
-of = "dirichlet"
-field = "value"
-pattern = "1 + 0.5*x"
-[input.wind]
-of = "left"
-field = "ambient"
-pattern = "1 - y^2"
-[input.pull]
-of = "right"
-field = "flux"
-pattern = "y"
-[input.heat]
-of = "source"
-field = "f"
-pattern = "cos(2*x)"
-[output.right]
-kind = "flux"
-of = "right"
-[output.top]
-kind = "flux"
-of = "dirichlet"
-[output.left]
-kind = "flux"
-of = "left"
-[output.force]
-kind = "force"
-[output.length]
-kind = "length"
-of = "contact"
-[output.inside]
-kind = "probe"
-at = [0.21, 0.37]
-[output.bound]
-kind = "bound"
-[output.mean]
-kind = "mean"
-of = "contact"
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "-(1 + x*y)"
+boundary.dirichlet = { kind = "dirichlet", value = "0.3 + 0.1*sin(3*x)" }
+boundary.left = { kind = "robin", coefficient = "2+y", ambient = "y - 0.2" }
+boundary.right = { kind = "neumann", flux = "0.5*y - 0.2" }
+boundary.contact = { kind = "contact", gap = "0.35 - 0.4*x^2 + 0.1*x^3", flux = "-0.1*x^2" }
+input.depth = { of = "contact", field = "gap", pattern = "(1 - x)*(0.2 + 0.1*x)*(1+x)" }
+input.rain = { of = "contact", field = "flux", pattern = "1 + x", default = 0.1 }
+input.level = { of = "dirichlet", field = "value", pattern = "1 + 0.5*x" }
+input.wind = { of = "left", field = "ambient", pattern = "1 - y^2" }
+input.pull = { of = "right", field = "flux", pattern = "y" }
+input.heat = { of = "source", field = "f", pattern = "cos(2*x)" }
+output.right = { kind = "flux", of = "right" }
+output.top = { kind = "flux", of = "dirichlet" }
+output.left = { kind = "flux", of = "left" }
+output.force = { kind = "force" }
+output.length = { kind = "length", of = "contact" }
+output.inside = { kind = "probe", at = [0.21, 0.37] }
+output.bound = { kind = "bound" }
+output.mean = { kind = "mean", of = "contact" }
 "#;
+
+/// The text with parts of it replaced, each of which must be there.
+pub fn changed(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (part, by)| {
+        assert!(text.contains(part), "{part}: {text}");
+        text.replace(part, by)
+    })
+}
+
+/// A wall of conductivity 2, insulated on both sides, between u = `above` on top and a condition below.
+pub fn wall(above: &str, below: &str) -> String {
+    format!(
+        "
+mesh = \"grid\"
+material.default.conductivity = \"2\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"{above}\" }}
+boundary.left = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.right = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.contact = {{ {below} }}
+"
+    )
+}
 
 /// Reads a scene from its text.
 pub fn scene(text: &str) -> Result<Scene> {

@@ -10,108 +10,58 @@ use signorini_scene::scene::Scene;
 pub const INPUTS: usize = 5;
 
 const INPUTS_AND_OUTPUTS: &str = r#"
-[input.lift]
-of = "source"
-field = "f"
-pattern = "1 + x*y"
-[input.gap]
-of = "contact"
-field = "gap"
-pattern = "x"
-[input.flux]
-of = "contact"
-field = "flux"
-pattern = "1"
-[input.bent]
-of = "contact"
-field = "gap"
-pattern = "0.1*cos(3*x)"
-[output.force]
-kind = "force"
-[output.through]
-kind = "flux"
-of = "contact"
-[output.length]
-kind = "length"
-[output.mean]
-kind = "mean"
-of = "contact"
-[output.probe]
-kind = "probe"
-at = [0.3, 0.4]
+input.lift = { of = "source", field = "f", pattern = "1 + x*y" }
+input.gap = { of = "contact", field = "gap", pattern = "x" }
+input.flux = { of = "contact", field = "flux", pattern = "1" }
+input.bent = { of = "contact", field = "gap", pattern = "0.1*cos(3*x)" }
+output.force = { kind = "force" }
+output.through = { kind = "flux", of = "contact" }
+output.length = { kind = "length" }
+output.mean = { kind = "mean", of = "contact" }
+output.probe = { kind = "probe", at = [0.3, 0.4] }
 "#;
 
 /// Where there is one.
 const BOUND: &str = r#"
-[output.bound]
-kind = "bound"
+output.bound = { kind = "bound" }
 "#;
 
 /// Held by Dirichlet values, by a transfer law; with A that varies.
 pub const TEXTS: [&str; 2] = [
     r#"
 mesh = "none.msh"
-[material.left]
-conductivity = ["2", "0.5", "1"]
-[material.right]
-conductivity = "3 + x"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "1 + 0.1*x"
-[boundary.contact]
-kind = "contact"
-[input.value]
-of = "dirichlet"
-field = "value"
-pattern = "1"
+material.left.conductivity = ["2", "0.5", "1"]
+material.right.conductivity = "3 + x"
+boundary.dirichlet = { kind = "dirichlet", value = "1 + 0.1*x" }
+boundary.contact = { kind = "contact" }
+input.value = { of = "dirichlet", field = "value", pattern = "1" }
 "#,
     r#"
 mesh = "none.msh"
-[material.default]
-conductivity = "0.5"
-[source]
-f = "-1"
-[boundary.dirichlet]
-kind = "robin"
-coefficient = "2"
-ambient = "x"
-[boundary.contact]
-kind = "contact"
-gap = "-0.2*x^2"
-flux = "-0.1"
-[input.ambient]
-of = "dirichlet"
-field = "ambient"
-pattern = "y"
+material.default.conductivity = "0.5"
+source.f = "-1"
+boundary.dirichlet = { kind = "robin", coefficient = "2", ambient = "x" }
+boundary.contact = { kind = "contact", gap = "-0.2*x^2", flux = "-0.1" }
+input.ambient = { of = "dirichlet", field = "ambient", pattern = "y" }
 "#,
 ];
 
 /// Held by Dirichlet values, with a flux between two ends; for full models alone.
 pub const LIMITED: [&str; 1] = [r#"
 mesh = "none.msh"
-[material.default]
-conductivity = "1 + 0.5*x"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "0.5*x"
-[boundary.contact]
-kind = "contact"
-gap = "0.2*x"
-flux = "-0.3"
-limit = "0.4"
-[input.value]
-of = "dirichlet"
-field = "value"
-pattern = "1"
+material.default.conductivity = "1 + 0.5*x"
+boundary.dirichlet = { kind = "dirichlet", value = "0.5*x" }
+boundary.contact = { kind = "contact", gap = "0.2*x", flux = "-0.3", limit = "0.4" }
+input.value = { of = "dirichlet", field = "value", pattern = "1" }
 "#];
 
 /// A scene of [`TEXTS`] or [`LIMITED`] on its mesh.
 pub fn of(text: &str) -> Option<(Scene, Mesh)> {
     let bound = if text.contains("certificate = false") { "" } else { BOUND };
     // Both ends of a flux with a limit are fixed in a module.
-    let rest = match text.contains("\nlimit = ") {
+    let rest = match text.contains(", limit = ") {
         true => INPUTS_AND_OUTPUTS
-            .replace("of = \"contact\"\nfield = \"flux\"", "of = \"source\"\nfield = \"f\""),
+            .replace("of = \"contact\", field = \"flux\"", "of = \"source\", field = \"f\""),
         false => INPUTS_AND_OUTPUTS.to_owned(),
     };
     let text = format!("{text}{rest}{bound}");

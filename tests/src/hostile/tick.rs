@@ -201,10 +201,10 @@ pub trait Driven: Sized + 'static {
 
 /// Sweeps or a factor, with a bound and without.
 const WAYS: [&str; 4] = [
-    "[setting]\nmodel = \"full\"\nsolver = \"sweeps\"\n",
-    "[setting]\nmodel = \"full\"\nsolver = \"sweeps\"\ncertificate = false\n",
-    "[setting]\nmodel = \"full\"\nsolver = \"factor\"\n",
-    "[setting]\nmodel = \"full\"\nsolver = \"factor\"\ncertificate = false\n",
+    "setting = { model = \"full\", solver = \"sweeps\" }\n",
+    "setting = { model = \"full\", solver = \"sweeps\", certificate = false }\n",
+    "setting = { model = \"full\", solver = \"factor\" }\n",
+    "setting = { model = \"full\", solver = \"factor\", certificate = false }\n",
 ];
 
 fn bake<R: Bits>() -> Vec<Baked<R>> {

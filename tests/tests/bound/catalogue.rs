@@ -5,8 +5,8 @@ use signorini_solve::solve::ScalarKind;
 use signorini_tests::written::{Side, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{ALGEBRAIC, EDGE_MEAN, SHARPNESS};
 
+use super::run::{Run, options, run};
 use crate::mesh::regular;
-use crate::run::{Run, options, run};
 
 type Named = (String, Written);
 

@@ -5,8 +5,8 @@ use signorini_tests::random::Random;
 use signorini_tests::written::{Side, TwoMaterials, Units};
 use signorini_tolerances::twins::{ORDER, UNITS};
 
+use super::run::{options, run};
 use crate::mesh::{KINDS, relisted, scaled, scattered};
-use crate::run::{options, run};
 
 const SIDES: [Side; 3] = [Side::Neumann, Side::Robin, Side::Dirichlet];
 

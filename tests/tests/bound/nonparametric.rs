@@ -11,9 +11,9 @@ use signorini_tolerances::twins::{
     BOUNDARY_FLUX, CONTACT_SIGN, FLUX_CONTINUITY, PATCH, SAME_ON_SQUARES, SHARPNESS, TRAPEZOID_RATE,
 };
 
+use super::property::{check, trial};
+use super::run::{Run, options, run};
 use crate::mesh::{four_sides, scattered};
-use crate::property::{check, trial};
-use crate::run::{Run, options, run};
 
 /// A scene with this element on quads.
 fn with(element: &str, text: &str) -> String {
@@ -28,27 +28,13 @@ fn direct(text: &str, mesh: Mesh) -> Run {
 /// A linear u that touches, held by every kind of condition, under an oblique tensor.
 const LINEAR: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "0"
-[boundary.contact]
-kind = "contact"
-gap = "1 + 0.5*x"
-flux = "0.25"
-[boundary.left]
-kind = "robin"
-coefficient = "3"
-ambient = "1 + 0.5*x - 2*y"
-[boundary.right]
-kind = "neumann"
-flux = "0"
-[boundary.top]
-kind = "dirichlet"
-value = "1 + 0.5*x - 2*y"
-[exact]
-u = "1 + 0.5*x - 2*y"
-gradient = ["0.5", "-2"]
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "0"
+boundary.contact = { kind = "contact", gap = "1 + 0.5*x", flux = "0.25" }
+boundary.left = { kind = "robin", coefficient = "3", ambient = "1 + 0.5*x - 2*y" }
+boundary.right = { kind = "neumann", flux = "0" }
+boundary.top = { kind = "dirichlet", value = "1 + 0.5*x - 2*y" }
+exact = { u = "1 + 0.5*x - 2*y", gradient = ["0.5", "-2"] }
 "#;
 
 #[test]

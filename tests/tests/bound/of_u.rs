@@ -3,27 +3,18 @@
 use signorini_scene::mesh::structured::Cells;
 use signorini_solve::solve::ScalarKind;
 
+use super::run::{options, run};
 use crate::mesh::regular;
-use crate::run::{options, run};
 
 /// u = x² + y² is an s on quads: the total sees none of what is wrong with u_h.
 const PARABOLOID: &str = "
 title = \"a paraboloid\"
 mesh = \"none.msh\"
-[material.default]
-conductivity = \"1\"
-[source]
-f = \"-4\"
-[boundary.default]
-kind = \"dirichlet\"
-value = \"x^2 + y^2\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"x^2 - 1\"
-flux = \"0\"
-[exact]
-u = \"x^2 + y^2\"
-gradient = [\"2*x\", \"2*y\"]
+material.default.conductivity = \"1\"
+source.f = \"-4\"
+boundary.default = { kind = \"dirichlet\", value = \"x^2 + y^2\" }
+boundary.contact = { kind = \"contact\", gap = \"x^2 - 1\", flux = \"0\" }
+exact = { u = \"x^2 + y^2\", gradient = [\"2*x\", \"2*y\"] }
 ";
 
 #[test]

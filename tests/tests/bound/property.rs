@@ -10,8 +10,8 @@ use signorini_tolerances::twins::{
     LIFTED,
 };
 
+use super::run::{Certified, Run, options, run};
 use crate::mesh::{KINDS, regular, scattered};
-use crate::run::{Certified, Run, options, run};
 
 /// A scene and what to expect of the quadrature of its norms.
 struct Draw {

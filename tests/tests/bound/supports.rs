@@ -14,8 +14,8 @@ use signorini_tests::random::Random;
 use signorini_tests::written::{Contact, Side, Smooth, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{GUARANTEE, IDENTITY};
 
+use super::run::{Run, options, run};
 use crate::mesh::{KINDS, regular, scattered, split};
-use crate::run::{Run, options, run};
 
 fn draw(random: &mut Random) -> Written {
     match random.below(5) {
@@ -85,13 +85,9 @@ fn a_part_on_contact_alone_beside_one_that_is_held() {
 /// No contact edge, and nothing else on the sides of the right half.
 const FLOATING: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = 1
-[source]
-f = "sin(2*pi*x)"
-[boundary.default]
-kind = "neumann"
-flux = 0
+material.default.conductivity = 1
+source.f = "sin(2*pi*x)"
+boundary.default = { kind = "neumann", flux = 0 }
 "#;
 
 fn summary(text: &str, mesh: Mesh) -> Value {

@@ -9,8 +9,8 @@ use signorini_tests::random::Random;
 use signorini_tests::written::{SIDES, Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::twins::{BOUND_ROUNDING, BOUND_ROUNDING_NARROW, OSCILLATING};
 
+use super::scenes::{EXACT, Model};
 use crate::mesh::{KINDS, regular, scaled};
-use crate::scenes::{EXACT, Model};
 
 /// Solved to the end, and cut off in every way.
 const WORKS: [Work; 5] = [
@@ -60,9 +60,6 @@ fn judge<R: Scalar>(model: &Model, mut draw: impl FnMut(usize) -> f64, found: &m
             let used = (-over).max(0.5 * over) / rounding;
             let what = || format!("{} {} {work:?}: {certificate:?} {bound:e}", model.what, R::NAME);
             assert!(used <= 1.0 && total >= bound, "{}", what());
-            if used > found.used {
-                println!("{} used {used}", what());
-            }
             found.used = found.used.max(used);
             found.share = found.share.max(rounding / total);
             found.bounds += 1;
@@ -82,7 +79,6 @@ fn of_random_scenes() {
         judge::<f32>(&model, &mut draw, &mut narrow);
         judge::<f64>(&model, &mut draw, &mut wide);
     }
-    println!("f32 {narrow:?}\nf64 {wide:?}");
     assert!(narrow.bounds > 200 && wide.bounds > 200);
     BOUND_ROUNDING_NARROW.check("condensed", narrow.share);
     BOUND_ROUNDING.check("condensed", wide.share);
@@ -144,7 +140,6 @@ fn of_contrasts_units_levels_corners_and_floating_parts() {
             }
         }
     }
-    println!("{all:?}");
     assert!(has_corners && has_floating && all.bounds > all.without, "{all:?}");
 }
 

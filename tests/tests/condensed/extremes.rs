@@ -10,67 +10,35 @@ use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::twins::{AFTER_HUGE, AGAIN, WORN};
 
+use super::scenes::{EXACT, Model};
 use crate::mesh::regular;
-use crate::scenes::{EXACT, Model};
 
 /// Held at the top; lift > 0 opens everything, lift < 0 closes it, tilt opens one side.
 const PLATE: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = "1"
-[boundary.top]
-kind = "dirichlet"
-value = "0"
-[boundary.default]
-kind = "neumann"
-flux = "0"
-[input.lift]
-of = "source"
-field = "f"
-pattern = "1"
-[input.tilt]
-of = "source"
-field = "f"
-pattern = "x + 0.1*sin(9*x)"
-[output.force]
-kind = "force"
-[output.top]
-kind = "flux"
-of = "top"
-[output.length]
-kind = "length"
-[output.bound]
-kind = "bound"
+material.default.conductivity = "1"
+boundary.top = { kind = "dirichlet", value = "0" }
+boundary.default = { kind = "neumann", flux = "0" }
+input.lift = { of = "source", field = "f", pattern = "1" }
+input.tilt = { of = "source", field = "f", pattern = "x + 0.1*sin(9*x)" }
+output.force = { kind = "force" }
+output.top = { kind = "flux", of = "top" }
+output.length = { kind = "length" }
+output.bound = { kind = "bound" }
 "#;
 
 /// Contact alone holds it against a push from above.
 const FLOATING: &str = r#"
 mesh = "none.msh"
-[material.default]
-conductivity = "1"
-[boundary.contact]
-kind = "contact"
-[boundary.top]
-kind = "neumann"
-flux = "0"
-[boundary.default]
-kind = "neumann"
-flux = "0"
-[input.push]
-of = "top"
-field = "flux"
-pattern = "-(2 + x)"
-default = 1.0
-[input.tilt]
-of = "top"
-field = "flux"
-pattern = "sin(3*x)"
-[output.force]
-kind = "force"
-[output.length]
-kind = "length"
-[output.bound]
-kind = "bound"
+material.default.conductivity = "1"
+boundary.contact = { kind = "contact" }
+boundary.top = { kind = "neumann", flux = "0" }
+boundary.default = { kind = "neumann", flux = "0" }
+input.push = { of = "top", field = "flux", pattern = "-(2 + x)", default = 1.0 }
+input.tilt = { of = "top", field = "flux", pattern = "sin(3*x)" }
+output.force = { kind = "force" }
+output.length = { kind = "length" }
+output.bound = { kind = "bound" }
 "#;
 
 /// A grid with `contact` edges of the bottom under that name, the first ones.
@@ -178,20 +146,18 @@ fn ten_thousand_ticks() {
     let (mut narrow, mut wide) = (Controller::new(&narrow), Controller::new(&wide));
     let random = &mut Random::new(3);
     let mut worst = [0.0_f64; 10];
-    let (mut unfinished, mut pivots) = (0, 0);
+    let mut unfinished = 0;
     for tick in 0..10_000_u32 {
         let lift = random.between(-3.0, 3.0) as f32;
         let tilt = if tick % 3 == 0 { 20.0 } else { random.between(-30.0, 30.0) as f32 };
         let (found, report) = narrow.tick(&[lift, tilt]).expect("a tick");
         let (expected, _) = wide.tick(&[f64::from(lift), f64::from(tilt)]).expect("a tick");
         unfinished += u32::from(report.ended != Ended::Exact);
-        pivots += report.exchanges;
         let size = f64::from(lift.abs() + tilt.abs());
         let off = (0..2).map(|at| (f64::from(found[at]) - expected[at]).abs() / size);
         let place = &mut worst[tick as usize / 1000];
         *place = off.fold(*place, f64::max);
     }
-    println!("by thousands {worst:?}, {unfinished} worn, {pivots} pivots");
     worst.into_iter().for_each(|worst| WORN.check("a thousand ticks", worst));
     assert!(unfinished <= 10, "{unfinished}");
 }
@@ -214,12 +180,6 @@ fn pulled_off<R: Scalar>() {
                     "{work:?} {push}: {report:?}"
                 );
                 without += u32::from(push < 0.0);
-                if work == EXACT && round == 0 {
-                    println!(
-                        "{push} {tilt}: {:?} {} {} {outputs:?}",
-                        report.ended, report.exchanges, report.sweeps
-                    );
-                }
             }
         }
         if work == EXACT {

@@ -30,135 +30,55 @@ fn main() {
 const NAMES: &str = r#"
 title = "a \"title\" of\nlines [m] <b> */"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "-1 - x"
-[boundary."dirichlet"]
-kind = "dirichlet"
-value = "0.1*x"
-[boundary.left]
-kind = "dirichlet"
-value = "0.1*x"
-[boundary."right"]
-kind = "robin"
-coefficient = "2"
-ambient = "y"
-[boundary.contact]
-kind = "contact"
-gap = "-0.3 + 0.1*x^2"
-[input.type]
-of = "contact"
-field = "gap"
-pattern = "cos(3*x)/5"
-default = -0.3
-[input."größe \"q\"\n`code`"]
-of = "right"
-field = "ambient"
-pattern = "1"
-default = 0.7
-[input.inputs]
-of = "source"
-field = "f"
-pattern = "1"
-default = 0.5
-[input.memory]
-of = "source"
-field = "f"
-pattern = "x"
-default = 1e-40
-[output.self]
-kind = "flux"
-of = "dirichlet"
-[output."x \\ y"]
-kind = "force"
-of = "contact"
-[output."X-Y"]
-kind = "length"
-[output.load]
-kind = "probe"
-at = [0.1, 0.4]
-[output."∫"]
-kind = "bound"
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "-1 - x"
+boundary."dirichlet" = { kind = "dirichlet", value = "0.1*x" }
+boundary.left = { kind = "dirichlet", value = "0.1*x" }
+boundary."right" = { kind = "robin", coefficient = "2", ambient = "y" }
+boundary.contact = { kind = "contact", gap = "-0.3 + 0.1*x^2" }
+input.type = { of = "contact", field = "gap", pattern = "cos(3*x)/5", default = -0.3 }
+input."größe \"q\"\n`code`" = { of = "right", field = "ambient", pattern = "1", default = 0.7 }
+input.inputs = { of = "source", field = "f", pattern = "1", default = 0.5 }
+input.memory = { of = "source", field = "f", pattern = "x", default = 1e-40 }
+output.self = { kind = "flux", of = "dirichlet" }
+output."x \\ y" = { kind = "force", of = "contact" }
+output."X-Y" = { kind = "length" }
+output.load = { kind = "probe", at = [0.1, 0.4] }
+output."∫" = { kind = "bound" }
 "#;
 
 /// Contact alone holds it, no inputs, no outputs.
 const FLOATING: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[boundary.contact]
-kind = "contact"
-[boundary.dirichlet]
-kind = "neumann"
-flux = "-1 - x/2"
+material.default.conductivity = "1"
+boundary.contact = { kind = "contact" }
+boundary.dirichlet = { kind = "neumann", flux = "-1 - x/2" }
 "#;
 
 /// Nothing touches.
 const LINEAR: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[boundary.default]
-kind = "dirichlet"
-value = "x*y"
-[input.heat]
-of = "source"
-field = "f"
-pattern = "1"
-default = 1.0
-[output.inside]
-kind = "probe"
-at = [0.1, 0.4]
-[output.bound]
-kind = "bound"
+material.default.conductivity = "1"
+boundary.default = { kind = "dirichlet", value = "x*y" }
+input.heat = { of = "source", field = "f", pattern = "1", default = 1.0 }
+output.inside = { kind = "probe", at = [0.1, 0.4] }
+output.bound = { kind = "bound" }
 "#;
 
 /// Both ends of a flux change; another has no lower end.
 const LIMITED: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[boundary.dirichlet]
-kind = "robin"
-coefficient = "4"
-ambient = "-1"
-[boundary.left]
-kind = "contact"
-gap = "-1/9"
-flux = "-inf"
-limit = "0"
-[boundary.right]
-kind = "dirichlet"
-value = "0"
-[boundary.contact]
-kind = "contact"
-gap = "x/9"
-flux = "-0.2"
-limit = "0"
-[input.air]
-of = "dirichlet"
-field = "ambient"
-pattern = "1"
-default = -0.5
-[input.supply]
-of = "contact"
-field = "limit"
-pattern = "0.3"
-default = 1.0
-[input.least]
-of = "contact"
-field = "flux"
-pattern = "0.1"
-default = -0.2
-[output.power]
-kind = "force"
-of = "contact"
-[output.short]
-kind = "saturated"
-of = "contact"
-[output.bound]
-kind = "bound"
+material.default.conductivity = "1"
+boundary.dirichlet = { kind = "robin", coefficient = "4", ambient = "-1" }
+boundary.left = { kind = "contact", gap = "-1/9", flux = "-inf", limit = "0" }
+boundary.right = { kind = "dirichlet", value = "0" }
+boundary.contact = { kind = "contact", gap = "x/9", flux = "-0.2", limit = "0" }
+input.air = { of = "dirichlet", field = "ambient", pattern = "1", default = -0.5 }
+input.supply = { of = "contact", field = "limit", pattern = "0.3", default = 1.0 }
+input.least = { of = "contact", field = "flux", pattern = "0.1", default = -0.2 }
+output.power = { kind = "force", of = "contact" }
+output.short = { kind = "saturated", of = "contact" }
+output.bound = { kind = "bound" }
 "#;
 
 fn same_bits<R: Scalar>(text: &str, work: Work, certified: bool, bits: fn(R) -> u64) -> Result<()> {
@@ -210,14 +130,14 @@ fn with_limits() -> Result<()> {
         LIMITED,
         &LIMITED
             .replace(
-                "field = \"limit\"\npattern = \"0.3\"",
-                "field = \"gap\"\npattern = \"(1 + x)/99\"",
+                "field = \"limit\", pattern = \"0.3\"",
+                "field = \"gap\", pattern = \"(1 + x)/99\"",
             )
             .replace(
-                "field = \"flux\"\npattern = \"0.1\"",
-                "field = \"gap\"\npattern = \"(1 + x)/9\"",
+                "field = \"flux\", pattern = \"0.1\"",
+                "field = \"gap\", pattern = \"(1 + x)/9\"",
             )
-            .replace("limit = \"0\"\n[input", "limit = \"0.4\"\n[input"),
+            .replace("flux = \"-0.2\", limit = \"0\"", "flux = \"-0.2\", limit = \"0.4\""),
     ] {
         same_bits::<f32>(text, PIVOTS, true, |x| x.to_bits().into())?;
         same_bits::<f64>(text, SWEEPS, true, f64::to_bits)?;

@@ -165,26 +165,12 @@ fn weakly_held(coefficient: f64, most: f64) -> Problem {
     let text = format!(
         "
 mesh = \"grid\"
-[material.default]
-conductivity = \"60\"
-[boundary.dirichlet]
-kind = \"robin\"
-coefficient = \"{coefficient}\"
-ambient = \"-1\"
-[boundary.left]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.right]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"-0.8\"
-[input.load]
-of = \"left\"
-field = \"flux\"
-pattern = \"1\"
-range = [-{most}, {most}]
+material.default.conductivity = \"60\"
+boundary.dirichlet = {{ kind = \"robin\", coefficient = \"{coefficient}\", ambient = \"-1\" }}
+boundary.left = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.right = {{ kind = \"neumann\", flux = \"0\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"-0.8\" }}
+input.load = {{ of = \"left\", field = \"flux\", pattern = \"1\", range = [-{most}, {most}] }}
 "
     );
     on_grid(&text, grid(6, Cells::Triangles)).expect("a sound scene").1
@@ -252,19 +238,10 @@ fn a_gap_that_rises_above_a_value_beside_it_is_told() {
         let text = format!(
             "
 mesh = \"grid\"
-[material.default]
-conductivity = \"1\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"0\"
-[boundary.contact]
-kind = \"contact\"
-gap = \"-0.1\"
-[input.lift]
-of = \"contact\"
-field = \"gap\"
-pattern = \"1\"
-range = [0.0, {most}]
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"0\" }}
+boundary.contact = {{ kind = \"contact\", gap = \"-0.1\" }}
+input.lift = {{ of = \"contact\", field = \"gap\", pattern = \"1\", range = [0.0, {most}] }}
 "
         );
         let (_, problem) = on_grid(&text, grid(4, Cells::Triangles)).expect("a sound scene");

@@ -79,14 +79,9 @@ fn singular() -> Scene {
     let u = format!("{size}^(1/3)*cos(2*{angle}/3)");
     let text = format!(
         "mesh = \"grid\"
-[material.default]
-conductivity = \"1\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"{u}\"
-[exact]
-u = \"{u}\"
-gradient = [\"({q}-{p})/sqrt(2)\", \"(-{q}-{p})/sqrt(2)\"]
+material.default.conductivity = \"1\"
+boundary.dirichlet = {{ kind = \"dirichlet\", value = \"{u}\" }}
+exact = {{ u = \"{u}\", gradient = [\"({q}-{p})/sqrt(2)\", \"(-{q}-{p})/sqrt(2)\"] }}
 "
     );
     scene(&text).expect("a scene")
@@ -102,7 +97,6 @@ fn the_bound_falls_as_it_would_without_the_corner() {
         let rates: Vec<f64> = levels.iter().map(|[n, bound]| bound * n.sqrt()).collect();
         let end = &rates[rates.len() - 4..];
         let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().fold(end[0], of));
-        println!("{cells:?}: {levels:.3?}, bound √N {rates:.3?}");
         assert!(most < 1.15 * least, "{cells:?}: {end:?}");
         let errors = norms::of_solution(&last.problem, &last.solution).expect("finite").expect("u");
         let bound = last.solution.bound.expect("a bound").total;
@@ -127,7 +121,6 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
             let (levels, _, stop) = levels(&scene, mesh, &wanted(goal));
             let factor = if kind == 1 && cells == Cells::Quads { 1.5 } else { 1.3 };
             let most = factor * problem.topology.counts.unknowns() as f64;
-            println!("{kind} {cells:?}: {levels:.3?} of {most}");
             assert_eq!(stop, Stop::Reached);
             assert!(levels[levels.len() - 1][0] <= most, "{cells:?}: {levels:?}");
         }
@@ -145,7 +138,6 @@ fn a_curved_gap_is_followed_where_it_touches_alone() {
     let uniform = solve(&problem, &wanted(Goal::Part(1.0)).options).expect("a solution");
     let goal = Goal::Energy(uniform.bound.expect("a bound").total);
     let (levels, _, stop) = levels(&scene, mesh, &wanted(goal));
-    println!("{levels:.4?} of {}", problem.topology.counts.unknowns());
     assert_eq!(stop, Stop::Reached);
     assert!(levels[levels.len() - 1][0] < 0.5 * problem.topology.counts.unknowns() as f64);
 }
@@ -160,7 +152,7 @@ fn affine() -> Scene {
         .replace("5*y + 6.5", "3.5")
         .replace("gap = \"x^3\"", "gap = \"1 + 2*x\"")
         .replace("-3.5*x^2 - 1", "-5");
-    let text = &text[..text.find("[exact]").expect("an exact solution")];
+    let text = &text[..text.find("exact = ").expect("an exact solution")];
     scene(&format!("{text}[setting]\nelement = \"nonparametric\"\n")).expect("a scene")
 }
 
@@ -203,7 +195,6 @@ fn a_level_starts_where_the_last_one_ended() {
         Ok(true)
     };
     refined_until(&scene, grid(6, Cells::Mixed), &goal, look).expect("a solution");
-    println!("sweeps warm and cold: {seen:?}");
     assert!(seen.len() > 2 && seen[1..].iter().all(|[warm, cold]| warm < cold), "{seen:?}");
 }
 

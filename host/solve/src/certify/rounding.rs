@@ -9,42 +9,21 @@ use signorini_tolerances::solve::GUARANTEE;
 
 const PARABOLA: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "-2"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "x + x^2"
-[boundary.contact]
-kind = "contact"
-gap = "x + x^2"
-flux = "-1"
-[exact]
-u = "x + x^2"
-gradient = ["1 + 2*x", "0"]
+material.default.conductivity = "1"
+source.f = "-2"
+boundary.dirichlet = { kind = "dirichlet", value = "x + x^2" }
+boundary.contact = { kind = "contact", gap = "x + x^2", flux = "-1" }
+exact = { u = "x + x^2", gradient = ["1 + 2*x", "0"] }
 "#;
 
 const HIGH_UP: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "0"
-[boundary.left]
-kind = "robin"
-coefficient = "1000"
-ambient = "OFFSET - 1.001"
-[boundary.right]
-kind = "robin"
-coefficient = "1000"
-ambient = "OFFSET + 1.001"
-[boundary.default]
-kind = "neumann"
-flux = "0"
-[exact]
-u = "OFFSET + x"
-gradient = ["1", "0"]
+material.default.conductivity = "1"
+source.f = "0"
+boundary.left = { kind = "robin", coefficient = "1000", ambient = "OFFSET - 1.001" }
+boundary.right = { kind = "robin", coefficient = "1000", ambient = "OFFSET + 1.001" }
+boundary.default = { kind = "neumann", flux = "0" }
+exact = { u = "OFFSET + x", gradient = ["1", "0"] }
 "#;
 
 /// Total and combined error after at most `max_sweeps`, `height` being that of the grid.

@@ -52,26 +52,18 @@ fn lower_and_span([least, most]: [f64; 2], length: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixtures::{PARABOLA, on_grid};
+    use crate::fixtures::{PARABOLA, changed, on_grid};
     use signorini_scene::mesh::structured::{Cells, grid};
     use signorini_tolerances::solve::RANGE_TERMS;
 
     /// PARABOLA's contact, with ends of its own and inputs of either.
     fn scene() -> String {
         let inputs = "
-[input.weak]
-of = \"contact\"
-field = \"limit\"
-pattern = \"1 + x\"
-default = 0.5
-[input.leak]
-of = \"contact\"
-field = \"flux\"
-pattern = \"-2\"
+input.weak = { of = \"contact\", field = \"limit\", pattern = \"1 + x\", default = 0.5 }
+input.leak = { of = \"contact\", field = \"flux\", pattern = \"-2\" }
 ";
-        let (first, rest) = PARABOLA.split_once("[boundary.contact]").expect("contact");
-        let contact = "[boundary.contact]\nlimit = \"4 - x^2\"";
-        format!("{first}{contact}{rest}{inputs}")
+        let limited = ("gap = \"-x^2\"", "gap = \"-x^2\", limit = \"4 - x^2\"");
+        changed(PARABOLA, &[limited]) + inputs
     }
 
     #[test]

@@ -9,16 +9,10 @@ use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::setting::CellKind;
 
 const SCENE: &str = r#"mesh = "grid"
-[material.default]
-conductivity = "1"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "1"
-[boundary.contact]
-kind = "contact"
-[boundary.default]
-kind = "neumann"
-flux = "0"
+material.default.conductivity = "1"
+boundary.dirichlet = { kind = "dirichlet", value = "1" }
+boundary.contact = { kind = "contact" }
+boundary.default = { kind = "neumann", flux = "0" }
 "#;
 
 fn warnings(text: &str, mesh: Mesh) -> Result<Vec<String>> {
@@ -169,7 +163,7 @@ fn hanging_nodes_are_a_slit_too() -> Result<()> {
 #[test]
 fn a_default_that_acts_nowhere_is_said_where_it_is_more_than_nothing() -> Result<()> {
     let contact =
-        SCENE.replace("kind = \"neumann\"\nflux = \"0\"", "kind = \"contact\"\ngap = \"2\"");
+        SCENE.replace("kind = \"neumann\", flux = \"0\"", "kind = \"contact\", gap = \"2\"");
     let said = warnings(&contact, grid(2, Cells::Quads))?;
     assert_eq!(
         said,
@@ -193,15 +187,15 @@ fn the_hint_says_no_more_than_it_has_to() {
         let error = warnings(text, mesh).expect_err("an error");
         miette::Diagnostic::help(&error).expect("a hint").to_string()
     };
-    let none = SCENE.split("[boundary.default]").next().unwrap_or_default();
+    let none = SCENE.split("boundary.default = ").next().unwrap_or_default();
     let bare =
         Mesh { curves: grid(2, Cells::Quads).curves, ..torn(grid(2, Cells::Quads), |y| y > 0.0) };
     assert_eq!(hint(none, bare), "add [boundary.default] for all that is left");
-    let unbound = none.replace("[boundary.contact]\nkind = \"contact\"\n", "");
+    let unbound = fixtures::changed(none, &[("boundary.contact = { kind = \"contact\" }\n", "")]);
     let expected = "add [boundary.contact], or [boundary.default] for all that is left";
     assert_eq!(hint(&unbound, grid(2, Cells::Quads)), expected);
     let bare = Mesh { surfaces: Vec::new(), ..grid(2, Cells::Quads) };
-    let left = SCENE.replace("[material.default]", "[material.left]");
+    let left = fixtures::changed(SCENE, &[("material.default", "material.left")]);
     assert_eq!(
         hint(&left, grid(2, Cells::Quads)),
         "add [material.right], or [material.default] for all that is left"
@@ -212,7 +206,7 @@ fn the_hint_says_no_more_than_it_has_to() {
 #[test]
 fn the_threshold_of_a_balance_is_said() -> Result<()> {
     let text =
-        SCENE.replace("kind = \"dirichlet\"\nvalue = \"1\"", "kind = \"neumann\"\nflux = \"0\"");
+        SCENE.replace("kind = \"dirichlet\", value = \"1\"", "kind = \"neumann\", flux = \"0\"");
     let scene = scene(&text)?;
     let problem = Problem::new(&scene, grid(2, Cells::Quads))?;
     let error = super::Parts::examine(&problem).expect_err("no unique solution");
@@ -226,10 +220,10 @@ fn the_threshold_of_a_balance_is_said() -> Result<()> {
 
 #[test]
 fn a_part_that_nothing_holds_is_said() -> Result<()> {
-    let neumann = "kind = \"neumann\"\nflux = \"0\"";
+    let neumann = "kind = \"neumann\", flux = \"0\"";
     let text = SCENE.replace("kind = \"contact\"", neumann);
     assert_eq!(warnings(&text, grid(2, Cells::Mixed))?, [""; 0]);
-    let text = text.replace("kind = \"dirichlet\"\nvalue = \"1\"", neumann);
+    let text = text.replace("kind = \"dirichlet\", value = \"1\"", neumann);
     let said = warnings(&text, grid(2, Cells::Mixed))?;
     assert_eq!(said.len(), 1);
     assert!(

@@ -87,7 +87,7 @@ fn least(input: &Input, x: f64, y: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::fixtures::on_grid;
+    use crate::fixtures::{on_grid, wall};
     use crate::outputs::outputs;
     use crate::problem::{Approach, Problem};
     use crate::solve::{Options, SolverKind, solve};
@@ -95,38 +95,17 @@ mod tests {
     use signorini_scene::mesh::structured::{Cells, grid};
     use signorini_tolerances::solve::TRANSFER;
 
-    /// A wall of conductivity 2 between u = 1 above and air at −1 below, which y = 0 meets in part.
+    /// A wall between u = 1 above and air at −1 below, which y = 0 meets in part.
     fn text(coefficient: &str, input: &str) -> String {
-        format!(
-            "
-mesh = \"grid\"
-[material.default]
-conductivity = \"2\"
-[boundary.dirichlet]
-kind = \"dirichlet\"
-value = \"1\"
-[boundary.left]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.right]
-kind = \"neumann\"
-flux = \"0\"
-[boundary.contact]
-kind = \"robin\"
-coefficient = \"{coefficient}\"
-ambient = \"-1\"
-[input.h]
-of = \"contact\"
-field = \"coefficient\"
-{input}
-[output.heat]
-kind = \"flux\"
-of = \"contact\"
-[output.skin]
-kind = \"mean\"
-of = \"contact\"
+        let air = "kind = \"robin\", ambient = \"-1\", coefficient";
+        wall("1", &format!("{air} = \"{coefficient}\""))
+            + &format!(
+                "
+input.h = {{ of = \"contact\", field = \"coefficient\", {input} }}
+output.heat = {{ kind = \"flux\", of = \"contact\" }}
+output.skin = {{ kind = \"mean\", of = \"contact\" }}
 "
-        )
+            )
     }
 
     fn problem(coefficient: &str, input: &str) -> Result<Problem> {
@@ -136,7 +115,7 @@ of = \"contact\"
     /// In series: 1/R = 1/(1/h + 1/2) over a width of 2 and a drop of 2.
     #[test]
     fn a_wall_passes_what_its_resistances_let_through() -> Result<()> {
-        let wall = problem("0", "pattern = \"1\"\ndefault = 4.0\nrange = [0.0, 100.0]")?;
+        let wall = problem("0", "pattern = \"1\", default = 4.0, range = [0.0, 100.0]")?;
         for h in [4.0, 0.0, 1e-3, 1.0, 100.0] {
             let now = wall.with_inputs(&[h])?;
             for solver in [SolverKind::Kernel, SolverKind::Direct] {
@@ -158,7 +137,7 @@ of = \"contact\"
             Err(error) => error.to_string(),
         };
         let input = |pattern: &str, range: &str| {
-            format!("pattern = \"{pattern}\"\ndefault = 0.5\nrange = {range}")
+            format!("pattern = \"{pattern}\", default = 0.5, range = {range}")
         };
         assert_eq!(said("3", &input("1", "[-3, 1]")), "sound");
         assert_eq!(said("3", &input("x", "[-3, 3]")), "sound");
@@ -170,13 +149,13 @@ of = \"contact\"
             message.contains("coefficient falls to -0.9") && message.contains("within it"),
             "{message}"
         );
-        let message = said("3", "pattern = \"1\"\ndefault = 0.5");
+        let message = said("3", "pattern = \"1\", default = 0.5");
         assert!(message.contains("input.h.range: missing"), "{message}");
     }
 
     #[test]
     fn what_keeps_its_matrix_refuses_it() -> Result<()> {
-        let wall = problem("1", "pattern = \"1\"\nrange = [0.0, 1.0]")?;
+        let wall = problem("1", "pattern = \"1\", range = [0.0, 1.0]")?;
         for approach in [Approach::Condensation, Approach::FactoredTicks, Approach::Export] {
             let error = approach.check(&wall).expect_err("a coefficient that changes").to_string();
             assert!(error.contains("input.h.field: it changes the matrix"), "{error}");

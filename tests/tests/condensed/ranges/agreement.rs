@@ -11,13 +11,12 @@ const SAMPLES: usize = 40;
 
 #[test]
 fn random_scenes_agree() {
-    let (mut most, mut pairs, mut empty, mut dropped) = (Off::default(), 0, 0, 0);
+    let (mut pairs, mut empty) = (0, 0);
     let count = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);
     for seed in 0..count {
         let Some(pair) = Pair::random(seed) else { continue };
         pairs += 1;
         empty += u64::from(pair.reduced.model.contact == 0);
-        dropped += pair.whole.contact - pair.reduced.model.contact;
         let (random, mut off) = (&mut Random::new(seed), Off::default());
         for _ in 0..SAMPLES {
             let p = drawn(&pair.whole, random);
@@ -25,8 +24,6 @@ fn random_scenes_agree() {
             pair.at(&p, &pair.within(random), &mut off);
         }
         off.check(&pair.what);
-        most = most.or_larger(&off);
     }
-    println!("{pairs} scenes, {dropped} edges taken out, {empty} without any left: {most:?}");
     assert!(pairs > count / 3 && empty > count / 40, "{pairs} {empty}");
 }

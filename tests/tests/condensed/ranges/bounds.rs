@@ -66,7 +66,6 @@ fn all(mut check: impl FnMut(&Exact)) {
             }
         }
     }
-    println!("{kept} edges kept, {dropped} taken out");
     assert!(kept > 20 && dropped > 100, "{kept} {dropped}");
 }
 

@@ -18,7 +18,7 @@ use signorini_solve::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 use signorini_tolerances::twins::{REDUCED_BOUND, REDUCED_OPENINGS, REDUCED_OUTPUTS};
 
-use crate::scenes::Model;
+use crate::condensed::scenes::Model;
 
 /// A whole model and what is left of it.
 pub struct Pair {
@@ -54,16 +54,6 @@ impl Off {
             || self.outputs > REDUCED_OUTPUTS.value
             || self.bound > REDUCED_BOUND.value;
         self.on_wrong_side > 0 || is_off
-    }
-
-    fn or_larger(self, other: &Self) -> Self {
-        Self {
-            openings: self.openings.max(other.openings),
-            outputs: self.outputs.max(other.outputs),
-            bound: self.bound.max(other.bound),
-            on_wrong_side: self.on_wrong_side + other.on_wrong_side,
-            samples: self.samples + other.samples,
-        }
     }
 }
 

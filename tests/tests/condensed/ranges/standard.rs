@@ -74,7 +74,6 @@ fn agrees(name: &str, seen_to_change: usize) {
     }
     off.check(name);
     let changed = seen.iter().filter(|seen| seen.iter().all(|&side| side)).count();
-    println!("{name}: {off:?}, {changed} edges seen to change");
     assert_eq!(off.samples, TICKS);
     assert_eq!(changed, seen_to_change, "{name}");
 }

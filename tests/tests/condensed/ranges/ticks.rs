@@ -12,7 +12,7 @@ use signorini_tolerances::twins::{
 
 use super::standard::standard;
 use super::{Pair, drawn, over, terms};
-use crate::scenes::EXACT;
+use crate::condensed::scenes::EXACT;
 
 /// Ticks of each controller of a standard scene that solves to the end.
 const TICKS: usize = 10_000;
@@ -154,7 +154,6 @@ fn controllers_of_standard_scenes_tell_what_the_whole_model_tells() {
     of_standard(|pair| {
         let wide = solved::<f64>(pair, TICKS / 10, REDUCED_TICK);
         let narrow = solved::<f32>(pair, TICKS, REDUCED_TICK_NARROW);
-        println!("{}: {wide:?} {narrow:?}", pair.what);
         REDUCED_VALUES.check(&pair.what, wide[1]);
         REDUCED_VALUES_NARROW.check(&pair.what, narrow[1]);
     });
@@ -167,14 +166,12 @@ fn controllers_of_random_scenes_tell_what_the_whole_model_tells() {
         wide = wide.max(solved::<f64>(pair, 40, REDUCED_TICK)[0]);
         narrow = narrow.max(solved::<f32>(pair, 40, REDUCED_TICK_NARROW)[0]);
     });
-    println!("{wide:e} {narrow:e}");
 }
 
 #[test]
 fn ticks_of_standard_scenes_may_be_cut_off() {
     of_standard(|pair| {
         let unfinished = [cut_off::<f32>(pair, 300), cut_off::<f64>(pair, 300)];
-        println!("{}: {unfinished:?}", pair.what);
         assert!(unfinished.iter().all(|&count| count > 300), "{}: {unfinished:?}", pair.what);
     });
 }

@@ -7,7 +7,7 @@ use signorini_tests::random::Random;
 
 use super::standard::standard;
 use super::{Off, Pair, drawn, limit};
-use crate::scenes::Model;
+use crate::condensed::scenes::Model;
 
 fn keeps_all(what: &str, whole: &CondensedModel) {
     let sides = Sides::new(whole).expect("finite loads");
@@ -57,7 +57,7 @@ fn ranges_that_overflow_keep_all() {
 /// Oblique tensors make entries positive: some scenes are proved all the same, and right.
 #[test]
 fn positive_entries_are_counted_or_refused() {
-    let (mut refused, mut proved, mut most) = (0, 0, Off::default());
+    let (mut refused, mut proved) = (0, 0);
     for seed in 0..200 {
         let Some(model) = Model::random(seed, 5) else { continue };
         let (random, mut whole) = (&mut Random::new(seed), model.condensate);
@@ -78,8 +78,7 @@ fn positive_entries_are_counted_or_refused() {
             pair.at(&p, &pair.within(random), &mut off);
         }
         off.check(&model.what);
-        (proved, most) = (proved + 1, most.or_larger(&off));
+        proved += 1;
     }
-    println!("refused {refused}, proved {proved}: {most:?}");
     assert!(refused > 10 && proved > 10, "{refused} {proved}");
 }

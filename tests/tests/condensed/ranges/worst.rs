@@ -7,7 +7,7 @@ use signorini_solve::scalar::Scalar;
 
 use super::Pair;
 use super::standard::standard;
-use crate::scenes::EXACT;
+use crate::condensed::scenes::EXACT;
 
 /// Ticks of each controller.
 const TICKS: usize = 1_000_000;
@@ -34,7 +34,6 @@ fn no_tick_takes_more_exchanges_than_are_proved() {
     for name in ["levee", "slab"] {
         let pair = Pair::new(name, &standard(name)).expect("edges to take out");
         let of_both = [most::<f32>(&pair, TICKS), most::<f64>(&pair, TICKS / 10)];
-        println!("{name}: {of_both:?}");
         for [most, proved] in of_both {
             let n = pair.reduced.model.contact as u32;
             assert!(proved == n + n / 2 && most <= proved, "{name}: {most} of {proved}");

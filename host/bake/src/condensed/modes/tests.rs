@@ -26,56 +26,24 @@ use crate::module_api::ModuleApi;
 /// Contact below, air on the right with a coefficient from 1 to 60.
 const AIR: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2", "0.5", "1"]
-[source]
-f = "-1 - x"
-[boundary.dirichlet]
-kind = "neumann"
-flux = "0.1*x"
-[boundary.left]
-kind = "dirichlet"
-value = "0.1*y"
-[boundary.right]
-kind = "robin"
-coefficient = "2"
-ambient = "y"
-[boundary.contact]
-kind = "contact"
-gap = "-0.3 + 0.1*x^2"
-[input.gap]
-of = "contact"
-field = "gap"
-pattern = "cos(3*x)/5"
-default = -0.3
-[input.ambient]
-of = "right"
-field = "ambient"
-pattern = "1 + y"
-default = 0.7
-[input.h]
-of = "right"
-field = "coefficient"
-pattern = "1"
-default = 1.5
-range = [-1.0, 58.0]
-[output.flux]
-kind = "flux"
-of = "right"
-[output.force]
-kind = "force"
-of = "contact"
-[output.inside]
-kind = "probe"
-at = [0.1, 0.4]
-[output.mean]
-kind = "mean"
-of = "right"
+material.default.conductivity = ["2", "0.5", "1"]
+source.f = "-1 - x"
+boundary.dirichlet = { kind = "neumann", flux = "0.1*x" }
+boundary.left = { kind = "dirichlet", value = "0.1*y" }
+boundary.right = { kind = "robin", coefficient = "2", ambient = "y" }
+boundary.contact = { kind = "contact", gap = "-0.3 + 0.1*x^2" }
+input.gap = { of = "contact", field = "gap", pattern = "cos(3*x)/5", default = -0.3 }
+input.ambient = { of = "right", field = "ambient", pattern = "1 + y", default = 0.7 }
+input.h = { of = "right", field = "coefficient", pattern = "1", default = 1.5, range = [-1.0, 58.0] }
+output.flux = { kind = "flux", of = "right" }
+output.force = { kind = "force", of = "contact" }
+output.inside = { kind = "probe", at = [0.1, 0.4] }
+output.mean = { kind = "mean", of = "right" }
 "#;
 
 /// The same, where contact pushes no harder than so much.
 fn limited() -> String {
-    let text = AIR.replace("gap = \"-0.3", "limit = \"0.4\"\ngap = \"-0.3");
+    let text = AIR.replace("gap = \"-0.3", "limit = \"0.4\", gap = \"-0.3");
     text + "[output.saturated]\nkind = \"saturated\"\n"
 }
 
@@ -149,7 +117,7 @@ fn ticks(text: &str, setting: (Cells, Setting), scalar: ScalarKind, name: &str) 
 
 /// The scene with its coefficient as a number.
 fn stated(text: &str, problem: &Problem, values: &[f64]) -> Result<Problem> {
-    let text = text.split("[input.h]").next().unwrap_or_default();
+    let text = text.split("input.h = ").next().unwrap_or_default();
     let coefficient = format!("coefficient = \"{}\"", 2.0 + values[2]);
     let fresh = scene(&text.replace("coefficient = \"2\"", &coefficient))?;
     let fresh = Problem::new(&fresh, problem.mesh.clone())?;
@@ -177,17 +145,8 @@ fn smooth() -> String {
     let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
     text.replace(" + (3*y - 6.5)/(2+y)\"", "\"")
         + "
-[input.h]
-of = \"left\"
-field = \"coefficient\"
-pattern = \"1\"
-default = 1.0
-range = [0.01, 100.0]
-[input.push]
-of = \"left\"
-field = \"ambient\"
-pattern = \"3*y - 6.5\"
-default = 1.0
+input.h = { of = \"left\", field = \"coefficient\", pattern = \"1\", default = 1.0, range = [0.01, 100.0] }
+input.push = { of = \"left\", field = \"ambient\", pattern = \"3*y - 6.5\", default = 1.0 }
 "
 }
 
@@ -295,7 +254,7 @@ fn modules_have_the_same_bits() -> Result<()> {
     same_bits::<f64>(AIR, Work { pivots: Some(2), ..exact }, false, f64::to_bits)?;
     same_bits::<f64>(AIR, swept, true, f64::to_bits)?;
     same_bits::<f32>(&limited(), exact, true, |x| x.to_bits().into())?;
-    let linear = AIR.replace("kind = \"contact\"\ngap = ", "kind = \"dirichlet\"\nvalue = ");
+    let linear = AIR.replace("kind = \"contact\", gap = ", "kind = \"dirichlet\", value = ");
     let linear = linear.replace("field = \"gap\"", "field = \"value\"");
     same_bits::<f32>(&linear.replace("kind = \"force\"", "kind = \"flux\""), swept, true, |x| {
         x.to_bits().into()
@@ -324,9 +283,9 @@ fn what_is_refused_leaves_the_last_answer() -> Result<()> {
 fn what_modes_cannot_do_takes_the_full_model() -> Result<()> {
     let second = AIR
         .replace("field = \"ambient\"", "field = \"coefficient\"")
-        .replace("default = 0.7", "default = 0.7\nrange = [0, 1]");
+        .replace("default = 0.7", "default = 0.7, range = [0, 1]");
     let signs = AIR
-        .replace("pattern = \"1\"\n", "pattern = \"y - 0.5\"\n")
+        .replace("pattern = \"1\",", "pattern = \"y - 0.5\",")
         .replace("[-1.0, 58.0]", "[-1.0, 2.0]");
     for (text, reason) in [
         (second, "input.ambient.field: it changes the matrix, and one is written for all ticks"),

@@ -87,10 +87,10 @@ fn a_coefficient_that_an_input_changes() -> Result<()> {
 #[test]
 fn a_limit_that_an_input_changes() -> Result<()> {
     let limited =
-        BENT.replace("flux = \"-0.5*x^2\"", "flux = \"-0.5*x^2\"\nlimit = \"1 - 0.5*x^2\"");
+        BENT.replace("flux = \"-0.5*x^2\"", "flux = \"-0.5*x^2\", limit = \"1 - 0.5*x^2\"");
     let supply = "[input.supply]\nof = \"contact\"\nfield = \"limit\"\npattern = \"3\"\n";
     let text = format!("{limited}{supply}default = 0.5\nrange = [0, 2]\n")
-        .replace("pattern = \"-1 - x\"\n", "pattern = \"-1\"\n");
+        .replace("pattern = \"-1 - x\"", "pattern = \"-1\"");
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
     same_bits_of::<f32, { rows::TRIANGLES }>(&problem, |x| x.to_bits().into())
 }

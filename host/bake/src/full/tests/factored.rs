@@ -29,15 +29,11 @@ fn factor() -> Setting {
 
 /// A gap that an input lifts.
 const LIFT: &str = r#"
-[input.lift]
-of = "contact"
-field = "gap"
-pattern = "0.1 - 0.1*x^2"
-default = 0.0
-[output.force]
-kind = "force"
-[output.bound]
-kind = "bound"
+[input]
+lift = { of = "contact", field = "gap", pattern = "0.1 - 0.1*x^2", default = 0.0 }
+[output]
+force = { kind = "force" }
+bound = { kind = "bound" }
 "#;
 
 /// A scene of the catalogue with other text here and there, and with [`LIFT`].
@@ -151,14 +147,13 @@ fn the_module_has_the_bits_of_the_same_arrays() -> Result<()> {
 #[test]
 fn a_module_without_contact() -> Result<()> {
     let text = unbounded().replace(
-        "kind = \"contact\"\ngap = \"x^3 - 0.3\"\nflux = \"-0.5*x^2\"",
-        "kind = \"dirichlet\"\nvalue = \"x\"",
+        "kind = \"contact\", gap = \"x^3 - 0.3\", flux = \"-0.5*x^2\"",
+        "kind = \"dirichlet\", value = \"x\"",
     );
     let text = text.replace("field = \"gap\"", "field = \"value\"");
-    let text = text
-        .replace("[input.rain]\nof = \"contact\"\nfield = \"flux\"\npattern = \"-1 - x\"\n", "");
-    let text =
-        text.replace("[output.force]\nkind = \"force\"\n[output.length]\nkind = \"length\"\n", "");
+    let rain = "input.rain = { of = \"contact\", field = \"flux\", pattern = \"-1 - x\" }\n";
+    let force = "output.force = { kind = \"force\" }\noutput.length = { kind = \"length\" }\n";
+    let text = fixtures::changed(&text, &[(rain, ""), (force, "")]);
     let setting = Setting { certificate: false, ..factor() };
     let problem = scene(&text, Cells::Triangles, setting)?;
     same_bits_of::<f32, TRIANGLES>(&problem, |x| x.to_bits().into())

@@ -29,62 +29,23 @@ use signorini_solve::solve::{Options, solve};
 /// A gap and a Dirichlet value that inputs bend, a source, given fluxes, varying A and a varying law.
 const BENT: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = ["2 + x", "0.5", "1"]
-[source]
-f = "-1 - x"
-[boundary.dirichlet]
-kind = "dirichlet"
-value = "x^2"
-[boundary.left]
-kind = "robin"
-coefficient = "2 + y"
-ambient = "y"
-[boundary.right]
-kind = "neumann"
-flux = "1 - y"
-[boundary.contact]
-kind = "contact"
-gap = "x^3 - 0.3"
-flux = "-0.5*x^2"
-[input.lift]
-of = "contact"
-field = "gap"
-pattern = "cos(3*x)/5"
-default = 0.3
-[input.level]
-of = "dirichlet"
-field = "value"
-pattern = "1 + x^2/2"
-default = 0.7
-[input.rain]
-of = "contact"
-field = "flux"
-pattern = "-1 - x"
-[input.heat]
-of = "source"
-field = "f"
-pattern = "1 + y"
-[input.inflow]
-of = "right"
-field = "flux"
-pattern = "y^2"
-[input.air]
-of = "left"
-field = "ambient"
-pattern = "1 - y"
-[output.flux]
-kind = "flux"
-of = "dirichlet"
-[output.force]
-kind = "force"
-[output.length]
-kind = "length"
-[output.probe]
-kind = "probe"
-at = [0.1, 0.4]
-[output.bound]
-kind = "bound"
+material.default.conductivity = ["2 + x", "0.5", "1"]
+source.f = "-1 - x"
+boundary.dirichlet = { kind = "dirichlet", value = "x^2" }
+boundary.left = { kind = "robin", coefficient = "2 + y", ambient = "y" }
+boundary.right = { kind = "neumann", flux = "1 - y" }
+boundary.contact = { kind = "contact", gap = "x^3 - 0.3", flux = "-0.5*x^2" }
+input.lift = { of = "contact", field = "gap", pattern = "cos(3*x)/5", default = 0.3 }
+input.level = { of = "dirichlet", field = "value", pattern = "1 + x^2/2", default = 0.7 }
+input.rain = { of = "contact", field = "flux", pattern = "-1 - x" }
+input.heat = { of = "source", field = "f", pattern = "1 + y" }
+input.inflow = { of = "right", field = "flux", pattern = "y^2" }
+input.air = { of = "left", field = "ambient", pattern = "1 - y" }
+output.flux = { kind = "flux", of = "dirichlet" }
+output.force = { kind = "force" }
+output.length = { kind = "length" }
+output.probe = { kind = "probe", at = [0.1, 0.4] }
+output.bound = { kind = "bound" }
 "#;
 
 fn standard(name: &str) -> Result<(Scene, Problem)> {
@@ -188,14 +149,15 @@ fn a_load_that_depends_on_time_is_refused_by_its_key() -> Result<()> {
 
 #[test]
 fn data_that_meet_wrongly_have_no_bound() -> Result<()> {
-    let text = BENT.replace("[boundary.dirichlet]", "[boundary.right]").replace(
-        "[boundary.right]\nkind = \"neumann\"\nflux = \"1 - y\"",
-        "[boundary.dirichlet]\nkind = \"neumann\"\nflux = \"1 - y\"",
-    );
-    let text = text
-        .replace("of = \"right\"", "of = \"top\"")
-        .replace("of = \"dirichlet\"", "of = \"right\"");
-    let text = text.replace("of = \"top\"", "of = \"dirichlet\"");
+    let right = "boundary.right = { kind = \"neumann\"";
+    let turned = [
+        ("boundary.dirichlet = ", "boundary.right = "),
+        (right, "boundary.dirichlet = { kind = \"neumann\""),
+        ("of = \"right\"", "of = \"top\""),
+        ("of = \"dirichlet\"", "of = \"right\""),
+        ("of = \"top\"", "of = \"dirichlet\""),
+    ];
+    let text = fixtures::changed(BENT, &turned);
     let (_, problem) = fixtures::on_grid(&text, grid(3, Cells::Triangles))?;
     let baked = Baked::<f64>::new(&problem)?;
     assert_eq!(baked.corners.len(), 1);

@@ -197,7 +197,7 @@ fn inputs_that_the_scalar_loses_are_refused() -> Result<()> {
     };
     refused(&BENT.replace("default = 0.7", "default = 1e-40"), "input.level: f32 cannot hold")?;
     let huge =
-        BENT.replace("\"1 + x^2/2\"\ndefault = 0.7", "\"1e-39*(1 + x^2/2)\"\ndefault = 7e38");
+        BENT.replace("\"1 + x^2/2\", default = 0.7", "\"1e-39*(1 + x^2/2)\", default = 7e38");
     refused(&huge, "input.level: f32 cannot hold")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-41*y^2\""), "input.inflow.pattern: beside the other")?;
     refused(&BENT.replace("\"y^2\"", "\"1e-60*y^2\""), "input.inflow.pattern: beside the other")

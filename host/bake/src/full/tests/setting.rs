@@ -15,7 +15,7 @@ use signorini_solve::scalar::Scalar;
 
 /// Without the output that is the bound.
 pub(super) fn unbounded() -> &'static str {
-    BENT.split("[output.bound]").next().unwrap_or_default()
+    BENT.split("output.bound = ").next().unwrap_or_default()
 }
 
 pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<Problem> {

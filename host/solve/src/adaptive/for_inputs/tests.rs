@@ -28,7 +28,6 @@ fn other_inputs_meet_it_too() {
     let scene = levee("12%");
     let MeshOfScene { mesh, promise } = mesh_of_scene(&scene).expect("a mesh");
     let promise = promise.expect("what holds on it");
-    println!("{promise}");
     assert!(promise.largest <= MARGIN && promise.allowed.len() == 1005, "{promise:?}");
     let problem = Problem::new(&scene, mesh).expect("a problem");
     assert_eq!(problem.topology.counts.unknowns(), promise.unknowns);

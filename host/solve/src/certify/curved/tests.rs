@@ -307,7 +307,6 @@ fn nothing_is_above_its_peak() -> Result<()> {
             let deviation = deviations.on(record.edge as usize).expect("a curved edge");
             let values = (0..=20_000).map(|k| deviation.value(f64::from(k) / 20_000.0).abs());
             let largest = values.fold(0.0, f64::max);
-            println!("{gap}: {} of {largest}", record.peak);
             assert!(record.peak >= largest && record.peak <= most * largest, "{gap}: {record:?}");
         }
     }

@@ -13,18 +13,18 @@ use signorini_scene::mesh::structured::{Cells, grid};
 pub(super) fn limited(ends: &str, more: &str) -> String {
     let text = ALL.replace("flux = \"-0.1*x^2\"", ends);
     assert_ne!(text, ALL);
-    let saturated = "[output.short]\nkind = \"saturated\"\nof = \"contact\"\n\
-                     [output.through]\nkind = \"flux\"\nof = \"contact\"\n";
+    let saturated = "output.short = { kind = \"saturated\", of = \"contact\" }\n\
+                     output.through = { kind = \"flux\", of = \"contact\" }\n";
     text + saturated + more
 }
 
 /// The ends of the fixture: from below, with a base above, without a lower end, and with both finite ones.
 pub(super) const ENDS: [&str; 5] = [
-    "flux = \"-0.1*x^2\"\nlimit = \"0.3\"",
-    "flux = \"-3\"\nlimit = \"0.2 + 0.1*x\"",
-    "flux = \"-inf\"\nlimit = \"0.1*x\"",
-    "flux = \"-0.4 - 0.1*x\"\nlimit = \"-0.1*x\"",
-    "flux = \"-0.1\"\nlimit = \"1e9\"",
+    "flux = \"-0.1*x^2\", limit = \"0.3\"",
+    "flux = \"-3\", limit = \"0.2 + 0.1*x\"",
+    "flux = \"-inf\", limit = \"0.1*x\"",
+    "flux = \"-0.4 - 0.1*x\", limit = \"-0.1*x\"",
+    "flux = \"-0.1\", limit = \"1e9\"",
 ];
 
 /// How many are open, touch, and are at their limit.
@@ -90,12 +90,11 @@ fn every_input_and_range_on_all_cells() -> Result<()> {
             let text = limited(ends, "");
             // No input of an end: `rain` acts on the flux.
             let fixed = text
-                .replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
+                .replace("of = \"contact\", field = \"flux\"", "of = \"right\", field = \"flux\"");
             assert_ne!(fixed, text);
             for mesh in [grid(5, cells), distorted(grid(4, cells))] {
                 let (_, problem) = on_grid(&fixed, mesh)?;
                 let all = compare(&problem, 0.3, 4)?;
-                println!("{cells:?} {ends:?}: {all:?}");
                 all.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
             }
         }
@@ -115,8 +114,8 @@ fn inputs_of_both_ends() -> Result<()> {
             // Without a lower end nothing can be added to it.
             let text = match ends.contains("inf") {
                 true => limited(ends, more).replace(
-                    "field = \"flux\"\npattern = \"1 + x\"",
-                    "field = \"limit\"\npattern = \"1 + x\"",
+                    "field = \"flux\", pattern = \"1 + x\"",
+                    "field = \"limit\", pattern = \"1 + x\"",
                 ),
                 false => limited(ends, more),
             };
@@ -136,7 +135,7 @@ fn inputs_of_both_ends() -> Result<()> {
 fn a_limit_below_the_flux_is_refused() -> Result<()> {
     let room = "[input.room]\nof = \"contact\"\nfield = \"limit\"\npattern = \"1\"\n";
     let (_, problem) =
-        on_grid(&limited("flux = \"0\"\nlimit = \"1\"", room), grid(3, Cells::Triangles))?;
+        on_grid(&limited("flux = \"0\", limit = \"1\"", room), grid(3, Cells::Triangles))?;
     let model = condense(&problem)?;
     let mut p = model.defaults.clone();
     p[2] = 0.0;
@@ -168,13 +167,13 @@ fn random_problems_agree_with_the_full_solver() -> Result<()> {
 #[test]
 fn walls_heat_as_the_full_model_does() -> Result<()> {
     for (above, ends) in [
-        ("2", "flux = \"0\"\nlimit = \"3\""),
-        ("0.25", "flux = \"0\"\nlimit = \"3\""),
-        ("-1", "flux = \"-2\"\nlimit = \"3\""),
-        ("2.5", "flux = \"-inf\"\nlimit = \"0\""),
-        ("-1", "flux = \"-1e16\"\nlimit = \"3\""),
-        ("0", "flux = \"0.3\"\nlimit = \"1e30\""),
-        ("2", "flux = \"1.5\"\nlimit = \"1.5\""),
+        ("2", "flux = \"0\", limit = \"3\""),
+        ("0.25", "flux = \"0\", limit = \"3\""),
+        ("-1", "flux = \"-2\", limit = \"3\""),
+        ("2.5", "flux = \"-inf\", limit = \"0\""),
+        ("-1", "flux = \"-1e16\", limit = \"3\""),
+        ("0", "flux = \"0.3\", limit = \"1e30\""),
+        ("2", "flux = \"1.5\", limit = \"1.5\""),
     ] {
         let (_, problem) = on_grid(&wall(above, ends), grid(4, Cells::Mixed))?;
         compare(&problem, 0.0, 1)?;
@@ -200,7 +199,6 @@ fn a_part_that_contact_with_limits_holds() -> Result<()> {
             let (_, solution, _) = full_at(&problem, &p)?;
             let of_mesh = solution.bound.expect("a bound").total;
             let bound = model.bound(&p, &x).expect("a bound");
-            println!("{heat}: {:?} {}", states(&x), bound / of_mesh);
             assert!((0.5..1.25).contains(&(bound / of_mesh)), "{bound} {of_mesh}");
             compare(&problem.with_inputs(&[heat])?, 0.0, 1)?;
         }

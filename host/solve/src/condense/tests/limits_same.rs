@@ -2,6 +2,7 @@
 
 use signorini_tolerances::solve::{CONDENSED, SAME_LIMITED};
 
+use super::equality::without_contact;
 use super::limits::{ENDS, limited};
 use super::*;
 use crate::condense::{CondensedModel, Measure, condense, modal};
@@ -11,14 +12,14 @@ use signorini_scene::mesh::structured::{Cells, grid};
 #[test]
 fn without_an_end_it_is_the_model_without_limits() -> Result<()> {
     // An input of the flux would move an end.
-    let all = ALL.replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
+    let all = ALL.replace("of = \"contact\", field = \"flux\"", "of = \"right\", field = \"flux\"");
     let model = |ends: &str| -> Result<CondensedModel> {
         condense(&on_grid(&all.replace("flux = \"-0.1*x^2\"", ends), grid(5, Cells::Mixed))?.1)
     };
     let without = condense(&on_grid(&all, grid(5, Cells::Mixed))?.1)?;
-    let infinite = model("flux = \"-0.1*x^2\"\nlimit = \"inf\"")?;
+    let infinite = model("flux = \"-0.1*x^2\", limit = \"inf\"")?;
     assert_eq!(format!("{without:?}"), format!("{infinite:?}"));
-    let far = model("flux = \"-0.1*x^2\"\nlimit = \"1e9\"")?;
+    let far = model("flux = \"-0.1*x^2\", limit = \"1e9\"")?;
     assert!(far.is_limited());
     for round in 0..4 {
         let moved = without.defaults.iter().enumerate();
@@ -39,16 +40,12 @@ fn without_an_end_it_is_the_model_without_limits() -> Result<()> {
 #[test]
 fn equal_ends_are_a_given_flux() -> Result<()> {
     let contact = ALL
-        .replace("flux = \"-0.1*x^2\"", "flux = \"-0.1*x^2\"\nlimit = \"-0.1*x^2\"")
-        .replace("[input.rain]\nof = \"contact\"", "[input.rain]\nof = \"right\"");
-    let (head, rest) = contact.split_once("[boundary.contact]\n").expect("contact");
-    let (_, rest) = rest.split_once("[input.depth]").expect("an input");
-    let (_, rest) = rest.split_once("[input.rain]").expect("another one");
-    let neumann = format!(
-        "{head}[boundary.contact]\nkind = \"neumann\"\nflux = \"-0.1*x^2\"\n[input.rain]{rest}"
-    )
-    .replace("[output.force]\nkind = \"force\"\n", "")
-    .replace("[output.length]\nkind = \"length\"\nof = \"contact\"\n", "");
+        .replace("flux = \"-0.1*x^2\"", "flux = \"-0.1*x^2\", limit = \"-0.1*x^2\"")
+        .replace("input.rain = { of = \"contact\"", "input.rain = { of = \"right\"");
+    let ends = "kind = \"contact\", gap = \"0.35 - 0.4*x^2 + 0.1*x^3\", \
+                flux = \"-0.1*x^2\", limit = \"-0.1*x^2\"";
+    let given = "kind = \"neumann\", flux = \"-0.1*x^2\"";
+    let neumann = without_contact(&changed(&contact, &[(ends, given)]));
     let [one, other] = [(&contact, grid(5, Cells::Mixed)), (&neumann, grid(5, Cells::Mixed))]
         .map(|(text, mesh)| on_grid(text, mesh).and_then(|(_, problem)| condense(&problem)));
     let (one, other) = (one?, other?);
@@ -63,7 +60,6 @@ fn equal_ends_are_a_given_flux() -> Result<()> {
         SAME_LIMITED.check("output", found.expect("a value") - expected.expect("a value"));
     }
     let bounds = [found[6], expected[4]].map(|bound| bound.expect("a bound"));
-    println!("bound with contact {} without {}", bounds[0], bounds[1]);
     assert!(bounds[0] > 0.8 * bounds[1] && bounds[0] < 3.0 * bounds[1], "{bounds:?}");
     Ok(())
 }
@@ -73,7 +69,7 @@ fn equal_ends_are_a_given_flux() -> Result<()> {
 fn modes_keep_their_limits() -> Result<()> {
     let input = "[input.h]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"1\"\ndefault = 1.5\nrange = [-1.0, 100.0]\n";
     let text = limited(ENDS[0], input)
-        .replace("of = \"contact\"\nfield = \"flux\"", "of = \"right\"\nfield = \"flux\"");
+        .replace("of = \"contact\", field = \"flux\"", "of = \"right\", field = \"flux\"");
     let (_, problem) = on_grid(&text, grid(4, Cells::Mixed))?;
     let (modes, _) = modal(&problem, 0.0)?;
     for value in [-1.0, 1.5, 30.0] {

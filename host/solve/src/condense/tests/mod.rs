@@ -10,5 +10,5 @@ mod rejected;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 
-use crate::fixtures::{EVERY_INPUT as ALL, full_at, on_grid, scatter};
+use crate::fixtures::{EVERY_INPUT as ALL, changed, full_at, on_grid, scatter};
 use crate::problem::Problem;

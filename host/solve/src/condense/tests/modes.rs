@@ -18,9 +18,7 @@ fn with_input(pattern: &str) -> String {
 /// The same scene where h is what it says, for this value of the input.
 fn stated(pattern: &str, value: f64) -> String {
     let sum = format!("coefficient = \"2+y + ({value})*({pattern})\"");
-    let text = ALL.replace("coefficient = \"2+y\"", &sum);
-    assert_ne!(text, ALL);
-    text
+    changed(ALL, &[("coefficient = \"2+y\"", &sum)])
 }
 
 /// Compares with the largest number.
@@ -98,17 +96,8 @@ fn smooth() -> String {
     let text = SMOOTH.replace("coefficient = \"2+y\"", "coefficient = \"0\"");
     text.replace(" + (3*y - 6.5)/(2+y)\"", "\"")
         + "
-[input.h]
-of = \"left\"
-field = \"coefficient\"
-pattern = \"1\"
-default = 1.0
-range = [0.01, 100.0]
-[input.push]
-of = \"left\"
-field = \"ambient\"
-pattern = \"3*y - 6.5\"
-default = 1.0
+input.h = { of = \"left\", field = \"coefficient\", pattern = \"1\", default = 1.0, range = [0.01, 100.0] }
+input.push = { of = \"left\", field = \"ambient\", pattern = \"3*y - 6.5\", default = 1.0 }
 "
 }
 
@@ -171,10 +160,9 @@ fn edges_without_a_pattern_are_no_part_of_the_modes() -> Result<()> {
 
 #[test]
 fn what_modes_cannot_do_is_told() -> Result<()> {
-    let second = with_input("1").replace(
-        "[input.wind]\nof = \"left\"\nfield = \"ambient\"\npattern = \"1 - y^2\"\n",
-        "[input.wind]\nof = \"left\"\nfield = \"coefficient\"\npattern = \"y\"\nrange = [0, 1]\n",
-    );
+    let wind = "field = \"ambient\", pattern = \"1 - y^2\"";
+    let coefficient = "field = \"coefficient\", pattern = \"y\", range = [0, 1]";
+    let second = changed(&with_input("1"), &[(wind, coefficient)]);
     for (text, expected) in [
         (ALL.to_owned(), "no input adds to a transfer coefficient"),
         (second, "input.h.field: a second coefficient"),

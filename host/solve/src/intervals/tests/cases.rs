@@ -5,41 +5,18 @@ use super::*;
 /// u = x² − y² on (−1, 1) × (0, 1), heat through the left side by a transfer law, through the right one by a given u.
 const HARMONIC: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "0"
-[boundary.dirichlet]
-kind = "neumann"
-flux = "-2"
-[boundary.left]
-kind = "robin"
-coefficient = "2 + y"
-ambient = "1 - y^2 + 2/(2 + y)"
-[boundary.right]
-kind = "dirichlet"
-value = "1 - y^2"
-[boundary.contact]
-kind = "neumann"
-flux = "0"
-[output.top]
-kind = "mean"
-of = "dirichlet"
-[output.bottom]
-kind = "flux"
-of = "contact"
-[output.cold]
-kind = "flux"
-of = "left"
-[output.skin]
-kind = "mean"
-of = "left"
-[output.warm]
-kind = "flux"
-of = "right"
-[output.given]
-kind = "mean"
-of = "right"
+material.default.conductivity = "1"
+source.f = "0"
+boundary.dirichlet = { kind = "neumann", flux = "-2" }
+boundary.left = { kind = "robin", coefficient = "2 + y", ambient = "1 - y^2 + 2/(2 + y)" }
+boundary.right = { kind = "dirichlet", value = "1 - y^2" }
+boundary.contact = { kind = "neumann", flux = "0" }
+output.top = { kind = "mean", of = "dirichlet" }
+output.bottom = { kind = "flux", of = "contact" }
+output.cold = { kind = "flux", of = "left" }
+output.skin = { kind = "mean", of = "left" }
+output.warm = { kind = "flux", of = "right" }
+output.given = { kind = "mean", of = "right" }
 "#;
 
 #[test]
@@ -77,16 +54,10 @@ fn the_mean_over_a_trapezoid_is_that_over_its_area() -> Result<()> {
     const TRAPEZOID: &str = r#"
 title = "a linear u"
 mesh = "none.msh"
-[material.default]
-conductivity = "1"
-[boundary.default]
-kind = "dirichlet"
-value = "x + 2*y"
-[output.middle]
-kind = "probe"
-at = [-0.2, 0.4]
-[setting]
-element = "nonparametric"
+material.default.conductivity = "1"
+boundary.default = { kind = "dirichlet", value = "x + 2*y" }
+output.middle = { kind = "probe", at = [-0.2, 0.4] }
+setting.element = "nonparametric"
 "#;
     let mut mesh = grid(1, Cells::Quads);
     // Left of x = 0 a quad with the corners (−1, 0), (0, 0), (0, 3), (−1, 1), of the area 2 and the middle (−5/12, 13/12).
@@ -104,31 +75,14 @@ element = "nonparametric"
 const ROOF: &str = r#"
 title = "an outlet below"
 mesh = "none.msh"
-[material.default]
-conductivity = "1"
-[source]
-f = "-1"
-[boundary.contact]
-kind = "contact"
-gap = "0"
-flux = "0"
-[boundary.left]
-kind = "robin"
-coefficient = "2"
-ambient = "0.1"
-[boundary.right]
-kind = "robin"
-coefficient = "0"
-ambient = "3"
-[boundary.dirichlet]
-kind = "neumann"
-flux = "0"
-[output.below]
-kind = "flux"
-of = "contact"
-[output.side]
-kind = "flux"
-of = "left"
+material.default.conductivity = "1"
+source.f = "-1"
+boundary.contact = { kind = "contact", gap = "0", flux = "0" }
+boundary.left = { kind = "robin", coefficient = "2", ambient = "0.1" }
+boundary.right = { kind = "robin", coefficient = "0", ambient = "3" }
+boundary.dirichlet = { kind = "neumann", flux = "0" }
+output.below = { kind = "flux", of = "contact" }
+output.side = { kind = "flux", of = "left" }
 "#;
 
 /// Where no heat is transferred the condition is that of a wall.

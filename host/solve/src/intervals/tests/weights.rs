@@ -9,32 +9,15 @@ use signorini_tolerances::solve::OUTPUT_WEIGHTS;
 /// A bar from x = −1 to 1 and of height 1 with A = 3, u given on the left, heat by a law of transfer with h = 2 on the right.
 const BAR: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "3"
-[source]
-f = "0"
-[boundary.left]
-kind = "dirichlet"
-value = "0"
-[boundary.right]
-kind = "robin"
-coefficient = "2"
-ambient = "1"
-[boundary.dirichlet]
-kind = "neumann"
-flux = "0"
-[boundary.contact]
-kind = "neumann"
-flux = "0"
-[output.cold]
-kind = "flux"
-of = "left"
-[output.skin]
-kind = "mean"
-of = "right"
-[output.roof]
-kind = "mean"
-of = "dirichlet"
+material.default.conductivity = "3"
+source.f = "0"
+boundary.left = { kind = "dirichlet", value = "0" }
+boundary.right = { kind = "robin", coefficient = "2", ambient = "1" }
+boundary.dirichlet = { kind = "neumann", flux = "0" }
+boundary.contact = { kind = "neumann", flux = "0" }
+output.cold = { kind = "flux", of = "left" }
+output.skin = { kind = "mean", of = "right" }
+output.roof = { kind = "mean", of = "dirichlet" }
 "#;
 
 /// z and ζ are known: z falls from 1 with the slope b, 3b = 2 (1 − 2b), and ‖A∇z‖² = 3 · 2 b² + 2 (1 − 2b)². ζ of the mean on the right

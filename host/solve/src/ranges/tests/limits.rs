@@ -106,7 +106,6 @@ fn solutions_outputs_and_sides_are_enclosed() {
             }
         }
     }
-    println!("open, touching, at their limit, may change: {counts:?}");
     assert!(counts.iter().all(|&count| count > 50), "{counts:?}");
 }
 
@@ -167,7 +166,6 @@ fn a_reduced_model_is_the_whole_one() {
         let counts = compare(&model(case, case % 2 == 1), 1000, 70 + case);
         counts.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
     }
-    println!("edges before and after: {sums:?}");
     assert!(sums[1] < sums[0] / 2, "{sums:?}");
 }
 
@@ -203,7 +201,6 @@ fn a_reduced_scene_has_the_bound_of_the_whole() -> Result<()> {
             let of_sides = ALL.map(|side| found.count(side));
             of_sides.into_iter().zip(&mut sides).for_each(|(count, sum)| *sum += count);
             let counts = compare(&whole, 300, 5);
-            println!("{ends:?} {ranges:?}: {of_sides:?} {counts:?}");
             counts.into_iter().zip(&mut sums).for_each(|(count, sum)| *sum += count);
         }
     }
@@ -216,7 +213,6 @@ fn no_solution_has_a_larger_bound_than_the_largest() -> Result<()> {
     for ends in [ENDS[0], ENDS[3]] {
         let whole = scene(ends, ["[-0.02, 0.02]", "[0, 0.1]"])?;
         let largest = LargestBound::new(&whole).expect("finite loads").expect("proved");
-        println!("{ends:?}: {largest:?}");
         let mut reached = 0.0_f64;
         for p in inputs(&whole, 300, 8) {
             let x = whole.solve(&p).expect("a solution");

@@ -23,13 +23,9 @@ const AUTO: Options = Options {
 /// A domain that nothing holds, in balance.
 const LOOSE: &str = r#"
 mesh = "grid"
-[material.default]
-conductivity = "1"
-[source]
-f = "x"
-[boundary.default]
-kind = "neumann"
-flux = "0"
+material.default.conductivity = "1"
+source.f = "x"
+boundary.default = { kind = "neumann", flux = "0" }
 "#;
 
 /// The same answer: converged, the same active edges, u and the bound.

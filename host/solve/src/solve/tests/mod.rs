@@ -50,17 +50,8 @@ fn mixed_precision_is_as_accurate_as_f64_on_every_standard_scene() -> Result<()>
         let direct = Options { solver: SolverKind::Direct, ..Options::default() };
         let reference = solve(&problem, &direct)?;
         let found = mixed(&problem, &Options::default())?;
-        let pure = solve(&problem, &Options::default())?;
         let far = distance(&found.u, &reference.u);
         let name = path.file_stem().unwrap().to_string_lossy();
-        println!(
-            "{name:18} {:6} unknowns {:6} sweeps ({:6} in f64) {far:.1e} {:.1e} {:?}",
-            problem.topology.counts.unknowns(),
-            found.sweeps,
-            pure.sweeps,
-            distance(&pure.u, &reference.u),
-            found.status,
-        );
         assert!(found.converged(), "{name}: {:?}", found.status);
         AGREEMENT.check(&name, far);
         assert_eq!(found.contact_active, reference.contact_active, "{name}");
@@ -111,7 +102,6 @@ fn the_tuned_factor_needs_the_fewest_sweeps() -> Result<()> {
         let auto = count(Relaxation::Adaptive(1.0));
         let unit = count(Relaxation::Fixed(1.0));
         let name = path.file_stem().unwrap().to_string_lossy();
-        println!("{name:18} tuned {tuned:5} (ω = {omega:.4}), auto {auto:5}, unit {unit:5}");
         assert!(tuned <= auto && tuned <= unit, "{name}: {tuned}, {auto}, {unit}");
         let by_hand = [1.7, 1.8, 1.9, 1.95].map(|omega| count(Relaxation::Fixed(omega)));
         assert!(by_hand.iter().all(|&sweeps| sweeps + 4 >= tuned), "{name}: {by_hand:?}, {tuned}");

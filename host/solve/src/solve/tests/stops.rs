@@ -50,7 +50,7 @@ fn smooth(c: f64, ends: Ends) -> String {
         .replace("gap = \"x^3\"", &format!("gap = \"{gap}\""))
         .replace(
             "flux = \"-3.5*x^2 - 1\"",
-            &format!("flux = \"{}\"\nlimit = \"{}\"", ends[0], ends[1]),
+            &format!("flux = \"{}\", limit = \"{}\"", ends[0], ends[1]),
         )
         .replace("x^2*y + y^2 + x^3", &format!("x^2*y + y^2 + x^3 + {c}*y"))
         .replace("x^2 + 2*y\"", &format!("x^2 + 2*y + {c}\""))
@@ -83,7 +83,6 @@ fn all() -> Vec<(String, String)> {
 
 #[test]
 fn the_bound_holds_at_any_stop_for_all_signs_of_both_ends() -> Result<()> {
-    let mut sharpest = 0.0_f64;
     for (ends, text) in all() {
         for (name, mesh) in meshes(4).into_iter().take(2) {
             let (scene, problem) = on_grid(&text, mesh)?;
@@ -104,13 +103,11 @@ fn the_bound_holds_at_any_stop_for_all_signs_of_both_ends() -> Result<()> {
                     assert!(bound.total >= of.combined, "{what}: {} {of:?}", bound.total);
                     if found.converged() && of.combined > ROUNDING[at] {
                         let ratio = bound.duality_gap / of.combined;
-                        sharpest = sharpest.max(ratio);
                         assert!(ratio < SHARP, "{what}: {ratio} {of:?}");
                     }
                 }
             }
         }
     }
-    println!("bound/combined at most {sharpest} where converged");
     Ok(())
 }

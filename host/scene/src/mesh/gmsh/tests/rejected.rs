@@ -116,15 +116,12 @@ fn edited(from: &str, to: &str) -> String {
 
 #[test]
 fn texts_name_the_line() {
+    #[rustfmt::skip] // A table.
     let cases = [
         ("2.2 0 8", "3 0 8", "2: format 3 is not read"),
         ("2.2 0 8", "2.2 2 8", "2: expected 0 (ASCII) or 1 (binary) after the version"),
         ("2.2 0 8", "2.2 0 4", "2: expected a version, 0 or 1, and 8"),
-        (
-            "1 1 \"contact zone\"",
-            "1 1 contact",
-            "7: expected a physical name: dimension, tag and the name in quotes",
-        ),
+        ("1 1 \"contact zone\"", "1 1 contact", "7: expected a physical name: dimension, tag and the name in quotes"),
         ("1 1 \"c", "0 1 \"c", "7: physical group 1 of dimension 0 is named twice"),
         ("$Nodes\n6", "$Nodes\n7", "18: expected a node tag, found `$EndNodes`"),
         ("$Nodes\n6", "$Nodes\n5", "17: expected `$EndNodes`, found `99 2 0.5 0.5`"),
@@ -136,17 +133,9 @@ fn texts_name_the_line() {
         ("7 1 0 0.5", "7 1 zero 0.5", "13: expected a coordinate, found `zero`"),
         ("6 2 2 1 1 7 99", "6 2 2 1 1 99", "28: expected a node tag, found nothing"),
         ("6 2 2 1 1 7 99", "6 2 99 1 1 7 99", "28: expected a tag of the element, found nothing"),
-        (
-            "6 2 2 1 1 7",
-            "6 2 2 3000000000 1 7",
-            "28: expected a tag of the element, found `3000000000`",
-        ),
+        ("6 2 2 1 1 7", "6 2 2 3000000000 1 7", "28: expected a tag of the element, found `3000000000`"),
         ("$EndElements", "$EndNodes", "29: expected `$EndElements`, found `$EndNodes`"),
-        (
-            "$EndElements\n",
-            "$EndElements\njunk\n",
-            "30: expected the beginning of a section, like `$Nodes`, found `junk`",
-        ),
+        ("$EndElements\n", "$EndElements\njunk\n", "30: expected the beginning of a section, like `$Nodes`, found `junk`"),
         ("$EndElements\n", "$EndElements\n$Odd\n", "30: the section `Odd` is never closed"),
         ("$PhysicalNames", "$MeshFormat", "4: a second section $MeshFormat"),
     ];

@@ -1,8 +1,6 @@
 //! The kernel against the naive twin on random scenes: every kind of cell, tensor and condition.
 
-#[path = "../../../kernel/tests/factored/mod.rs"]
-mod factored;
-
+use crate::factored;
 use signorini_kernel::discrete::law::Law;
 use std::collections::BTreeMap;
 use std::sync::Arc;

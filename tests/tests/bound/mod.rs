@@ -5,7 +5,6 @@
 
 mod catalogue;
 mod invariance;
-mod mesh;
 mod nonparametric;
 mod of_u;
 mod property;

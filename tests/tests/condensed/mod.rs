@@ -4,8 +4,5 @@
 mod bound;
 mod equality;
 mod extremes;
-#[path = "../bound/mesh.rs"]
-#[expect(dead_code, reason = "cut and relisted meshes are for the bound of the full model")]
-mod mesh;
 mod ranges;
 mod scenes;

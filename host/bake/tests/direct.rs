@@ -1,0 +1,124 @@
+//! Ticks of full models beside the direct solver with the same inputs, and what both are made of.
+
+use std::collections::BTreeMap;
+
+use signorini_bake::full::{Baked, Controller};
+use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_kernel::device::tick::{Limits, Report};
+use signorini_scene::error::Result;
+use signorini_solve::certify::CertifiedFields;
+use signorini_solve::certify::admissible::Following;
+use signorini_solve::outputs::outputs;
+use signorini_solve::problem::Problem;
+use signorini_solve::scalar::Scalar;
+use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_tolerances::Tolerance;
+
+/// A heated face below keeps 2 with at most 6 per length, less towards its ends, and may cool by 1; u ≤ 3 on the right, air
+/// on the left.
+pub const HEATER: &str = r#"
+mesh = "grid"
+material.default.conductivity = ["2", "0.3", "1"]
+boundary.dirichlet = { kind = "dirichlet", value = "2 - x/4" }
+boundary.left = { kind = "robin", coefficient = "3", ambient = "0" }
+boundary.right = { kind = "contact", gap = "3", flux = "-inf", limit = "0.5*y" }
+boundary.contact = { kind = "contact", gap = "2", flux = "-1", limit = "6 - 3*x^2" }
+input.air = { of = "left", field = "ambient", pattern = "1", default = -3.0 }
+input.sun = { of = "source", field = "f", pattern = "1 - x" }
+input.wanted = { of = "contact", field = "gap", pattern = "1" }
+output.power = { kind = "flux", of = "contact" }
+output.short = { kind = "saturated", of = "contact" }
+output.kept = { kind = "length", of = "contact" }
+output.held = { kind = "force", of = "right" }
+output.skin = { kind = "mean", of = "contact" }
+"#;
+
+/// Limits of a tick that goes on until sweeps change nothing that counts.
+pub fn to_the_end<R: Scalar>() -> Limits<R> {
+    Limits { share: R::narrow(1e-9), ..Limits::default() }
+}
+
+/// Numbers in the scalar of a controller.
+pub fn narrowed<R: Scalar>(values: &[f64]) -> Vec<R> {
+    values.iter().map(|&value| R::narrow(value)).collect()
+}
+
+/// The problem at these inputs, its direct solution, and the outputs of that.
+pub fn directly(
+    problem: &Problem,
+    inputs: &[f64],
+) -> Result<(Problem, Solution, BTreeMap<String, Option<f64>>)> {
+    let now = problem.with_inputs(inputs)?;
+    let options = Options { solver: SolverKind::Direct, ..Options::default() };
+    let solution = solve(&now, &options)?;
+    let values = outputs(&now, &solution)?;
+    Ok((now, solution, values))
+}
+
+/// A problem whose ticks are solves.
+pub struct Beside<'p> {
+    pub problem: &'p Problem,
+    /// A kernel feature of the module.
+    pub feature: &'static str,
+    pub steps: Vec<Vec<f64>>,
+    /// The size that outputs are compared over at least.
+    pub least: fn(&Solution) -> f64,
+    /// Whether an output is nothing but rounding at some inputs.
+    pub is_undefined: fn(&[f64], &str) -> bool,
+}
+
+impl Beside<'_> {
+    /// Compares outputs and duality gap of each warm tick; `see` is shown outputs, report and solution.
+    pub fn ticks<R: Scalar, const WIDTH: usize>(
+        &self,
+        allowed: Tolerance,
+        mut see: impl FnMut(&[R], &Report<R>, &Solution),
+    ) -> Result<()> {
+        let baked = Baked::<R>::new(self.problem)?;
+        assert!(baked.has_bound() && baked.features().contains(&self.feature));
+        let mut controller = Controller::<R, WIDTH>::new(&baked);
+        for values in &self.steps {
+            let tick = controller.tick_within(&narrowed(values), to_the_end());
+            let (found, report) = tick.expect("a tick");
+            let (now, solution, expected) = directly(self.problem, values)?;
+            let least = (self.least)(&solution);
+            for (output, found) in now.scene.outputs.iter().zip(&found) {
+                let name = &output.name.value;
+                if !(self.is_undefined)(values, name) {
+                    let expected = expected[name].expect("a value");
+                    let (what, off) = (format!("{name} {values:?}"), found.wide() - expected);
+                    allowed.check_over(what, off, expected.abs().max(least));
+                }
+            }
+            let gap = report.verdict.certificate().expect("a bound").duality_gap.wide();
+            let bound = solution.bound.as_ref().expect("a bound").duality_gap;
+            allowed.check_relative(format_args!("gap {values:?}"), gap, bound);
+            see(&found, &report, &solution);
+        }
+        Ok(())
+    }
+}
+
+/// s and τ of the last tick.
+pub fn certified<R: Scalar, const WIDTH: usize>(
+    controller: &Controller<R, WIDTH>,
+) -> CertifiedFields {
+    let wide = |numbers: &[R]| -> Vec<f64> { numbers.iter().map(|x| x.wide()).collect() };
+    let tau = wide(controller.tau());
+    let bubbles = match controller.bubbles() {
+        [] => vec![0.0; tau.len()],
+        bubbles => wide(bubbles),
+    };
+    let (vertices, indicators) = (wide(controller.vertices()), Vec::new());
+    CertifiedFields { vertices, bubbles, tau, indicators, following: Following::WhereNeeded }
+}
+
+/// Ticks on the desk, in f64 and to the end.
+pub fn played(problem: &Problem, steps: &[Vec<f64>]) -> Result<Vec<TickRecord>> {
+    let inputs = |values: &Vec<f64>| values.iter().copied().enumerate().collect();
+    let moment = |(at, values)| ScheduledTick { time: at as f64, inputs: inputs(values) };
+    let moments: Vec<_> = steps.iter().enumerate().map(moment).collect();
+    let sweeps = Options::default().max_sweeps;
+    let budget = Budget { scalar: ScalarKind::F64, sweeps, error: 0.0, intervals: false };
+    play(problem, None, &moments, &budget, |_, _| Ok(()))
+}

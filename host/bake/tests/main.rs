@@ -1,0 +1,13 @@
+//! The tests of baked models as one program: `cargo test -p signorini-bake --test main NAME`.
+
+mod condensed_bound;
+mod condensed_length;
+mod condensed_limits;
+mod direct;
+mod limit_inputs;
+mod limits;
+mod means;
+mod plus_minus;
+mod promise;
+mod transfer;
+mod warm_inputs;

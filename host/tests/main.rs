@@ -1,0 +1,17 @@
+//! The tests of the command as one program: `cargo test -p signorini --test main NAME`.
+
+mod bake;
+mod cli;
+mod command;
+mod extremes;
+#[cfg(unix)]
+mod interrupted;
+mod max_error;
+mod pages;
+mod paths;
+mod ranges;
+mod records;
+mod settings;
+mod tick;
+mod trade;
+mod warnings;

@@ -1,0 +1,16 @@
+//! The tests that need twins or host and kernel together, as one program:
+//! `cargo test -p signorini-tests --test main NAME`.
+//!
+//! `mesh` makes the meshes that `bound` and `condensed` solve on; `factored` is the kernel tests' own.
+
+mod bound;
+mod catalogue;
+mod condensed;
+#[path = "../../kernel/tests/factored/mod.rs"]
+mod factored;
+mod forces;
+mod hostile;
+mod identities;
+mod mesh;
+mod naive;
+mod twins;
