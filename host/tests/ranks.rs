@@ -6,12 +6,12 @@ use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::Duration;
 
+use signorini_files::atomic::write_atomically;
 use signorini_lab::trade::journal::Journal;
 use signorini_lab::trade::mpi;
 use signorini_lab::trade::record::Trade;
 use signorini_lab::trade::shard::Shard;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::output::atomic::write_atomically;
 use tempfile::tempdir;
 
 const FOLDER: &str = "SIGNORINI_TEST_FOLDER";

@@ -6,14 +6,14 @@ use signorini_tolerances::command::{
 use std::path::Path;
 
 use signorini_bake::tick::{Budget, ScheduledTick, play};
+use signorini_problem::Problem;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::outputs as outputs_of;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, solve};
+use signorini_solve::{Options, ScalarKind, solve};
 
 use crate::command::{Folder, Run, meshes, repository, run, text};
 

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use signorini_problem::Problem;
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::norms::{Errors, errors};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, Solution, solve};
+use signorini_solve::{Options, Solution, solve};
 use signorini_tests::grid::{Cells, Grid};
 use signorini_tests::targets::{
     ACTIVE, BENCHMARK, CATALOGUE, FLUX_OF_A, JUMPS, MOVED, TRANSFORMED, TabledCase,

@@ -10,16 +10,16 @@
 use std::path::Path;
 
 use signorini_bake::{condensed, full};
+use signorini_condense::{CondensedModel, Recovery, recoverable};
 use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Input, Quantity, Scene};
 use signorini_scene::setting::Setting;
-use signorini_solve::condense::{CondensedModel, Recovery, recoverable};
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{

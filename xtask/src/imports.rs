@@ -11,17 +11,66 @@ use crate::steps::Steps;
 use signorini_image::cargo::root;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 11] = [
+const CRATES: [(&str, &[&str]); 17] = [
     ("kernel", &[]),
     ("host/draw", &[]),
     ("host/image", &[]),
     ("host/scene", &["kernel"]),
-    ("host/solve", &["kernel", "scene"]),
-    ("host/bake", &["kernel", "scene", "solve", "draw", "image"]),
-    ("host/lab", &["kernel", "scene", "solve", "draw", "image", "bake"]),
-    ("host", &["scene", "solve", "draw", "image", "bake", "lab"]),
+    ("host/reference", &[]),
+    ("host/problem", &["kernel", "scene"]),
+    ("host/certify", &["kernel", "scene", "problem"]),
+    ("host/solve", &["kernel", "scene", "reference", "problem", "certify"]),
+    ("host/condense", &["kernel", "scene", "reference", "problem", "certify", "solve"]),
+    ("host/intervals", &["kernel", "scene", "problem", "certify", "solve"]),
+    ("host/files", &["kernel", "scene", "problem", "certify", "solve", "intervals"]),
+    (
+        "host/bake",
+        &[
+            "kernel",
+            "scene",
+            "draw",
+            "image",
+            "reference",
+            "problem",
+            "certify",
+            "solve",
+            "condense",
+            "intervals",
+        ],
+    ),
+    (
+        "host/lab",
+        &[
+            "kernel",
+            "scene",
+            "draw",
+            "image",
+            "reference",
+            "problem",
+            "certify",
+            "solve",
+            "condense",
+            "intervals",
+            "files",
+            "bake",
+        ],
+    ),
+    ("host", &["scene", "draw", "image", "problem", "solve", "condense", "files", "bake", "lab"]),
     ("tests/tolerances", &[]),
-    ("tests", &["kernel", "scene", "solve", "bake", "tolerances"]),
+    (
+        "tests",
+        &[
+            "kernel",
+            "scene",
+            "problem",
+            "certify",
+            "solve",
+            "condense",
+            "files",
+            "bake",
+            "tolerances",
+        ],
+    ),
     ("xtask", &["image"]),
 ];
 

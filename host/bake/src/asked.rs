@@ -1,10 +1,10 @@
 //! How a scene is to be solved: as its setting says, or as somebody asks instead.
 
 use crate::engine;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::setting::{Precision, Setting};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 /// Sweeps without a number that somebody asks for.
 const SWEEPS: u32 = 1_000_000;

@@ -4,7 +4,7 @@
 
 use signorini_image::record::counts::Counts;
 use signorini_image::record::sizes;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 const RECORD: &str = include_str!("../../../tests/firmware/cost.txt");
 /// Code, data, RAM and stack of baked scenes.

@@ -13,7 +13,7 @@
 
 use super::condensed::Visited;
 use super::costs::{Costs, ORDERS, around};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// A column entry of a load or an output: two loads, a multiply-add, half of a loop.
 const AN_ENTRY: f64 = 4.0;

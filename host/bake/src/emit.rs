@@ -9,10 +9,10 @@ use crate::intervals;
 use crate::module_api::ModuleApi;
 use crate::ranges;
 use crate::worst;
-use signorini_solve::functional::wanted;
-use signorini_solve::intervals::described;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
+use signorini_intervals::described;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::scalar::Scalar;
 
 /// A module of firmware.
 #[derive(Debug, Clone, PartialEq)]

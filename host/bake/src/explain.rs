@@ -8,9 +8,9 @@ use super::costs::{CYCLES, Costs};
 use super::ranges;
 use super::table::table;
 use super::worst;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{EdgeKind, Problem, QuadCoefficient};
 use signorini_scene::scene::Quantity;
-use signorini_solve::problem::{EdgeKind, Problem, QuadCoefficient};
-use signorini_solve::scalar::Scalar;
 
 /// A feature of the general model: any mesh, any data, everything computed and kept on the target.
 #[derive(Debug, Clone, PartialEq)]

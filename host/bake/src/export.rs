@@ -10,11 +10,11 @@ use signorini_kernel::error::Array;
 use signorini_kernel::{Error, Index, device::model::Model};
 
 use crate::range::{refuse_lengths, refuse_squares};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Assembled, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::{Approach, Assembled, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{choose_units, unfit};
+use signorini_solve::{choose_units, unfit};
 
 /// The source text.
 ///

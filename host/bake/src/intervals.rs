@@ -6,11 +6,11 @@ use signorini_kernel::device::intervals::OutputWeights;
 
 use crate::choice::{Choice, Model, Origin};
 use crate::text::{code, prose};
-use signorini_solve::functional::wanted;
-use signorini_solve::intervals::weights::{Answers, Weighed, Weights, weights};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, solve};
+use signorini_intervals::weights::{Answers, Weighed, Weights, weights};
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::scalar::Scalar;
+use signorini_solve::{Options, solve};
 
 /// By which part weights are rounded up: more than what a scalar rounds of them and of their products.
 const ROOM: f64 = 1e-6;

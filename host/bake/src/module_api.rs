@@ -6,11 +6,11 @@ use super::item::{Item, braced, from_array, items, names, structure, to_array};
 use super::meanings::{effect, meaning, said};
 use super::text::{code, prose};
 use signorini_image::checkout;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::inputs;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Input;
-use signorini_solve::functional::wanted;
-use signorini_solve::inputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// The names and meanings of a scene's inputs and outputs.
 #[derive(Debug, Clone)]

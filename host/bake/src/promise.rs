@@ -8,12 +8,12 @@ use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
 use crate::choice::{Choice, Model, Wanted};
 use crate::{condensed, full};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::adaptive::{Allowed, Promise};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// Updates of unknowns after which the ticks of a full model end.
 const UPDATES: f64 = 1e9;

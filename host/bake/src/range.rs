@@ -7,13 +7,13 @@
 //! ```
 //! 1e±32 and 1e±12 in f32.
 
+use signorini_condense::CondensedModel;
 use signorini_kernel::solve::dense::blocks::padded;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// What is near 1 may be 2^−20 or 2^20.
 const NEAR: f64 = 20.0;
@@ -118,8 +118,8 @@ pub fn wider<R: Scalar>() -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_problem::fixtures::{self, SMOOTH};
     use signorini_scene::mesh::structured::{Cells, grid};
-    use signorini_solve::fixtures::{self, SMOOTH};
 
     #[test]
     fn lengths_that_f32_cannot_hold_are_refused() -> Result<()> {

@@ -4,11 +4,11 @@ use signorini_kernel::device::tick::Progress;
 use signorini_kernel::solve::Relaxation;
 
 use super::range::refuse_inputs;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::{Quantity, Scene};
 use signorini_scene::setting::{MathKind, Omega, Precision, Setting};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// The scalar type of the module: the one that is asked for, else that of the setting, else f32.
 ///

@@ -7,14 +7,14 @@
 //! What 8 points miss of u_ext weighs √h, and whether h allows for a bound is a comparison of h at two points of an edge,
 //! linear in the inputs: both are judged at all corners of the ranges of such inputs.
 
+use signorini_certify::Evaluated;
+use signorini_certify::curved::{Curved, curved};
+use signorini_certify::ends::Ends;
+use signorini_certify::robin::{RobinPoints, robin};
+use signorini_problem::{Loads, Problem, RangeTerm, TransferPattern};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::{Term, left_with};
 use signorini_scene::scene::{Field, Input, Scene};
-use signorini_solve::certify::Evaluated;
-use signorini_solve::certify::curved::{Curved, curved};
-use signorini_solve::certify::ends::Ends;
-use signorini_solve::certify::robin::{RobinPoints, robin};
-use signorini_solve::problem::{Loads, Problem, RangeTerm, TransferPattern};
 
 /// Inputs of transfer coefficients that a scene may have: every term is evaluated at the 2⁸ corners of their ranges.
 const MOST_COEFFICIENTS: usize = 8;

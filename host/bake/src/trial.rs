@@ -5,8 +5,8 @@ use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
 
 use super::dense::Done;
 use super::{condensed, full};
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::scalar::Scalar;
 
 /// Ticks of a trial after the first.
 const TICKS: usize = 100;

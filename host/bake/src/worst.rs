@@ -6,7 +6,7 @@ use crate::choice::{Choice, Model};
 use crate::condensed;
 use crate::costs::CYCLES;
 use signorini_image::chosen::WorstCase;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The worst case as constants of a module.
 pub fn constants(worst: WorstCase) -> String {

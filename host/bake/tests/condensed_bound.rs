@@ -9,23 +9,24 @@ use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_bake::tick::ScheduledTick;
 use signorini_bake::tick::baked::replay;
+use signorini_certify::ErrorBound;
+use signorini_certify::admissible::Following;
+use signorini_certify::curved::followed;
+use signorini_certify::exact::{Distance, distance};
+use signorini_condense::{CondensedModel, Recovery, condense, recoverable};
+use signorini_problem::fixtures::{
+    EVERY_INPUT, PARABOLA, SMOOTH, distorted, on_grid, scatter, scene, with_four_sides,
+};
+use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::{Field, Scene};
 use signorini_scene::setting::ModelKind;
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::certify::admissible::Following;
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::exact::{Distance, distance};
-use signorini_solve::condense::{CondensedModel, Recovery, condense, recoverable};
 use signorini_solve::energy_norm::nonconformity;
-use signorini_solve::fixtures::{
-    EVERY_INPUT, PARABOLA, SMOOTH, distorted, full_at, on_grid, scatter, scene, with_four_sides,
-};
+use signorini_solve::fixtures::full_at;
 use signorini_solve::norms::errors;
-use signorini_solve::problem::{Problem, Sum};
-use signorini_solve::solve::{Options, ScalarKind, solve};
+use signorini_solve::{Options, ScalarKind, solve};
 
 struct Model {
     scene: Scene,

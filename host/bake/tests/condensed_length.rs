@@ -1,8 +1,9 @@
 //! Lengths of contact that a condensed solve states.
 
+use signorini_problem::fixtures::{EVERY_INPUT, changed, on_grid};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::fixtures::{EVERY_INPUT, changed, full_at, on_grid};
+use signorini_solve::fixtures::full_at;
 use signorini_solve::outputs::outputs;
 use signorini_tolerances::bake::LENGTH;
 

@@ -3,13 +3,13 @@
 
 use crate::direct::{HEATER, directly, narrowed};
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::device::report::Ended;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{changed, on_grid};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::condense::{CondensedModel, condense};
-use signorini_solve::fixtures::{changed, on_grid};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     LIMITED_BOUND, LIMITED_BOUND_NARROW, LIMITED_TICK, LIMITED_TICK_NARROW,

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use signorini_bake::full::{Baked, Controller};
 use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_certify::CertifiedFields;
+use signorini_certify::admissible::Following;
 use signorini_kernel::device::tick::{Limits, Report};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_solve::certify::CertifiedFields;
-use signorini_solve::certify::admissible::Following;
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 
 /// A heated face below keeps 2 with at most 6 per length, less towards its ends, and may cool by 1; u ≤ 3 on the right, air

@@ -3,17 +3,17 @@
 
 use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
+use signorini_certify::exact::distance;
 use signorini_kernel::Error;
 use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::fixtures::limited::crossing;
+use signorini_problem::fixtures::{changed, on_grid};
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::certify::exact::distance;
-use signorini_solve::fixtures::limited::crossing;
-use signorini_solve::fixtures::{changed, on_grid};
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     GUARANTEE, LIMITED_DESK, LIMITED_INPUT_TICK, LIMITED_INPUT_TICK_NARROW,

@@ -2,11 +2,11 @@
 
 use crate::direct::{Beside, HEATER};
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{changed, on_grid};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::fixtures::{changed, on_grid};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{LIMITED_TICK, LIMITED_TICK_NARROW};
 

@@ -1,15 +1,15 @@
 //! Means of u over boundaries: of an affine u they are known, in every model and scalar.
 
 use signorini_bake::{condensed, full};
+use signorini_condense::condense;
 use signorini_kernel::device::tick::Limits;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{distorted, on_grid};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::condense::condense;
-use signorini_solve::fixtures::{distorted, on_grid};
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{MEANS, MEANS_NARROW};
 

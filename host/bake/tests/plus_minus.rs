@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use signorini_bake::engine::{Module, baked};
+use signorini_certify::ErrorBound;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{adapted, gmsh};
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::functional::wanted;
-use signorini_solve::inputs::{InputSpace, drawn};
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 
 /// Inputs that are tried: drawn ones, corners of the ranges among them.
 const TRIED: usize = 12;

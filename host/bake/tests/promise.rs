@@ -2,13 +2,13 @@
 
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::promise::check;
+use signorini_problem::Problem;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::ModelKind;
 use signorini_solve::adaptive::{Allowed, Promise};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, solve};
+use signorini_solve::{Options, solve};
 
 /// That the bound of the levee is at most `times` what a solve in f64 finds, with these inputs.
 fn promise(problem: &Problem, times: f64) -> Promise {

@@ -2,15 +2,15 @@
 
 use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
+use signorini_certify::exact::distance;
 use signorini_kernel::device::tick::{Limits, Report};
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{self, SMOOTH, changed, on_grid};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::certify::exact::distance;
-use signorini_solve::fixtures::{self, SMOOTH, changed, on_grid};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::Solution;
+use signorini_solve::Solution;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{
     GUARANTEE, OSCILLATION, TRANSFER, TRANSFER_NARROW, TRANSFER_TICK, TRANSFER_TICK_NARROW,

@@ -3,7 +3,7 @@
 use criterion::Bencher;
 use signorini_kernel::discrete::assembly;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
 

@@ -2,9 +2,9 @@
 
 use criterion::Bencher;
 use signorini_bake::full::{Baked, Controller};
+use signorini_certify::{Certifier, Data};
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
-use signorini_solve::certify::{Certifier, Data};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::{Strip, scene};
 

@@ -2,13 +2,13 @@
 
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::device::condensed::candidate::Candidate;
 use signorini_kernel::solve::dense::blocks::padded;
 use signorini_kernel::solve::dense::ranges::Given;
 use signorini_kernel::solve::dense::sor;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::condense::{CondensedModel, condense};
-use signorini_solve::scalar::Scalar;
 
 use crate::group;
 use crate::strip::Strip;

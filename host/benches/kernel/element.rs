@@ -4,8 +4,8 @@ use criterion::Bencher;
 use signorini_kernel::Tensor;
 use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::mesh::Mesh;
-use signorini_solve::quadrature::DATA_POINTS;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::quadrature::DATA_POINTS;
+use signorini_problem::scalar::Scalar;
 
 use crate::mesh;
 use crate::strip::Strip;

@@ -2,7 +2,7 @@
 
 use criterion::Bencher;
 use signorini_kernel::discrete::flux;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
 

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::time::Duration;
 
 use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, Throughput};
+use signorini_condense::condense;
+use signorini_problem::Problem;
 use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::condense;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_solve::{Options, SolverKind, solve};
 
 use crate::strip::{Strip, scene};
 use crate::{Stages, group};

@@ -24,8 +24,8 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::scalar::Scalar;
 use strip::{Stage, Strip};
 
 /// Squares across the height of the domain.

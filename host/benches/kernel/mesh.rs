@@ -4,7 +4,7 @@ use criterion::{BatchSize, Bencher};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::Block;
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
 

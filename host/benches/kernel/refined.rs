@@ -6,8 +6,8 @@ use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solve::conjugate::ConjugateBuffers;
 use signorini_kernel::solve::refinement::{self, RefinementBuffers};
 use signorini_kernel::solve::solver::{Settings, Solver};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::Mixed;
+use signorini_problem::scalar::Scalar;
+use signorini_solve::Mixed;
 
 use crate::strip::Strip;
 

@@ -6,8 +6,8 @@ use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solve::prolongation::prolong;
 use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error, solve::Relaxation};
-use signorini_solve::problem::Assembled;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::Assembled;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
 

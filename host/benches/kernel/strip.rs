@@ -5,10 +5,10 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use criterion::Bencher;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::scalar::Scalar;
 
 const SCENE: &str = r#"
 mesh = "none.msh"

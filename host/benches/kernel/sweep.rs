@@ -4,7 +4,7 @@ use criterion::Bencher;
 use signorini_kernel::discrete::law::Law;
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solve::psor;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;
 

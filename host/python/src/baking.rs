@@ -6,9 +6,9 @@ use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
 use signorini_scene::error::Error;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_solve::ScalarKind;
 
 use crate::error::raised;
 use crate::posed::GivenScene;

@@ -13,9 +13,9 @@ use signorini_bake::engine::{Engine, Module, TickSolution, baked};
 use signorini_bake::setting;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::{Input, Scene};
-use signorini_solve::functional::wanted;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::ScalarKind;
+use signorini_problem::functional::wanted;
+use signorini_problem::Problem;
+use signorini_solve::ScalarKind;
 
 use crate::error::raised;
 use crate::posed::GivenScene;

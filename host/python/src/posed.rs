@@ -9,7 +9,7 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::arrays::Arrays;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{MeshOfScene, mesh_for_scene, mesh_of_scene};
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 /// A scene: a file, or the text of one; another mesh file, or a mesh in arrays; inputs by name.
 #[derive(FromPyObject)]

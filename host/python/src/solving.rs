@@ -11,11 +11,11 @@ use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted, refined_until};
 use signorini_solve::energy_norm;
-use signorini_solve::output::answer::Answer;
-use signorini_solve::output::contact::State;
-use signorini_solve::output::fields::Drawn;
-use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::solve::Solution;
+use signorini_files::answer::Answer;
+use signorini_files::contact::State;
+use signorini_files::fields::Drawn;
+use signorini_problem::{EdgeKind, Problem};
+use signorini_solve::Solution;
 
 use crate::arrays::Filled;
 use crate::error::raised;

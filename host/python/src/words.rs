@@ -3,7 +3,7 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::solve::{ScalarKind, SolverKind};
+use signorini_solve::{ScalarKind, SolverKind};
 
 /// The scalar type, where one is named.
 pub fn scalar(word: Option<&str>) -> PyResult<Option<ScalarKind>> {

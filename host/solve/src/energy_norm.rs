@@ -5,26 +5,25 @@
 //!   nonconformity  ‖A^½∇_h(S − u_h)‖                  what the bound for u_h adds to that for S
 //! ```
 
-use crate::certify::admissible::Admissible;
-use crate::certify::cell::Cell;
-use crate::certify::conductivity::{Conductivity, product};
-use crate::certify::curved;
-use crate::certify::deviation::Deviations;
-use crate::certify::robin::robin;
-use crate::field::CellField;
-use crate::pointwise::POINTS;
-use crate::problem::Problem;
-use crate::quadrature::{DATA_POINTS, gauss};
-use crate::solve;
-use crate::threads::in_portions;
+use signorini_certify::admissible::Admissible;
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{Conductivity, product};
+use signorini_certify::curved;
+use signorini_certify::deviation::Deviations;
+use signorini_certify::robin::robin;
 use signorini_kernel::Real;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::pointwise::POINTS;
+use signorini_problem::quadrature::{DATA_POINTS, gauss};
+use signorini_problem::threads::in_portions;
 use signorini_scene::error::Result;
 
 /// The energy norm of a solution's S; `None` where it has no bound, and S is a picture alone.
 ///
 /// # Errors
 /// Data that are not finite.
-pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Option<f64>> {
+pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Option<f64>> {
     if solution.bound.is_none() {
         return Ok(None);
     }
@@ -33,7 +32,7 @@ pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Opti
     };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
     let units = solution.units;
-    let solution = solve::times(&units.inverse(), solution.clone());
+    let solution = crate::times(&units.inverse(), solution.clone());
     let norm = norm(problem, &solution.certified.admissible())?;
     Ok(Some(norm * units.energy()))
 }

@@ -1,33 +1,216 @@
-//! A scene becomes a problem, the problem a solution with an error bound, or a condensed model on its contact edges.
+//! One contact problem solved: by the kernel in either scalar, or by the faer reference.
 //!
 //! ```text
-//!   Scene, Mesh ─► problem ─► solve ─► certify ─► output     edges.csv, solution.vtu, summary.json
-//!                     │         └─ reference                  an independent one, by faer
-//!                     └─► condense ─► certify
+//!   problem ─► units ─► auto ─┬─► factored, direct    a factor of the free unknowns
+//!                             └─► mixed, the kernel   sweeps
+//!                                     └─► conclude ─► Solution, certified ─► outputs, norms
+//!   adaptive: solve, bound, mark, refine
 //! ```
-//! Integrals stand in [`quadrature`], errors against exact solutions in [`norms`] and [`energy_norm`], declared outputs in
-//! [`functional`] and [`outputs`].
 
 pub mod adaptive;
-pub mod certify;
-pub mod condense;
+mod auto;
+mod conclude;
+mod direct;
 pub mod energy_norm;
-pub mod field;
+mod factored;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
-pub mod functional;
-pub mod inputs;
-pub mod intervals;
+mod ldlt;
+mod level;
+mod mixed;
 pub mod norms;
-pub mod output;
+mod options;
 pub mod outputs;
-pub mod pointwise;
-pub mod problem;
-pub mod progress;
-pub mod quadrature;
-pub mod ranges;
-pub mod reference;
-pub mod scalar;
-pub mod search;
-pub mod solve;
-pub mod threads;
+mod ran;
+mod shared;
+mod solution;
+#[cfg(test)]
+mod tests;
+mod tuned;
+mod units;
+
+pub use auto::prefers_factor;
+pub use factored::Factored;
+pub use level::{FreeLevel, free_levels};
+pub use mixed::{Corrected, Mixed, mixed};
+pub use options::{Options, ScalarKind, SolverKind};
+pub use ran::Ran;
+pub use shared::SharedFactor;
+pub use solution::{Seconds, Solution, ended_name, status_name};
+pub use tuned::{Trials, tuned_omega};
+pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
+
+use signorini_kernel::discrete::rows::{self, Row, Rows};
+use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::solve::conjugate::ConjugateBuffers;
+use signorini_kernel::solve::refinement::{self, RefinementBuffers};
+use signorini_kernel::solve::solver::{Outcome, Settings, Status};
+use signorini_kernel::{Error as KernelError, Libm};
+
+use conclude::{Clock, Solved, conclude};
+pub use direct::Reduced;
+pub use ldlt::{Exchanges, Ldlt, exchanges};
+use signorini_problem::progress::stage;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Assembled, Parts, Problem};
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Scene;
+pub use solution::centre_floating;
+
+/// Solves `problem`; where its numbers are far from 1, in units in which
+/// they are not ([`Solution::units`]).
+///
+/// # Errors
+/// No solution, numbers that the scalar type cannot hold, a singular matrix.
+pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
+    solve_from(problem, options, &[])
+}
+
+/// The same from a start: the mean of u over each unknown edge, such as a coarser mesh or other data give it. Entries of Dirichlet
+/// edges are ignored: there the problem's own data hold. Empty, it is a cold start. The direct solver takes none.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solve_from(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
+    let scaled = Scaled::new(problem, choose_units(problem)?)?;
+    let start: Vec<f64> = start.iter().map(|u| u / scaled.units.u).collect();
+    let solution = solve_in_its_units(scaled.problem(), options, &start)?;
+    let units = scaled.units;
+    let Some(other) = scaled.other() else { return Ok(solution) };
+    Ok(Solution { units, scaled: Some(other), ..times(&units, solution) })
+}
+
+fn solve_in_its_units(problem: &Problem, options: &Options, start: &[f64]) -> Result<Solution> {
+    let parts = Parts::examine(problem)?;
+    match (options.solver, options.scalar) {
+        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F64) => {
+            auto::in_f64(problem, &parts, options, start)
+        }
+        (SolverKind::Auto | SolverKind::Factor, ScalarKind::F32) => {
+            auto::in_f32(problem, &parts, options, start)
+        }
+        (SolverKind::Kernel, ScalarKind::F64) => by_kernel::<f64>(problem, &parts, options, start),
+        (SolverKind::Kernel, ScalarKind::F32) => by_kernel::<f32>(problem, &parts, options, start),
+        (SolverKind::Direct, ScalarKind::F64) => direct::directly(problem, &parts, options),
+        (SolverKind::Direct, ScalarKind::F32) => {
+            Err(InputError::new("--solver direct works in f64, --scalar f32 was asked for")
+                .hint("leave out --scalar, or use --solver auto")
+                .into())
+        }
+    }
+}
+
+/// The kernel's refusal, in the scene's words.
+pub fn unfit<R: Scalar>(scene: &Scene) -> impl Fn(KernelError) -> Error + '_ {
+    move |error| {
+        InputError::new(format!("the scene does not fit {}: {error}", R::NAME))
+            .file(&scene.path)
+            .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
+            .into()
+    }
+}
+
+fn overflow<R: Scalar>(scene: &Scene) -> Error {
+    InputError::new(format!("not-finite: the solution overflows {}", R::NAME))
+        .file(&scene.path)
+        .hint("scale the data so that they are neither tiny nor huge, or use --scalar f64")
+        .into()
+}
+
+/// u to begin with: what Dirichlet data and `start` say, and 0.
+fn started<R: Scalar>(assembled: &Assembled<R>, start: &[f64]) -> Vec<R> {
+    let unknowns = assembled.edges().counts().unknowns();
+    let mut u = assembled.start();
+    u.iter_mut().take(unknowns).zip(start).for_each(|(u, &start)| *u = R::narrow(start));
+    u
+}
+
+fn by_kernel<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    options: &Options,
+    start: &[f64],
+) -> Result<Solution> {
+    let unfit = unfit::<R>(&problem.scene);
+    let mut clock = Clock::start();
+    let mut assembled = Assembled::<R>::new(problem).map_err(&unfit)?;
+    assembled.set_parts(parts);
+    let system = assembled.system().map_err(&unfit)?;
+    let diagonal = assembled.diagonal().map_err(&unfit)?;
+    let assembly = clock.lap();
+
+    let mut u = started(&assembled, start);
+    let mut low = vec![R::ZERO; u.len()];
+    let iterate = if problem.mesh.quads.is_empty() {
+        iterate::<R, { rows::TRIANGLES }>
+    } else {
+        iterate::<R, { rows::QUADS }>
+    };
+    let may_factor = Approach::Factor.lack_with(problem, parts.counts).is_none();
+    let edges = assembled.edges();
+    let found = iterate(&system, diagonal, edges, options, may_factor, &mut u, &mut low);
+    let ((outcome, factored), scalar) = (found.map_err(&unfit)?, options.scalar);
+    let ran = if factored.is_some() { Ran::Factor } else { Ran::Sweeps };
+    let solved = Solved { outcome, ran, factored, u, low, scalar, assembly, clock };
+    conclude(problem, parts, &assembled, solved)
+}
+
+/// Sweeps with rows of `WIDTH` entries and refines, and where that does not end takes the factor, if it may; `low`
+/// becomes the low part of `u`.
+fn iterate<R: Scalar, const WIDTH: usize>(
+    system: &System<R, u32>,
+    diagonal: DiagonalTerms<R, u32>,
+    edges: &Edges<u32>,
+    options: &Options,
+    may_factor: bool,
+    u: &mut [R],
+    low: &mut [R],
+) -> std::result::Result<(Outcome<R>, Option<Factored>), KernelError> {
+    let settings = options.settings::<R>();
+    let patience = Settings { max_sweeps: options.max_sweeps.min(refinement::PLAIN), ..settings };
+    let sweep = |settings, u: &mut [R], low: &mut [R]| {
+        sweep::<R, WIDTH>(system, diagonal, edges, settings, options.rounds(), u, low)
+    };
+    stage(&format!("at most {} sweeps", patience.max_sweeps));
+    let swept = sweep(patience, u, low)?;
+    let ended = !matches!(swept.status, Status::OutOfSweeps | Status::Stalled);
+    if ended || swept.sweeps >= options.max_sweeps {
+        return Ok((swept, None));
+    }
+    if may_factor
+        && let Some((found, factored)) = factored::solve(system, diagonal, &settings, u, low, None)?
+    {
+        return Ok((Outcome { sweeps: swept.sweeps, ..found }, Some(factored)));
+    }
+    let left = options.max_sweeps - swept.sweeps;
+    stage(&format!("at most {left} more sweeps, as no factor solves it"));
+    let mut found = sweep(Settings { max_sweeps: left, ..settings }, u, low)?;
+    found.sweeps = found.sweeps.saturating_add(swept.sweeps);
+    Ok((found, None))
+}
+
+fn sweep<R: Scalar, const WIDTH: usize>(
+    system: &System<R, u32>,
+    diagonal: DiagonalTerms<R, u32>,
+    edges: &Edges<u32>,
+    settings: Settings<R>,
+    rounds: u32,
+    u: &mut [R],
+    low: &mut [R],
+) -> std::result::Result<Outcome<R>, KernelError> {
+    let counts = edges.counts();
+    let mut rows = vec![Row::<R, u32, WIDTH>::EMPTY; counts.unknowns()];
+    let buffers = RefinementBuffers {
+        rows: Rows::new(edges, &mut rows)?,
+        low,
+        defect: &mut vec![R::ZERO; counts.unknowns()],
+        lower: &mut vec![R::ZERO; counts.contact],
+        conjugate: ConjugateBuffers {
+            direction: &mut vec![R::ZERO; counts.edges()],
+            residual: &mut vec![R::ZERO; counts.unknowns()],
+        },
+    };
+    refinement::run::<R, u32, Libm, WIDTH>(system, diagonal, settings, rounds, u, buffers)
+}

@@ -6,17 +6,16 @@
 use serde::Serialize;
 use signorini_kernel::Tensor;
 
-use crate::certify::cell::{Cell, Jet};
-use crate::certify::conductivity::{Conductivity, apply, dot, product};
-use crate::certify::exact::{Distance, distance};
-use crate::certify::sampled::{Sampled, Solution};
-use crate::certify::weighed::minus;
-use crate::field::{CellField, Sample};
-use crate::pointwise::{POINTS, points_on};
-use crate::problem::Problem;
-use crate::quadrature::gauss;
-use crate::solve;
-use crate::threads::in_portions;
+use signorini_certify::cell::{Cell, Jet};
+use signorini_certify::conductivity::{Conductivity, apply, dot, product};
+use signorini_certify::exact::{Distance, distance};
+use signorini_certify::sampled::{Sampled, Solution};
+use signorini_certify::weighed::minus;
+use signorini_problem::Problem;
+use signorini_problem::field::{CellField, Sample};
+use signorini_problem::pointwise::{POINTS, points_on};
+use signorini_problem::quadrature::gauss;
+use signorini_problem::threads::in_portions;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Exact;
 use signorini_scene::scene::units::Units;
@@ -33,7 +32,7 @@ pub struct Errors {
     /// ‖A^½ ∇_h(u − u_h)‖
     pub energy: f64,
     /// Distance of the error bound's S and τ to the solution, for whoever has them: see
-    /// [`crate::certify::exact`].
+    /// [`signorini_certify::exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub combined: Option<f64>,
     /// What the bound should be, from the same place.
@@ -45,13 +44,13 @@ pub struct Errors {
 ///
 /// # Errors
 /// An exact solution that is not finite at a quadrature point.
-pub fn of_solution(problem: &Problem, solution: &solve::Solution) -> Result<Option<Errors>> {
+pub fn of_solution(problem: &Problem, solution: &crate::Solution) -> Result<Option<Errors>> {
     let Some(exact) = &problem.scene.exact else { return Ok(None) };
     if let Some(problem) = &solution.scaled {
         // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
         let units = solution.units;
-        let solution = solve::times(&units.inverse(), solution.clone());
-        let solution = solve::Solution { scaled: None, ..solution };
+        let solution = crate::times(&units.inverse(), solution.clone());
+        let solution = crate::Solution { scaled: None, ..solution };
         let errors = of_solution(problem, &solution)?;
         return Ok(errors.map(|errors| errors.times(&units)));
     }

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use signorini_kernel::discrete::law::EdgeLaw;
 
-use crate::field::CellField;
-use crate::functional::Functional;
-use crate::problem::{EdgeKind, Problem};
-use crate::solve::{ScalarKind, Solution};
+use crate::{ScalarKind, Solution};
+use signorini_problem::field::CellField;
+use signorini_problem::functional::Functional;
+use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
 

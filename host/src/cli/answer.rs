@@ -4,16 +4,16 @@ use std::iter;
 use std::path::Path;
 
 use super::levels;
+use signorini_files::answer::Answer;
+use signorini_files::digits::{percent_above, rounded, supported};
+use signorini_files::stated::Stated;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::Result;
 use signorini_solve::adaptive::Stop;
-use signorini_solve::functional::wanted;
 use signorini_solve::norms::Errors;
-use signorini_solve::output::answer::Answer;
-use signorini_solve::output::digits::{percent_above, rounded, supported};
-use signorini_solve::output::stated::Stated;
-use signorini_solve::problem::Problem;
-use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{Solution, SolverKind};
+use signorini_solve::{Solution, SolverKind};
 
 /// A solution and what is told of it.
 pub(super) struct Told {

@@ -13,14 +13,14 @@ use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::promise;
 use signorini_bake::setting;
 use signorini_image::library::MACHINES;
+use signorini_problem::Problem;
+use signorini_problem::progress::{note, say, waiting, warn};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::setting::ModelKind;
+use signorini_solve::ScalarKind;
 use signorini_solve::adaptive::Promise;
-use signorini_solve::problem::Problem;
-use signorini_solve::progress::{note, say, waiting, warn};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:

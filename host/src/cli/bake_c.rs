@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use super::scene_arguments::writable;
 use signorini_bake::c::{File, files, name_of};
 use signorini_bake::emit::Emitted;
+use signorini_files::atomic::write_atomically;
 use signorini_image::checkout;
 use signorini_image::library::Machine;
+use signorini_problem::Problem;
+use signorini_problem::progress::{note, waiting};
 use signorini_scene::error::{Error, InputError, Result};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::problem::Problem;
-use signorini_solve::progress::{note, waiting};
 
 /// Builds them, then writes them all; an example that somebody has changed stays.
 pub(super) fn write(

@@ -9,9 +9,9 @@ use super::posed::problem_of;
 use super::{scene_at, write_beside};
 use signorini_bake::choice::reduced;
 use signorini_bake::condensed::header;
+use signorini_condense::condense;
+use signorini_problem::progress::warn;
 use signorini_scene::error::Result;
-use signorini_solve::condense::condense;
-use signorini_solve::progress::warn;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -9,11 +9,11 @@ use super::posed::problem_of;
 use super::write_beside;
 use signorini_bake::export::export;
 use signorini_bake::setting;
+use signorini_problem::progress::warn;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
-use signorini_solve::progress::warn;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -7,14 +7,14 @@ use std::time::Instant;
 use clap::Args;
 
 use signorini_draw::extremes_page;
+use signorini_files::atomic::write_atomically;
 use signorini_lab::extremes::judge::Outcome;
 use signorini_lab::extremes::kept::Kept;
 use signorini_lab::extremes::random::row::Row;
 use signorini_lab::extremes::section::section;
 use signorini_lab::extremes::{Plan, random, text};
+use signorini_problem::progress::{say, steps};
 use signorini_scene::error::{InputError, Result};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::progress::{say, steps};
 
 const EXAMPLES: &str = "\
 Examples:

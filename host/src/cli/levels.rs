@@ -5,15 +5,15 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::series::Series;
+use signorini_files::atomic::write_atomically;
+use signorini_files::digits::percent_above;
+use signorini_files::fields::{Drawn, picture};
+use signorini_problem::progress::{say, waiting};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::mesh::{Mesh, gmsh::write};
 use signorini_scene::scene::Scene;
+use signorini_solve::Solution;
 use signorini_solve::adaptive::{Level, Stop, Wanted, refined_until};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::output::digits::percent_above;
-use signorini_solve::output::fields::{Drawn, picture};
-use signorini_solve::progress::{say, waiting};
-use signorini_solve::solve::Solution;
 
 /// Solves level after level, says a line for each, and writes their files into `out`: `levels.csv`, `levels.pvd`, a VTU each, and
 /// the last mesh as `refined.msh`.

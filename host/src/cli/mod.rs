@@ -97,7 +97,7 @@ fn write_beside(
         let hint = "name another file to write";
         return Err(signorini_scene::error::InputError::new(message).hint(hint).into());
     }
-    signorini_solve::output::atomic::write_atomically(output, text.as_bytes())
+    signorini_files::atomic::write_atomically(output, text.as_bytes())
 }
 
 /// The scene with the inputs of the command line.

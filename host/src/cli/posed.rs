@@ -1,10 +1,10 @@
 //! A scene on the mesh that its setting asks for.
 
+use signorini_problem::Problem;
+use signorini_problem::progress::{note, waiting};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{MeshOfScene, Promise, mesh_of_scene};
-use signorini_solve::problem::Problem;
-use signorini_solve::progress::{note, waiting};
 
 /// The problem; what holds on a refined mesh is said.
 pub(super) fn problem_of(scene: &Scene) -> Result<Problem> {

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use signorini_files::atomic::write_atomically;
+use signorini_files::pvd::{Frame, pvd};
 use signorini_scene::error::{Error, Result};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::output::pvd::{Frame, pvd};
 
 /// `NAME.pvd` and `NAME/0000.vtu`, …, in a folder.
 pub(super) struct Series {

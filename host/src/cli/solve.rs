@@ -9,6 +9,7 @@ use super::levels;
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use signorini_bake::asked::Asked;
+use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
@@ -17,8 +18,7 @@ use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::Precision;
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted};
 use signorini_solve::energy_norm;
-use signorini_solve::progress::{say, waiting, warn};
-use signorini_solve::solve::{ScalarKind, SolverKind};
+use signorini_solve::{ScalarKind, SolverKind};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -12,14 +12,14 @@ use signorini_bake::tick::baked::replay;
 use signorini_bake::tick::columns::{bounds_csv, ticks_csv};
 use signorini_bake::tick::{Budget, TickFields, TickRecord, log, picture, play, schedule};
 use signorini_draw::history;
+use signorini_files::atomic::write_atomically;
+use signorini_files::fields::{Drawn, picture as vtu};
+use signorini_problem::Problem;
+use signorini_problem::progress::{say, steps, warn};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Output, Quantity, Scene};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::output::fields::{Drawn, picture as vtu};
-use signorini_solve::problem::Problem;
-use signorini_solve::progress::{say, steps, warn};
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use signorini_files::atomic::write_atomically;
 use signorini_lab::checkout::root;
 use signorini_lab::trade::campaign::{Campaign, Ended};
 use signorini_lab::trade::front::Wish;
@@ -11,11 +12,10 @@ use signorini_lab::trade::promised;
 use signorini_lab::trade::shard::Shard;
 use signorini_lab::trade::table::text;
 use signorini_lab::trade::target::Target;
+use signorini_problem::progress::{say, steps, warn};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::goal::Goal;
 use signorini_scene::scene::Scene;
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::progress::{say, steps, warn};
 
 const EXAMPLES: &str = "\
 Examples:

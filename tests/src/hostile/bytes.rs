@@ -3,7 +3,7 @@
 //! Every read succeeds: behind the end there are zeros. A value takes its bytes from the front, so that a
 //! fuzzer that changes one byte changes one value.
 
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// Bytes that have not been read yet.
 #[derive(Debug, Clone)]

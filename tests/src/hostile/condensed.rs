@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_condense::{CondensedModel, condense};
 use signorini_kernel::Error;
 use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
 use signorini_kernel::device::condensed::factor::Factor;
@@ -16,8 +17,7 @@ use signorini_kernel::device::report::{Ended, Report};
 use signorini_kernel::solve::dense::Iterate;
 use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, count, padded};
 use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
-use signorini_solve::condense::{CondensedModel, condense};
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 use super::bytes::{Bits, Bytes};
 use super::certified::is_bound;
@@ -239,7 +239,7 @@ pub trait Kept: Sized + 'static {
     /// The models of all scenes, with every method.
     fn baked() -> &'static [Baked<Self>]
     where
-        Self: signorini_solve::scalar::Scalar;
+        Self: signorini_problem::scalar::Scalar;
 }
 
 const WORKS: [Work; 3] = [

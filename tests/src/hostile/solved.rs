@@ -2,15 +2,15 @@
 
 use signorini_bake::tick::{Budget, TickRecord, play, schedule};
 use signorini_bake::{condensed, full};
+use signorini_condense::condense;
 use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::condense;
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 use super::refusal::refused;
 

@@ -10,7 +10,7 @@ use signorini_kernel::device::tick::{
 use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Libm, Tensor, solve::Relaxation};
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 use super::bytes::{Bits, Bytes};
 use super::certified::{Conditions, Foundation, Loads, is_bound};
@@ -196,7 +196,7 @@ pub trait Driven: Sized + 'static {
     /// The models of all scenes.
     fn baked() -> &'static [Baked<Self>]
     where
-        Self: signorini_solve::scalar::Scalar;
+        Self: signorini_problem::scalar::Scalar;
 }
 
 /// Sweeps or a factor, with a bound and without.

@@ -1,7 +1,7 @@
 //! How sharp the bound is on the catalogue: at convergence, and while the solver is under way.
 
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 use signorini_tests::written::{Side, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{ALGEBRAIC, EDGE_MEAN, SHARPNESS};
 

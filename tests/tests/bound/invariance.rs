@@ -1,6 +1,6 @@
 //! What must not change the bound: the order of the cells, the units.
 
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 use signorini_tests::random::Random;
 use signorini_tests::written::{Side, TwoMaterials, Units};
 use signorini_tolerances::twins::{ORDER, UNITS};

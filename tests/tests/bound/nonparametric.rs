@@ -1,10 +1,10 @@
 //! The nonparametric element on quads of any shape: exact where u is linear, the method's identities, the
 //! guarantee, and the rates that the parametric element loses.
 
+use signorini_problem::EdgeKind;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
-use signorini_solve::problem::EdgeKind;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind};
+use signorini_solve::{Options, ScalarKind, SolverKind};
 use signorini_tests::random::Random;
 use signorini_tests::written::{Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::twins::{

@@ -1,7 +1,7 @@
 //! The bound for u_h, which is another function than the s of the bound's total.
 
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 use super::run::{options, run};
 use crate::mesh::regular;

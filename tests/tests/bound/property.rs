@@ -1,7 +1,7 @@
 //! On random scenes with an exact solution, stopped at any time.
 
 use signorini_kernel::discrete::element::QuadElement;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;
 use signorini_tests::written::{Side, Smooth, TwoMaterials, Units, Written};

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use signorini_certify::ErrorBound;
+use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::ErrorBound;
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::norms::{Errors, errors, of_solution};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, Solution, solve};
+use signorini_solve::{Options, ScalarKind, Solution, solve};
 
 /// A solved scene.
 pub struct Run {

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
+use signorini_files::summary::Summary;
+use signorini_problem::Problem;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::Cells;
 use signorini_scene::scene::Scene;
-use signorini_solve::output::summary::Summary;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 use signorini_tests::random::Random;
 use signorini_tests::written::{Contact, Side, Smooth, TwoMaterials, Units, Written};
 use signorini_tolerances::twins::{GUARANTEE, IDENTITY};

@@ -1,10 +1,10 @@
 //! The bound of f32 against the same form in f64, at the p and x of the target: rounding is covered.
 //!
-//! [`signorini_solve::condense::CondensedModel::bound`] is what tests of the host compare with exact solutions.
+//! [`signorini_condense::CondensedModel::bound`] is what tests of the host compare with exact solutions.
 //! The kernel's total without its rounding may miss it by that rounding; then the total is above it.
 
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tests::written::{SIDES, Side, Smooth, TwoMaterials, Units};
 use signorini_tolerances::twins::{BOUND_ROUNDING, BOUND_ROUNDING_NARROW, OSCILLATING};

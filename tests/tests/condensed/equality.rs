@@ -12,13 +12,13 @@
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Controller};
+use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::bound::certificate::Verdict;
 use signorini_kernel::device::report::Ended;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::{Input, Scene};
-use signorini_solve::condense::{CondensedModel, Measure};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{CONDENSED, CONDENSED_NARROW, SUM_OF_LENGTHS};

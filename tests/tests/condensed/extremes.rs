@@ -4,9 +4,9 @@ use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::Error;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::error::Array;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
 use signorini_scene::mesh::{Curve, Mesh};
-use signorini_solve::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::twins::{AFTER_HUGE, AGAIN, WORN};
 

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Work};
+use signorini_condense::{CondensedModel, condense};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::{CondensedModel, condense};
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 use signorini_tests::random::{Random, tensor};
 
 use crate::mesh::{KINDS, regular, scattered};

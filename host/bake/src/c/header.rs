@@ -202,9 +202,9 @@ mod tests {
     use crate::choice::{Choice, Wanted};
     use crate::emit::emit;
     use signorini_image::library::MACHINES;
+    use signorini_problem::Problem;
     use signorini_scene::mesh::adapted;
     use signorini_scene::scene::Scene;
-    use signorini_solve::problem::Problem;
 
     /// The header of a standard scene for this machine, with the sizes of a state and a report.
     fn header(name: &str, state: usize, report: usize) -> String {

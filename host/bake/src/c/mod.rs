@@ -20,7 +20,7 @@ pub use names::name_of;
 use crate::emit::Emitted;
 use crate::module_api::ModuleApi;
 use signorini_image::library::{Library, Machine};
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 /// A file: where it goes in the folder, and what is in it.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Names in C: of the files and functions of a scene, of fields.
 
 use crate::text::identifiers;
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 /// The name of a scene's files and functions: that of its file, in lower-case letters, digits and single underscores.
 pub fn name_of(problem: &Problem) -> String {

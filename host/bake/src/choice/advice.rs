@@ -3,9 +3,9 @@
 use super::{Candidate, Model};
 use crate::budget::Shortfall;
 use crate::costs::Footprint;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::InputError;
 use signorini_scene::scene::{Quantity, Scene};
-use signorini_solve::scalar::Scalar;
 
 /// That nothing fits: the candidate that misses by least, and what would fit.
 pub(super) fn too_large<R: Scalar>(scene: &Scene, candidates: &[Candidate<R>]) -> InputError {

@@ -9,13 +9,13 @@ use crate::costs::Costs;
 use crate::dense::{Done, Price};
 use crate::setting::checked;
 use crate::{condensed, trial};
+use signorini_condense::CondensedModel;
+use signorini_problem::inputs::InputSpace;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, Setting};
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::inputs::InputSpace;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::unfit;
+use signorini_solve::unfit;
 
 /// The variants of the condensed model: with the bound first, and of two the one that takes less time. Those that leave
 /// out a bound that is asked for are no choice.

@@ -6,13 +6,13 @@ use crate::budget::{Budget, Needs};
 use crate::costs::Costs;
 use crate::full;
 use crate::trial::{self, Trial};
+use signorini_certify::NoBound;
+use signorini_problem::Problem;
+use signorini_problem::inputs::InputSpace;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
-use signorini_solve::certify::NoBound;
-use signorini_solve::inputs::InputSpace;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::Scaled;
+use signorini_solve::Scaled;
 
 /// The solver that the setting asks for, in `units`; where it leaves that open both, the quicker first: one that comes
 /// to its end before one that does not. `excluded` gets the reason why there is no factor.

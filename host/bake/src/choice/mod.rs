@@ -24,14 +24,14 @@ use advice::too_large;
 use candidates::of_condensed;
 use meshes::of_full;
 pub use origin::Origin;
+use signorini_condense::CondensedModel;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Lack, Problem, Property};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::problem::{Approach, Lack, Problem, Property};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::choose_for_inputs;
+use signorini_solve::choose_for_inputs;
 
 /// Contact edges beyond which nothing is condensed: the work on this machine grows like n³.
 const MOST_CONTACTS: usize = 1000;

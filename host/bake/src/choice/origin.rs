@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::Wanted;
+use signorini_condense::ranges::follow::FollowedRanges;
+use signorini_condense::ranges::reduced::Reduced;
+use signorini_condense::ranges::released::released;
+use signorini_condense::ranges::sides::Sides;
+use signorini_condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
+use signorini_problem::{Approach, Problem};
+use signorini_reference::ReferenceError;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::{CondensedModel, ModalModel, Recovery, modal, recoverable};
-use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::ranges::follow::FollowedRanges;
-use signorini_solve::ranges::reduced::Reduced;
-use signorini_solve::ranges::released::released;
-use signorini_solve::ranges::sides::Sides;
-use signorini_solve::reference::ReferenceError;
 
 /// What condensed candidates were made of, with the way back to the mesh.
 #[derive(Debug)]

@@ -5,9 +5,9 @@ use signorini_kernel::solve::dense::blocks::padded;
 use crate::condensed::{Modes, Work};
 use crate::costs::Costs;
 use crate::trial::Trial;
+use signorini_condense::CondensedModel;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::setting::Setting;
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::scalar::Scalar;
 
 /// Sweeps that follow where the exchanges of a tick do not suffice.
 const FALLBACK: u32 = 20;

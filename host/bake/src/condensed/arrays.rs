@@ -14,12 +14,12 @@ use super::output::Output;
 use super::padding::{filled_up, matrix};
 use super::relaxation::best_omega;
 use super::start::InitialState;
+use signorini_condense::ranges::split::Split;
+use signorini_condense::{CondensedModel, ModalModel};
 use signorini_image::chosen::WorstCase;
+use signorini_problem::inputs::ranges;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::setting::{Omega, Setting, Start as From};
-use signorini_solve::condense::{CondensedModel, ModalModel};
-use signorini_solve::inputs::ranges;
-use signorini_solve::ranges::split::Split;
-use signorini_solve::scalar::Scalar;
 
 /// How much the solver of a baked model may do in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

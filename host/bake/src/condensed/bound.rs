@@ -5,8 +5,8 @@ use signorini_kernel::device::condensed::factor::Factor;
 use signorini_kernel::device::condensed::sides::{self, ON_GAP, Sides};
 
 use super::padding::narrow;
-use signorini_solve::condense::{self, CondensedModel};
-use signorini_solve::scalar::Scalar;
+use signorini_condense::CondensedModel;
+use signorini_problem::scalar::Scalar;
 
 /// A quadratic form: its triangular factor by columns, and the norms of the columns.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ pub(super) struct Ends<R> {
 }
 
 impl<R: Scalar> Ends<R> {
-    fn new(condensate: &CondensedModel, form: &condense::Form) -> Option<Self> {
+    fn new(condensate: &CondensedModel, form: &signorini_condense::Form) -> Option<Self> {
         if condensate.spans.is_empty() {
             return None;
         }
@@ -85,7 +85,7 @@ impl<R: Scalar> Columns<R> {
 }
 
 impl<R: Scalar> Bound<R> {
-    pub fn new(condensate: &CondensedModel, form: &condense::Form) -> Self {
+    pub fn new(condensate: &CondensedModel, form: &signorini_condense::Form) -> Self {
         let n = condensate.contact;
         let order = condensate.inputs + n + form.vertices.len();
         let least = R::TINY.wide();
@@ -129,7 +129,7 @@ impl<R: Scalar> Bound<R> {
     }
 }
 
-fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
+fn vertex<R: Scalar>(vertex: &signorini_condense::Vertex) -> Vertex<R> {
     Vertex {
         edges: vertex.edges.map(|edge| edge as u16),
         weights: vertex.weights.map(R::narrow),
@@ -137,6 +137,6 @@ fn vertex<R: Scalar>(vertex: &condense::Vertex) -> Vertex<R> {
     }
 }
 
-fn corner<R: Scalar>(corner: &condense::Corner) -> (u16, Vec<R>, R) {
+fn corner<R: Scalar>(corner: &signorini_condense::Corner) -> (u16, Vec<R>, R) {
     (corner.edge as u16, narrow(&corner.excess), R::narrow(2.0 * corner.energy))
 }

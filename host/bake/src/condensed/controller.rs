@@ -12,7 +12,7 @@ use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::visited::Visited;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The memory of a condensed scene; that of modes is empty where there are none.
 type Owned<R> = ModalStorage<Vec<R>, Vec<bool>, Vec<R>, Vec<R>, Vec<Block<R>>, Vec<R>, R>;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use signorini_condense::CondensedModel;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::CondensedModel;
 
 /// What is asked for.
 const PLAIN: &str = "minimise 1/2 x'Sx - (Bp)'x over x >= 0, p[0] = 1";

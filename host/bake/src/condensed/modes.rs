@@ -13,11 +13,11 @@
 #[cfg(test)]
 mod tests;
 
+use signorini_condense::ranges::split::Split;
+use signorini_condense::{CondensedModel, LawsForm, Measure, ModalModel};
 use signorini_kernel::device::condensed::Condensed;
 use signorini_kernel::device::condensed::modes::Modal;
-use signorini_solve::condense::{CondensedModel, LawsForm, Measure, ModalModel};
-use signorini_solve::ranges::split::Split;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 use super::bound::{Bound, Columns};
 use super::padding::narrow;

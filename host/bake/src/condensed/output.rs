@@ -3,8 +3,7 @@
 use signorini_kernel::device::condensed::outputs::Measure;
 
 use super::padding::narrow;
-use signorini_solve::condense;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// An output with its arrays.
 #[derive(Debug, Clone)]
@@ -17,23 +16,25 @@ pub(super) enum Output<R> {
 }
 
 impl<R: Scalar> Output<R> {
-    pub fn new(measure: &condense::Measure) -> Self {
+    pub fn new(measure: &signorini_condense::Measure) -> Self {
         match measure {
-            condense::Measure::Linear { of_inputs, of_contact } => {
+            signorini_condense::Measure::Linear { of_inputs, of_contact } => {
                 Self::Linear { of_inputs: narrow(of_inputs), of_contact: narrow(of_contact) }
             }
-            condense::Measure::Flux { of_inputs, of_contact, of_reaction } => Self::Flux {
-                of_inputs: narrow(of_inputs),
-                of_contact: narrow(of_contact),
-                of_reaction: narrow(of_reaction),
-            },
-            condense::Measure::Length { always, of_contact } => {
+            signorini_condense::Measure::Flux { of_inputs, of_contact, of_reaction } => {
+                Self::Flux {
+                    of_inputs: narrow(of_inputs),
+                    of_contact: narrow(of_contact),
+                    of_reaction: narrow(of_reaction),
+                }
+            }
+            signorini_condense::Measure::Length { always, of_contact } => {
                 Self::Length { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
-            condense::Measure::Saturated { always, of_contact } => {
+            signorini_condense::Measure::Saturated { always, of_contact } => {
                 Self::Saturated { always: R::narrow(*always), of_contact: narrow(of_contact) }
             }
-            condense::Measure::Bound => Self::Bound,
+            signorini_condense::Measure::Bound => Self::Bound,
         }
     }
 

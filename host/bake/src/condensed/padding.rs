@@ -2,8 +2,8 @@
 
 use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::scalar::Scalar;
+use signorini_condense::CondensedModel;
+use signorini_problem::scalar::Scalar;
 
 pub(super) fn narrow<R: Scalar>(numbers: &[f64]) -> Vec<R> {
     numbers.iter().map(|&x| R::narrow(x)).collect()

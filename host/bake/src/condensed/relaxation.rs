@@ -1,6 +1,6 @@
 //! The relaxation factor of a condensed problem, found by trying.
 
-use signorini_solve::condense::CondensedModel;
+use signorini_condense::CondensedModel;
 
 /// Sweeps after which a factor counts as no good.
 const MOST: u32 = 400;

@@ -7,7 +7,7 @@ use super::bound::Columns;
 use super::modes::Modes;
 use super::output::Output;
 use crate::full::Sizes;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// Bytes of a block of the matrix, in numbers.
 const BLOCK: usize = 64;

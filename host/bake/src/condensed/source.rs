@@ -9,7 +9,7 @@ use super::sizes::sizes;
 use super::statics::data;
 use crate::controller::{self, Parts};
 use crate::module_api::{About, ModuleApi};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The module.
 pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {

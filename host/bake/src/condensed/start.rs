@@ -5,8 +5,8 @@ use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
 use signorini_kernel::solve::dense::tableau::{self, Tableau};
 
 use super::padding::{filled_up, matrix};
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::scalar::Scalar;
+use signorini_condense::CondensedModel;
+use signorini_problem::scalar::Scalar;
 
 /// x of the default inputs and, for the exact method, the tableau that belongs to it: exchanged in f64 and
 /// rounded once, it is as good as a tableau can be.

@@ -10,7 +10,7 @@ use super::modes::Modes;
 use super::output::Output;
 use crate::module_api::ModuleApi;
 use crate::text::array;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// A module of their own.
 pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {

@@ -4,14 +4,14 @@ use super::{Baked, Controller, Work, source};
 use crate::choice::{Choice, Model, Wanted};
 use crate::compiled::{FIRMWARE, printed};
 use crate::module_api::ModuleApi;
+use signorini_condense::condense;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{ModelKind, Omega, Setting, Start};
-use signorini_solve::condense::condense;
-use signorini_solve::fixtures::on_grid;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// Prints the outputs of a cold and two warm ticks as bits.
 const MAIN: &str = "

@@ -6,11 +6,11 @@ use super::{Engine, condensed, full};
 use crate::choice::{Choice, Model, Wanted};
 use crate::intervals::{narrowed, of_choice};
 use crate::setting;
+use signorini_certify::ErrorBound;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// How far each output may be off where answers have such a bound.
 type PlusMinus = Box<dyn Fn(&ErrorBound) -> Vec<f64>>;

@@ -7,13 +7,13 @@ use super::{Engine, TickSolution, status};
 use crate::choice::Origin;
 use crate::choice::{Choice, Wanted};
 use crate::condensed::{Baked, Controller};
+use signorini_certify::{ErrorBound, NoBound};
+use signorini_condense::CondensedModel;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::setting::ModelKind;
-use signorini_solve::certify::{ErrorBound, NoBound};
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Ran, ended_name, unfit};
+use signorini_solve::{Ran, ended_name, unfit};
 
 struct Condensed<'b, R: Scalar> {
     problem: &'b Problem,

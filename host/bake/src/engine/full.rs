@@ -6,13 +6,13 @@ use signorini_kernel::solve::solver::Status;
 
 use super::{Engine, TickSolution, status};
 use crate::full::{Baked, Controller};
+use signorini_certify::admissible::Following;
+use signorini_certify::{Data, ErrorBound, NoBound};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::admissible::Following;
-use signorini_solve::certify::{self, Data, ErrorBound, NoBound};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Factored, Ran, ended_name, unfit};
+use signorini_solve::{Factored, Ran, ended_name, unfit};
 
 struct Full<'b, R: Scalar, const WIDTH: usize> {
     scene: &'b Scene,
@@ -82,7 +82,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             exchanges: solved.pivots,
             rounds: solved.rounds,
         });
-        let certified = certify::CertifiedFields {
+        let certified = signorini_certify::CertifiedFields {
             vertices: wide(self.controller.vertices(), units.u),
             bubbles: match self.controller.bubbles() {
                 [] => vec![0.0; u.len()],
@@ -117,7 +117,7 @@ impl<R: Scalar, const WIDTH: usize> Engine for Full<'_, R, WIDTH> {
             certified: if certificate.is_some() {
                 certified
             } else {
-                certify::CertifiedFields::default()
+                signorini_certify::CertifiedFields::default()
             },
             u,
         })

@@ -21,12 +21,12 @@ use std::fmt::Display;
 use signorini_kernel::device::report::Ended;
 use signorini_kernel::solve::solver::Status;
 
+use signorini_certify::{ErrorBound, NoBound};
+use signorini_problem::{Approach, Problem, Property};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Precision, Setting};
-use signorini_solve::certify::{self, ErrorBound, NoBound};
-use signorini_solve::problem::{Approach, Problem, Property};
-use signorini_solve::solve::{Factored, Ran};
+use signorini_solve::{Factored, Ran};
 
 /// What a tick left, in f64.
 #[derive(Debug, Clone)]
@@ -60,7 +60,7 @@ pub struct TickSolution {
     /// Why there is no bound.
     pub no_bound: Option<NoBound>,
     /// What the bound is about; arrays are empty without one.
-    pub certified: certify::CertifiedFields,
+    pub certified: signorini_certify::CertifiedFields,
 }
 
 impl TickSolution {

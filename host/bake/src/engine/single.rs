@@ -9,14 +9,12 @@ use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
 
 use super::{Engine, TickSolution, completed};
+use signorini_certify::{Certifier, Data, ErrorBound, NoBound};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{Omega, Precision, Setting};
-use signorini_solve::certify::{Certifier, Data, ErrorBound, NoBound};
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{
-    Mixed, Options, Ran, ScalarKind, centre_floating, status_name, unfit,
-};
+use signorini_solve::{Mixed, Options, Ran, ScalarKind, centre_floating, status_name, unfit};
 
 type Refused<T> = std::result::Result<T, KernelError>;
 

@@ -3,13 +3,13 @@
 use std::time::Instant;
 
 use super::{TickSolution, completed, with};
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Start};
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::problem::{Parts, Problem};
-use signorini_solve::solve::{ScalarKind, Seconds, Solution};
+use signorini_solve::{ScalarKind, Seconds, Solution};
 
 /// Ticks before the one that is asked for: a fixed number of warm sweeps is one of a controller that has run for a
 /// while, with inputs around the defaults as a trade study draws them.

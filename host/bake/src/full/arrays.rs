@@ -19,13 +19,13 @@ use super::underflow::refuse_faint;
 use crate::module_api::ModuleApi;
 use crate::setting::checked;
 use crate::superposition::parts;
+use signorini_certify::Certifier;
+use signorini_problem::functional::functionals;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
-use signorini_solve::certify::Certifier;
-use signorini_solve::functional::functionals;
-use signorini_solve::problem::{Approach, Assembled, Parts, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::unfit;
+use signorini_solve::unfit;
 
 /// A scene as the full model takes it, in the scalar `R`.
 #[derive(Debug, Clone)]

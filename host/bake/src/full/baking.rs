@@ -7,12 +7,12 @@ use super::controller::Controller;
 use super::factored::Factored;
 use super::scale::Scale;
 use crate::module_api::ModuleApi;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
-use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Scaled, choose_for_inputs};
+use signorini_solve::{Scaled, choose_for_inputs};
 
 impl<R: Scalar> Baked<R> {
     /// Bakes `problem`, whose inputs stand at their defaults, as its setting says.

@@ -8,11 +8,11 @@ use signorini_kernel::bound::certificate;
 use signorini_kernel::device::full::{CurvedPart, Product};
 
 use crate::superposition::{Part, curved_pair};
+use signorini_certify::curved::{Curved, may_be_cleared};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
-use signorini_solve::certify::curved::{Curved, may_be_cleared};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// A curved edge that inputs bend, owned.
 #[derive(Debug, Clone)]

@@ -11,7 +11,7 @@ use super::arrays::Baked;
 use super::data::{Data, Pattern};
 use super::output::Output;
 use super::transfer::Transfer;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 impl<R: Scalar> Baked<R> {
     /// How long the memory is.

@@ -13,8 +13,8 @@ use signorini_kernel::solve::sparse::{Exact, Solved};
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::Baked;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Exchanges, exchanges};
+use signorini_problem::scalar::Scalar;
+use signorini_solve::{Exchanges, exchanges};
 
 /// The memory of a baked scene.
 type Owned<R, const WIDTH: usize> = Storage<

@@ -10,10 +10,10 @@ use super::bent::{Bent, bent};
 use super::shares::{chords, shares};
 use super::transfer::Transfer;
 use crate::superposition::Part;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// The arrays of [`signorini_kernel::device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]

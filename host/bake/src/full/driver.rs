@@ -8,7 +8,7 @@ use super::arrays::{Baked, TickOptions};
 use super::imports::imports;
 use super::rescaling::Rescaling;
 use crate::controller::{self, Parts};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// What the controller may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[

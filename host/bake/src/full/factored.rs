@@ -9,10 +9,10 @@ use signorini_kernel::solve::sparse::direct::normalise;
 use signorini_kernel::solve::sparse::{self, Factor};
 
 use super::statics::Statics;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::problem::{Assembled, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Ldlt, unfit};
+use signorini_solve::{Ldlt, unfit};
 
 /// L, D and S as the target takes them.
 #[derive(Debug, Clone)]

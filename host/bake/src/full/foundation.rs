@@ -13,7 +13,7 @@ use signorini_kernel::{Index, Tensor};
 
 use super::statics::{Statics, lines};
 use crate::text::array;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// Mesh, A and ways out.
 pub(super) fn discretization<R: Scalar, I: Index>(

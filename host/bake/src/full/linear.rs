@@ -7,7 +7,7 @@ use signorini_kernel::device::full::{
 
 use super::statics::{Statics, lines, named};
 use crate::module_api::ModuleApi;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// What each input adds for each unit of its value.
 pub(super) fn patterns<R: Scalar, I: Index>(

@@ -11,7 +11,7 @@ use super::imports::imports;
 use super::linear::{outputs, patterns};
 use super::statics::Statics;
 use crate::module_api::ModuleApi;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// What they may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[

@@ -8,8 +8,8 @@
 
 use signorini_kernel::device::tick::Limits;
 
+use signorini_problem::scalar::Scalar;
 use signorini_scene::setting::Setting;
-use signorini_solve::scalar::Scalar;
 
 mod arrays;
 mod baking;

@@ -2,9 +2,9 @@
 
 use signorini_kernel::device::full::Contribution;
 
-use signorini_solve::functional::{Functional, basis_at};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::Problem;
+use signorini_problem::functional::{Functional, basis_at};
+use signorini_problem::scalar::Scalar;
 
 /// An output with its arrays.
 #[derive(Debug, Clone)]

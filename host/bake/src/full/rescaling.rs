@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::arrays::Baked;
 use super::output::Output;
 use super::scale::Scale;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// Pieces of the module; all empty where it works in the scene's units.
 #[derive(Debug, Default)]

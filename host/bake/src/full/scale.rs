@@ -14,10 +14,10 @@ use signorini_kernel::device::tick::{Limits, Report};
 
 use super::output::Output;
 use crate::range::refuse_answers;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
-use signorini_solve::scalar::Scalar;
 
 /// What 1 stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! What inputs add, place by place: nothing where that is 0.
 
 use signorini_kernel::device::full::{Contribution, EdgeTrace};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The weights other than 0.
 pub(super) fn shares<R: Scalar>(weights: &[f64]) -> Vec<Contribution<R, u32>> {

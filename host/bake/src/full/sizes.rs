@@ -6,7 +6,7 @@ use signorini_kernel::solve::sparse::storage;
 
 use super::arrays::Baked;
 use super::listing::listed;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// What the model takes of a device, code and stack aside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use super::listing::listing;
 use super::rescaling::rescaling;
 use super::sizes::sizes;
 use crate::module_api::About;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The module.
 pub fn source<R: Scalar>(baked: &Baked<R>) -> String {

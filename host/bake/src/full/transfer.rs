@@ -3,8 +3,7 @@
 use signorini_kernel::device::full::{AmbientShare, Contribution, Points, TransferPattern};
 
 use super::shares::shares;
-use signorini_solve::problem;
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 
 /// The arrays of a [`TransferPattern`].
 #[derive(Debug, Clone, Default)]
@@ -16,7 +15,7 @@ pub(super) struct Transfer<R> {
 
 impl<R: Scalar> Transfer<R> {
     /// Points are for laws that are not constant along every edge.
-    pub fn new(of: &problem::TransferPattern, is_uniform: bool) -> Self {
+    pub fn new(of: &signorini_problem::TransferPattern, is_uniform: bool) -> Self {
         let products = of.ambient.iter().map(|(term, all)| (*term as u16, shares(all)));
         let edges = of.points.iter().zip(0..).filter(|_| !is_uniform);
         let points = edges.map(|(edge, at)| Points { at, values: edge.map(R::narrow) });

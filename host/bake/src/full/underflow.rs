@@ -2,9 +2,9 @@
 
 use super::data::Data;
 use crate::range::wider;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
-use signorini_solve::scalar::Scalar;
 
 /// A pattern that is nothing but underflow would leave its input without effect.
 pub(super) fn refuse_faint<R: Scalar>(scene: &Scene, data: &Data<R>) -> Result<()> {

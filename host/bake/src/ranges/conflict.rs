@@ -1,7 +1,7 @@
 //! Inputs within their ranges for which a Dirichlet value lies below the gap beside it: the scene has no solution there.
 
 use crate::choice::Origin;
-use signorini_solve::condense::Corner;
+use signorini_condense::Corner;
 
 /// u_D this far below ψ, against the size of its terms, is rounding.
 const ROUNDING: f64 = 1e-9;

@@ -4,10 +4,10 @@ use signorini_image::chosen::Ranges;
 
 use crate::choice::Origin;
 use crate::condensed::Baked;
+use signorini_condense::ranges::largest::LargestBound;
+use signorini_condense::ranges::sides::EdgeSide;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::scene::Scene;
-use signorini_solve::ranges::largest::LargestBound;
-use signorini_solve::ranges::sides::EdgeSide;
-use signorini_solve::scalar::Scalar;
 
 /// What is proved of a condensed model for all inputs within their ranges.
 pub fn found<R: Scalar>(baked: &Baked<R>, origin: &Origin) -> Ranges {

@@ -2,10 +2,10 @@
 
 use crate::choice::Origin;
 use crate::condensed::{Baked, Controller};
-use signorini_solve::inputs::{InputSpace, corners, drawn};
-use signorini_solve::problem::Problem;
-use signorini_solve::ranges::interval::Interval;
-use signorini_solve::scalar::Scalar;
+use signorini_condense::ranges::interval::Interval;
+use signorini_problem::Problem;
+use signorini_problem::inputs::{InputSpace, corners, drawn};
+use signorini_problem::scalar::Scalar;
 
 /// Inputs drawn.
 const DRAWN: usize = 1000;

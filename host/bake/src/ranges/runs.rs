@@ -1,8 +1,8 @@
 //! Runs of contact edges on one side, along the boundary.
 
 use crate::choice::Origin;
-use signorini_solve::problem::Problem;
-use signorini_solve::ranges::sides::EdgeSide;
+use signorini_condense::ranges::sides::EdgeSide;
+use signorini_problem::Problem;
 
 /// Edges that follow each other, on one side and of one boundary.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,15 +5,15 @@ use std::path::Path;
 use super::{conflict, constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
+use signorini_condense::ranges::outputs::intervals;
 use signorini_kernel::device::report::Ended;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::on_grid;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::adapted;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{ModelKind, Setting};
-use signorini_solve::fixtures::on_grid;
-use signorini_solve::problem::Problem;
-use signorini_solve::ranges::outputs::intervals;
-use signorini_solve::scalar::Scalar;
 
 /// A standard scene, changed by `change`.
 fn problem(name: &str, change: impl Fn(&mut Scene)) -> Problem {

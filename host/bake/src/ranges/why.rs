@@ -1,9 +1,9 @@
 //! Why nothing is proved of the contact edges of a scene.
 
 use crate::choice::Origin;
+use signorini_condense::ModalModel;
+use signorini_condense::ranges::split::Split;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::ModalModel;
-use signorini_solve::ranges::split::Split;
 
 /// A sentence that names the inputs or the reason; nothing where something is proved.
 pub(super) fn nothing_proved(scene: &Scene, origin: &Origin) -> Option<String> {

@@ -9,10 +9,10 @@ mod tests;
 
 use super::{ScheduledTick, TickFields, TickRecord};
 use crate::engine::{self, Engine, Module, TickSolution};
+use signorini_certify::exact::distance;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::certify::exact::distance;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// Plays `moments` through the controller of `problem`, calling `done` after each; also the controller's name in
 /// a few words. `asked` is a scalar instead of that of the scene's setting.

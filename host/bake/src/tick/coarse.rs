@@ -3,11 +3,11 @@
 use signorini_kernel::discrete::element::crouzeix_raviart;
 use signorini_kernel::solve::prolongation::Origin;
 
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::search::{LocatedPoint, Search};
 use signorini_scene::error::{InputError, Result};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::search::{LocatedPoint, Search};
-use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_solve::{Options, SolverKind, solve};
 
 /// Means of u over the edges of `coarse`.
 ///

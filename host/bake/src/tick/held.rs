@@ -7,12 +7,12 @@ use signorini_kernel::{Error as KernelError, Libm, discrete::contact, solve::Rel
 
 use super::player::PlayedTick;
 use super::{Budget, coarse};
+use signorini_certify::admissible::Following;
+use signorini_certify::{Certifier, ErrorBound};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::certify::admissible::Following;
-use signorini_solve::certify::{self, Certifier, ErrorBound};
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{ended_name, prefers_factor, unfit};
+use signorini_solve::{ended_name, prefers_factor, unfit};
 
 /// Answers for the loads of a problem, tick after tick.
 pub type Engine<'e> = dyn FnMut(&Problem) -> Result<PlayedTick> + 'e;
@@ -49,7 +49,7 @@ pub fn with<R: Scalar, const WIDTH: usize, T>(
     let mut moving = fixed.clone();
     Ok(play(&mut |problem| {
         moving.set_loads(&problem.loads).map_err(&unfit)?;
-        let data = certify::Data::<R>::new(problem)?;
+        let data = signorini_certify::Data::<R>::new(problem)?;
         let report = advance(&mut tick, &moving, &data, budget).map_err(&unfit)?;
         let mut answer = answer(problem, &moving, &tick, &report);
         answer.bound = answer.bound.filter(|_| data.has_bound());
@@ -102,7 +102,7 @@ impl<R: Scalar, const WIDTH: usize> Store<R, WIDTH> {
 fn advance<R: Scalar, const WIDTH: usize>(
     tick: &mut Tick<R, u32, WIDTH>,
     assembled: &Assembled<R>,
-    data: &certify::Data<R>,
+    data: &signorini_certify::Data<R>,
     budget: &Budget,
 ) -> std::result::Result<Report<R>, KernelError> {
     let given = data.given(assembled)?;
@@ -129,7 +129,7 @@ fn answer<R: Scalar, const WIDTH: usize>(
         contact_force: report.force.wide(),
         contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
         bound: report.verdict.certificate().map(ErrorBound::new),
-        certified: certify::CertifiedFields {
+        certified: signorini_certify::CertifiedFields {
             vertices: wide(tick.vertices()),
             bubbles: wide(tick.bubbles()),
             tau,

@@ -2,10 +2,10 @@
 
 use super::TickInterval;
 use super::player::PlayedTick;
+use signorini_intervals::{Answered, Lasting, of_next};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::intervals::{Answered, Lasting, of_next};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// What stays from tick to tick.
 pub(super) struct Intervals {

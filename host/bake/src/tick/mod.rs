@@ -26,16 +26,16 @@ use signorini_kernel::solve::solver::Settings;
 
 use intervals::Intervals;
 use player::{PlayedTick, Player};
+use signorini_certify::ErrorBound;
+use signorini_certify::exact::distance;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::Precision;
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::certify::exact::distance;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::problem::{Approach, Parts, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, ScalarKind, choose_units};
+use signorini_solve::{Options, ScalarKind, choose_units};
 
 /// When a tick happens, and what the inputs are then.
 #[derive(Debug, Clone, PartialEq)]

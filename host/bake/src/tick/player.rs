@@ -10,11 +10,11 @@ use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
 use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
 
 use super::Budget;
+use signorini_certify::{Certified, Data, ErrorBound};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::certify::{self, Certified, Data, ErrorBound};
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{centre_floating, status_name, unfit};
+use signorini_solve::{centre_floating, status_name, unfit};
 
 /// Everything that stays from tick to tick.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ pub struct PlayedTick {
     /// The bound on its error, where there is one.
     pub bound: Option<ErrorBound>,
     /// What it is the bound of.
-    pub certified: certify::CertifiedFields,
+    pub certified: signorini_certify::CertifiedFields,
 }
 
 impl<'p, R: Scalar> Player<'p, R> {
@@ -117,7 +117,7 @@ impl<'p, R: Scalar> Player<'p, R> {
             contact_force: force.wide(),
             contact_length: touching.fold(0.0, |sum, at| sum + problem.lengths[counts.free + at]),
             bound: None,
-            certified: certify::CertifiedFields::default(),
+            certified: signorini_certify::CertifiedFields::default(),
         })
     }
 }

@@ -6,8 +6,8 @@
 use super::failed;
 use super::quadratic::Quadratic;
 use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use signorini_reference::Factor;
 use signorini_scene::error::Result;
-use signorini_solve::reference::Factor;
 
 /// The solver on its problem.
 pub(super) struct ActiveSet<'q> {
@@ -45,7 +45,7 @@ impl TimedSolver for ActiveSet<'_> {
                 None => Factor::new(&quadratic.reference(tick))?,
             };
             let solution = factor.solve_between(&data.load, &data.lower, &data.spans, guess)?;
-            Ok::<_, signorini_solve::reference::ReferenceError>((factor, solution))
+            Ok::<_, signorini_reference::ReferenceError>((factor, solution))
         });
         let (factor, solution) = result.map_err(failed)?;
         self.factor = Some(factor);

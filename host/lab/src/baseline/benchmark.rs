@@ -20,9 +20,9 @@ use super::psor::Psor;
 use super::quadratic::Quadratic;
 use super::timed_solver::{Contest, InitialGuess, TimedSolver};
 use crate::baseline::record::Baseline;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::problem::{Parts, Problem};
-use signorini_solve::scalar::Scalar;
 
 pub(super) const PSOR: &str = "kernel PSOR f64";
 pub(super) const CASCADE: &str = "kernel PSOR f64, coarse to fine";

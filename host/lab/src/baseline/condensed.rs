@@ -4,15 +4,15 @@
 //!   S = K_CC − K_CI K_II⁻¹ K_IC,   b̃ = b_C − K_CI K_II⁻¹ b_I,   x = (u_C − ψ)/d,   d_i = 1/√S_ii
 //!   minimise ½ xᵀŜx − b̂ᵀx over x ≥ 0,   Ŝ_ij = d_i S_ij d_j,   b̂ = d (b̃ − Sψ),   m̂ = d m
 //! ```
-//! S comes from the reference factorisation, so that loads may be any: [`signorini_solve::condense`] takes patterns
+//! S comes from the reference factorisation, so that loads may be any: [`signorini_condense`] takes patterns
 //! with inputs, and its matrix and loads are these, in the same order along the boundary. ‖x − x*‖_Ŝ is the energy distance of the full fields.
 
 use faer::Mat;
 
+use signorini_condense::{CondensedModel, along_boundary};
+use signorini_problem::Problem;
+use signorini_reference::{Factor, Linear};
 use signorini_scene::error::Result;
-use signorini_solve::condense::{CondensedModel, along_boundary};
-use signorini_solve::problem::Problem;
-use signorini_solve::reference::{Factor, Linear};
 
 use super::failed;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};

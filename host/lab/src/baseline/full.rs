@@ -6,11 +6,11 @@ use super::failed;
 use super::load_case::LoadCase;
 use super::psor::TickLoads;
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
+use signorini_reference::Factor;
 use signorini_scene::error::Result;
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::reference::Factor;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::Reduced;
+use signorini_solve::Reduced;
 
 /// The kernel's system in the scalar `R`.
 pub(super) struct Full<'p, R: Scalar> {

@@ -9,10 +9,10 @@
 
 use std::sync::Arc;
 
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::{Loads, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Field, Scene};
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::problem::{Loads, Problem};
 
 /// The tilt of loads at most, over the tenth by which inputs are drawn: less would leave the contact set of
 /// a coarse mesh where it is.

@@ -36,10 +36,10 @@ use std::fmt::Display;
 use crate::baseline::record::Baseline;
 use benchmark::Benchmark;
 use load_case::LoadCase;
+use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, InputError, Result};
 use signorini_solve::norms;
-use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_solve::{Options, SolverKind, solve};
 pub use sizes::{Size, Sizes, sizes};
 pub use table::{findings, table};
 

@@ -211,8 +211,8 @@ mod tests {
     use super::super::load_case::LoadCase;
     use super::super::tests::catalogue;
     use super::*;
+    use signorini_problem::{Parts, Problem};
     use signorini_scene::mesh::structured::{Cells, grid};
-    use signorini_solve::problem::{Parts, Problem};
 
     /// What a process does that runs this script instead of OSQP.
     fn ended(script: &str, limit: Duration) -> String {

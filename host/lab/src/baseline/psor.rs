@@ -9,8 +9,8 @@ use signorini_kernel::solve::solver::{Outcome, Settings, Solver};
 
 use super::failed;
 use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_solve::scalar::Scalar;
 
 /// Sweeps after which a solver is given up.
 const MOST_SWEEPS: u32 = 100_000;

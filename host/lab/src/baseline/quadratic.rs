@@ -9,8 +9,8 @@
 //! Their answers are known beforehand, from the host's active set at full accuracy: the error of a
 //! solver is ‖u − u*‖_K, which is the energy distance ‖A^½∇_h(u − u*)‖ of the fields.
 
+use signorini_reference::{Factor, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::reference::{Factor, Problem};
 
 use super::failed;
 

@@ -10,10 +10,10 @@ use super::full::quadratic;
 use super::load_case::LoadCase;
 use super::sizes::{Sizes, size};
 use super::table;
+use signorini_condense::condense;
+use signorini_problem::{Parts, Problem};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::condense;
-use signorini_solve::problem::{Parts, Problem};
 
 fn read(file: &str) -> Scene {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));

@@ -8,14 +8,14 @@ use super::case::ExtremeCase;
 use super::grid::msh;
 use signorini_bake::engine;
 use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
+use signorini_certify::{CertifiedFields, ErrorBound};
+use signorini_problem::Problem;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::certify::{CertifiedFields, ErrorBound};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, solve, status_name};
+use signorini_solve::{Options, ScalarKind, solve, status_name};
 
 /// What the solver says.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! One point on an axis, or on the grid of a pair of axes.
 
 use super::posed::Posed;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// What is solved, in which scalar, and with what effort.
 #[derive(Debug, Clone, PartialEq)]

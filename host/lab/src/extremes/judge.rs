@@ -13,7 +13,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Measured, Reference};
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// A bound is useful up to this multiple of what the exact discrete solution gets.
 pub const USEFUL: f64 = 4.0;

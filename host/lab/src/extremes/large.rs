@@ -1,20 +1,20 @@
-//! The true error with fewer points than the 16×16 a cell of [`signorini_solve::certify::exact`].
+//! The true error with fewer points than the 16×16 a cell of [`signorini_certify::exact`].
 //!
 //! On large grids 4×4 inside: for solutions that are polynomials in each cell no point more is needed there. Where S follows curved boundary
 //! data it is rational, and all points are taken. No Robin boundary.
 
+use signorini_certify::admissible::Admissible;
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::Conductivity;
+use signorini_certify::curved::followed;
+use signorini_certify::deviation::Lift;
+use signorini_certify::weighed::in_cell;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::pointwise::{POINTS, exact_at};
+use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Exact;
-use signorini_solve::certify::admissible::Admissible;
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::certify::conductivity::Conductivity;
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::deviation::Lift;
-use signorini_solve::certify::weighed::in_cell;
-use signorini_solve::field::CellField;
-use signorini_solve::pointwise::{POINTS, exact_at};
-use signorini_solve::problem::Problem;
-use signorini_solve::quadrature::gauss;
 
 /// Points a direction inside of large grids.
 pub const INSIDE: usize = 4;
@@ -52,10 +52,10 @@ mod tests {
     use super::*;
     use crate::extremes::grid::{Grid, Shape};
     use crate::extremes::plan::cases;
+    use signorini_certify::exact::distance;
     use signorini_scene::mesh::structured::Cells;
     use signorini_scene::scene::Scene;
-    use signorini_solve::certify::exact::distance;
-    use signorini_solve::solve::{Options, SolverKind, solve};
+    use signorini_solve::{Options, SolverKind, solve};
     use signorini_tolerances::lab::FEW_POINTS;
 
     /// A cut-off solve would do as well: both integrate the same functions.

@@ -14,14 +14,14 @@ use super::case::ExtremeCase;
 use super::grid::Shape;
 use super::large;
 use super::posed::Posed;
+use signorini_certify::admissible::Admissible;
+use signorini_certify::exact::distance;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::admissible::Admissible;
-use signorini_solve::certify::exact::distance;
 use signorini_solve::norms::errors;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 
 /// An answer beside the truth, in energy norms at scale 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

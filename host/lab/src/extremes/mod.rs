@@ -6,7 +6,7 @@
 //!   record ─► section, table
 //! ```
 //! Every case is a scene file and a mesh file that go through the reader, the checks and the default
-//! options of [`signorini_solve::solve`], on a thread of its own that may panic or be left alone after its limit of time. The
+//! options of [`signorini_solve`], on a thread of its own that may panic or be left alone after its limit of time. The
 //! outcomes are defined in [`mod@judge`].
 
 mod attempt;
@@ -44,9 +44,9 @@ use watch::{Lost, watched};
 
 pub use table::text;
 
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::solve::ScalarKind;
-use signorini_solve::threads::on_two_threads;
+use signorini_solve::ScalarKind;
 
 /// Longer than any case takes by a factor of some ten, on a machine that has other work: what has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(900);

@@ -7,7 +7,7 @@ use super::grid::{Grid, Shape};
 use super::posed::{Hold, Posed, Scales};
 use super::solution::{Shear, Solution};
 use signorini_scene::mesh::structured::Cells;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// An axis or a pair of them, with the problem whose numbers they push.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::checks::Check;
+use signorini_certify::{ErrorBound, eigenvalues};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::certify::{ErrorBound, eigenvalues};
+use signorini_solve::Solution;
 use signorini_solve::norms::{Errors, of_solution};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::Solution;
 
 /// Slack for total ≥ combined: the error itself is integrated with 16×16 points a cell, which near
 /// kinks of the exact gradient leaves 1e−5 of it.

@@ -10,11 +10,11 @@ use super::outputs::KnownOutputs;
 use super::panel::panel;
 use crate::cycles;
 use signorini_draw::ScenePanel;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, ScalarKind, Solution, SolverKind, solve};
+use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
 /// Solves the scene at `path` three times and compares.
 pub fn study(path: &Path) -> Result<(KnownScene, ScenePanel)> {

@@ -4,8 +4,8 @@ use serde::Serialize;
 use signorini_kernel::Real;
 use signorini_kernel::discrete::law::EdgeLaw;
 
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{ScalarKind, Solution, status_name};
+use signorini_problem::Problem;
+use signorini_solve::{ScalarKind, Solution, status_name};
 
 /// A claim about one subject, and what was found.
 #[derive(Debug, Clone, Serialize)]

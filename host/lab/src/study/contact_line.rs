@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use signorini_solve::problem::Problem;
+use signorini_problem::Problem;
 
 /// A contact edge on the line.
 #[derive(Debug, Clone, Copy)]

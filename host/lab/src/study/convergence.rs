@@ -8,15 +8,15 @@ use signorini_kernel::discrete::element::QuadElement;
 
 use super::checks::Check;
 use signorini_draw::{ConvergencePlot, ConvergenceSeries, measured_rate};
+use signorini_problem::Problem;
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Setting;
 use signorini_solve::norms::{Errors, of_solution};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, SolverKind, solve};
-use signorini_solve::threads::on_two_threads;
+use signorini_solve::{Options, SolverKind, solve};
 
 /// Catalogue scenes with boundary curves `contact` and `dirichlet`, refined up to 2·64 × 64.
 const SCENES: [&str; 4] = ["a", "b", "h", "hg"];

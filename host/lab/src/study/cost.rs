@@ -5,8 +5,8 @@ use signorini_kernel::discrete::rows::{self, Row, Rows};
 use signorini_kernel::solve::psor;
 
 use crate::cycles::smallest;
-use signorini_solve::problem::{Assembled, Problem};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Problem};
 
 /// Work measured in one scalar.
 #[derive(Debug, Clone, Copy, Default, Serialize)]

@@ -7,12 +7,12 @@ use serde::Serialize;
 use super::bound::Certified;
 use super::checks::Check;
 use signorini_draw::{self as report, SweepPlot, TableRow};
+use signorini_problem::Problem;
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, solve};
-use signorini_solve::threads::on_two_threads;
+use signorini_solve::{Options, solve};
 
 /// Sweeps from a cold start.
 const STOPS: [u32; 5] = [1, 5, 20, 80, 320];

@@ -25,9 +25,9 @@ use convergence::ConvergenceStudy;
 use cut_off::CutOff;
 use known::KnownScene;
 use signorini_draw::{Report, html};
+use signorini_files::atomic::write_atomically;
+use signorini_problem::progress::{say, steps};
 use signorini_scene::error::Result;
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::progress::{say, steps};
 
 /// Error norms by what they weigh, with their symbols; these do not break at the end of a line.
 const OF_GRADIENT: &str = "gradient error of u, unweighed: |u\u{a0}−\u{a0}u_h|₁";

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::checks::Check;
+use signorini_files::stated::{Stated, sentence};
+use signorini_intervals::{OutputBound, estimate, of_outputs};
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
 use signorini_scene::error::Result;
-use signorini_solve::functional::wanted;
-use signorini_solve::intervals::{OutputBound, estimate, of_outputs};
-use signorini_solve::output::stated::{Stated, sentence};
+use signorini_solve::Solution;
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::Solution;
 
 /// What is told of them.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -3,13 +3,13 @@
 use super::contact_line::{LineEdge, walk};
 use super::known::KnownScene;
 use super::{OF_ENERGY, OF_FLUX, OF_GRADIENT, OF_U};
+use signorini_certify::ErrorBound;
 use signorini_draw::{
     BoundTerms, BoundaryEdge, BoundaryKind, ContactEdge, ContactState, ScenePanel,
 };
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::field::CellField;
-use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::solve::Solution;
+use signorini_problem::field::CellField;
+use signorini_problem::{EdgeKind, Problem};
+use signorini_solve::Solution;
 
 /// Points an edge at which the exact multiplier is drawn.
 const SAMPLES: usize = 9;

@@ -6,8 +6,8 @@ use super::checks::Check;
 use super::convergence::ConvergenceStudy;
 use super::known::KnownScene;
 use super::{OF_FLUX, OF_GRADIENT, OF_U};
+use signorini_certify::ErrorBound;
 use signorini_draw as report;
-use signorini_solve::certify::ErrorBound;
 use signorini_solve::norms::Errors;
 
 const HEADER: [&str; 17] = [

@@ -6,16 +6,16 @@ use std::path::Path;
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::setting;
+use signorini_files::atomic::write_atomically;
 use signorini_image::board::Board;
 use signorini_image::firmware::{Firmware, NoResult};
 use signorini_image::module::Module;
 use signorini_image::room::NoImage;
 use signorini_image::tools;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// What came of a measurement.
 #[derive(Debug, Clone, PartialEq)]

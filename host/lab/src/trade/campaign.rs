@@ -18,9 +18,9 @@ use super::target::Target;
 use crate::baseline;
 use crate::checkout::root;
 use crate::checkout::scenes;
+use signorini_files::atomic::write_atomically;
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::scene::Scene;
-use signorini_solve::output::atomic::write_atomically;
 
 /// Studies, and whether the study of sizes goes with them.
 #[derive(Debug)]

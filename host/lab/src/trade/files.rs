@@ -9,9 +9,9 @@ use super::fragment;
 use super::picture::picture;
 use super::record::Trade;
 use signorini_draw::pareto_file;
+use signorini_files::atomic::write_atomically;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
-use signorini_solve::output::atomic::write_atomically;
 
 /// The setting to take, as a fragment of the scene.
 pub const FRAGMENT: &str = "recommended.toml";

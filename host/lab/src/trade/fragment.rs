@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use signorini_files::atomic::write_atomically;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Setting;
-use signorini_solve::output::atomic::write_atomically;
 
 #[derive(Serialize)]
 struct Fragment<'a> {

@@ -7,10 +7,10 @@ use signorini_kernel::solve::solver::Status;
 
 use crate::cycles;
 use signorini_bake::engine::{self, Engine, TickSolution};
+use signorini_problem::Problem;
+use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::problem::Problem;
 
 /// Repeats of a cold solve; of those that take long, fewer.
 const REPEATS: usize = 5;

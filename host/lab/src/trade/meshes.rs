@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted::adapted;
@@ -9,7 +10,6 @@ use signorini_scene::mesh::{Mesh, gmsh};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{CellKind, Setting};
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Promised, Refining, promised_mesh};
-use signorini_solve::problem::Problem;
 
 /// Unknowns of the finest mesh that a study measures, if the scene's own has fewer.
 const FINEST: usize = 16_000;

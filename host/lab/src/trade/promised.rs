@@ -13,13 +13,13 @@ use super::table::lines;
 use signorini_bake::choice::{Candidate, Wanted};
 use signorini_bake::promise;
 use signorini_draw::Listing;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::{Promise, Promised, Refining, promised_mesh};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// Unknowns beyond which no mesh is tried: each is solved a thousand times.
 const MOST_UNKNOWNS: usize = 50_000;

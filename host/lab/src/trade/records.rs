@@ -72,7 +72,7 @@ mod tests {
     fn write(folder: &Path, trade: &Trade) -> PathBuf {
         let path = folder.join(&trade.scene).join("trade.json");
         let text = serde_json::to_string(trade).unwrap();
-        signorini_solve::output::atomic::write_atomically(&path, text.as_bytes()).unwrap();
+        signorini_files::atomic::write_atomically(&path, text.as_bytes()).unwrap();
         path
     }
 

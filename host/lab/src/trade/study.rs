@@ -18,14 +18,14 @@ use crate::baseline::record::Baseline;
 use crate::checkout::root;
 use crate::cycles::{NARROW, REGISTERS};
 use signorini_bake::module_api::ModuleApi;
+use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::{ModelKind, Precision, Setting};
-use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::solve::tuned_omega;
+use signorini_solve::tuned_omega;
 
 /// A study: a scene, whose cost decides, where it goes, and which cases are this process's.
 #[derive(Debug, Clone)]

@@ -8,9 +8,9 @@
 use std::collections::HashMap;
 
 use super::Level;
-use crate::field::CellField;
-use crate::problem::Problem;
-use crate::quadrature::Point;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::Point;
 use signorini_scene::mesh::adaptive::Carried;
 
 /// u to begin with on every unknown edge of `problem`.

@@ -5,9 +5,9 @@
 //! ```
 //! gap_T² holds the cell's own part and those of its sides on the boundary, contact and transfer laws included.
 
-use crate::certify::oscillation::oscillation;
-use crate::problem::Problem;
-use crate::solve::Solution;
+use crate::Solution;
+use signorini_certify::oscillation::oscillation;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 
 /// An oscillation below this part of the bound is not looked for in the cells.

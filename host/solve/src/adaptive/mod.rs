@@ -23,10 +23,10 @@ pub use stop::{Stall, Stop, Term};
 use std::time::Instant;
 
 use crate::energy_norm;
-use crate::problem::Problem;
-use crate::progress::stage;
-use crate::solve::{Options, Solution, SolverKind, solve_from};
+use crate::{Options, Solution, SolverKind, solve_from};
 use history::History;
+use signorini_problem::Problem;
+use signorini_problem::progress::stage;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::Mesh;
@@ -77,7 +77,7 @@ pub const MOST_UNKNOWNS: usize = 1_000_000;
 /// The last level, with its mesh, and why it is the last.
 ///
 /// # Errors
-/// As for [`crate::solve::solve`] on any of the meshes; what `look` fails with.
+/// As for [`crate::solve`] on any of the meshes; what `look` fails with.
 pub fn refined_until(
     scene: &Scene,
     mesh: Mesh,

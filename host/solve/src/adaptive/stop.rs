@@ -2,8 +2,8 @@
 
 use super::Level;
 use super::indicators::{oscillations, squares};
-use crate::certify::cell::Cell;
-use crate::solve::Solution;
+use crate::Solution;
+use signorini_certify::cell::Cell;
 use signorini_scene::error::Result;
 
 /// Why the last level is the last.

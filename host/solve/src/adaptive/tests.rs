@@ -1,10 +1,10 @@
 //! Goals, rates, starts and ends of adaptive solves.
 
 use super::*;
-use crate::fixtures::limited::two_transitions;
-use crate::fixtures::{SMOOTH, distorted, scene, with_four_sides};
 use crate::norms;
-use crate::solve::{SolverKind, solve};
+use crate::{SolverKind, solve};
+use signorini_problem::fixtures::limited::two_transitions;
+use signorini_problem::fixtures::{SMOOTH, distorted, scene, with_four_sides};
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};

@@ -4,12 +4,12 @@
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_certify::exact::distance;
+use signorini_condense::{Recovery, recoverable};
 use signorini_kernel::device::report::Ended;
+use signorini_problem::Problem;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::exact::distance;
-use signorini_solve::condense::{Recovery, recoverable};
-use signorini_solve::problem::Problem;
 use signorini_tests::random::Random;
 use signorini_tolerances::bake::GUARANTEE;
 use signorini_tolerances::twins::IDENTITY;

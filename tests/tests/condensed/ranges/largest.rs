@@ -1,7 +1,7 @@
 //! The largest error bound of a box against the bounds of solutions in it.
 
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::ranges::largest::LargestBound;
+use signorini_condense::CondensedModel;
+use signorini_condense::ranges::largest::LargestBound;
 use signorini_tests::random::Random;
 use signorini_tolerances::bake::GUARANTEE;
 

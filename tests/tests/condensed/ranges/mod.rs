@@ -12,9 +12,9 @@ mod ticks;
 mod unproved;
 mod worst;
 
-use signorini_solve::condense::{CondensedModel, Measure};
-use signorini_solve::ranges::reduced::Reduced;
-use signorini_solve::ranges::sides::{EdgeSide, Sides};
+use signorini_condense::ranges::reduced::Reduced;
+use signorini_condense::ranges::sides::{EdgeSide, Sides};
+use signorini_condense::{CondensedModel, Measure};
 use signorini_tests::random::Random;
 use signorini_tolerances::twins::{REDUCED_BOUND, REDUCED_OPENINGS, REDUCED_OUTPUTS};
 

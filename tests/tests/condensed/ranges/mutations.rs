@@ -1,7 +1,7 @@
 //! Edges on wrong sides, one at a time: the comparisons must see each of them.
 
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::ranges::sides::{EdgeSide, Sides};
+use signorini_condense::CondensedModel;
+use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 
 use super::standard::standard;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use signorini_condense::ranges::sides::{EdgeSide, Sides};
+use signorini_condense::{CondensedModel, condense};
+use signorini_problem::Problem;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::condense::{CondensedModel, condense};
-use signorini_solve::problem::Problem;
-use signorini_solve::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 
 use super::{Off, Pair, drawn};

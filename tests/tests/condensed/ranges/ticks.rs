@@ -1,9 +1,9 @@
 //! Controllers baked from reduced models: solved to the end, and cut off in every way.
 
 use signorini_bake::condensed::{Baked, Controller, Work};
+use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::device::report::{Ended, Report};
-use signorini_solve::condense::{CondensedModel, Measure};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
 use signorini_tolerances::twins::{

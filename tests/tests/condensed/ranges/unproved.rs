@@ -1,8 +1,8 @@
 //! Where nothing is proved, nothing is taken out.
 
-use signorini_solve::condense::CondensedModel;
-use signorini_solve::ranges::reduced::Reduced;
-use signorini_solve::ranges::sides::{EdgeSide, Sides};
+use signorini_condense::CondensedModel;
+use signorini_condense::ranges::reduced::Reduced;
+use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_tests::random::Random;
 
 use super::standard::standard;

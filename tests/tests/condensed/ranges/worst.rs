@@ -2,8 +2,8 @@
 
 use signorini_bake::condensed::{Baked, Controller};
 use signorini_kernel::device::report::Ended;
-use signorini_solve::inputs::{InputSpace, drawn};
-use signorini_solve::scalar::Scalar;
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::scalar::Scalar;
 
 use super::Pair;
 use super::standard::standard;

@@ -2,18 +2,19 @@
 
 use std::path::Path;
 
+use signorini_certify::exact::distance;
+use signorini_condense::{condense, modal};
 use signorini_kernel::Error;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{SMOOTH, distorted, on_grid, scatter, scene};
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting};
-use signorini_solve::certify::exact::distance;
-use signorini_solve::condense::{condense, modal};
-use signorini_solve::fixtures::{SMOOTH, distorted, full_at, on_grid, scatter, scene};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
+use signorini_solve::fixtures::full_at;
 use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODAL_NARROW};
 
 use super::super::{Baked, Controller, Work, source};

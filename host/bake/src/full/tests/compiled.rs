@@ -5,11 +5,11 @@ use signorini_kernel::discrete::rows;
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
 use crate::compiled::{FIRMWARE, printed, ran};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Method, Omega, Setting, Start};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// Prints the outputs of a cold and a warm tick as bits.
 const MAIN: &str = "

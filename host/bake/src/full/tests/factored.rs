@@ -14,14 +14,14 @@ use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, rows, source};
 use crate::choice::{Candidate, Choice, Model, Wanted};
 use crate::full::sizes;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::{Scene, Target};
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 
 fn factor() -> Setting {
     Setting { solver: Some(Method::Factor), ..Setting::default() }

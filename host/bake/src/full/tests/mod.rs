@@ -15,16 +15,16 @@ use signorini_kernel::discrete::rows;
 use signorini_kernel::error::Array;
 
 use super::{Baked, Controller, source};
+use signorini_problem::Problem;
+use signorini_problem::fixtures;
+use signorini_problem::functional::wanted;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::fixtures;
-use signorini_solve::functional::wanted;
 use signorini_solve::outputs::outputs;
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Options, solve};
+use signorini_solve::{Options, solve};
 
 /// A gap and a Dirichlet value that inputs bend, a source, given fluxes, varying A and a varying law.
 const BENT: &str = r#"

@@ -8,14 +8,14 @@ use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
 use crate::compiled::printed;
 use crate::engine;
 use crate::module_api::ModuleApi;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::{Precision, Setting};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
-use signorini_solve::solve::{Scaled, choose_for_inputs};
+use signorini_solve::{Scaled, choose_for_inputs};
 
 /// Inputs at which some of the contact is active.
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];

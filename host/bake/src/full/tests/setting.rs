@@ -7,11 +7,11 @@ use signorini_tolerances::bake::{SWEPT, SWEPT_NARROW};
 
 use super::{BENT, Baked, Controller, fixtures};
 use crate::full::sizes;
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::setting::{MathKind, Omega, Setting, Start};
-use signorini_solve::problem::Problem;
-use signorini_solve::scalar::Scalar;
 
 /// Without the output that is the bound.
 pub(super) fn unbounded() -> &'static str {

@@ -8,11 +8,11 @@ use crate::compiled::printed;
 use crate::module_api::ModuleApi;
 use crate::tick::ScheduledTick;
 use crate::{condensed, full};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
-use signorini_solve::problem::Problem;
 
 /// What a module with a log prints: the bits of the outputs, the sweeps and the end of each tick.
 fn main(ticks: &[Vec<f32>]) -> String {

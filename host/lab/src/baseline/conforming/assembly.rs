@@ -13,10 +13,10 @@ use signorini_kernel::mesh::geometry::doubled_area;
 use super::super::load_case::LoadCase;
 use super::super::psor::TickLoads;
 use super::vertices::Vertices;
+use signorini_problem::quadrature::{TRIANGLE_POINTS, mean_on_edge, on_triangle};
+use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
-use signorini_solve::problem::{EdgeKind, Problem, Sum};
-use signorini_solve::quadrature::{TRIANGLE_POINTS, mean_on_edge, on_triangle};
 
 /// Rows over all vertices by number; those on D have none.
 pub(super) fn matrix(problem: &Problem, vertices: &Vertices) -> Vec<BTreeMap<usize, f64>> {

@@ -5,11 +5,11 @@ use signorini_kernel::Real;
 use super::Conforming;
 use super::assembly::gradients;
 use crate::baseline::record::PointError;
+use signorini_problem::EdgeKind;
+use signorini_problem::pointwise::{POINTS, exact_at};
+use signorini_problem::quadrature::{gauss, on_triangle};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Exact};
-use signorini_solve::pointwise::{POINTS, exact_at};
-use signorini_solve::problem::EdgeKind;
-use signorini_solve::quadrature::{gauss, on_triangle};
 
 /// Of u as values at all vertices of the mesh, by the rules of [`signorini_solve::norms`]. The flux is A∇u_h.
 pub(super) fn errors(

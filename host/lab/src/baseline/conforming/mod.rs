@@ -21,8 +21,8 @@ use super::psor::{Psor, TickLoads};
 use super::quadratic::{Matrix, Quadratic, QuadraticLoads};
 use super::timed_solver::Contest;
 use crate::baseline::record::{Baseline, PointError};
+use signorini_problem::{EdgeKind, Parts, Problem};
 use signorini_scene::error::{InputError, Result};
-use signorini_solve::problem::{EdgeKind, Parts, Problem};
 use vertices::Vertices;
 
 /// The discretisation over some ticks, with the answers of the first.

@@ -2,8 +2,8 @@
 
 use super::Conforming;
 use crate::baseline::tests::catalogue;
+use signorini_problem::Problem;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_solve::problem::Problem;
 use signorini_tolerances::lab::{CONFORMING, SAME_TRIANGLES};
 
 /// Errors of u in energy and L2 at n = 32, to the three digits given.

@@ -6,7 +6,7 @@
 
 use signorini_kernel::mesh::edges::EdgeCounts;
 
-use signorini_solve::problem::{EdgeKind, Problem};
+use signorini_problem::{EdgeKind, Problem};
 
 /// The numbering.
 #[derive(Debug, Clone)]

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::{Parts, Problem};
-use signorini_solve::solve::{Options, SolverKind, solve};
+use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
 
 use super::super::benchmark::Benchmark;

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use super::case::{RandomCase, Way};
 use signorini_bake::engine;
+use signorini_certify::ErrorBound;
+use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::certify::{self, ErrorBound};
-use signorini_solve::problem::{Approach, Problem};
-use signorini_solve::solve::{Options, Solution, SolverKind, solve, status_name};
+use signorini_solve::{Options, Solution, SolverKind, solve, status_name};
 
 /// What a solver says, in the scene's units.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ pub struct SolverAnswer {
     /// Its bound.
     pub bound: Option<ErrorBound>,
     /// What the bound is about.
-    pub certified: certify::CertifiedFields,
+    pub certified: signorini_certify::CertifiedFields,
 }
 
 /// A case that was answered: its problem with the inputs of the answer, and the answer.

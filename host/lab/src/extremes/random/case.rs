@@ -7,7 +7,7 @@ use super::mesh::{Kind, MeshPlan, Outline, Regions};
 use super::posed::Hold;
 use super::{catalogue, data, made};
 use signorini_scene::mesh::Mesh;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// Where its truth comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,18 +10,18 @@ use super::attempt::{Attempt, SolverAnswer};
 use super::case::{RandomCase, Way, Yardstick};
 use super::nested::{Apart, MeshSolution, apart};
 use super::outputs::{Asked, Intervals};
+use signorini_certify::ErrorBound;
+use signorini_certify::exact::{Distance, distance_on};
+use signorini_certify::robin::missed;
+use signorini_intervals::Answered;
+use signorini_problem::Problem;
+use signorini_problem::quadrature::{gauss, on_panels};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
-use signorini_solve::certify::ErrorBound;
-use signorini_solve::certify::exact::{Distance, distance_on};
-use signorini_solve::certify::robin::missed;
-use signorini_solve::intervals::Answered;
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::Reading;
-use signorini_solve::problem::Problem;
-use signorini_solve::quadrature::{gauss, on_panels};
-use signorini_solve::solve::{Options, Solution, SolverKind, choose_units, solve};
+use signorini_solve::{Options, Solution, SolverKind, choose_units, solve};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -39,9 +39,9 @@ use verdict::{broken_by, ended};
 use super::grid::msh;
 use super::judge::{Ended, Outcome, judge};
 use super::watch::{Lost, watched};
+use signorini_files::atomic::write_atomically;
+use signorini_problem::threads::on_two_threads;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::output::atomic::write_atomically;
-use signorini_solve::threads::on_two_threads;
 
 /// What has no answer by then hangs.
 const LIMIT: Duration = Duration::from_secs(1800);
@@ -146,7 +146,7 @@ fn row(seed: u64, number: u32) -> Row {
                 Lost::TimedOut => Ended::TimedOut,
                 Lost::Panicked => Ended::Panicked,
             };
-            let (outcome, note) = judge(&ended, signorini_solve::solve::ScalarKind::F64);
+            let (outcome, note) = judge(&ended, signorini_solve::ScalarKind::F64);
             Row { outcome, note, ..Row::of(&RandomCase::draw(seed, number)) }
         }
     };

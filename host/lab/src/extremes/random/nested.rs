@@ -3,16 +3,16 @@
 //! A child's reference coordinates are an affine function of its parent's, on quads too: what both functions are
 //! is known at any point of the finer mesh, without a search.
 
+use signorini_certify::admissible::{Admissible, Chordal};
+use signorini_certify::cell::{Cell, Jet};
+use signorini_certify::conductivity::{Conductivity, inverse, product};
+use signorini_certify::curved::followed;
+use signorini_certify::deviation::{Deviations, Lift};
+use signorini_certify::weighed::{minus, on_robin};
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::{Point, gauss};
+use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
-use signorini_solve::certify::admissible::{Admissible, Chordal};
-use signorini_solve::certify::cell::{Cell, Jet};
-use signorini_solve::certify::conductivity::{Conductivity, inverse, product};
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::deviation::{Deviations, Lift};
-use signorini_solve::certify::weighed::{minus, on_robin};
-use signorini_solve::field::CellField;
-use signorini_solve::problem::{Problem, Sum};
-use signorini_solve::quadrature::{Point, gauss};
 
 /// One of the two: its problem, s and τ, and u_h where that is asked for.
 pub struct MeshSolution<'a> {

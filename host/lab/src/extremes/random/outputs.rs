@@ -4,14 +4,14 @@
 use std::collections::BTreeMap;
 
 use signorini_bake::intervals::narrowed;
+use signorini_certify::cell::Cell;
+use signorini_intervals::weights::{Answers, weights};
+use signorini_intervals::{Answered, exact_value, of_answer};
 use signorini_kernel::bound::verdict::Certificate;
+use signorini_problem::Problem;
 use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::intervals::weights::{Answers, weights};
-use signorini_solve::intervals::{Answered, exact_value, of_answer};
+use signorini_solve::Solution;
 use signorini_solve::outputs::{Reading, declared};
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::Solution;
 
 /// Outputs that one case is asked for.
 const EACH: usize = 3;

@@ -8,7 +8,7 @@
 
 use signorini_kernel::Error as KernelError;
 
-use signorini_solve::problem::{Assembled, Problem};
+use signorini_problem::{Assembled, Problem};
 
 /// What is left of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

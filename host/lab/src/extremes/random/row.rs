@@ -10,7 +10,7 @@ use super::posed::Hold;
 use super::verdict::Broken;
 use crate::extremes::judge::Outcome;
 use signorini_scene::error::{Error, Result};
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// A line of `random.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

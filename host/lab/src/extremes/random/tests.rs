@@ -6,14 +6,14 @@ use std::path::Path;
 use super::nested::{MeshSolution, apart};
 use super::residual::residual;
 use super::*;
+use signorini_certify::exact::distance;
+use signorini_problem::Problem;
+use signorini_problem::quadrature::gauss;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::exact::distance;
-use signorini_solve::problem::Problem;
-use signorini_solve::quadrature::gauss;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 
 /// A fixed seed: whatever is mended stays mended.
 #[test]

@@ -9,9 +9,9 @@ use super::outputs::Intervals;
 use super::residual::{ends, residual};
 use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::ScalarKind;
+use signorini_solve::ScalarKind;
 
 /// The identity is asked for where the gap is above so many times its rounding.
 const ROUNDINGS: f64 = 100.0;

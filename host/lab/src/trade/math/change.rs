@@ -2,7 +2,7 @@
 
 use signorini_kernel::{Error, discrete::flux};
 
-use signorini_solve::problem::Assembled;
+use signorini_problem::Assembled;
 
 /// What is compared of an answer.
 pub(super) struct State {

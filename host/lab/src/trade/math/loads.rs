@@ -5,12 +5,12 @@
 use super::super::record::FunctionCost;
 use super::change::{Change, State};
 use signorini_bake::costs::Costs;
+use signorini_problem::{Assembled, EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::expression::{Arithmetic, Elementary, Expression};
 use signorini_scene::scene::term::each_load;
 use signorini_scene::scene::{Field, Located, Scene};
-use signorini_solve::problem::{Assembled, EdgeKind, Problem};
-use signorini_solve::solve::{Options, Solution, SolverKind, solve, unfit};
+use signorini_solve::{Options, Solution, SolverKind, solve, unfit};
 
 const FIELDS: [Field; 4] = [Field::Value, Field::Gap, Field::Flux, Field::Ambient];
 

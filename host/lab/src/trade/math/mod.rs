@@ -11,8 +11,8 @@ mod roots;
 mod tests;
 
 use super::record::FunctionCost;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::problem::Problem;
 
 /// A row for every function that the loads of `problem` call, one for f32 alone where they call any, and
 /// those of the kernel's square root; at its time.

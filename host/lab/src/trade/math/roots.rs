@@ -11,9 +11,9 @@ use signorini_kernel::{Error, Libm, Math, Micromath, discrete::contact};
 use super::super::record::FunctionCost;
 use super::change::{Change, State};
 use signorini_bake::costs::Costs;
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_solve::problem::{Assembled, Parts, Problem};
-use signorini_solve::solve::unfit;
+use signorini_solve::unfit;
 
 const NAME: &str = "sqrt";
 
@@ -69,7 +69,7 @@ fn compared(
 /// What is to be said of solves that do not end well.
 fn ends(exact: &Cold, fast: &Cold) -> Option<String> {
     let is_well = |cold: &Cold| matches!(cold.status, Status::Converged | Status::RoundingLimit);
-    let name = signorini_solve::solve::status_name;
+    let name = signorini_solve::status_name;
     let both = || format!("libm: {}, micromath: {}", name(exact.status), name(fast.status));
     (!(is_well(exact) && is_well(fast))).then(both)
 }

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::{FunctionCost, of_scene};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
-use signorini_solve::problem::Problem;
 
 fn rows(scene: &Scene) -> Result<Vec<FunctionCost>> {
     let problem = Problem::new(scene, gmsh::read(&scene.mesh.value)?)?;

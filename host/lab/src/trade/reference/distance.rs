@@ -7,16 +7,16 @@ use super::Approximation;
 use super::finer_solve::Reference;
 use super::places::Places;
 use crate::baseline::record::PointError;
+use signorini_certify::admissible::{Admissible, OnCell};
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{apply, dot, product};
+use signorini_certify::curved::followed;
+use signorini_certify::weighed::{in_cell, minus, on_robin};
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::Point;
+use signorini_problem::search::LocatedPoint;
 use signorini_scene::error::Result;
-use signorini_solve::certify::admissible::{Admissible, OnCell};
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::certify::conductivity::{apply, dot, product};
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::weighed::{in_cell, minus, on_robin};
-use signorini_solve::field::CellField;
-use signorini_solve::problem::Problem;
-use signorini_solve::quadrature::Point;
-use signorini_solve::search::LocatedPoint;
 
 /// S and τ of an answer on one of its cells.
 struct Certified<'d, 's> {
@@ -52,7 +52,7 @@ impl Reference {
         PointError { energy, l2, flux, ..PointError::default() }
     }
 
-    /// The distance of S and τ, as [`signorini_solve::certify::exact`] has it.
+    /// The distance of S and τ, as [`signorini_certify::exact`] has it.
     fn combined(&self, problem: &Problem, places: &Places, admissible: &Admissible) -> Result<f64> {
         let deviations = followed(problem, admissible)?;
         let certified = |at| Certified {

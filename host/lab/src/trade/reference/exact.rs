@@ -2,14 +2,14 @@
 
 use signorini_kernel::mesh::geometry::scaled_normal;
 
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{Conductivity, apply, dot, product};
+use signorini_certify::sampled::Sampled;
+use signorini_problem::pointwise::{POINTS, exact_at};
+use signorini_problem::quadrature::{gauss, on_panels};
+use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Exact, Field};
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::certify::conductivity::{Conductivity, apply, dot, product};
-use signorini_solve::certify::sampled::Sampled;
-use signorini_solve::pointwise::{POINTS, exact_at};
-use signorini_solve::problem::{Problem, Sum};
-use signorini_solve::quadrature::{gauss, on_panels};
 
 /// Panels on a contact edge, each with 8 points: 256 samples find where contact ends.
 const PANELS: u32 = 32;

@@ -12,18 +12,18 @@ use super::exact::Contact;
 use super::places::Known;
 use super::points::{Inside, points};
 use super::recovery;
+use signorini_certify::admissible::Admissible;
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{Conductivity, apply, inverse, product};
+use signorini_certify::curved::followed;
+use signorini_certify::deviation::Deviations;
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::gauss;
+use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Field, Scene};
-use signorini_solve::certify::admissible::Admissible;
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::certify::conductivity::{Conductivity, apply, inverse, product};
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::deviation::Deviations;
-use signorini_solve::field::CellField;
-use signorini_solve::problem::{Problem, Sum};
-use signorini_solve::quadrature::gauss;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 
 const ON_EDGES: usize = 3;
 

@@ -21,16 +21,16 @@ use self::exact::Contact;
 use self::finer_solve::Reference;
 use self::tables::Recent;
 use crate::baseline::record::PointError;
+use signorini_certify::admissible::Admissible;
+use signorini_certify::curved::followed;
+use signorini_certify::deviation::Deviations;
+use signorini_certify::exact::Integrands;
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Exact, Scene};
-use signorini_solve::certify::admissible::Admissible;
-use signorini_solve::certify::curved::followed;
-use signorini_solve::certify::deviation::Deviations;
-use signorini_solve::certify::exact::Integrands;
+use signorini_solve::Solution;
 use signorini_solve::norms;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::Solution;
 
 /// How many refinements the reference is finer than the finest mesh that is measured.
 pub const FINER: u32 = 2;

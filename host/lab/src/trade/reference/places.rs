@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use signorini_problem::search::{LocatedPoint, Search};
+use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::mesh::Mesh;
-use signorini_solve::problem::{EdgeKind, Problem};
-use signorini_solve::search::{LocatedPoint, Search};
 
 /// The places of all points of a reference in one mesh.
 #[derive(Debug, Default)]

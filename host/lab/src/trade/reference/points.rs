@@ -2,8 +2,8 @@
 
 use signorini_kernel::Tensor;
 
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::quadrature::{Point, gauss};
+use signorini_certify::cell::Cell;
+use signorini_problem::quadrature::{Point, gauss};
 
 /// Points a direction: exact to degree 2 on triangles and 5 along both sides of quads, enough for the
 /// squares of differences of linear fields where A is constant and the meshes are nested.

@@ -13,10 +13,10 @@
 use std::collections::HashMap;
 
 use super::points::{Inside, points};
-use signorini_solve::certify::cell::Cell;
-use signorini_solve::certify::conductivity::{dot, product};
-use signorini_solve::certify::weighed::minus;
-use signorini_solve::problem::Problem;
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{dot, product};
+use signorini_certify::weighed::minus;
+use signorini_problem::Problem;
 
 /// The centroids of a thin part's patches lie on a line and fix no slope: below this part of the
 /// corners' own spread the vertices take their place.

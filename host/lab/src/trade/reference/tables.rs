@@ -5,11 +5,11 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::places::fingerprint;
+use signorini_certify::deviation::Deviations;
+use signorini_certify::sampled::{Lifted, Solution, Table};
+use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Exact;
-use signorini_solve::certify::deviation::Deviations;
-use signorini_solve::certify::sampled::{Lifted, Solution, Table};
-use signorini_solve::problem::Problem;
 
 /// Meshes whose tables are kept, of some 60 MB each at 10 000 cells. A study finishes with a mesh before
 /// the next, but for the scene's own.
@@ -65,8 +65,8 @@ impl Tables {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_problem::fixtures::{SMOOTH, on_grid};
     use signorini_scene::mesh::structured::{Cells, grid};
-    use signorini_solve::fixtures::{SMOOTH, on_grid};
 
     #[test]
     fn tables_of_the_last_two_meshes_are_kept() {

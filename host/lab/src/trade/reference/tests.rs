@@ -12,16 +12,16 @@ use super::finer_solve::Reference;
 use super::points::Inside;
 use super::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
+use signorini_certify::conductivity::product;
+use signorini_certify::weighed::minus;
+use signorini_problem::Problem;
+use signorini_problem::fixtures::{SMOOTH, on_grid, with_four_sides};
+use signorini_problem::pointwise::exact_at;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Mesh, gmsh};
 use signorini_scene::scene::Scene;
-use signorini_solve::certify::conductivity::product;
-use signorini_solve::certify::weighed::minus;
-use signorini_solve::fixtures::{SMOOTH, on_grid, with_four_sides};
 use signorini_solve::norms::of_solution;
-use signorini_solve::pointwise::exact_at;
-use signorini_solve::problem::Problem;
-use signorini_solve::solve::{Options, Solution, SolverKind, solve};
+use signorini_solve::{Options, Solution, SolverKind, solve};
 
 fn read(path: &str) -> Scene {
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::energy_norm;
-use crate::fixtures::{SMOOTH, scene, with_four_sides};
-use crate::solve::solve;
+use crate::solve;
+use signorini_problem::fixtures::{SMOOTH, scene, with_four_sides};
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::structured::{Cells, grid};
 

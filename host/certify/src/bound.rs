@@ -1,0 +1,83 @@
+//! The bound of one solve, for reports.
+
+use serde::Serialize;
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::bound::certificate::Certificate;
+
+use super::{CertifiedFields, Certifier, Data, NoBound};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
+
+/// How wrong s and τ, and u_h, can be in the energy norm; see [`Certificate`].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ErrorBound {
+    /// oscillation + √(gap² + oscillation²) + rounding: never less than the error of s and τ.
+    pub total: f64,
+    /// Never less than ‖A^½∇_h(u − u_h)‖, the energy error of the edge means.
+    pub of_u: f64,
+    /// The bound where f, g and q have no oscillation.
+    #[serde(rename = "gap")]
+    pub duality_gap: f64,
+    /// What more sweeps would remove, at most the total.
+    pub algebraic: f64,
+    /// What f, g and q leave out.
+    pub oscillation: f64,
+    /// What rounding can have hidden.
+    pub rounding: f64,
+}
+
+impl ErrorBound {
+    /// The same in other units.
+    #[must_use]
+    pub fn times(self, unit: f64) -> Self {
+        let Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = self;
+        let [total, of_u, gap, algebraic, oscillation, rounding] =
+            [total, of_u, gap, algebraic, oscillation, rounding].map(|x| x * unit);
+        Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding }
+    }
+
+    /// Widens the kernel's numbers.
+    pub fn new<R: Scalar>(certificate: &Certificate<R>) -> Self {
+        let certificate = certificate.as_parts();
+        Self {
+            total: certificate.total.wide(),
+            of_u: certificate.of_u.wide(),
+            duality_gap: certificate.duality_gap.wide(),
+            algebraic: certificate.algebraic.wide(),
+            oscillation: certificate.oscillation.wide(),
+            rounding: certificate.rounding.wide(),
+        }
+    }
+}
+
+/// An iterate's bound and what it is the bound of.
+#[derive(Debug, Clone)]
+pub struct Certified {
+    /// `None`: neither D nor R nor active contact edges can take the surplus of some part, or the data
+    /// do not allow for it ([`Data::has_bound`]), or they overflow the scalar.
+    pub bound: Option<ErrorBound>,
+    /// Why there is none.
+    pub no_bound: Option<NoBound>,
+    /// s and τ; no guarantee where there is no bound.
+    pub answer: CertifiedFields,
+}
+
+impl Certified {
+    /// Certifies the iterate `u`.
+    ///
+    /// # Errors
+    /// Never for data of this problem.
+    pub fn new<R: Scalar>(
+        problem: &Problem,
+        parts: &Parts,
+        assembled: &Assembled<R>,
+        data: &Data<R>,
+        u: &[R],
+    ) -> Result<Self, KernelError> {
+        let mut certifier = Certifier::new(problem, parts, assembled)?;
+        let certificate = certifier.certify(parts, assembled, data, u)?;
+        let bound = certificate.as_ref().map(ErrorBound::new);
+        let no_bound = certifier.no_bound(problem, parts, data);
+        Ok(Self { bound, no_bound, answer: certifier.answer() })
+    }
+}

@@ -1,0 +1,248 @@
+//! Edges whose boundary data are not affine, and what carrying them inside costs.
+//!
+//! s follows the chords of ψ and u_D; between chord and data lies w(t). s + Σ v_E with the extensions
+//! v_E = (1 − η) w(t) of `cell` is admissible again, and with σ the gradient part of the bound,
+//! ```text
+//!   ‖A^½∇(s + v) − A^{−½}τ‖² = ‖A^½∇s − A^{−½}τ‖² + 2∫A∇v·∇s + ∫A∇v·∇v − 2∫∇v·τ.
+//! ```
+//! The last integral needs only w̄ and fluxes: ∫∇v·τ = w̄ τ_E + ∫v f̄. The other two are here, so that
+//! nobody downstream needs a quadrature: s is a sum of vertex functions and bubbles.
+
+mod cleared;
+mod cross;
+mod inside;
+mod missed;
+mod panels;
+mod singular;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use super::cell::{Cell, Local};
+use super::conductivity::{Conductivity, product};
+use super::deviation::{Deviation, Deviations};
+use super::energy::{CellEnergy, Sample};
+use panels::Panels;
+use signorini_problem::Problem;
+use signorini_problem::quadrature::gauss;
+use signorini_scene::error::Result;
+
+pub use cleared::{followed, may_be_cleared, peak};
+pub use cross::between_smooth_rays;
+pub use inside::{of_rough_sides, points, points_along_sides};
+pub use panels::PANELS;
+pub use singular::Rough;
+
+/// Gauss points a panel, and away from the edge.
+pub const POINTS: usize = 8;
+/// Panels along an edge for squares and products of smooth data, which have twice their waves.
+pub const FINE: u32 = 2 * PANELS;
+
+/// The extension v of one edge's deviation w = data − chord into the edge's cell T.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curved {
+    /// A contact or Dirichlet edge.
+    pub edge: u32,
+    /// ∫₀¹ w dt, in the unit of u.
+    pub mean: f64,
+    /// At least |w| all along the edge, in the unit of u; infinite where S follows w in any case.
+    pub peak: f64,
+    /// ∫_T A∇v·∇v, and 2∫_T A∇v·∇v′ for each earlier record v′ in the same cell: the sum over a
+    /// cell's records is the energy of the sum of their extensions.
+    pub energy: f64,
+    /// ∫_T A∇v·∇N_k. Triangles: k = 0, 1, 2 the barycentric functions of the cell's vertices. Quads:
+    /// 0 to 3 the bilinear functions of the vertices, 4 to 7 the bubbles 4t(1 − t)(1 − η) of the
+    /// sides. The rest is 0.
+    pub coupling: [f64; 8],
+    /// Where no function of finite energy is w on the edge: these numbers mean nothing then.
+    pub rough: Option<Rough>,
+    /// ‖A^½∇·‖ of what the points on the edge miss of v.
+    pub missed: f64,
+}
+
+/// The edges on which ψ or u_D is not affine at time `time`, in the order of the edges.
+///
+/// # Errors
+/// Data that are not finite or not differentiable at a quadrature point.
+pub fn curved(problem: &Problem, time: f64) -> Result<Vec<Curved>> {
+    Ok(curved_edges(problem, time)?.records)
+}
+
+/// The records, and what they leave out.
+#[derive(Debug, Clone)]
+pub struct CurvedEdges {
+    /// See [`curved`].
+    pub records: Vec<Curved>,
+    /// ‖A^½∇·‖ of what edges without a record and points of the others leave out of Σv: to be added to the bound.
+    pub left_out: f64,
+}
+
+/// The same with what is left out.
+///
+/// # Errors
+/// As for [`curved`].
+pub fn curved_edges(problem: &Problem, time: f64) -> Result<CurvedEdges> {
+    let deviations = Deviations::at_time(problem, time)?;
+    let (records, dropped) = (records(problem, &deviations.found)?, deviations.dropped);
+    let mut of_cells = BTreeMap::new();
+    for record in &records {
+        let (at, _) = problem.topology.first_side(record.edge as usize);
+        *of_cells.entry(at).or_insert(0.0) += record.missed;
+    }
+    let missed = of_cells.values().fold(0.0_f64, |sum, missed| sum.hypot(*missed));
+    Ok(CurvedEdges { records, left_out: dropped + missed })
+}
+
+fn records(problem: &Problem, deviations: &[Deviation]) -> Result<Vec<Curved>> {
+    let mut extensions: Vec<Extension> = Vec::with_capacity(deviations.len());
+    let mut records = Vec::with_capacity(deviations.len());
+    let may_be_cleared = may_be_cleared(problem, deviations.iter().map(|of| of.edge));
+    for (deviation, may_be_cleared) in deviations.iter().zip(may_be_cleared) {
+        let extension = Extension::new(problem, deviation)?;
+        let mut record = extension.integrate()?;
+        record.missed = extension.missed(problem)?;
+        if may_be_cleared {
+            record.peak = cleared::peak_on(deviation, &extension.panels)?;
+        }
+        // A boundary cell has few sides, but they need not be neighbours in the order of the edges.
+        for earlier in extensions.iter().filter(|other| other.at == extension.at) {
+            record.energy += 2.0 * extension.cross(earlier)?;
+        }
+        records.push(record);
+        extensions.push(extension);
+    }
+    Ok(records)
+}
+
+/// v_E with its cell.
+struct Extension<'d, 's> {
+    deviation: &'d Deviation<'s>,
+    at: usize,
+    side: usize,
+    cell: Cell,
+    conductivity: Conductivity<'s>,
+    panels: Panels,
+    /// What is added to w and w′ at all points.
+    mended: [f64; 2],
+}
+
+impl<'d, 's> Extension<'d, 's> {
+    fn new(problem: &'s Problem, deviation: &'d Deviation<'s>) -> Result<Self> {
+        let (at, side) = problem.topology.first_side(deviation.edge);
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let panels = Panels::along(deviation)?;
+        let mended = mended(deviation, &panels)?;
+        Ok(Self { deviation, at, side, cell, conductivity, panels, mended })
+    }
+
+    /// w and w′ at t.
+    fn sample(&self, t: f64) -> Result<[f64; 2]> {
+        let [w, slope] = self.deviation.at(t)?;
+        Ok([w + self.mended[0], slope + self.mended[1]])
+    }
+
+    /// ∇v at a point of its cell.
+    fn gradient(&self, local: &Local) -> Result<[f64; 2]> {
+        let side = &local.sides[self.side];
+        let [w, slope] = self.sample(side.t)?;
+        Ok(side.extension(w, slope).gradient)
+    }
+
+    /// The record, cross terms still missing.
+    fn integrate(&self) -> Result<Curved> {
+        let (edge, rough) = (self.deviation.edge as u32, self.panels.rough);
+        let (zero, peak) = (0.0, f64::INFINITY);
+        let mut record = Curved {
+            edge,
+            mean: zero,
+            peak,
+            energy: zero,
+            coupling: [zero; 8],
+            rough,
+            missed: zero,
+        };
+        let away = self.rule_away();
+        for [t, weight] in self.panels.rule() {
+            let [w, slope] = self.sample(t)?;
+            record.mean += weight * w;
+            for &[eta, weight_away] in &away {
+                let local = self.cell.local(self.cell.side_point(self.side, t, eta));
+                let gradient = local.sides[self.side].extension(w, slope).gradient;
+                let weight = weight * weight_away * self.area_element(&local, eta);
+                self.add(&mut record, &local, gradient, weight);
+            }
+        }
+        Ok(record)
+    }
+
+    /// ‖A^½∇·‖ of what the panels' points leave out.
+    fn missed(&self, problem: &Problem) -> Result<f64> {
+        let energy = CellEnergy::of(problem, self.at);
+        let found = energy.of_extension(self.side, &self.panels.missed(self.deviation)?);
+        // Near a singular place w′ is nearly all of ∇v.
+        let unit = |t| Sample { t, weight: 1.0, w: 0.0, slope: 1.0 };
+        let slope = energy.of_extension(self.side, &[unit(0.0), unit(1.0)]);
+        Ok(found + slope * self.panels.beyond.sqrt())
+    }
+
+    /// The rule in η: on triangles ∇v does not depend on it, so that with constant A one point for
+    /// the area element 2|T|(1 − η) is exact.
+    fn rule_away(&self) -> Vec<[f64; 2]> {
+        match self.cell {
+            Cell::Triangle(_) if self.conductivity.is_constant() => gauss(1),
+            _ => gauss(POINTS),
+        }
+    }
+
+    /// dx dy per dt dη
+    fn area_element(&self, local: &Local, eta: f64) -> f64 {
+        match self.cell {
+            Cell::Triangle(_) => local.determinant * (1.0 - eta),
+            Cell::Quad(_) => local.determinant,
+        }
+    }
+
+    fn add(&self, record: &mut Curved, local: &Local, gradient: [f64; 2], weight: f64) {
+        let a = self.conductivity.at(local.x);
+        record.energy += weight * product(&a, gradient, gradient);
+        let bubbles = match self.cell {
+            Cell::Triangle(_) => 0,
+            Cell::Quad(_) => 4,
+        };
+        let vertices = local.vertices.iter().copied();
+        let sides = local.sides[..bubbles].iter().map(|side| side.bubble());
+        for (entry, function) in record.coupling.iter_mut().zip(vertices.chain(sides)) {
+            *entry += weight * product(&a, gradient, function.gradient);
+        }
+    }
+
+    /// ∫_T A∇v·∇v′
+    fn cross(&self, other: &Self) -> Result<f64> {
+        let mut sum = 0.0;
+        let (sides, panels) = ([self.side, other.side], [&self.panels, &other.panels]);
+        for (reference, weight) in cross::points(&self.cell, sides, panels) {
+            let local = self.cell.local(reference);
+            let (mine, its) = (self.gradient(&local)?, other.gradient(&local)?);
+            let a = self.conductivity.at(local.x);
+            sum += weight * local.determinant * product(&a, mine, its);
+        }
+        Ok(sum)
+    }
+}
+
+/// What makes samples of w and w′ those of one function but for rounding: ∫w′ = 0, for w is 0 at both ends, and
+/// ∫w = −∫t w′. Both are small differences of data, each rounded on its own, and their products with the fluxes of s and τ
+/// nearly cancel. Nothing where more than rounding is amiss.
+fn mended(deviation: &Deviation, panels: &Panels) -> Result<[f64; 2]> {
+    let (mut mean, mut rise, mut lever) = (0.0, 0.0, 0.0);
+    for [t, weight] in panels.rule() {
+        let [w, slope] = deviation.at(t)?;
+        mean += weight * w;
+        rise += weight * slope;
+        lever += weight * t * slope;
+    }
+    let change = [0.5 * rise - lever - mean, -rise];
+    let most = deviation.rounding();
+    Ok(if change.iter().all(|change| change.abs() <= most) { change } else { [0.0; 2] })
+}

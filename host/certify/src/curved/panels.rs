@@ -1,0 +1,169 @@
+//! Panels along an edge as fine as its data need, with 8 Gauss points each.
+//!
+//! A panel is fine enough where its points find in w′ by how much w rises,
+//! ```text
+//!   |∫ₐᵇ w′ dt − (w(b) − w(a))| ≤ 10⁻⁹ (∫₀¹ w′² dt)^½,
+//! ```
+//! on all of it and on both of its halves: what they miss of a kink or of a layer, however thin it is, is missing
+//! in the integral. Other panels are bisected, level by level.
+
+use super::POINTS;
+use super::singular::{Rough, beyond};
+use crate::deviation::Deviation;
+use signorini_problem::quadrature::gauss;
+use signorini_scene::error::Result;
+
+/// Panels to begin with: smooth data need no more.
+pub const PANELS: u32 = 4;
+/// Most bisections of a panel: a layer of 10⁻⁶ of the edge is then a few panels wide.
+const LEVELS: u32 = 24;
+/// Most panels: data that are rough everywhere are integrated by as many, and no finer.
+const MOST: usize = 128;
+/// What may be missing of a rise.
+const MISSING: f64 = 1e-9;
+
+/// A subdivision of \[0, 1\] along an edge.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Panels {
+    /// The ends of the panels, ascending from 0 to 1.
+    pub(super) ends: Vec<f64>,
+    /// Where w is rougher than any function of finite energy.
+    pub(super) rough: Option<Rough>,
+    /// ∫w′² nearer to singular places than all panels.
+    pub(super) beyond: f64,
+}
+
+impl Panels {
+    /// The panels that smooth data have.
+    pub(super) fn regular() -> Self {
+        let ends = (0..=PANELS).map(|end| f64::from(end) / f64::from(PANELS)).collect();
+        Self { ends, rough: None, beyond: 0.0 }
+    }
+
+    /// As fine as w needs.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub(super) fn along(deviation: &Deviation) -> Result<Self> {
+        let regular = Self::regular();
+        let (mut energy, rise) = (0.0, Rise { deviation, rule: gauss(POINTS) });
+        for [t, weight] in regular.rule() {
+            energy += weight * deviation.at(t)?[1].powi(2);
+        }
+        let tolerance = (MISSING * energy.sqrt()).max(deviation.rounding());
+        let mut open: Vec<[f64; 2]> =
+            regular.ends.windows(2).map(|ends| [ends[0], ends[1]]).collect();
+        let mut ends = regular.ends;
+        for _ in 0..LEVELS {
+            let mut coarse = Vec::new();
+            for panel in open {
+                if !rise.is_found(panel, tolerance)? {
+                    coarse.push(panel);
+                }
+            }
+            open = coarse;
+            if open.is_empty() || ends.len() + open.len() > MOST {
+                break;
+            }
+            ends.extend(open.iter().map(middle));
+            open = open.iter().flat_map(halves).collect();
+        }
+        ends.sort_by(f64::total_cmp);
+        let mut found = Self { ends, rough: None, beyond: 0.0 };
+        match beyond(deviation, &open)? {
+            Ok(energy) => found.beyond = energy,
+            Err(steep) => found.rough = Some(steep),
+        }
+        if found.rough.is_none() {
+            found.rough = rise.jumps(&open, &found.rule())?.map(Rough::Jump);
+        }
+        Ok(found)
+    }
+
+    /// Whether smooth data would have the same.
+    pub(super) fn is_regular(&self) -> bool {
+        self.ends.len() == PANELS as usize + 1
+    }
+
+    /// Gauss points on all panels.
+    pub(super) fn rule(&self) -> Vec<[f64; 2]> {
+        let rule = gauss(POINTS);
+        let panels = self.ends.windows(2).map(|ends| [ends[0], ends[1] - ends[0]]);
+        let points = |[start, width]: [f64; 2]| {
+            rule.iter().map(move |[t, weight]| [start + width * t, width * weight])
+        };
+        panels.flat_map(points).collect()
+    }
+
+    /// The same from the edge's other end.
+    pub(super) fn reversed(&self) -> Self {
+        Self { ends: self.ends.iter().rev().map(|end| 1.0 - end).collect(), ..*self }
+    }
+
+    /// With their middles added, unless they are many: data that are rough everywhere gain nothing.
+    pub(super) fn halved(self) -> Self {
+        if self.ends.len() > MOST / 2 {
+            return self;
+        }
+        let middles: Vec<f64> =
+            self.ends.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+        self.with(&middles)
+    }
+
+    /// With the ends of others added.
+    pub(super) fn with(mut self, others: &[f64]) -> Self {
+        self.ends.extend(others);
+        self.ends.sort_by(f64::total_cmp);
+        self.ends.dedup();
+        self
+    }
+}
+
+fn middle([a, b]: &[f64; 2]) -> f64 {
+    0.5 * (a + b)
+}
+
+fn halves(panel @ [a, b]: &[f64; 2]) -> [[f64; 2]; 2] {
+    [[*a, middle(panel)], [middle(panel), *b]]
+}
+
+/// What the points of a panel find of the rise of w.
+struct Rise<'a, 's> {
+    deviation: &'a Deviation<'s>,
+    rule: Vec<[f64; 2]>,
+}
+
+impl Rise<'_, '_> {
+    /// |∫ₐᵇ w′ dt − (w(b) − w(a))|; NaN, which tells nothing, where a single point is singular.
+    fn missing(&self, [a, b]: [f64; 2]) -> Result<f64> {
+        let mut rest = self.deviation.value(b) - self.deviation.value(a);
+        for [t, weight] in &self.rule {
+            rest -= (b - a) * weight * self.deviation.at(a + (b - a) * t)?[1];
+        }
+        Ok(rest.abs())
+    }
+
+    fn is_found(&self, panel: [f64; 2], tolerance: f64) -> Result<bool> {
+        let [left, right] = halves(&panel);
+        for part in [panel, left, right] {
+            if self.missing(part)? > tolerance {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether what is missing on a panel would need more than the energy found by `rule` on all of them.
+    fn jumps(&self, panels: &[[f64; 2]], rule: &[[f64; 2]]) -> Result<Option<f64>> {
+        let mut energy = 0.0;
+        for &[t, weight] in rule {
+            energy += weight * self.deviation.at(t)?[1].powi(2);
+        }
+        for &panel in panels {
+            if self.missing(panel)?.powi(2) > (panel[1] - panel[0]) * energy {
+                return Ok(Some(middle(&panel)));
+            }
+        }
+        Ok(None)
+    }
+}

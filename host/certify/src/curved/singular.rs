@@ -1,0 +1,83 @@
+//! Places where w is singular: the energy nearer to them than all panels, or that it is infinite.
+
+use super::POINTS;
+use crate::deviation::Deviation;
+use signorini_problem::quadrature::gauss;
+use signorini_scene::error::Result;
+
+/// What forbids a function of finite energy to follow w, and the place along the edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rough {
+    /// w jumps.
+    Jump(f64),
+    /// ∫w′² is infinite there.
+    Steep(f64),
+}
+
+/// Shells around a singular place that tell how fast its energy decays, and the first one's distance.
+const SHELLS: i32 = 8;
+const NEAREST: f64 = 16.0;
+/// The most that the energy of a shell may keep from one to the next of half the distance: w like |t − a|^s keeps
+/// 2^{1−2s}, and from s = ½ on its energy is infinite. A power between 0.5 and 0.53 can't be told from ½.
+const DECAY: f64 = 0.96;
+
+/// ∫w′² nearer to a singular place than all panels, or why it is infinite.
+///
+/// The places are those of `open`, panels in which w is still not found.
+pub(super) fn beyond(
+    deviation: &Deviation,
+    open: &[[f64; 2]],
+) -> Result<std::result::Result<f64, Rough>> {
+    let mut sum = 0.0;
+    for [low, high] in clusters(open) {
+        let place = match (low == 0.0, high == 1.0) {
+            (true, _) => 0.0,
+            (_, true) => 1.0,
+            _ => 0.5 * (low + high),
+        };
+        let nearest = NEAREST * (high - low);
+        let energies =
+            (0..=SHELLS).rev().map(|k| shell(deviation, place, nearest * 2.0_f64.powi(k)));
+        let energies = energies.collect::<Result<Vec<_>>>()?;
+        let (first, last) = (energies[0], energies[SHELLS as usize]);
+        if last == 0.0 {
+            continue;
+        }
+        let late = energies[SHELLS as usize / 2];
+        let kept = (last / first).powf(1.0 / f64::from(SHELLS));
+        let kept = kept.max((last / late).powf(2.0 / f64::from(SHELLS)));
+        if kept > DECAY || kept.is_nan() {
+            return Ok(Err(Rough::Steep(place)));
+        }
+        sum += last * kept / (1.0 - kept);
+    }
+    Ok(Ok(sum))
+}
+
+/// Neighbouring panels taken together.
+fn clusters(open: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut open = open.to_vec();
+    open.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for [low, high] in open {
+        match found.last_mut() {
+            Some(last) if last[1] >= low => last[1] = high,
+            _ => found.push([low, high]),
+        }
+    }
+    found
+}
+
+/// ∫w′² where the distance from `place` is between `nearest` and twice that, as far as it is on the edge.
+fn shell(deviation: &Deviation, place: f64, nearest: f64) -> Result<f64> {
+    let mut sum = 0.0;
+    for side in [-1.0, 1.0] {
+        for [t, weight] in gauss(POINTS) {
+            let t = place + side * nearest * (1.0 + t);
+            if (0.0..=1.0).contains(&t) {
+                sum += nearest * weight * deviation.at(t)?[1].powi(2);
+            }
+        }
+    }
+    Ok(sum)
+}

@@ -1,0 +1,140 @@
+//! Loads and boundary data of one time as the kernel's certificate takes them.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::bound::certificate::{Curved, LoadCase};
+use signorini_kernel::bound::conforming::VertexData;
+
+use super::curved::{Curved as Bent, curved_edges};
+use super::ends::Ends;
+use super::no_bound::NoBound;
+use super::oscillation::oscillation;
+use super::robin::{RobinPoints, robin};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Problem};
+use signorini_scene::error::Result;
+
+/// What the certificate needs of the data beyond [`Assembled`], in the scalar `R`.
+#[derive(Debug, Clone)]
+pub struct Data<R> {
+    gap: Vec<[R; 2]>,
+    given: Vec<[R; 2]>,
+    curved: Vec<Curved<R, u32>>,
+    transfer: Vec<[[R; 2]; 8]>,
+    oscillation: R,
+    no_bound: Option<NoBound>,
+}
+
+/// The same data in f64, as the expressions have them: what may be narrowed, or added up over inputs.
+#[derive(Debug, Clone)]
+pub struct Evaluated {
+    /// ψ and u_D at the ends of edges.
+    pub ends: Ends,
+    /// Edges on which ψ or u_D is not affine.
+    pub curved: Vec<Bent>,
+    /// h and u_ext along the transfer edges.
+    pub transfer: Vec<RobinPoints>,
+    /// √Σ osc², and what is left out of ψ and u_D.
+    pub oscillation: f64,
+    /// Why these data allow for no bound.
+    pub no_bound: Option<NoBound>,
+}
+
+impl Evaluated {
+    /// Evaluates the data of `problem` at its time.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Self::with(problem, Ends::moved)
+    }
+
+    /// The same of a term of a sum: what the sum has to meet, it may break. Where u_D is on a side of ψ that there is not, whoever
+    /// adds up the terms has to count it.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn of_term(problem: &Problem) -> Result<Self> {
+        Self::with(problem, Ends::moved_on_dirichlet)
+    }
+
+    fn with(problem: &Problem, moved: fn(&Ends, &Problem) -> f64) -> Result<Self> {
+        let time = problem.time;
+        let ends = Ends::at_time(problem, time)?;
+        let curved_edges = curved_edges(problem, time)?;
+        // s is off by that much, and once more where u_h is compared with it.
+        let left_out = 2.0 * (curved_edges.left_out + moved(&ends, problem));
+        let curved = curved_edges.records;
+        let of_cells = oscillation(problem, time)?;
+        let squares: f64 = of_cells.iter().map(|osc| osc * osc).sum();
+        let transfer = robin(problem, time)?;
+        let no_bound = NoBound::of_data(problem, &ends, &curved, &transfer);
+        Ok(Self { ends, curved, transfer, oscillation: squares.sqrt() + left_out, no_bound })
+    }
+}
+
+impl<R: Scalar> Data<R> {
+    /// Evaluates the data of `problem` at its time.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(problem: &Problem) -> Result<Self> {
+        Evaluated::new(problem).map(Self::narrowed)
+    }
+
+    fn narrowed(data: Evaluated) -> Self {
+        let pairs = |all: &[[f64; 2]]| all.iter().map(|pair| pair.map(R::narrow)).collect();
+        let curved = data.curved.into_iter().map(|of| Curved {
+            edge: of.edge,
+            mean: R::narrow(of.mean),
+            peak: R::narrow(of.peak),
+            energy: R::narrow(of.energy),
+            coupling: of.coupling.map(R::narrow),
+        });
+        let mut transfer = data.transfer;
+        if transfer.iter().all(|edge| edge.iter().all(|point| *point == edge[0])) {
+            transfer.clear();
+        }
+        Self {
+            gap: pairs(&data.ends.gap),
+            given: pairs(&data.ends.given),
+            curved: curved.collect(),
+            transfer: transfer.iter().map(|edge| edge.map(|point| point.map(R::narrow))).collect(),
+            oscillation: R::narrow(data.oscillation),
+            no_bound: data.no_bound,
+        }
+    }
+
+    /// Whether these data allow for a bound: u_D is continuous, ψ is along each edge, and no transfer coefficient nearly
+    /// vanishes on a part of an edge.
+    pub fn has_bound(&self) -> bool {
+        self.no_bound.is_none()
+    }
+
+    /// What f, g, q, ψ and u_D leave out.
+    pub fn oscillation(&self) -> R {
+        self.oscillation
+    }
+
+    /// Why these data allow for none.
+    pub fn no_bound(&self) -> Option<&NoBound> {
+        self.no_bound.as_ref()
+    }
+
+    /// Together with the loads of `assembled`.
+    ///
+    /// # Errors
+    /// Boundary records that are not admissible in this scalar.
+    pub fn given<'a>(
+        &'a self,
+        assembled: &'a Assembled<R>,
+    ) -> std::result::Result<LoadCase<'a, R, u32>, KernelError> {
+        Ok(LoadCase {
+            loads: assembled.cells(),
+            boundary: assembled.boundary()?,
+            ends: VertexData { gap: &self.gap, given: &self.given },
+            curved: &self.curved,
+            transfer: &self.transfer,
+            oscillation: self.oscillation,
+        })
+    }
+}

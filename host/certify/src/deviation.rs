@@ -1,0 +1,230 @@
+//! Where ψ or u_D leaves its chord: w(t) = data − chord of the end values, t along the edge.
+
+use signorini_kernel::Real;
+
+use super::cell::{Jet, Local};
+use super::ends::Ends;
+use super::energy::{CellEnergy, Sample};
+use signorini_problem::quadrature::bisected::mean_on_edge;
+use signorini_problem::quadrature::{DATA_POINTS, on_panels};
+use signorini_problem::{Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Field;
+
+/// What follows the data of an edge into its cell is left out where its energy is below this part of that of the
+/// largest data; by how much in all is said ([`Deviations::dropped`]).
+const ROUNDING: f64 = 1e-14;
+
+/// Deviations above this part of the largest boundary datum are kept without weighing them.
+const PLAIN: f64 = 1e-9;
+
+/// Distances, as parts of an edge, at which w has no curvature worth speaking of, and w′ no change.
+const NEAR: f64 = 1.0 / (1_u64 << 26) as f64;
+const NEXT: f64 = 1.0 / (1_u64 << 48) as f64;
+/// Noise is not the same everywhere: what may be missing of a rise, over the noise in the median.
+const NOISES: f64 = 64.0;
+
+/// Rules along an edge in search of a deviation: a bump narrower than a fortieth of the edge may lie between all points.
+const LOOKS: u32 = 8;
+
+/// w on one edge.
+pub struct Deviation<'s> {
+    /// The edge.
+    pub edge: usize,
+    data: Sum<'s>,
+    segment: [[f64; 2]; 2],
+    ends: [f64; 2],
+}
+
+/// The edges whose data are not affine.
+pub struct Deviations<'s> {
+    /// Ascending.
+    pub found: Vec<Deviation<'s>>,
+    /// ‖A^½∇Σv‖ of the extensions v that were left out: affine data deviate by rounding.
+    pub dropped: f64,
+}
+
+impl<'s> Deviations<'s> {
+    /// Finds them at time `time`.
+    pub fn at_time(problem: &'s Problem, time: f64) -> Result<Self> {
+        let ends = Ends::at_time(problem, time)?;
+        let counts = problem.topology.counts;
+        let contact = (counts.free..).zip(ends.gap.iter().map(|&pair| (Field::Gap, pair)));
+        let given = (counts.unknowns()..).zip(ends.given.iter().map(|&pair| (Field::Value, pair)));
+        let plain = PLAIN * ends.scale();
+        let (mut weighed, mut largest) = (Vec::new(), 0.0_f64);
+        for (edge, (field, ends)) in contact.chain(given) {
+            let (at, side) = problem.topology.first_side(edge);
+            let energy = CellEnergy::of(problem, at);
+            largest = largest.max(energy.of_vertices() * ends[0].abs().max(ends[1].abs()));
+            let data = Sum::on_edge(problem, edge, field, time);
+            let segment = problem.segment(edge);
+            let Some(data) = data.filter(|data| data.constant().is_none()) else { continue };
+            let deviation = Deviation { edge, data, segment, ends };
+            let root = match deviation.samples(plain)? {
+                Some(samples) => energy.of_extension(side, &samples),
+                None => f64::INFINITY,
+            };
+            weighed.push((deviation, root));
+        }
+        let mut dropped = 0.0;
+        weighed.retain(|(_, root)| {
+            let small = *root <= ROUNDING * largest && largest.is_finite();
+            dropped += if small { *root } else { 0.0 };
+            !small
+        });
+        Ok(Self { found: weighed.into_iter().map(|(deviation, _)| deviation).collect(), dropped })
+    }
+
+    /// That of an edge.
+    pub fn on(&self, edge: usize) -> Option<&Deviation<'s>> {
+        let at = self.found.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
+        Some(&self.found[at])
+    }
+
+    /// Those of the sides of cell `at`, triangles first.
+    pub fn of_cell(&self, problem: &Problem, at: usize) -> Vec<Option<&Deviation<'s>>> {
+        let topology = &problem.topology;
+        let edges: &[u32] = match topology.of_triangles.get(at) {
+            Some(edges) => edges,
+            None => &topology.of_quads[at - topology.of_triangles.len()],
+        };
+        edges.iter().map(|&edge| self.on(edge as usize)).collect()
+    }
+}
+
+impl Deviation<'_> {
+    /// w and w′ = dw/dt at t.
+    ///
+    /// # Errors
+    /// Data that are not finite or not differentiable there.
+    pub fn at(&self, t: f64) -> Result<[f64; 2]> {
+        let ([a, b], x) = (self.segment, self.place(t));
+        let slope = self.data.slope_at(x, [b[0] - a[0], b[1] - a[1]]);
+        Ok([
+            self.data.finite(self.value(t), x)?,
+            self.data.finite(slope - (self.ends[1] - self.ends[0]), x)?,
+        ])
+    }
+
+    /// w at t; not finite where the data are not.
+    pub fn value(&self, t: f64) -> f64 {
+        let [x, y] = self.place(t);
+        self.data.at(x, y) - (self.ends[0] + t * (self.ends[1] - self.ends[0]))
+    }
+
+    /// ∫₀¹ w dt, with the data integrated as loads are.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn mean(&self) -> Result<f64> {
+        let mean = mean_on_edge(self.segment, &|x, y| self.data.at(x, y));
+        Ok(self.data.finite(mean, self.segment[0])? - 0.5 * (self.ends[0] + self.ends[1]))
+    }
+
+    /// By how much these values at the ends of the edge are above the data.
+    pub fn above_chord(&self, values: [f64; 2]) -> [f64; 2] {
+        [values[0] - self.ends[0], values[1] - self.ends[1]]
+    }
+
+    fn place(&self, t: f64) -> [f64; 2] {
+        let [a, b] = self.segment;
+        [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
+    }
+
+    /// What rounding may leave of w: that of the data, of the place where they are evaluated, and of what cancels inside
+    /// their expression.
+    pub fn rounding(&self) -> f64 {
+        let of_place = |point: &[f64; 2]| {
+            let [x, y] = self.place(point[0]);
+            let [by_x, by_y] = self.data.gradient_at(x, y);
+            self.data.at(x, y).abs().max((by_x * x).abs() + (by_y * y).abs())
+        };
+        let places = f64::GAUSS[DATA_POINTS - 1].iter().map(of_place);
+        let data = places.fold(self.ends[0].abs().max(self.ends[1].abs()), f64::max);
+        (ROUNDING * data).max(NOISES * self.noise())
+    }
+
+    /// Second differences of w, which rounding that follows the data in steps shows as well, and first ones of w′ at once beside
+    /// a point: in the median of some points, since a kink or a jump may lie between.
+    fn noise(&self) -> f64 {
+        let slope = |t| self.at(t).map_or(f64::NAN, |[_, slope]| slope);
+        let at = |&[t, _]: &[f64; 2]| {
+            let second = self.value(t + NEAR) - 2.0 * self.value(t) + self.value(t - NEAR);
+            second.abs() + (slope(t + NEXT) - slope(t)).abs()
+        };
+        let mut found: Vec<f64> =
+            on_panels(2, f64::GAUSS[DATA_POINTS - 1]).iter().map(at).collect();
+        found.sort_by(f64::total_cmp);
+        found.get(found.len() / 2).copied().filter(|noise| noise.is_finite()).unwrap_or(0.0)
+    }
+
+    /// w and w′ at the points where [`super::curved`] looks first, `LOOKS` times the rule along the edge: what all of them
+    /// miss is not seen at all. `None` where w is far above rounding, or singular.
+    fn samples(&self, plain: f64) -> Result<Option<Vec<Sample>>> {
+        let mut samples = Vec::new();
+        for [t, weight] in on_panels(LOOKS, f64::GAUSS[DATA_POINTS - 1]) {
+            let [w, slope] = self.at(t)?;
+            if w.abs() > plain {
+                return Ok(None);
+            }
+            samples.push(Sample { t, weight, w, slope });
+        }
+        Ok(Some(samples))
+    }
+}
+
+/// L = Σ v_E on one cell, v_E = (1 − η) w(t) for its sides E.
+pub struct Lift<'d, 's>(Vec<Option<&'d Deviation<'s>>>);
+
+impl<'d, 's> Lift<'d, 's> {
+    /// That of cell `at`, triangles first.
+    pub fn on_cell(problem: &Problem, at: usize, deviations: &'d Deviations<'s>) -> Self {
+        Self(deviations.of_cell(problem, at))
+    }
+
+    /// Whether no side's data leave their chord.
+    pub fn is_zero(&self) -> bool {
+        self.0.iter().all(Option::is_none)
+    }
+
+    /// L and ∇L at a point of the cell.
+    ///
+    /// # Errors
+    /// Data that are not finite or not differentiable there.
+    pub fn at(&self, local: &Local) -> Result<Jet> {
+        let mut sum = Jet::default();
+        for (deviation, side) in self.0.iter().zip(&local.sides) {
+            if let Some(deviation) = deviation {
+                let [w, slope] = deviation.at(side.t)?;
+                sum.add(1.0, side.extension(w, slope));
+            }
+        }
+        Ok(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_problem::fixtures::{self, SMOOTH};
+    use signorini_scene::mesh::structured::{Cells, grid};
+
+    fn curved(gap: &str) -> Result<usize> {
+        let text = SMOOTH.replace("gap = \"x^3\"", &format!("gap = \"{gap}\""));
+        let (_, problem) = fixtures::on_grid(&text, grid(4, Cells::Triangles))?;
+        let free = problem.topology.counts.free;
+        let contact = free..problem.topology.counts.unknowns();
+        let found = Deviations::at_time(&problem, 0.0)?;
+        Ok(found.found.iter().filter(|deviation| contact.contains(&deviation.edge)).count())
+    }
+
+    /// In the middle of an edge of ¼ the points of one rule lie 0.046 apart.
+    #[test]
+    fn a_bump_between_the_points_of_one_rule_is_seen() -> Result<()> {
+        assert_eq!(curved("max(0, 1 - abs(x-0.375)/0.02)")?, 1);
+        assert_eq!(curved("max(0, 1 - abs(x-0.375)/0.004)")?, 1);
+        assert_eq!(curved("2*x - 1")?, 0);
+        Ok(())
+    }
+}

@@ -1,0 +1,107 @@
+//! The ways out: the forest over the cells and the cells packed in its order, owned.
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_kernel::bound::certificate::{Discretization, Stability, stability};
+use signorini_kernel::bound::equilibrium::is_root;
+use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
+
+use super::metric::Metric;
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Problem};
+
+/// Forest, packed cells, weights of means.
+#[derive(Debug)]
+pub struct EquilibrationForest<R> {
+    order: Vec<u32>,
+    parent: Vec<u32>,
+    place: Vec<u32>,
+    triangles: Vec<Triangle<R, u32>>,
+    quads: Vec<Quad<R, u32>>,
+    of_vertices: Vec<R>,
+    of_edges: Vec<R>,
+    stability: Stability<R>,
+}
+
+impl<R: Scalar> EquilibrationForest<R> {
+    /// Memory for `problem`.
+    pub fn new(problem: &Problem) -> Self {
+        let (mesh, cells) = (&problem.mesh, problem.cells());
+        Self {
+            order: vec![0; cells],
+            parent: vec![0; cells],
+            place: vec![0; cells],
+            triangles: vec![Triangle::EMPTY; mesh.triangles.len()],
+            quads: vec![Quad::EMPTY; mesh.quads.len()],
+            of_vertices: vec![R::ZERO; mesh.vertices.len()],
+            of_edges: vec![R::ZERO; problem.topology.counts.edges()],
+            stability: Stability::default(),
+        }
+    }
+
+    /// Grows the forest from D and R and from the edges that are `also` roots, and packs the cells.
+    ///
+    /// # Errors
+    /// A part of the domain without a root.
+    pub fn find(
+        &mut self,
+        assembled: &Assembled<R>,
+        metric: &Metric<R>,
+        also: impl Fn(usize) -> bool,
+    ) -> Result<(), KernelError> {
+        let (edges, boundary) = (assembled.edges(), assembled.boundary()?);
+        let mut numbers = vec![R::ZERO; edges.cells()];
+        let buffers = ForestBuffers {
+            order: &mut self.order,
+            parent: &mut self.parent,
+            place: &mut self.place,
+            distance: &mut numbers,
+        };
+        let cost = |cell: usize| R::ONE / metric.alpha()[cell];
+        let root = |edge: usize| {
+            let outer = edges.half_edges()[edge][1] == u32::MAX;
+            outer && (is_root(edges, &boundary, edge) || also(edge))
+        };
+        grow(edges, cost, root, buffers)?;
+        let forest = Forest::new(edges, &self.order, &self.parent, &self.place)?;
+        let buffers = CellBuffers {
+            triangles: &mut self.triangles,
+            quads: &mut self.quads,
+            of_vertices: &mut self.of_vertices,
+            of_edges: &mut self.of_edges,
+        };
+        let (alpha, compliance) = (metric.alpha(), metric.compliance());
+        let stiffness = assembled.stiffness();
+        let mesh = assembled.mesh()?;
+        let cells = pack(&mesh, edges, stiffness, alpha, compliance, &forest, buffers)?;
+        self.stability = stability(edges, &cells, metric.view(), &boundary, &forest, &mut numbers)?;
+        Ok(())
+    }
+
+    /// What it takes to bring 1 from the farthest cell to its root.
+    pub fn stability(&self) -> R {
+        self.stability.largest
+    }
+
+    /// The kernel's view of it.
+    ///
+    /// # Errors
+    /// Before [`EquilibrationForest::find`].
+    pub fn discretization<'a>(
+        &'a self,
+        assembled: &'a Assembled<R>,
+        metric: &'a Metric<R>,
+    ) -> Result<Discretization<'a, R, u32>, KernelError> {
+        let edges = *assembled.edges();
+        let forest = Forest::new(&edges, &self.order, &self.parent, &self.place)?;
+        let (triangles, quads) = (&self.triangles, &self.quads);
+        Ok(Discretization {
+            mesh: assembled.mesh()?,
+            edges,
+            stiffness: assembled.stiffness(),
+            cells: Cells::new(triangles, quads, &self.of_vertices, &self.of_edges, &forest)?,
+            metric: metric.view(),
+            stability: self.stability,
+        })
+    }
+}

@@ -1,0 +1,40 @@
+//! The guaranteed error bound on a scene, and the exact norms that it is checked by.
+//!
+//! The kernel bounds the error of any iterate ([`signorini_kernel::bound::certificate`]) from vertex values, edge
+//! fluxes and element integrals. Here are the numbers that only the scene's expressions can give:
+//! ```text
+//!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐
+//!   ends         ψ and u_D at the ends of edges      ─┐                                        │
+//!   deviation ─► curved   what lies above their chords ├─► data ─────────────────────────► certifier
+//!   energy       what is left out of either, by A    ─┤                                        │
+//!   oscillation  what the means of f, g, q leave out  ─┤                                       │
+//!   robin        h and u_ext at points of edges       ─┘                                     bound
+//!   admissible ─┬► exact   the true distance to s and τ, from an exact solution
+//! ```
+
+pub mod admissible;
+mod bound;
+pub mod cell;
+mod certifier;
+pub mod conductivity;
+pub mod curved;
+mod data;
+pub mod deviation;
+pub mod ends;
+pub mod energy;
+pub mod exact;
+pub mod forest;
+#[cfg(test)]
+mod identity;
+pub mod metric;
+mod no_bound;
+pub mod oscillation;
+pub mod robin;
+pub mod sampled;
+pub mod weighed;
+
+pub use bound::{Certified, ErrorBound};
+pub use certifier::{CertifiedFields, Certifier};
+pub use conductivity::eigenvalues;
+pub use data::{Data, Evaluated};
+pub use no_bound::{NoBound, Spot};

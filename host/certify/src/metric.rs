@@ -1,0 +1,151 @@
+//! A in reference coordinates, as the kernel's certificate takes it ([`signorini_kernel::bound::certificate`]).
+
+use signorini_kernel::bound::certificate::{POINTS, of_quad, of_triangle};
+use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::discrete::element::nonparametric::axes;
+use signorini_kernel::discrete::element::rannacher_turek::place;
+use signorini_kernel::{Real, Tensor};
+
+use super::conductivity::Conductivity;
+use signorini_problem::quadrature::{DATA_POINTS, on_quad, on_triangle};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Problem, QuadCoefficient};
+
+// A on quads is evaluated once, for element matrices and bound.
+const _: () = assert!(POINTS == DATA_POINTS);
+
+/// B at the 64 points of a cell.
+pub type Points<R> = [Tensor<R>; POINTS * POINTS];
+
+/// Owned arrays of a [`signorini_kernel::bound::certificate::Metric`], and ½ tr A of the cells.
+#[derive(Debug, Clone)]
+pub struct Metric<R: Scalar> {
+    compliance: Vec<R>,
+    at_points: Vec<Points<R>>,
+    place: Vec<u32>,
+    distortions: Vec<[R; 2]>,
+    alpha: Vec<R>,
+}
+
+impl<R: Scalar> Metric<R> {
+    /// Evaluates A where it varies inside a cell, and where a quad is no parallelogram or too thin for
+    /// its element matrix to tell B.
+    pub fn new(problem: &Problem) -> Self {
+        let coefficients = &problem.coefficients;
+        let compliance = coefficients.triangles.iter().map(|a| {
+            let determinant = a.xx * a.yy - a.xy * a.xy;
+            R::narrow(0.25 / determinant)
+        });
+        let mut metric = Self {
+            compliance: compliance.collect(),
+            at_points: Vec::new(),
+            place: Vec::new(),
+            distortions: distortions(problem),
+            alpha: Vec::new(),
+        };
+        for cell in 0..problem.cells() {
+            let points = metric.varying(problem, cell);
+            metric.place.push(points.as_ref().map_or(u32::MAX, |_| metric.at_points.len() as u32));
+            metric.at_points.extend(points);
+            metric.alpha.push(R::narrow(half_trace(problem, cell)));
+        }
+        metric
+    }
+
+    /// The kernel's view of it.
+    pub fn view(&self) -> signorini_kernel::bound::certificate::Metric<'_, R> {
+        signorini_kernel::bound::certificate::Metric {
+            at_points: &self.at_points,
+            place: &self.place,
+            distortions: &self.distortions,
+        }
+    }
+
+    /// 1/(4 det A) of every triangle, A its mean.
+    pub fn compliance(&self) -> &[R] {
+        &self.compliance
+    }
+
+    /// ½ tr A of every cell, triangles first.
+    pub fn alpha(&self) -> &[R] {
+        &self.alpha
+    }
+
+    /// B at the points, where it is not the same in the whole cell.
+    fn varying(&self, problem: &Problem, cell: usize) -> Option<Points<R>> {
+        let mesh = &problem.mesh;
+        let corner = |vertex: u32| mesh.vertices[vertex as usize];
+        let rule = f64::GAUSS[POINTS - 1];
+        let a = Conductivity::of(problem, cell);
+        let tensors: Vec<Tensor<f64>> = match cell.checked_sub(mesh.triangles.len()) {
+            None if a.is_constant() => return None,
+            None => {
+                let corners = mesh.triangles[cell].map(corner);
+                let points = on_triangle(corners, rule);
+                points.map(|point| of_triangle(corners, a.at(point.x))).collect()
+            }
+            Some(quad) => {
+                let corners = mesh.quads[quad].map(corner);
+                let here = |reference: [f64; 3]| place(corners, [reference[0], reference[1]]);
+                if a.is_constant() && is_parallelogram(corners) {
+                    let middle = here([0.5, 0.5, 0.0]);
+                    if is_told::<R>(&of_quad(&middle, a.at(middle.x))) {
+                        return None;
+                    }
+                }
+                // The element matrices have the same points.
+                let known = &problem.coefficients.quads[quad];
+                let points = on_quad(corners, rule).enumerate();
+                points.map(|(at, p)| of_quad(&here(p.reference), known.at(at))).collect()
+            }
+        };
+        let narrow = |b: &Tensor<f64>| Tensor {
+            xx: R::narrow(b.xx),
+            xy: R::narrow(b.xy),
+            yy: R::narrow(b.yy),
+        };
+        Some(std::array::from_fn(|point| narrow(&tensors[point])))
+    }
+}
+
+/// The distortion of every quad, where u_h is nonparametric and there is a quad on which that matters.
+fn distortions<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
+    let mesh = &problem.mesh;
+    let corners = |quad: &[u32; 4]| quad.map(|vertex| mesh.vertices[vertex as usize]);
+    let straight = mesh.quads.iter().all(|quad| is_parallelogram(corners(quad)));
+    if straight || problem.element == QuadElement::Parametric {
+        return Vec::new();
+    }
+    mesh.quads.iter().map(|quad| axes(corners(quad)).distortion().map(R::narrow)).collect()
+}
+
+/// The diagonals halve each other, up to 4·10⁻¹² of the height of the cell, below which B hardly varies.
+fn is_parallelogram([a, b, c, d]: [[f64; 2]; 4]) -> bool {
+    let [p, q] = [[a, c], [b, d]].map(|[from, to]| [to[0] - from[0], to[1] - from[1]]);
+    let twist = [0, 1].map(|k| (a[k] + c[k]) - (b[k] + d[k]));
+    let length = p[0].hypot(p[1]).max(q[0].hypot(q[1]));
+    let height = (p[0] * q[1] - p[1] * q[0]).abs() / length;
+    twist[0].abs() + twist[1].abs() <= 4e-12 * height
+}
+
+/// Whether the element matrix tells B: it holds sums of B's entries, in which the small one of a thin
+/// cell or of an oblique A is lost to rounding.
+fn is_told<R: Scalar>(b: &Tensor<f64>) -> bool {
+    const ENOUGH: f64 = 1e-3;
+    let spread = b.xx + b.yy;
+    let condition = spread * (spread / (b.xx * b.yy - b.xy * b.xy));
+    R::EPSILON.wide() * condition <= ENOUGH
+}
+
+/// ½ tr A of a cell: of its mean on triangles, of its middle on quads.
+fn half_trace(problem: &Problem, cell: usize) -> f64 {
+    let triangles = &problem.coefficients.triangles;
+    let tensor = match triangles.get(cell) {
+        Some(tensor) => tensor,
+        None => match &problem.coefficients.quads[cell - triangles.len()] {
+            QuadCoefficient::Constant(tensor) => tensor,
+            QuadCoefficient::AtPoints(tensors) => &tensors[tensors.len() / 2],
+        },
+    };
+    0.5 * (tensor.xx + tensor.yy)
+}

@@ -1,0 +1,102 @@
+//! The law of contact in a condensed model: what r̂ may be on each edge, and what it is nearest to.
+//!
+//! ```text
+//!   x > 0:  τ = least        x = 0:  least ≤ τ ≤ greatest        x < 0:  τ = greatest
+//! ```
+//! both ends being counted from the base that the load contains. Without limits they are 0 and ∞.
+
+use super::CondensedModel;
+use signorini_reference::ReferenceError;
+
+/// A span this far below 0 against the size of its terms is rounding of its sum.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+impl CondensedModel {
+    /// Whether any flux has a limit.
+    pub fn is_limited(&self) -> bool {
+        !self.spans.is_empty()
+    }
+
+    /// Whether an input changes an end of a flux that has a limit.
+    pub fn is_varying(&self) -> bool {
+        self.spans.iter().skip(1).flatten().any(|&span| span != 0.0)
+    }
+
+    /// From the base of each edge to the other end of its flux; nothing where all are ∞. In a varying model a finite one is
+    /// negative where the inputs put the upper end below the lower one.
+    pub fn span_of(&self, p: &[f64]) -> Vec<f64> {
+        let Some((constant, others)) = self.spans.split_first() else { return Vec::new() };
+        let of_edge = |(at, &constant): (usize, &f64)| {
+            let terms = || others.iter().zip(&p[1..]).map(|(column, p)| column[at] * p);
+            let sum = terms().fold(constant, |sum, term| sum + term);
+            let size = terms().fold(constant.abs(), |sum, term| sum + term.abs());
+            let is_rounding = sum < 0.0 && constant != sum && sum >= -ROUNDING * size;
+            if is_rounding { 0.0 } else { sum }
+        };
+        constant.iter().enumerate().map(of_edge).collect()
+    }
+
+    /// Whether the load of an edge contains the upper end of its flux.
+    fn is_from_above(&self, at: usize) -> bool {
+        let constant = self.spans.first().and_then(|spans| spans.get(at)).copied();
+        let constant = constant.unwrap_or(f64::INFINITY);
+        constant == f64::NEG_INFINITY || constant < 0.0 && !self.is_varying()
+    }
+
+    /// The least and the greatest r̂ of an edge as m factors of p; an infinite one stands in the first, with 0 in the others.
+    pub fn end_columns(&self, at: usize) -> [Vec<f64>; 2] {
+        let zero = vec![0.0; self.inputs];
+        let mut span: Vec<f64> = self.spans.iter().map(|column| column[at]).collect();
+        if span.is_empty() {
+            span = zero.clone();
+            span[0] = f64::INFINITY;
+        }
+        if self.is_from_above(at) { [span, zero] } else { [zero, span] }
+    }
+
+    /// The least and the greatest r̂ of each edge.
+    pub fn ends_of(&self, p: &[f64]) -> Vec<[f64; 2]> {
+        if !self.is_limited() {
+            return vec![[0.0, f64::INFINITY]; self.contact];
+        }
+        let ends = |span: f64| if span < 0.0 { [span, 0.0] } else { [0.0, span] };
+        self.span_of(p).into_iter().map(ends).collect()
+    }
+
+    /// τ of any x within its sides, from the base on: as near to r̂ as the law allows.
+    pub(super) fn within_law(&self, p: &[f64], x: &[f64]) -> Vec<f64> {
+        let edges = self.residual(p, x).into_iter().zip(x).zip(self.ends_of(p));
+        edges.map(|((r, &x), ends)| nearest(r, x, ends)).collect()
+    }
+
+    /// Refuses inputs that put an upper end below the lower one, or whose loads no fluxes within their ranges can balance
+    /// where contact alone holds a part.
+    pub(super) fn check_ends(&self, p: &[f64]) -> Result<(), ReferenceError> {
+        if !self.is_limited() {
+            return Ok(());
+        }
+        let spans = self.span_of(p);
+        if self.is_varying() && spans.iter().any(|&span| span < 0.0 && span.is_finite()) {
+            return Err(ReferenceError::Malformed("a limit lies below the flux at these inputs"));
+        }
+        let (load, ends) = (self.load_of(p), self.ends_of(p));
+        for part in &self.held_by_contact {
+            let sum = |end: usize| -> f64 {
+                part.iter().map(|&at| (load[at] + ends[at][end]) / self.opening[at]).sum()
+            };
+            if sum(0) >= 0.0 || sum(1) <= 0.0 {
+                return Err(ReferenceError::Unbounded { unknown: part[0] });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The admissible r̂ of an edge that is nearest. An x on a side that there is not counts as on the other.
+pub(super) fn nearest(r: f64, x: f64, [least, greatest]: [f64; 2]) -> f64 {
+    if x == 0.0 {
+        return r.max(least).min(greatest);
+    }
+    let [own, other] = if x > 0.0 { [least, greatest] } else { [greatest, least] };
+    if own.is_finite() { own } else { other }
+}

@@ -1,0 +1,85 @@
+//! Transfer laws whose coefficient changes: their share of the residual, for every value of it.
+//!
+//! Where the flux of an edge is that of its law, ∫τ·n = ∫h(u_ext − u_E), and h is constant along it,
+//! ```text
+//!   τ·n + h(s − u_ext) = h (s − u_E − u_ext + ū_ext),     ∫(…)²/h = h ∫(s − u_E − u_ext + ū_ext)²,
+//! ```
+//! so that h is a factor of a form that does not know it.
+
+use signorini_kernel::Real;
+use signorini_kernel::mesh::boundary::Robin;
+
+use super::block::{Block, triangular};
+use super::functions::Functions;
+use super::patterns::Pattern;
+use signorini_certify::robin::{RobinPoints, robin};
+use signorini_problem::Problem;
+use signorini_problem::quadrature::DATA_POINTS;
+use signorini_scene::error::Result;
+
+/// Transfer laws whose coefficient changes, constant along each edge.
+#[derive(Debug, Clone)]
+pub(super) struct Laws {
+    /// ∫π of every law, 0 where none changes.
+    pub shares: Vec<f64>,
+    /// The change of the input for which s is the best one.
+    pub change: f64,
+}
+
+impl Laws {
+    /// The rows that weigh a unit of the input.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn blocks(
+        &self,
+        problem: &Problem,
+        patterns: &[Pattern],
+        functions: &Functions,
+    ) -> Result<Vec<Block>> {
+        let transfer = transfer(patterns)?;
+        let laws = problem.loads.robin.iter().zip(&self.shares).enumerate();
+        let changing = laws.filter(|(_, (_, share))| **share > 0.0);
+        let block = |(at, (record, share)): (usize, (&Robin<f64, u32>, &f64))| {
+            let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
+            of_law(problem, record.edge as usize, functions, &ambient, *share)
+        };
+        Ok(changing.map(block).collect())
+    }
+}
+
+/// \[h |E|, u_ext\] at the points of every law, for each pattern.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn transfer(patterns: &[Pattern]) -> Result<Vec<Vec<RobinPoints>>> {
+    patterns.iter().map(|pattern| robin(&pattern.problem, 0.0)).collect()
+}
+
+/// The rows of a transfer edge whose flux is its law's, h(ū_ext − u_E), where h is constant: τ·n + h(s − u_ext) is
+/// h(s − u_E − u_ext + ū_ext) then, whatever h. `weight` is ∫h, or what a part of h adds to it. Means of u stand behind all
+/// fluxes.
+pub(super) fn of_law(
+    problem: &Problem,
+    edge: usize,
+    functions: &Functions,
+    ambient: &[RobinPoints],
+    weight: f64,
+) -> Block {
+    let rule = f64::GAUSS[DATA_POINTS - 1];
+    let bubble = functions.bubble(edge);
+    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
+    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
+    let mean = |points: &RobinPoints| -> f64 {
+        points.iter().zip(rule).map(|(point, gauss)| gauss[1] * point[1]).sum()
+    };
+    for (at, &[t, part]) in rule.iter().enumerate() {
+        let root = (part * weight).sqrt();
+        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
+        let own = own.into_iter().take(of_s.len()).chain([-root]);
+        let given = ambient.iter().map(|points| -root * (points[at][1] - mean(points)));
+        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
+    }
+    let edges = vec![(problem.ends.len() + edge) as u32];
+    Block { functions: of_s, edges, rows: triangular(columns) }
+}

@@ -1,0 +1,253 @@
+//! Exact condensation: a scene whose mesh and A are fixed becomes a small dense problem on its contact
+//! edges, good for all values of its inputs.
+//!
+//! Loads are linear in the inputs p = (1, p₁ … p_{m−1}). With the free unknowns eliminated, the openings
+//! v = u_C − ψ (means over edges) and the residuals r = ∫_E (σ·n − q) meet
+//! ```text
+//!   v ≥ 0, r ≥ 0, v·r = 0:   x = v/d,  r̂ = r d/U² = Ŝx − B̂p,   d_i = U/√S_ii,
+//! ```
+//! where Ŝ has a unit diagonal and the energy unit U, a power of two, makes x and r̂ of order 1. Outputs are
+//! linear in (p, x) but for the contact length, the error bound and what goes through contact edges: there
+//! ∫_E (τ·n − q) = max(r, 0) where v = 0, and 0 where v > 0.
+//!
+//! Where fluxes have limits, x has either sign, and r̂ is at the least end of its range where x > 0, at the greatest where
+//! x < 0, and between them where x = 0 (`ends`). Spans are linear in the inputs like loads (`spans`).
+//!
+//! ```text
+//!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► CondensedModel
+//!   chain (s on the boundary) ─┐                                       │                       ▲
+//!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, stability ◄──┘ ─► form ──────────────┘
+//! ```
+//! The bound of any (p, x), x ≥ 0, is U(osc + √(gap² + osc²)), osc = Σ|p_j| osc_j and
+//! ```text
+//!   gap² = (|F(p, x, d)| + stability |δ|)² + Σ_corners excess(p) r̂
+//! ```
+//! (with limits what `bound` says instead of the second term, and x on any side that there is)
+//! and that of u_h is U|J(p, x, d)| more, ‖A^½∇_h(s − u_h)‖; with the mended amounts δ and the corrections d of s that `Form::correction` chooses.
+
+mod best;
+mod block;
+mod bound;
+mod chain;
+mod columns;
+mod elimination;
+mod ends;
+mod evaluate;
+mod factor;
+mod form;
+mod functions;
+mod held;
+mod laws;
+mod measures;
+mod model;
+mod modes;
+mod order;
+mod patterns;
+mod points;
+pub mod ranges;
+mod recovery;
+mod released;
+mod residual;
+mod rounding;
+mod spans;
+mod stability;
+#[cfg(test)]
+mod tests;
+mod unit;
+
+use std::collections::BTreeSet;
+
+use faer::Mat;
+
+use columns::columns;
+use elimination::{Field, FieldLoads, fields};
+use form::{FormData, Found};
+use held::{held_alone, held_by_contact, held_by_one};
+use laws::Laws;
+use measures::measures;
+pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
+pub use modes::{LawsForm, LeftOut, ModalModel, modal};
+pub use order::along_boundary;
+use patterns::{Pattern, patterns};
+pub use recovery::{Recovery, recoverable};
+pub use released::{ReleasedVertex, with_released};
+use signorini_problem::{Approach, Parts, Problem};
+use signorini_scene::error::Result;
+use signorini_scene::scene::Input;
+use spans::{in_unknowns, spans};
+
+/// Condenses `problem` for all values of its inputs; its own loads only decide whether there is a solution.
+///
+/// # Errors
+/// What [`Approach::Condensation`] cannot treat; data that are not finite, a part that a single contact edge holds,
+/// a probe outside the mesh.
+pub fn condense(problem: &Problem) -> Result<CondensedModel> {
+    Ok(build(problem)?.0)
+}
+
+/// The model, and the fields behind it with s and τ of its certificate, in the columns of U = 1.
+fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
+    Approach::Condensation.check(problem)?;
+    let pieces = Pieces::new(problem)?;
+    let fields = pieces.fields(Vec::new())?;
+    pieces.model(fields)
+}
+
+/// What a condensed model is made of before anything is eliminated.
+struct Pieces<'p> {
+    problem: &'p Problem,
+    parts: Parts,
+    patterns: Vec<Pattern>,
+    /// From base to other end, pattern by pattern and contact edge by contact edge.
+    spans: Vec<Vec<f64>>,
+    edges: Vec<usize>,
+    held_by_contact: Vec<Vec<usize>>,
+    /// The cells of the one part that contact alone holds.
+    alone: Option<Vec<bool>>,
+    /// Transfer laws whose coefficient changes, where their fluxes are read off means of u.
+    laws: Option<Laws>,
+}
+
+impl<'p> Pieces<'p> {
+    fn new(problem: &'p Problem) -> Result<Self> {
+        let parts = Parts::examine(problem)?;
+        problem.check_limits_within_ranges()?;
+        let mut patterns = patterns(problem)?;
+        let spans = spans(problem, &mut patterns)?;
+        let edges = along_boundary(problem);
+        let held_by_contact = held_by_contact(problem, &parts, &edges);
+        if held_by_contact.iter().any(|part| part.len() == 1) {
+            return Err(held_by_one(&problem.scene));
+        }
+        let alone = held_alone(problem, &parts, &edges);
+        Ok(Self { problem, parts, patterns, spans, edges, held_by_contact, alone, laws: None })
+    }
+
+    /// Those of the patterns, of unit openings, of the source where there is one, and of `more` loads.
+    fn fields(&self, more: Vec<FieldLoads>) -> Result<Fields> {
+        let Self { problem, patterns, edges, alone, .. } = self;
+        let mut columns = columns(problem, patterns, edges, alone.as_deref());
+        let own = columns.len();
+        columns.extend(more);
+        let mut inputs = fields(problem, &columns)?;
+        let more = inputs.split_off(own);
+        let mut openings = inputs.split_off(patterns.len());
+        let source = openings.split_off(edges.len()).pop();
+        Ok(Fields { inputs, openings, source, more })
+    }
+
+    fn model(&self, fields: Fields) -> Result<(CondensedModel, Recovery)> {
+        let Self { problem, patterns, edges, .. } = self;
+        let (m, n) = (patterns.len(), edges.len());
+        let Fields { inputs: mut fields, mut openings, source, .. } = fields;
+        let opening = scaled(problem, edges, &mut openings)?;
+        fields.append(&mut openings);
+        let matrix = matrix(problem, edges, &fields[m..], &opening);
+        let load = |field: &Field, q: &[f64]| condensed_load(problem, edges, field, q, &opening);
+        let of_inputs = fields.iter().zip(patterns);
+        let inputs = || problem.scene.inputs.iter();
+        let mut model = CondensedModel {
+            contact: n,
+            edges: edges.clone(),
+            inputs: m,
+            matrix: (0..n * n).map(|at| matrix[(at / n, at % n)]).collect(),
+            multiplier: opening.iter().map(|d| 1.0 / d).collect(),
+            load: of_inputs.map(|(field, p)| load(field, &p.loads().contact_flux)).collect(),
+            spans: in_unknowns(&self.spans, edges, &opening, m),
+            limits: Vec::new(),
+            defaults: std::iter::once(1.0).chain(inputs().map(|i| i.default)).collect(),
+            ranges: std::iter::once([1.0, 1.0]).chain(inputs().map(Input::interval)).collect(),
+            outputs: measures(problem, edges, &opening, patterns, &fields, self.spans.first())?,
+            certificate: Err(String::new()),
+            energy_unit: 1.0,
+            held_by_contact: self.held_by_contact.clone(),
+            opening: opening.clone(),
+        };
+        // Amplitudes of modes are no inputs of the scene.
+        model.defaults.resize(m, 0.0);
+        model.ranges.resize(m, [f64::NEG_INFINITY, f64::INFINITY]);
+        let (form, admissibles) =
+            match self.form(&fields, &opening, &matrix, source.as_ref(), &BTreeSet::new())? {
+                Ok((form, admissibles)) => (Ok(form), Some(admissibles)),
+                Err(reason) => (Err(reason), None),
+            };
+        model.certificate = form;
+        model.choose_unit();
+        Ok((model, Recovery { fields, admissibles }))
+    }
+
+    fn form(
+        &self,
+        fields: &[Field],
+        openings: &[f64],
+        matrix: &Mat<f64>,
+        source: Option<&Field>,
+        released: &BTreeSet<u32>,
+    ) -> Result<Found> {
+        let Self { problem, parts, patterns, edges, held_by_contact, .. } = self;
+        let silent = vec![0.0; edges.len()];
+        let load = |field| condensed_load(problem, edges, field, &silent, openings);
+        let floating = held_by_contact.first().filter(|_| source.is_some());
+        let data = FormData {
+            problem,
+            parts,
+            edges,
+            patterns,
+            fields,
+            openings,
+            matrix,
+            source: source.map(|field| (field, load(field))),
+            floating: floating.cloned().unwrap_or_default(),
+            laws: self.laws.as_ref(),
+            released,
+        };
+        data.form()
+    }
+}
+
+/// The fields of all columns.
+struct Fields {
+    inputs: Vec<Field>,
+    openings: Vec<Field>,
+    source: Option<Field>,
+    more: Vec<Field>,
+}
+
+/// d_i = 1/√S_ii, by which the fields of unit openings are multiplied.
+fn scaled(problem: &Problem, edges: &[usize], fields: &mut [Field]) -> Result<Vec<f64>> {
+    /// S_ii below this part of the fluxes around is the rounding of 0.
+    const ROUNDING: f64 = 1e-11;
+    let free = problem.topology.counts.free;
+    let scale = |(edge, field): (&usize, &mut Field)| {
+        let own = field.flux[free + edge];
+        let most = field.flux.iter().fold(0.0, |most: f64, flux| most.max(flux.abs()));
+        if own > ROUNDING * most {
+            let opening = 1.0 / own.sqrt();
+            field.scale(opening);
+            return Ok(opening);
+        }
+        Err(held_by_one(&problem.scene))
+    };
+    edges.iter().zip(fields).map(scale).collect()
+}
+
+/// Ŝ from the fluxes of the scaled fields; rounding leaves them not quite symmetric.
+fn matrix(problem: &Problem, edges: &[usize], fields: &[Field], openings: &[f64]) -> Mat<f64> {
+    let free = problem.topology.counts.free;
+    let entry = |i: usize, j: usize| openings[i] * fields[j].flux[free + edges[i]];
+    Mat::from_fn(openings.len(), openings.len(), |i, j| {
+        if i == j { 1.0 } else { 0.5 * (entry(i, j) + entry(j, i)) }
+    })
+}
+
+/// −d_i ∫_E (σ·n − q)
+fn condensed_load(
+    problem: &Problem,
+    edges: &[usize],
+    field: &Field,
+    q: &[f64],
+    openings: &[f64],
+) -> Vec<f64> {
+    let fluxes = &field.flux[problem.topology.counts.free..];
+    edges.iter().zip(openings).map(|(&edge, d)| d * (q[edge] - fluxes[edge])).collect()
+}

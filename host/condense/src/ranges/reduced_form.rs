@@ -1,0 +1,103 @@
+//! The error bound of a reduced model: the form of the whole one in what is left.
+
+use super::columns::Columns;
+use super::reduced::Build;
+use super::sides::VertexSide;
+use crate::{Corner, Form, Vertex};
+
+impl Build<'_> {
+    pub fn form(&self, form: &Form) -> Form {
+        let at = |vertex: &Vertex| self.sides.at(vertex, self.maps);
+        let seen: Vec<_> =
+            form.vertices.iter().filter(|vertex| at(vertex) == VertexSide::MayChange).collect();
+        let columns = self.columns(form, &seen);
+        let most = self.scale.iter().fold(0.0, |most: f64, s| most.max(*s));
+        let least = self.scale.iter().fold(f64::INFINITY, |least: f64, s| least.min(*s));
+        Form {
+            factor: columns.of(&form.factor),
+            jump: form.jump.as_ref().map(|jump| columns.of(jump)),
+            lost: columns.lost(form, &self.rescaled(self.maps.hidden(self.whole.inputs))),
+            vertices: seen.into_iter().map(|vertex| self.vertex(vertex)).collect(),
+            stability: form.stability * most,
+            corners: form.corners.iter().map(|corner| self.corner(corner)).collect(),
+            oscillation: form.oscillation.clone(),
+            floating: Vec::new(),
+            ends: self.ends(form),
+            span_excess: if self.is_limited() { form.span_excess / least } else { 0.0 },
+        }
+    }
+
+    /// Where s − ψ comes from at the ends of the edges that are left. It is 0 beside edges that always touch. At a vertex with
+    /// d = 0 it is at least 0 beside an open edge, which pays for s below ψ alone: 0 is the worst there.
+    fn ends(&self, form: &Form) -> Vec<[usize; 2]> {
+        if !self.is_limited() {
+            return Vec::new();
+        }
+        let is_seen =
+            |at: &usize| self.sides.at(&form.vertices[*at], self.maps) == VertexSide::MayChange;
+        let seen: Vec<usize> = (0..form.vertices.len()).filter(is_seen).collect();
+        let place = |end: usize| match end.checked_sub(form.vertices.len()) {
+            _ if end == Form::NOTHING => end,
+            Some(corner) => seen.len() + corner,
+            None => seen.iter().position(|&at| at == end).unwrap_or(Form::NOTHING),
+        };
+        self.maps.kept.iter().map(|&edge| form.ends[edge].map(place)).collect()
+    }
+
+    /// M: what each column of F is multiplied by, in (p, x′, d′).
+    fn columns(&self, form: &Form, seen: &[&Vertex]) -> Columns {
+        let (m, n) = (self.whole.inputs, self.sides.of.len());
+        let width = m + self.maps.kept.len() + seen.len();
+        let wide = |mut row: Vec<f64>| {
+            row.resize(width, 0.0);
+            row
+        };
+        let unit = |at: usize| {
+            let mut row = vec![0.0; width];
+            row[at] = 1.0;
+            row
+        };
+        let inputs = (0..m).map(unit);
+        let openings = (0..n).map(|edge| wide(self.rescaled(self.maps.opening(edge, m))));
+        let mut next = m + self.maps.kept.len();
+        let corrections =
+            form.vertices.iter().map(|vertex| match self.sides.at(vertex, self.maps) {
+                VertexSide::Free => [vec![0.0; width], vec![0.0; width]],
+                VertexSide::Touching => {
+                    let e = self.maps.interpolated(vertex, m);
+                    let factors = self.rescaled(e.factors).into_iter().map(|factor| -factor);
+                    [wide(factors.collect()), wide(self.rescaled(e.noise))]
+                }
+                VertexSide::MayChange => {
+                    next += 1;
+                    [unit(next - 1), vec![0.0; width]]
+                }
+            });
+        let exact = inputs.chain(openings).map(|row| [row, vec![0.0; width]]);
+        let (rows, noise) = exact.chain(corrections).map(|[row, noise]| (row, noise)).unzip();
+        Columns { rows, noise, width }
+    }
+
+    /// e in x′; an edge that always touches has no share in it.
+    fn vertex(&self, vertex: &Vertex) -> Vertex {
+        let place = |edge: usize| self.maps.kept.iter().position(|&kept| kept == edge);
+        let first = vertex.beside.iter().find_map(|&edge| place(edge)).unwrap_or(0);
+        let (mut edges, mut weights) = ([first; 2], [0.0; 2]);
+        for (at, (edge, weight)) in vertex.edges.into_iter().zip(vertex.weights).enumerate() {
+            if let Some(place) = place(edge) {
+                (edges[at], weights[at]) = (place, weight / self.scale[place]);
+            }
+        }
+        Vertex { edges, weights, beside: vertex.beside.map(|edge| place(edge).unwrap_or(first)) }
+    }
+
+    fn corner(&self, corner: &Corner) -> Corner {
+        let edge = self.maps.kept.iter().position(|&kept| kept == corner.edge).unwrap_or(0);
+        let s = self.scale[edge];
+        Corner {
+            edge,
+            excess: corner.excess.iter().map(|e| e * s).collect(),
+            energy: corner.energy / s,
+        }
+    }
+}

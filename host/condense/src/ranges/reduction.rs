@@ -1,0 +1,200 @@
+//! The affine maps that take edges which never change sides out of a condensed model.
+//!
+//! With O always open or always at their upper end, T always touching and U kept, and the end of Sx − Bp that belongs to the
+//! side of an edge,
+//! ```text
+//!   x_T = 0,    x_O = S_OO⁻¹ (B_O p + end_O − S_OU x_U),
+//!   r_U = S′x_U − B′p,    S′ = S_UU − S_UO S_OO⁻¹ S_OU,    B′ = B_U − S_UO S_OO⁻¹ B_O,
+//!   r_T = S_TU x_U + S_TO x_O − B_T p.
+//! ```
+//! x_O is what its row says, to the last bit: any x ≥ 0 has a bound. What rounding of that solve leaves of r_O, and what
+//! it leaves of the other rows, is counted beside them.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+use super::split::product;
+use crate::CondensedModel;
+
+/// A number as an affine function of (p, x_U).
+#[derive(Debug, Clone)]
+pub struct Affine {
+    /// m factors of p, then those of x_U.
+    pub factors: Vec<f64>,
+    /// By how much rounding may have put each off.
+    pub noise: Vec<f64>,
+}
+
+/// The unknowns of a condensed model by what becomes of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Partition {
+    /// U
+    pub kept: Vec<usize>,
+    /// O
+    pub open: Vec<usize>,
+    /// Those at their upper end, x < 0, which are eliminated like O.
+    pub saturated: Vec<usize>,
+    /// T
+    pub touching: Vec<usize>,
+}
+
+/// Affine maps (p, x_U) ─► x_O, r_T, r_U and what is left of r_O.
+#[derive(Debug, Clone)]
+pub struct Reduction {
+    /// U
+    pub kept: Vec<usize>,
+    /// O, those at their upper end after the others.
+    pub open: Vec<usize>,
+    /// How many of O are not at their upper end.
+    pub above: usize,
+    /// T
+    pub touching: Vec<usize>,
+    /// x_O, exact by definition.
+    pub openings: Vec<Vec<f64>>,
+    /// r_T
+    pub reactions: Vec<Affine>,
+    /// r_U
+    pub residuals: Vec<Affine>,
+    /// r_O less the end of its side: zeros but for rounding.
+    pub left: Vec<Affine>,
+}
+
+impl Reduction {
+    /// The maps for these edges; nothing where S_OO is not positive definite.
+    pub fn new(model: &CondensedModel, parts: Partition) -> Option<Self> {
+        let Partition { kept, mut open, saturated, touching } = parts;
+        let above = open.len();
+        open.extend(saturated);
+        let end = |(at, &edge): (usize, &usize)| {
+            let [least, greatest] = model.end_columns(edge);
+            if at < above { least } else { greatest }
+        };
+        let ends: Vec<Vec<f64>> = open.iter().enumerate().map(end).collect();
+        let openings = openings(model, &kept, &open, &ends)?;
+        let rows = |edges: &[usize]| -> Vec<Affine> {
+            edges.iter().map(|&edge| residual(model, &kept, &open, &openings, edge)).collect()
+        };
+        let (reactions, residuals, mut left) = (rows(&touching), rows(&kept), rows(&open));
+        for (row, end) in left.iter_mut().zip(&ends) {
+            row.subtract(end);
+        }
+        Some(Self { kept, open, above, touching, openings, reactions, residuals, left })
+    }
+
+    /// The edges of O and T that some (p, x_U) within `intervals` might put on another side.
+    pub fn unproved(&self, model: &CondensedModel, intervals: &[[f64; 2]]) -> Vec<usize> {
+        // A NaN proves nothing.
+        let is_open = |at: usize, row: &[f64]| match at < self.above {
+            true => least(row, &[], intervals) > 0.0,
+            false => least(&negated(row), &[], intervals) > 0.0,
+        };
+        let open = self.open.iter().zip(&self.openings).enumerate();
+        let open = open.filter(|(at, (_, row))| !is_open(*at, row)).map(|(_, (&edge, _))| edge);
+        let is_touching = |edge: usize, row: &Affine| {
+            let [lower, upper] = model.end_columns(edge);
+            let is_within = |mut row: Affine, end: &[f64], is_upper: bool| {
+                if end[0].is_infinite() {
+                    return true;
+                }
+                row.subtract(end);
+                if is_upper {
+                    row.factors = negated(&row.factors);
+                }
+                least(&row.factors, &row.noise, intervals) >= 0.0
+            };
+            is_within(row.clone(), &lower, false) && is_within(row.clone(), &upper, true)
+        };
+        let touching = self.touching.iter().zip(&self.reactions);
+        let touching =
+            touching.filter(|(edge, row)| !is_touching(**edge, row)).map(|(&edge, _)| edge);
+        open.chain(touching).collect()
+    }
+
+    /// Σ_i of what rounding leaves of r_O, and of r_U beside what S′ and B′ say, by columns of (p, x_U). S′ is made
+    /// symmetric: what the solve for x_O leaves of r_O stands in its skew part too.
+    pub(super) fn hidden(&self, inputs: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; inputs + self.kept.len()];
+        let mut add = |row: &Affine, share: f64| {
+            for ((sum, factor), noise) in sum.iter_mut().zip(&row.factors).zip(&row.noise) {
+                *sum += share * factor.abs() + noise + 4.0 * f64::EPSILON * factor.abs();
+            }
+        };
+        self.left.iter().for_each(|row| add(row, 1.0));
+        self.residuals.iter().for_each(|row| add(row, 0.0));
+        for (i, row) in self.residuals.iter().enumerate() {
+            for (j, other) in self.residuals.iter().enumerate() {
+                sum[inputs + j] +=
+                    0.5 * (row.factors[inputs + j] - other.factors[inputs + i]).abs();
+            }
+        }
+        sum
+    }
+}
+
+impl Affine {
+    /// Less what the m factors of p in `end` make.
+    fn subtract(&mut self, end: &[f64]) {
+        for ((factor, noise), end) in self.factors.iter_mut().zip(&mut self.noise).zip(end) {
+            *noise += if *end == 0.0 { 0.0 } else { f64::EPSILON * (factor.abs() + end.abs()) };
+            *factor -= end;
+        }
+    }
+}
+
+fn negated(factors: &[f64]) -> Vec<f64> {
+    factors.iter().map(|factor| -factor).collect()
+}
+
+/// At most the least value of an affine function whose variables lie in `intervals`.
+pub(super) fn least(factors: &[f64], noise: &[f64], intervals: &[[f64; 2]]) -> f64 {
+    let worst = |(a, [lo, hi]): (&f64, &[f64; 2])| if *a > 0.0 { *lo } else { *hi };
+    let at: Vec<f64> = factors.iter().zip(intervals).map(worst).collect();
+    let (sum, rounding) = product(factors, &at);
+    let largest = |[lo, hi]: &[f64; 2]| lo.abs().max(hi.abs());
+    let off: f64 = noise.iter().zip(intervals).map(|(noise, range)| noise * largest(range)).sum();
+    sum - 2.0 * (rounding + off)
+}
+
+/// x_O by rows.
+fn openings(
+    model: &CondensedModel,
+    kept: &[usize],
+    open: &[usize],
+    ends: &[Vec<f64>],
+) -> Option<Vec<Vec<f64>>> {
+    let (n, m) = (model.contact, model.inputs);
+    let entry = |i: usize, j: usize| model.matrix[i * n + j];
+    let own = Mat::from_fn(open.len(), open.len(), |i, j| entry(open[i], open[j]));
+    let columns = m + kept.len();
+    let given = Mat::from_fn(open.len(), columns, |i, j| match j.checked_sub(m) {
+        None => model.load[j][open[i]] + ends[i][j],
+        Some(j) => -entry(open[i], kept[j]),
+    });
+    let solved = own.llt(Side::Lower).ok()?.solve(given);
+    let row = |i: usize| (0..columns).map(|j| solved[(i, j)]).collect();
+    Some((0..open.len()).map(row).collect())
+}
+
+/// (Sx − Bp)_edge with x_T = 0 and x_O as the rows of `openings` have it.
+fn residual(
+    model: &CondensedModel,
+    kept: &[usize],
+    open: &[usize],
+    openings: &[Vec<f64>],
+    edge: usize,
+) -> Affine {
+    let (n, m) = (model.contact, model.inputs);
+    let own = &model.matrix[edge * n..(edge + 1) * n];
+    let of_open: Vec<f64> = open.iter().map(|&at| own[at]).collect();
+    let column = |j: usize| {
+        let direct = match j.checked_sub(m) {
+            None => -model.load[j][edge],
+            Some(j) => own[kept[j]],
+        };
+        let through: Vec<f64> = openings.iter().map(|row| row[j]).collect();
+        let (sum, noise) = product(&of_open, &through);
+        (direct + sum, noise + f64::EPSILON * direct.abs())
+    };
+    let (factors, noise) = (0..m + kept.len()).map(column).unzip();
+    Affine { factors, noise }
+}

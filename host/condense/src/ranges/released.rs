@@ -1,0 +1,131 @@
+//! The certificate of a reduced model, its s free at vertices where nothing ever touches.
+//!
+//! ```text
+//!   s − ψ at a vertex = a·(p, x, d),   x = x(p, x_U),  d = 0, −e(p, x_U) or between them      all affine
+//!   ─► at least Σ_j |p_j| peak_j for every p of the box and every x_U between its limits?  ─► released
+//! ```
+//! A vertex that fails is taken back, and the others are tried again, since s is another function then. The certificate holds
+//! for the model without the edges that never change sides: there x_O is positive and r_O = 0 whatever a tick leaves unfinished.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::interval::Interval;
+use super::reduction::{Affine, Reduction, least};
+use super::sides::{Sides, VertexSide};
+use crate::{CondensedModel, Form, Recovery, ReleasedVertex, with_released};
+use signorini_problem::Problem;
+use signorini_scene::error::Result;
+
+/// How often vertices may be taken back.
+const TRIALS: usize = 4;
+
+/// A certificate with free vertices.
+#[derive(Debug)]
+pub struct Released {
+    /// The model that has it.
+    pub model: CondensedModel,
+    /// Its way back.
+    pub recovery: Recovery,
+    /// How far s is above ψ at least at these vertices and along the edges between them, in the unit of u.
+    pub clear: BTreeMap<u32, f64>,
+}
+
+/// `whole` and its way back with such a certificate, for a model that is reduced by `sides`; nothing where no vertex is released.
+///
+/// # Errors
+/// As for [`crate::condense`].
+pub fn released(
+    problem: &Problem,
+    whole: &CondensedModel,
+    recovery: &Recovery,
+    sides: &Sides,
+) -> Result<Option<Released>> {
+    let (Ok(form), false) = (&whole.certificate, whole.is_limited()) else { return Ok(None) };
+    let Some(maps) = Reduction::new(whole, sides.partition()) else { return Ok(None) };
+    let vertices = form.vertices.iter().zip(recovery.contact_vertices());
+    let is_free = |vertex| sides.at(vertex, &maps) == VertexSide::Free;
+    let mut free: BTreeSet<u32> =
+        vertices.filter(|(vertex, _)| is_free(vertex)).map(|(_, &at)| at).collect();
+    for _ in 0..TRIALS {
+        if free.is_empty() {
+            break;
+        }
+        let Some((model, recovery)) = with_released(problem, whole, recovery, &free)? else {
+            break;
+        };
+        let Ok(form) = &model.certificate else { break };
+        let proof = Proof { model: &model, form, sides, maps: &maps };
+        let all = recovery.released(problem, model.energy_unit)?;
+        let clear: BTreeMap<u32, f64> =
+            all.iter().map(|of| (of.vertex, proof.clearance(of))).collect();
+        // A NaN proves nothing.
+        let is_failed = |clear: f64| clear.is_nan() || clear <= 0.0;
+        let failed =
+            clear.iter().filter(|(_, clear)| is_failed(**clear)).map(|(vertex, _)| *vertex);
+        let failed: Vec<u32> = failed.collect();
+        if failed.is_empty() {
+            return Ok(Some(Released { model, recovery, clear }));
+        }
+        free.retain(|vertex| !failed.contains(vertex));
+    }
+    Ok(None)
+}
+
+/// What s at a vertex is proved with.
+struct Proof<'a> {
+    model: &'a CondensedModel,
+    form: &'a Form,
+    sides: &'a Sides,
+    maps: &'a Reduction,
+}
+
+impl Proof<'_> {
+    /// By how much s is above ψ at least, all along the edges beside a vertex, whatever p and x_U are.
+    fn clearance(&self, vertex: &ReleasedVertex) -> f64 {
+        let Self { model, form, sides, maps } = *self;
+        let (m, n) = (model.inputs, model.contact);
+        let mut sum = Affine {
+            factors: vec![0.0; m + maps.kept.len()],
+            noise: vec![0.0; m + maps.kept.len()],
+        };
+        sum.factors[..m].copy_from_slice(&vertex.above[..m]);
+        for (edge, &factor) in vertex.above[m..m + n].iter().enumerate() {
+            sum.add(factor, &Affine::exact(maps.opening(edge, m)));
+        }
+        let (inputs, mut lower) = (sides.box_of(maps), 0.0);
+        for (of, &factor) in form.vertices.iter().zip(&vertex.above[m + n..]) {
+            let e = maps.interpolated(of, m);
+            match sides.at(of, maps) {
+                VertexSide::Free => {}
+                VertexSide::Touching => sum.add(-factor, &e),
+                VertexSide::MayChange => {
+                    let negated: Vec<f64> = e.factors.iter().map(|e| -e).collect();
+                    let highest = -least(&negated, &e.noise, &inputs);
+                    let up = (-least(&e.factors, &e.noise, &inputs)).max(0.0);
+                    let d = Interval { lo: -highest.max(0.0), hi: up };
+                    lower += (factor * d.lo).min(factor * d.hi).next_down();
+                }
+            }
+        }
+        let peak: f64 =
+            vertex.peak.iter().zip(&inputs).map(|(peak, [lo, hi])| peak * hi.max(-lo)).sum();
+        let least = least(&sum.factors, &sum.noise, &inputs) + lower * (1.0 + 1e-12);
+        least - peak * (1.0 + 1e-12)
+    }
+}
+
+impl Affine {
+    fn exact(factors: Vec<f64>) -> Self {
+        let noise = vec![0.0; factors.len()];
+        Self { factors, noise }
+    }
+
+    /// Adds so many times another.
+    fn add(&mut self, times: f64, other: &Self) {
+        let own = self.factors.iter_mut().zip(&mut self.noise);
+        for ((factor, noise), (of, off)) in own.zip(other.factors.iter().zip(&other.noise)) {
+            *factor += times * of;
+            *noise += times.abs() * off + f64::EPSILON * (factor.abs() + (times * of).abs());
+        }
+    }
+}

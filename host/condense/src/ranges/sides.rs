@@ -1,0 +1,252 @@
+//! Which contact edges can change sides within the ranges of the inputs.
+//!
+//! ```text
+//!   always open       lo_i > 0          eliminated exactly: their openings are affine in what is left
+//!   always at limit   hi_i < 0          eliminated in the same way
+//!   always touching   reaction_i > 0    dropped: x_i = 0
+//!   may change        all else          kept
+//! ```
+//! What the enclosure proposes is checked on the affine maps themselves, for every p of the box and every x of what is
+//! kept between its limits, solutions or not: a tick that is cut off, or rounded, leaves them admissible too. An edge that
+//! fails may change. So that the error bound sees move what it must, an edge is kept as well that
+//! ```text
+//!   is open and tells e = s − ψ at a vertex where an edge that may change ends,     with x held above 0,
+//!   ends at a Dirichlet value.
+//! ```
+
+use super::enclosure::{Enclosure, LoadBox};
+use super::reduction::{Affine, Partition, Reduction, least};
+use super::split::Split;
+use crate::{CondensedModel, Form, Vertex};
+use signorini_reference::ReferenceError;
+
+/// Openings are kept below hi, this part of it and [`ROUNDING`] of the largest more.
+const MARGIN: f64 = 1.0 / 1024.0;
+
+/// Part of the largest opening that rounding in any scalar hardly reaches. Where it does, a solution is cut off so far,
+/// and its bound counts that.
+const ROUNDING: f64 = 1.0 / 65536.0;
+
+/// Openings below this part of the largest may be rounding of the target's scalar.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// The side of a contact edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeSide {
+    /// u > ψ for every input.
+    Open,
+    /// u = ψ for every input.
+    Touching,
+    /// u < ψ for every input, with the flux at its limit.
+    Saturated,
+    /// More than one may be, as far as is proved.
+    MayChange,
+}
+
+/// The sides of all edges, with proof. Arrays have an entry per unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sides {
+    /// The box of p that it is proved for, the constant 1 first.
+    pub inputs: Vec<[f64; 2]>,
+    /// The side of each edge.
+    pub of: Vec<EdgeSide>,
+    /// Which edges a reduced model keeps: all that may change, and some for the error bound.
+    pub kept: Vec<bool>,
+    /// A tick keeps x within these, scaled as x; infinite where nothing is proved.
+    pub limits: Vec<[f64; 2]>,
+    /// Where every solution lies, where that is proved.
+    pub enclosure: Option<Enclosure>,
+}
+
+/// What a contact vertex adds to the error bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum VertexSide {
+    /// An edge beside it always touches: d = −e.
+    Touching,
+    /// Its edges are always open and e ≥ 0, or always at their limit and e ≤ 0: d = 0.
+    Free,
+    /// d depends on what is kept.
+    MayChange,
+}
+
+impl Sides {
+    /// Finds the sides for all inputs within their ranges. Where one has none, or N is no M-matrix, nothing is proved;
+    /// nor where contact alone holds a part, whose matrix is singular whatever rounding makes of it.
+    ///
+    /// # Errors
+    /// Loads that are not finite.
+    pub fn new(model: &CondensedModel) -> Result<Self, ReferenceError> {
+        let (n, inputs) = (model.contact, widened(&model.ranges));
+        let is_bounded = inputs.iter().flatten().all(|end| end.is_finite());
+        let is_held = model.held_by_contact.is_empty();
+        let split = Split::new(&model.matrix, n).filter(|_| is_bounded && is_held && n > 0);
+        let Some(split) = split else { return Ok(Self::unproved(model)) };
+        let enclosure = match model.is_limited() {
+            false => Some(Enclosure::new(&split, &LoadBox::new(&model.load, &inputs, n))?),
+            true => Enclosure::between(&split, model, &inputs)?,
+        };
+        let Some(enclosure) = enclosure else { return Ok(Self::unproved(model)) };
+        let mut sides = Self::proposed(model, enclosure, inputs);
+        while sides.demote(model) {}
+        Ok(sides)
+    }
+
+    /// Every edge may change.
+    pub(super) fn unproved(model: &CondensedModel) -> Self {
+        let (n, inputs) = (model.contact, widened(&model.ranges));
+        let infinite = [f64::NEG_INFINITY, f64::INFINITY];
+        let limits = (0..n).map(|at| there_is(model, at, infinite)).collect();
+        Self {
+            inputs,
+            of: vec![EdgeSide::MayChange; n],
+            kept: vec![true; n],
+            limits,
+            enclosure: None,
+        }
+    }
+
+    /// As the enclosure says.
+    pub(super) fn proposed(
+        model: &CondensedModel,
+        enclosure: Enclosure,
+        inputs: Vec<[f64; 2]>,
+    ) -> Self {
+        let Enclosure { lo, hi, reaction } = &enclosure;
+        let sizes = lo.iter().chain(hi).map(|x| x.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let side = |at: usize| match () {
+            () if lo[at] > NEGLIGIBLE * largest => EdgeSide::Open,
+            () if hi[at] < -NEGLIGIBLE * largest => EdgeSide::Saturated,
+            () if reaction[at] > 0.0 => EdgeSide::Touching,
+            () => EdgeSide::MayChange,
+        };
+        let of: Vec<_> = (0..lo.len()).map(side).collect();
+        let beyond = |x: f64| x + MARGIN * x + ROUNDING * largest;
+        let limits = |at: usize| {
+            let [below, above] = [(-lo[at]).max(0.0), hi[at].max(0.0)].map(beyond);
+            match of[at] {
+                EdgeSide::Open => [0.5 * lo[at], above],
+                EdgeSide::Saturated => [-below, 0.5 * hi[at]],
+                _ => there_is(model, at, [-below, above]),
+            }
+        };
+        let limits = (0..lo.len()).map(limits).collect();
+        let kept = of.iter().map(|&side| side == EdgeSide::MayChange).collect();
+        Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
+    }
+
+    /// What becomes of each edge.
+    pub fn partition(&self) -> Partition {
+        let all = |is: &dyn Fn(usize) -> bool| (0..self.of.len()).filter(|&at| is(at)).collect();
+        let dropped = |side| all(&|at| !self.kept[at] && self.of[at] == side);
+        let [open, saturated, touching] =
+            [EdgeSide::Open, EdgeSide::Saturated, EdgeSide::Touching].map(dropped);
+        Partition { kept: all(&|at| self.kept[at]), open, saturated, touching }
+    }
+
+    /// How many edges are on this side.
+    pub fn count(&self, side: EdgeSide) -> usize {
+        self.of.iter().filter(|&&of| of == side).count()
+    }
+
+    /// Keeps the edges for which the affine maps do not prove their side, and those that the bound needs; whether there
+    /// were any.
+    fn demote(&mut self, model: &CondensedModel) -> bool {
+        let Some(reduction) = Reduction::new(model, self.partition()) else {
+            *self = Self::unproved(model);
+            return false;
+        };
+        let unproved = reduction.unproved(model, &self.box_of(&reduction));
+        for &at in &unproved {
+            match self.of[at] {
+                EdgeSide::Open => self.limits[at][0] = 0.0,
+                EdgeSide::Saturated => self.limits[at][1] = 0.0,
+                EdgeSide::Touching | EdgeSide::MayChange => {}
+            }
+            self.of[at] = EdgeSide::MayChange;
+        }
+        let form = model.certificate.as_ref().ok();
+        let needed = form.map_or_else(Vec::new, |form| self.needed(form, &reduction));
+        let any = !unproved.is_empty() || !needed.is_empty();
+        unproved.into_iter().chain(needed).for_each(|at| self.kept[at] = true);
+        any
+    }
+
+    /// The box of (p, x_U). A scalar may round limits outwards, as it may ranges.
+    pub(super) fn box_of(&self, reduction: &Reduction) -> Vec<[f64; 2]> {
+        let limits: Vec<_> = reduction.kept.iter().map(|&at| self.limits[at]).collect();
+        // No scalar rounds over 0.
+        let kept = |([lo, hi], limits): ([f64; 2], &[f64; 2])| {
+            let lo = if limits[0] >= 0.0 { lo.max(0.0) } else { lo };
+            [lo, if limits[1] <= 0.0 { hi.min(0.0) } else { hi }]
+        };
+        let of_kept = widened(&limits).into_iter().zip(&limits).map(kept);
+        self.inputs.iter().copied().chain(of_kept).collect()
+    }
+
+    /// What the error bound must see move and is not kept yet.
+    fn needed(&self, form: &Form, reduction: &Reduction) -> Vec<usize> {
+        let mut needed: Vec<usize> = form.corners.iter().map(|corner| corner.edge).collect();
+        for vertex in &form.vertices {
+            if self.at(vertex, reduction) == VertexSide::MayChange {
+                let edges = vertex.edges.iter().chain(&vertex.beside);
+                let is_eliminated = |side| matches!(side, EdgeSide::Open | EdgeSide::Saturated);
+                needed.extend(edges.filter(|&&edge| is_eliminated(self.of[edge])));
+            }
+        }
+        needed.retain(|&edge| !self.kept[edge]);
+        needed
+    }
+
+    /// What `vertex` adds to the bound.
+    pub(super) fn at(&self, vertex: &Vertex, reduction: &Reduction) -> VertexSide {
+        let beside = || vertex.beside.iter();
+        if beside().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
+            return VertexSide::Touching;
+        }
+        let e = reduction.interpolated(vertex, self.inputs.len());
+        let are = |side: EdgeSide, sign: f64| {
+            let signed: Vec<f64> = e.factors.iter().map(|factor| sign * factor).collect();
+            beside().all(|&at| self.of[at] == side)
+                && least(&signed, &e.noise, &self.box_of(reduction)) >= 0.0
+        };
+        let is_free = are(EdgeSide::Open, 1.0) || are(EdgeSide::Saturated, -1.0);
+        if is_free { VertexSide::Free } else { VertexSide::MayChange }
+    }
+}
+
+/// What of an interval of x is on sides that there are.
+fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
+    let [least, greatest] = model.end_columns(at);
+    let lo = if greatest[0] == f64::INFINITY { lo.max(0.0) } else { lo };
+    [lo, if least[0] == f64::NEG_INFINITY { hi.min(0.0) } else { hi }]
+}
+
+/// The box that any scalar rounds `ranges` into.
+pub(super) fn widened(ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let noise = |end: f64| f64::from(f32::EPSILON) * end.abs() + f64::from(f32::MIN_POSITIVE);
+    ranges.iter().map(|&[lo, hi]| [lo - noise(lo), hi + noise(hi)]).collect()
+}
+
+impl Reduction {
+    /// x_edge as factors of (p, x_U).
+    pub(super) fn opening(&self, edge: usize, inputs: usize) -> Vec<f64> {
+        let mut factors = vec![0.0; inputs + self.kept.len()];
+        if let Some(at) = self.open.iter().position(|&open| open == edge) {
+            return self.openings[at].clone();
+        }
+        if let Some(at) = self.kept.iter().position(|&kept| kept == edge) {
+            factors[inputs + at] = 1.0;
+        }
+        factors
+    }
+
+    /// e of a vertex as factors of (p, x_U). Its two terms may cancel, their rounding does not.
+    pub(super) fn interpolated(&self, vertex: &Vertex, inputs: usize) -> Affine {
+        let [a, b] = vertex.edges.map(|edge| self.opening(edge, inputs));
+        let [p, q] = vertex.weights;
+        let factors = a.iter().zip(&b).map(|(a, b)| p * a + q * b).collect();
+        let noise = |(a, b): (&f64, &f64)| 2.0 * f64::EPSILON * ((p * a).abs() + (q * b).abs());
+        Affine { factors, noise: a.iter().zip(&b).map(noise).collect() }
+    }
+}

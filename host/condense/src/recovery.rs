@@ -1,0 +1,114 @@
+//! The way back from a condensed answer: u and σ_h on the whole mesh, and the s and τ of its bound.
+
+use std::collections::BTreeSet;
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+use super::chain::is_left_out;
+use super::elimination::Field;
+use super::form::Admissibles;
+use super::{CondensedModel, Form, build};
+use signorini_certify::CertifiedFields;
+use signorini_certify::admissible::Following;
+use signorini_problem::Problem;
+use signorini_scene::error::Result;
+
+/// The fields of all columns: what condensation leaves out.
+#[derive(Debug)]
+pub struct Recovery {
+    pub(super) fields: Vec<Field>,
+    pub(super) admissibles: Option<Admissibles>,
+}
+
+/// A condensate with the way back.
+///
+/// # Errors
+/// As for [`super::condense`].
+pub fn recoverable(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
+    build(problem)
+}
+
+impl Recovery {
+    /// Edge means of u_h and ∫_E σ_h·n along each edge, for inputs `p` (1 first) and scaled openings `x`.
+    pub fn field(&self, of: &CondensedModel, p: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let factors = columns(of, p, x);
+        let edges = self.fields.first().map_or(0, |field| field.u.len());
+        let (mut u, mut flux) = (vec![0.0; edges], vec![0.0; edges]);
+        for (factor, field) in
+            factors.iter().zip(&self.fields).filter(|(factor, _)| **factor != 0.0)
+        {
+            u.iter_mut().zip(&field.u).for_each(|(sum, u)| *sum += factor * u);
+            flux.iter_mut().zip(&field.flux).for_each(|(sum, flux)| *sum += factor * flux);
+        }
+        (u, flux)
+    }
+
+    /// s and the mended τ that the bound of (p, x) is about; `None` where there is no bound.
+    pub fn admissible(
+        &self,
+        of: &CondensedModel,
+        problem: &Problem,
+        p: &[f64],
+        x: &[f64],
+    ) -> Option<CertifiedFields> {
+        let (Ok(form), Some(Admissibles { s, fluxes, functions, .. })) =
+            (&of.certificate, &self.admissibles)
+        else {
+            return None;
+        };
+        let unit = of.energy_unit;
+        let corrections = form.correction(&of.allowed(p), p.len(), x).into_iter().map(|d| unit * d);
+        let z: Vec<f64> = columns(of, p, x).into_iter().chain(corrections).collect();
+        let mended = columns(of, p, &of.mended(form, p, x)?);
+        let at = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(a, b)| a * b).sum::<f64>();
+        let bubble =
+            |edge| functions.bubble(edge).map_or(0.0, |place| at(s.row(place as usize), &z));
+        let edges = 0..problem.ends.len();
+        Some(CertifiedFields {
+            vertices: (0..problem.mesh.vertices.len())
+                .map(|vertex| at(s.row(vertex), &z))
+                .collect(),
+            bubbles: edges.clone().map(bubble).collect(),
+            tau: edges.map(|edge| at(fluxes.row(edge), &mended)).collect(),
+            indicators: Vec::new(),
+            following: Following::Except(self.left_out(problem)),
+        })
+    }
+}
+
+impl Recovery {
+    /// The edges between vertices at which s is free: it follows no curve there.
+    fn left_out(&self, problem: &Problem) -> Vec<u32> {
+        let released = self.admissibles.iter().flat_map(|of| &of.released);
+        let released: BTreeSet<u32> = released.map(|(vertex, _)| *vertex).collect();
+        let ends = problem.ends.iter().zip(0_u32..);
+        let left_out = ends.filter(|(ends, _)| is_left_out(**ends, &released));
+        left_out.map(|(_, edge)| edge).collect()
+    }
+}
+
+/// What multiplies the columns of p and x, which are those of U = 1.
+fn columns(of: &CondensedModel, p: &[f64], x: &[f64]) -> Vec<f64> {
+    p.iter().copied().chain(x.iter().map(|x| of.energy_unit * x)).collect()
+}
+
+impl CondensedModel {
+    /// x with which the residual is the mended one; the part that contact alone holds stays where it is.
+    pub(super) fn mended(&self, form: &Form, p: &[f64], x: &[f64]) -> Option<Vec<f64>> {
+        let n = self.contact;
+        let before = self.residual(p, x);
+        let mut after = before.clone();
+        form.mend(&self.opening, &self.ends_of(p), &mut after, x)?;
+        if n == 0 {
+            return Some(Vec::new());
+        }
+        let mut constant = vec![0.0; n];
+        let first = form.floating.first().map_or(1.0, |&first| self.opening[first]);
+        form.floating.iter().for_each(|&i| constant[i] = first / self.opening[i]);
+        let matrix = Mat::from_fn(n, n, |i, j| self.matrix[n * i + j] + constant[i] * constant[j]);
+        let change = Mat::from_fn(n, 1, |i, _| after[i] - before[i]);
+        let change = matrix.llt(Side::Lower).ok()?.solve(change);
+        Some(x.iter().enumerate().map(|(i, x)| x + change[(i, 0)]).collect())
+    }
+}

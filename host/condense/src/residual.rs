@@ -1,0 +1,255 @@
+//! The residual A^½∇s − A^{−½}τ cell by cell, as rows over what s and τ are made of.
+//!
+//! With A = LLᵀ at a quadrature point of weight w, |√w (Lᵀ∇s − L⁻¹τ)|² is its share of
+//! ‖A^½∇s − A^{−½}τ‖², and on a Robin edge |√(w|E|h) (s − u_ext) + √(w/(|E|h)) ∫_E τ·n|² that of
+//! ∫_R (τ·n + h(s − u_ext))²/h. Of a cell's many rows only their triangular factor matters, at most one
+//! row for each of its functions: three on triangles where A is constant, whatever the rule. With A^½∇u_h of means in the
+//! place of A^{−½}τ the same rows give ‖A^½∇_h(s − u_h)‖.
+
+use std::collections::BTreeSet;
+
+use signorini_kernel::{Real, Tensor};
+
+use super::block::{Block, triangular};
+use super::chain::is_left_out;
+use super::functions::Functions;
+use super::laws::{Laws, of_law, transfer};
+use super::patterns::Pattern;
+use super::points::{points, points_for};
+use signorini_certify::cell::{Cell, Local};
+use signorini_certify::conductivity::Conductivity;
+use signorini_certify::curved::{POINTS, of_rough_sides};
+use signorini_certify::deviation::Deviations;
+use signorini_certify::robin::RobinPoints;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::{DATA_POINTS, Point, gauss};
+use signorini_scene::error::Result;
+
+/// The rows of all cells and Robin edges.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn blocks(
+    problem: &Problem,
+    patterns: &[Pattern],
+    functions: &Functions,
+    laws: Option<&Laws>,
+    released: &BTreeSet<u32>,
+) -> Result<Vec<Block>> {
+    let deviations = deviations(problem, patterns, released)?;
+    let of_fluxes = |at| of_cell(problem, at, functions, &deviations, Of::Fluxes);
+    let cells = (0..problem.cells()).map(of_fluxes);
+    let mut blocks = cells.collect::<Result<Vec<_>>>()?;
+    let transfer = transfer(patterns)?;
+    for (at, record) in problem.loads.robin.iter().enumerate() {
+        let ambient: Vec<_> = transfer.iter().map(|edges| edges[at]).collect();
+        let edge = record.edge as usize;
+        blocks.push(match laws.is_some_and(|laws| laws.shares[at] > 0.0) {
+            true => of_law(problem, edge, functions, &ambient, record.coefficient),
+            false => of_robin(problem, edge, functions, &ambient),
+        });
+    }
+    Ok(blocks)
+}
+
+/// The rows of A^½∇_h(s − u_h), with the means of u_h over the edges in the place of fluxes. Nothing on triangles with
+/// constant A: σ_h = A∇u_h − f̄(x − x_T)/2 there, and the two parts are orthogonal to each other in every cell, so that
+/// A^½∇s − A^{−½}σ_h is never less. A lift of s in cells where f is not 0 may not be orthogonal to the second.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn jumps(
+    problem: &Problem,
+    patterns: &[Pattern],
+    functions: &Functions,
+    released: &BTreeSet<u32>,
+) -> Result<Option<Vec<Block>>> {
+    let deviations = deviations(problem, patterns, released)?;
+    let is_lifted = deviations.iter().any(|of| !of.found.is_empty());
+    let has_source = patterns.iter().any(|p| p.loads().triangles.iter().any(|&load| load != 0.0));
+    let is_constant = |at| Conductivity::of(problem, at).is_constant();
+    let is_plain = problem.mesh.quads.is_empty() && (0..problem.cells()).all(is_constant);
+    if is_plain && !(is_lifted && has_source) {
+        return Ok(None);
+    }
+    let of_means = |at| of_cell(problem, at, functions, &deviations, Of::Means);
+    (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
+}
+
+/// What each pattern's data have above their chords and s follows: nothing between vertices that are released.
+fn deviations<'p>(
+    problem: &Problem,
+    patterns: &'p [Pattern],
+    released: &BTreeSet<u32>,
+) -> Result<Vec<Deviations<'p>>> {
+    let followed = |pattern: &'p Pattern| {
+        let mut deviations = Deviations::at_time(&pattern.problem, 0.0)?;
+        deviations.found.retain(|of| !is_left_out(problem.ends[of.edge], released));
+        Ok(deviations)
+    };
+    patterns.iter().map(followed).collect()
+}
+
+/// What is taken from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
+#[derive(Debug, Clone, Copy)]
+enum Of {
+    Fluxes,
+    Means,
+}
+
+fn of_cell(
+    problem: &Problem,
+    at: usize,
+    functions: &Functions,
+    deviations: &[Deviations],
+    of: Of,
+) -> Result<Block> {
+    let (mesh, topology) = (&problem.mesh, &problem.topology);
+    let quad = at.checked_sub(mesh.triangles.len());
+    let (vertices, edges): (&[u32], &[u32]) = match quad {
+        None => (&mesh.triangles[at], &topology.of_triangles[at]),
+        Some(quad) => (&mesh.quads[quad], &topology.of_quads[quad]),
+    };
+    let bubbles: Vec<(usize, u32)> = edges
+        .iter()
+        .enumerate()
+        .filter(|_| quad.is_some())
+        .filter_map(|(side, &edge)| Some((side, functions.bubble(edge as usize)?)))
+        .collect();
+    let on_side = |side: usize| deviations.iter().map(move |all| all.on(edges[side] as usize));
+    let curved: Vec<usize> =
+        (0..edges.len()).filter(|&side| on_side(side).any(|of| of.is_some())).collect();
+    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+    let fields = unit_fields(problem, at, edges);
+    let width = vertices.len() + bubbles.len() + fields.len() + deviations.len();
+    let mut columns = vec![Vec::new(); width];
+    let rough = of_rough_sides(problem, at, deviations, &gauss(POINTS))?;
+    let smooth = || points(&cell, points_for(&cell, &conductivity), &curved);
+    for (reference, weight) in rough.unwrap_or_else(smooth) {
+        let local = cell.local(reference);
+        let root = Root::of(&conductivity.at(local.x), (weight * local.determinant).sqrt());
+        let mut column = columns.iter_mut();
+        let mut push = |row: [f64; 2]| column.next().into_iter().for_each(|to| to.extend(row));
+        for vertex in &local.vertices[..vertices.len()] {
+            push(root.gradient(vertex.gradient));
+        }
+        for &(side, _) in &bubbles {
+            push(root.gradient(local.sides[side].bubble().gradient));
+        }
+        let point = Point { x: local.x, reference, weight: 0.0 };
+        for field in &fields {
+            let sample = field.sample(&point);
+            let taken = match of {
+                Of::Fluxes => root.flux(sample.flux),
+                Of::Means => root.gradient(sample.gradient),
+            };
+            push(taken.map(|part| -part));
+        }
+        for of_pattern in deviations {
+            push(root.gradient(extension(&local, of_pattern, edges, &curved)?));
+        }
+    }
+    let bubbles = bubbles.iter().map(|&(_, function)| function);
+    Ok(Block {
+        functions: vertices.iter().copied().chain(bubbles).collect(),
+        edges: edges.to_vec(),
+        rows: triangular(columns),
+    })
+}
+
+/// For each edge the field of a unit flux along its direction and a unit mean over it.
+fn unit_fields(problem: &Problem, at: usize, edges: &[u32]) -> Vec<CellField> {
+    let cell = Cell::of(problem, at);
+    let outward = |side: usize| {
+        let first = problem.topology.first_side(edges[side] as usize) == (at, side);
+        if first { 1.0 } else { -1.0 }
+    };
+    let only = |side: usize, k: usize| if k == side { outward(side) } else { 0.0 };
+    let unit = |side: usize| match cell {
+        Cell::Triangle(corners) => {
+            let out = std::array::from_fn(|k| only(side, k));
+            CellField::Triangle(corners, mean(side), out)
+        }
+        Cell::Quad(corners) => {
+            let out = std::array::from_fn(|k| only(side, k));
+            CellField::Quad(corners, mean(side), out, problem.element)
+        }
+    };
+    (0..edges.len()).map(unit).collect()
+}
+
+fn mean<const SIDES: usize>(side: usize) -> [f64; SIDES] {
+    std::array::from_fn(|k| if k == side { 1.0 } else { 0.0 })
+}
+
+/// ∇ of what a pattern's boundary data have above their chords, carried inside.
+fn extension(
+    local: &Local,
+    deviations: &Deviations,
+    edges: &[u32],
+    curved: &[usize],
+) -> Result<[f64; 2]> {
+    let mut sum = [0.0; 2];
+    for &side in curved {
+        let Some(deviation) = deviations.on(edges[side] as usize) else { continue };
+        let coordinates = &local.sides[side];
+        let [w, slope] = deviation.at(coordinates.t)?;
+        let gradient = coordinates.extension(w, slope).gradient;
+        sum = [sum[0] + gradient[0], sum[1] + gradient[1]];
+    }
+    Ok(sum)
+}
+
+/// √w L, for A = LLᵀ.
+struct Root {
+    xx: f64,
+    yx: f64,
+    yy: f64,
+    /// √w
+    weight: f64,
+}
+
+impl Root {
+    fn of(a: &Tensor<f64>, weight: f64) -> Self {
+        let xx = a.xx.sqrt();
+        let yx = a.xy / xx;
+        Self { xx, yx, yy: (a.yy - yx * yx).max(f64::MIN_POSITIVE).sqrt(), weight }
+    }
+
+    /// √w Lᵀg
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.weight * (self.xx * x + self.yx * y), self.weight * self.yy * y]
+    }
+
+    /// √w L⁻¹τ
+    fn flux(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let first = x / self.xx;
+        [self.weight * first, self.weight * (y - self.yx * first) / self.yy]
+    }
+}
+
+/// The rows of a Robin edge: `ambient` holds \[h |E|, u_ext\] at its points for each pattern. Where h is
+/// 0 the flux is, and there is nothing to add.
+fn of_robin(
+    problem: &Problem,
+    edge: usize,
+    functions: &Functions,
+    ambient: &[RobinPoints],
+) -> Block {
+    let bubble = functions.bubble(edge);
+    let of_s: Vec<u32> = problem.ends[edge].into_iter().chain(bubble).collect();
+    let mut columns = vec![Vec::new(); of_s.len() + 1 + ambient.len()];
+    for (at, &[t, weight]) in f64::GAUSS[DATA_POINTS - 1].iter().enumerate() {
+        let transfer = ambient.first().map_or(0.0, |points| points[at][0]);
+        if transfer <= 0.0 {
+            continue;
+        }
+        let root = (weight * transfer).sqrt();
+        let own = [1.0 - t, t, 4.0 * t * (1.0 - t)].map(|value| root * value);
+        let own = own.into_iter().take(of_s.len()).chain([root / transfer]);
+        let given = ambient.iter().map(|points| -root * points[at][1]);
+        columns.iter_mut().zip(own.chain(given)).for_each(|(to, entry)| to.push(entry));
+    }
+    Block { functions: of_s, edges: vec![edge as u32], rows: triangular(columns) }
+}

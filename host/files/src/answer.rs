@@ -1,0 +1,82 @@
+//! A solution with all that is told of it: `edges.csv`, `solution.vtu`, `contact.vtu`, `summary.json`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::atomic::write_atomically;
+use super::contact::contact;
+use super::edges::edges_csv;
+use super::fields::{Drawn, picture};
+use super::summary::Summary;
+use super::vtu::contact_vtu;
+use signorini_intervals::Found;
+use signorini_problem::Problem;
+use signorini_problem::threads::on_two_threads;
+use signorini_scene::error::Result;
+use signorini_solve::norms::{Errors, of_solution};
+use signorini_solve::outputs::outputs;
+use signorini_solve::{FreeLevel, Solution, SolverKind, free_levels};
+
+/// A solution, and what follows from it.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// What was solved.
+    pub problem: Problem,
+    /// Its solution.
+    pub solution: Solution,
+    /// (‖A^½∇s‖² + ∫_R h s²)^½, where there is a bound.
+    pub energy_norm: Option<f64>,
+    /// The solver that was asked for.
+    pub asked: SolverKind,
+    /// True errors, where the scene has an exact solution.
+    pub errors: Option<Errors>,
+    /// The outputs by name.
+    pub outputs: BTreeMap<String, Option<f64>>,
+    /// Where each lies for the exact solution, or why nobody knows.
+    pub intervals: BTreeMap<String, Found>,
+}
+
+impl Answer {
+    /// Works out what follows from a solution; `more` is what there is to warn of beside what is seen in it.
+    ///
+    /// # Errors
+    /// Data that are not finite where outputs or errors ask for them; a probe outside the mesh.
+    pub fn new(
+        mut problem: Problem,
+        solution: Solution,
+        energy_norm: Option<f64>,
+        asked: SolverKind,
+        more: Option<String>,
+    ) -> Result<Self> {
+        let levels = free_levels(&problem, &solution)?;
+        problem.warnings.extend(levels.iter().map(FreeLevel::sentence).chain(more));
+        let errors = of_solution(&problem, &solution)?;
+        let outputs = outputs(&problem, &solution)?;
+        let mut intervals = signorini_intervals::of_outputs(&problem, &solution);
+        signorini_intervals::estimate(&problem, &outputs, &mut intervals);
+        Ok(Self { problem, solution, energy_norm, asked, errors, outputs, intervals })
+    }
+
+    /// What `summary.json` has.
+    pub fn summary(&self) -> Summary {
+        let Self { problem, solution, energy_norm, asked, errors, outputs, intervals } = self;
+        Summary::new(problem, *asked, solution, *errors, *energy_norm, outputs.clone(), intervals)
+    }
+
+    /// Writes the files into a folder, `summary.json` last: whoever finds it finds the others.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, out: &Path) -> Result<()> {
+        let Self { problem, solution, .. } = self;
+        let edges = || edges_csv(problem, solution);
+        let cells = || Ok(picture(problem, &Drawn::of(problem, solution)?).into_bytes());
+        let contact = || Ok(contact_vtu(&contact(problem, solution)).into_bytes());
+        type Bytes<'a> = &'a (dyn Fn() -> Result<Vec<u8>> + Sync);
+        let files: [(&str, Bytes); 3] =
+            [("edges.csv", &edges), ("solution.vtu", &cells), ("contact.vtu", &contact)];
+        let write = |(name, bytes): &(&str, Bytes)| write_atomically(&out.join(name), &bytes()?);
+        on_two_threads(&files, write, || ())?;
+        write_atomically(&out.join("summary.json"), self.summary().json().as_bytes())
+    }
+}

@@ -1,0 +1,78 @@
+//! Fields as ParaView shows them.
+
+use crate::vtu::{Field, vtu};
+use signorini_certify::conductivity::Conductivity;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_scene::error::Result;
+use signorini_solve::Solution;
+use signorini_solve::adaptive::indicators;
+
+/// What is drawn.
+pub struct Drawn<'a> {
+    /// Mean of u_h over each edge.
+    u: &'a [f64],
+    /// ∫_E σ·n of each edge.
+    flux: &'a [f64],
+    /// The continuous s at each vertex.
+    vertices: &'a [f64],
+    /// What each cell has of the error bound; nothing where there is no bound.
+    indicators: Vec<f64>,
+}
+
+impl<'a> Drawn<'a> {
+    /// A solution, with what its cells have of the bound.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn of(problem: &Problem, solution: &'a Solution) -> Result<Self> {
+        let squares = match solution.bound {
+            Some(_) => indicators::squares(problem, solution)?,
+            None => Vec::new(),
+        };
+        let indicators = squares.into_iter().map(f64::sqrt).collect();
+        let Solution { u, flux, certified, .. } = solution;
+        Ok(Self { u, flux, vertices: &certified.vertices, indicators })
+    }
+
+    /// Means of u over edges, fluxes through them and s at vertices, with no bound.
+    pub fn plain(u: &'a [f64], flux: &'a [f64], vertices: &'a [f64]) -> Self {
+        Self { u, flux, vertices, indicators: Vec::new() }
+    }
+
+    /// u_h and σ in the middle of each cell.
+    pub fn in_cells(&self, problem: &Problem) -> (Vec<f64>, Vec<[f64; 2]>) {
+        let fields =
+            (0..problem.cells()).map(|cell| CellField::new(problem, cell, self.u, self.flux));
+        fields.map(|field| (field.mean(), field.middle_flux())).unzip()
+    }
+
+    /// What each cell has of the bound.
+    pub fn indicators(&self) -> &[f64] {
+        &self.indicators
+    }
+}
+
+/// A VTU file of all cells.
+pub fn picture(problem: &Problem, of: &Drawn) -> String {
+    let mesh = &problem.mesh;
+    let (cell_u, cell_flux) = of.in_cells(problem);
+    let conductivity = (0..problem.cells()).map(|cell| {
+        let middle = CellField::new(problem, cell, of.u, of.flux).middle();
+        let a = Conductivity::of(problem, cell).at(middle);
+        [a.xx, a.xy, a.yy]
+    });
+    let materials = problem.scene.materials.iter().map(|material| material.name.value.as_str());
+    vtu(&Field {
+        vertices: &mesh.vertices,
+        triangles: &mesh.triangles,
+        quads: &mesh.quads,
+        cell_u: &cell_u,
+        cell_flux: &cell_flux,
+        indicator: &of.indicators,
+        conductivity: &conductivity.collect::<Vec<_>>(),
+        region: &problem.binding.materials,
+        materials: &materials.collect::<Vec<_>>(),
+        vertex_s: of.vertices,
+    })
+}

@@ -1,0 +1,132 @@
+//! `summary.json`: what a solve found, in one object.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use signorini_certify::{ErrorBound, NoBound};
+use signorini_intervals::{Found, OutputBound};
+use signorini_problem::Problem;
+use signorini_scene::scene::units::Units;
+use signorini_solve::norms::Errors;
+use signorini_solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, status_name};
+
+/// The object, keys in the order of the file.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    title: String,
+    scalar: ScalarKind,
+    /// What was asked for.
+    solver: SolverKind,
+    /// What solved it in the end.
+    solver_used: Ran,
+    status: &'static str,
+    /// Edges not on the Dirichlet boundary.
+    unknowns: usize,
+    contact_edges: usize,
+    contact_active: usize,
+    /// Those that a factor followed are not in the answer.
+    sweeps: u32,
+    /// Of these, iterations of conjugate gradients: projected SOR alone would not have ended.
+    conjugate_iterations: u32,
+    /// What the factor did, where one solved it; else null.
+    factor: Option<Factored>,
+    /// What 1 stood for in the solve: powers of two, 1 and 1 unless numbers were far from that.
+    scales: Units,
+    relaxation: f64,
+    converged: bool,
+    algebraic_residual: f64,
+    conservation_defect: f64,
+    contact_force: f64,
+    contact_length: f64,
+    /// Connected parts: held by Dirichlet or Robin edges, by contact alone, by nothing.
+    parts: PartNames,
+    /// How wrong the answer can be in the energy norm: `total` for s and τ, `of_u` for the u of `edges.csv`; null where
+    /// there is no bound.
+    error_bound: Option<ErrorBound>,
+    /// Why there is none.
+    error_bound_reason: Option<String>,
+    /// (‖A^½∇s‖² + ∫_R h s²)^½, where there is a bound.
+    energy_norm: Option<f64>,
+    /// `error_bound.total` over `energy_norm`; null where either is missing or the norm is 0.
+    relative_error_bound: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    errors: Option<Errors>,
+    outputs: BTreeMap<String, Option<f64>>,
+    /// Where the exact value of each output lies; null where there is no interval.
+    output_bounds: BTreeMap<String, Option<OutputBound>>,
+    /// Why there is none.
+    output_bounds_reasons: BTreeMap<String, String>,
+    /// What may not be meant: a sentence each.
+    warnings: Vec<String>,
+    seconds: Seconds,
+}
+
+#[derive(Debug, Clone, Copy, Serialize)]
+struct PartNames {
+    held: u32,
+    contact_only: u32,
+    up_to_a_constant: u32,
+}
+
+impl Summary {
+    /// Collects it.
+    pub fn new(
+        problem: &Problem,
+        solver: SolverKind,
+        solution: &Solution,
+        errors: Option<Errors>,
+        energy_norm: Option<f64>,
+        outputs: BTreeMap<String, Option<f64>>,
+        intervals: &BTreeMap<String, Found>,
+    ) -> Self {
+        let counts = problem.topology.counts;
+        let parts = solution.parts;
+        Self {
+            title: problem.scene.title.clone(),
+            scalar: solution.scalar,
+            solver,
+            solver_used: solution.ran,
+            status: status_name(solution.status),
+            unknowns: counts.unknowns(),
+            contact_edges: counts.contact,
+            contact_active: solution.contact_active,
+            sweeps: solution.sweeps,
+            conjugate_iterations: solution.conjugate,
+            factor: solution.factored,
+            scales: solution.units,
+            relaxation: solution.omega,
+            converged: solution.converged(),
+            algebraic_residual: solution.algebraic_residual,
+            conservation_defect: solution.conservation_defect(problem),
+            contact_force: solution.contact_force,
+            contact_length: solution.contact_length,
+            parts: PartNames {
+                held: parts.held,
+                contact_only: parts.contact,
+                up_to_a_constant: parts.floating,
+            },
+            error_bound: solution.bound,
+            error_bound_reason: solution.no_bound.as_ref().map(NoBound::to_string),
+            energy_norm,
+            relative_error_bound: solution.relative_bound(energy_norm),
+            errors,
+            outputs,
+            output_bounds: intervals
+                .iter()
+                .map(|(name, found)| (name.clone(), found.clone().ok()))
+                .collect(),
+            output_bounds_reasons: intervals
+                .iter()
+                .filter_map(|(name, found)| Some((name.clone(), found.clone().err()?)))
+                .collect(),
+            warnings: problem.warnings.clone(),
+            seconds: solution.seconds,
+        }
+    }
+
+    /// The text of the file. Numbers that are not finite become null.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}

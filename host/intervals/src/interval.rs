@@ -1,0 +1,192 @@
+//! The interval of one output: weights for more and more of what contact leaves, and the best ends of all.
+
+use super::answer::Answered;
+use super::contact::ContactEdge;
+use super::dual::{Dual, Weights};
+use super::exact;
+use super::goal::Goal;
+use super::kept::{keep, left};
+use super::output_bound::{Found, OutputBound};
+use super::products::{Products, Residual};
+use super::values::{INTEGRATED, Value};
+use signorini_certify::ErrorBound;
+use signorini_certify::deviation::Deviations;
+use signorini_problem::Problem;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Output;
+use signorini_solve::SharedFactor;
+
+/// Parts c that are tried, and by how much each is larger than the last.
+const TRIALS: usize = 8;
+const STEP: f64 = 2.5;
+
+/// How far ζ·n may go beyond its usual size on a contact edge, where z is to keep its value: little enough to lose no digit beside.
+pub(super) const FAR: f64 = 1e4;
+
+/// Roundings of the scalar that sums may be off, next to their terms.
+const ROUNDINGS: f64 = 512.0;
+
+/// Why an output has no interval where one of its ends is infinite.
+pub(super) const UNBOUNDED: &str = "nothing bounds it from both sides: its boundary meets another one that takes flux too, and no \
+                         energy tells one flux from the other there";
+
+/// Why it has none where nothing weighs its error.
+pub(super) const UNSOLVED: &str =
+    "the linear problem that weighs its error has no solution, or says nothing of it";
+
+/// What is known of the solution.
+pub(super) struct Known<'p> {
+    pub factor: &'p SharedFactor,
+    pub problem: &'p Problem,
+    pub answer: &'p Answered<'p>,
+    pub deviations: &'p Deviations<'p>,
+    pub contact: Vec<ContactEdge>,
+    pub residual: Residual<'p>,
+    pub bound: ErrorBound,
+    /// Loads that are in doubt, and what τ leaves of them.
+    pub doubt: f64,
+}
+
+impl Known<'_> {
+    pub fn interval(&self, output: &Output) -> Result<Found> {
+        let mut found = self.bounded(output)?;
+        if let (Ok(found), Some(exact)) = (&mut found, &self.problem.scene.exact) {
+            let [value, doubt] = exact::value(self.problem, exact, output)?;
+            (found.exact, found.doubt) = (Some(value), doubt);
+        }
+        Ok(found)
+    }
+
+    fn bounded(&self, output: &Output) -> Result<Found> {
+        let goal = match Goal::of(self.problem, self.answer, self.deviations, output)? {
+            Ok(goal) => goal,
+            Err(why) => return Ok(Err(why)),
+        };
+        if let Some(start) = Goal::given(self.problem, output)? {
+            return Ok(Ok(self.around(&Goal { start, ..goal }, [0.0; 2])));
+        }
+        let mut dual = Dual::new(self.problem, &goal)?;
+        // The least part that may be the best one, and then larger ones as long as they are better.
+        let mut rooms: Vec<f64> =
+            self.contact.iter().map(|of| of.room).filter(|room| *room > 0.0).collect();
+        rooms.sort_by(f64::total_cmp);
+        let room = rooms.get(rooms.len() / 2).copied().unwrap_or(1.0);
+        let mut part = FAR * goal.size(self.problem) / room;
+        let mut best = [f64::NEG_INFINITY, f64::INFINITY];
+        for trial in 0..TRIALS {
+            let Some(weights) = dual.solve(self.factor, &self.contact, &goal, part) else { break };
+            let (first, differ) = self.braces(&goal, &weights, part, true)?;
+            let mut ends = first.within(best);
+            if differ {
+                ends = self.braces(&goal, &weights, part, false)?.0.within(ends);
+            }
+            let is_better = ends != best;
+            best = ends;
+            // Below the part that suits its own weights no trial is the last.
+            if self.contact.is_empty() || (trial > 0 && !is_better && first.part < part) {
+                break;
+            }
+            part = if trial == 0 { first.part } else { STEP * part };
+        }
+        Ok(match best {
+            [f64::NEG_INFINITY, f64::INFINITY] => Err(UNSOLVED.to_owned()),
+            _ if best.iter().all(|end| end.is_finite()) => Ok(self.around(&goal, best)),
+            _ => Err(UNBOUNDED.to_owned()),
+        })
+    }
+
+    /// {…} with weights that keep to a part of what contact leaves, and whether its edges ask for different values of a vertex.
+    fn braces(
+        &self,
+        goal: &Goal,
+        weights: &Weights,
+        part: f64,
+        takes_least: bool,
+    ) -> Result<(Braces, bool)> {
+        let (problem, contact, mut weights) = (self.problem, &self.contact, weights.clone());
+        let differ = keep(problem, goal, contact, part, takes_least, &mut weights);
+        let left = left(problem, goal, contact, &weights);
+        let Products { residual, weights: apart, both, sizes } =
+            self.residual.with(goal, &weights)?;
+        let ErrorBound { total, oscillation, rounding, .. } = self.bound;
+        let middle = (0.5 * total * total - 0.25 * residual).max(0.0).sqrt();
+        let distance = apart.max(0.0).sqrt();
+        let [less, more] = left.part.map(|part| most(distance, middle, part));
+        let sizes: f64 = sizes.map(f64::sqrt).iter().sum();
+        let most_z = weights.vertices.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
+        let rest = (oscillation + rounding + self.rounding() * total) * sizes
+            + self.doubt * most_z
+            + goal.beside * total;
+        let [low, high] = [left.loose[0] - less - rest, left.loose[1] + more + rest];
+        let ends = [0.5 * both + low, 0.5 * both + high];
+        Ok((Braces { ends, part: distance / (2.0 * middle) }, differ))
+    }
+
+    /// J from {…}, where the conditions keep it.
+    fn around(&self, goal: &Goal, braces: [f64; 2]) -> OutputBound {
+        let Value { value, terms, largest } = goal.start;
+        let rounding = self.rounding() * (terms + largest) + INTEGRATED * terms;
+        let [low, high] = if goal.sign < 0.0 { [-braces[1], -braces[0]] } else { braces };
+        let ends = [value + low - rounding, value + high + rounding];
+        let [least, most] = [goal.law[0] - self.doubt, goal.law[1] + self.doubt];
+        let [low, high] = match [ends[0].max(least), ends[1].min(most)] {
+            kept @ [low, high] if low <= high => kept,
+            _ => ends,
+        };
+        let [center, plus_minus] = around_ends([low, high], value);
+        OutputBound {
+            center,
+            plus_minus,
+            of: goal.of.clone(),
+            estimate: None,
+            exact: None,
+            doubt: 0.0,
+        }
+    }
+
+    /// What sums round, next to their terms.
+    fn rounding(&self) -> f64 {
+        ROUNDINGS * self.answer.scalar.epsilon()
+    }
+}
+
+/// Middle and half-width of what holds two ends, each rounded next to `value`: a large end leaves less of a small one than it rounds.
+fn around_ends([low, high]: [f64; 2], value: f64) -> [f64; 2] {
+    let rounded = 4.0 * f64::EPSILON * (low.abs() + high.abs() + value.abs());
+    [0.5 * (low + high), 0.5 * (high - low) + rounded]
+}
+
+/// Where {…} lies.
+struct Braces {
+    ends: [f64; 2],
+    /// The part of contact that would suit these weights best.
+    part: f64,
+}
+
+impl Braces {
+    /// The ends that are nearer to each other.
+    fn within(&self, [low, high]: [f64; 2]) -> [f64; 2] {
+        [low.max(self.ends[0]), high.min(self.ends[1])]
+    }
+}
+
+/// The largest distance · √(middle² − k) + part · k.
+fn most(distance: f64, middle: f64, part: f64) -> f64 {
+    match 2.0 * part * middle > distance {
+        true => part * middle * middle + distance * distance / (4.0 * part),
+        false => distance * middle,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_end_does_not_cut_off_a_small_one() {
+        for ends in [[-1.65, 1.25e19], [-1e20, 3.0], [0.1, 0.3], [-1e300, 1e300], [0.0, 0.0]] {
+            let [center, plus_minus] = around_ends(ends, 0.2);
+            assert!(center - plus_minus <= ends[0] && ends[1] <= center + plus_minus, "{ends:?}");
+        }
+    }
+}

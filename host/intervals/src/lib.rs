@@ -1,0 +1,150 @@
+//! Intervals of outputs: where a force, a flux or a mean of the exact solution lies, in its own unit.
+//!
+//! ```text
+//!   output ─► goal ─► a linear dual problem on the same mesh ─► z and ζ ─► products with the residual ─► interval
+//! ```
+//! Of s and τ, which the error bound T is about, and of the weights z and ζ of a linear output J (`goal`) follows
+//! ```text
+//!   {…} = ½⟨τ − A∇s, ζ + A∇z⟩ + ⟨σ − Σ, ζ − A∇z⟩ + ∫_C (σ − τ)·n z′ − ∫_C ζ′ (u − s),      Σ = ½(τ + A∇s)
+//! ```
+//! The first product is known. ‖σ − Σ‖² = M² − K/2 with M² = ½T² − ¼‖τ − A∇s‖² (Prager and Synge), where K ≥ 0 is what the
+//! identity of the bound has on C, and c K/2 bounds the rest (`contact`). The largest value over all K is
+//! ```text
+//!   ‖ζ − A∇z‖ M,  or where c > ‖ζ − A∇z‖/2M:   c M² + ‖ζ − A∇z‖²/4c.
+//! ```
+//! Without contact near the output c is 0, and this is of second order, as the error of an output is. Near the end of a contact zone
+//! c and ‖ζ − A∇z‖ cannot both be small, and the order is 4/3.
+
+mod answer;
+mod contact;
+mod dual;
+mod estimate;
+mod exact;
+mod goal;
+mod interval;
+mod kept;
+mod output_bound;
+mod part;
+mod products;
+#[cfg(test)]
+mod tests;
+mod values;
+pub mod weights;
+
+use std::collections::BTreeMap;
+
+pub use answer::Answered;
+use contact::contact_edges;
+pub use estimate::estimate;
+pub use goal::described;
+use interval::Known;
+pub use output_bound::{Found, OutputBound};
+use products::Residual;
+use signorini_certify::curved::followed;
+use signorini_problem::Problem;
+use signorini_problem::functional::wanted;
+use signorini_problem::threads::on_two_threads;
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Input, Output};
+use signorini_solve::{SharedFactor, Solution, times};
+
+/// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
+pub const MOST_UNKNOWNS: usize = 200_000;
+
+/// That of every output of a solution, with those that a scene without any has.
+pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Found> {
+    let Some(scaled) = &solution.scaled else { return of_answer(problem, &solution.into()) };
+    // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
+    let units = solution.units;
+    let mut all = of_answer(scaled, &(&times(&units.inverse(), solution.clone())).into());
+    for output in wanted(&problem.scene).iter() {
+        let unit = units.of_output(output.quantity);
+        if let Some(Ok(found)) = all.get_mut(&output.name.value) {
+            *found = found.clone().times(unit);
+        }
+    }
+    all
+}
+
+/// The same of any answer, whose numbers are near 1.
+pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found> {
+    let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
+    let mut lasting = Lasting::default();
+    if answer.bound.is_some() && is_small {
+        // Without a factor there is a reason instead of an interval.
+        let _ = lasting.renew(problem);
+    }
+    of_next(problem, answer, &lasting)
+}
+
+/// What stays from answer to answer of one scene on one mesh.
+#[derive(Default)]
+pub struct Lasting {
+    /// The factor of its matrix.
+    factor: Option<SharedFactor>,
+    /// What is in doubt of the integrals of f.
+    source: Option<f64>,
+}
+
+impl Lasting {
+    /// Works out anew what is not that of `problem` any more.
+    ///
+    /// # Errors
+    /// A matrix without a factor.
+    pub fn renew(&mut self, problem: &Problem) -> Result<()> {
+        let scene = &problem.scene;
+        if self.factor.is_none() || scene.transfer_input().is_some() {
+            self.factor = SharedFactor::of(problem)?;
+        }
+        let is_source = |input: &Input| input.field.value == Field::Source;
+        let varies = scene.source.value.uses_time() || scene.inputs.iter().any(is_source);
+        if self.source.is_none() || varies {
+            self.source = values::doubt_of_source(problem).ok();
+        }
+        Ok(())
+    }
+}
+
+/// The same with what stays from answer to answer. An answer stays one where data have no value at a point that is looked at here alone:
+/// that is the reason then.
+pub fn of_next(problem: &Problem, answer: &Answered, lasting: &Lasting) -> BTreeMap<String, Found> {
+    let all = wanted(&problem.scene);
+    let found = intervals(problem, answer, lasting, &all);
+    let found = found.unwrap_or_else(|error| vec![Err(error.reason()); all.len()]);
+    all.iter().map(|output| output.name.value.clone()).zip(found).collect()
+}
+
+/// The value of an output for the exact solution, where a scene has one and the output is linear, and by how much its quadrature is
+/// in doubt.
+pub fn exact_value(problem: &Problem, output: &Output) -> Option<[f64; 2]> {
+    exact::value(problem, problem.scene.exact.as_ref()?, output).ok()
+}
+
+fn intervals(
+    problem: &Problem,
+    answer: &Answered,
+    lasting: &Lasting,
+    all: &[Output],
+) -> Result<Vec<Found>> {
+    let none = |why: &str| Ok(vec![Err(why.to_owned()); all.len()]);
+    let Some(bound) = answer.bound else { return none("the solution has no error bound") };
+    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
+        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+    }
+    let Some(factor) = &lasting.factor else { return none("its linear problem has no factor") };
+    let deviations = followed(problem, &answer.certified.admissible())?;
+    let source = lasting.source.map_or_else(|| values::doubt_of_source(problem), Ok)?;
+    let known = Known {
+        factor,
+        problem,
+        answer,
+        contact: contact_edges(problem, answer, &deviations)?,
+        residual: Residual::new(problem, answer, &deviations)?,
+        deviations: &deviations,
+        bound,
+        doubt: source + values::doubt_on_edges(problem)? + values::imbalance(problem, answer),
+    };
+    let found =
+        |output: &Output| Ok(known.interval(output).unwrap_or_else(|error| Err(error.reason())));
+    on_two_threads(all, found, || ())
+}

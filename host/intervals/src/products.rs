@@ -1,0 +1,210 @@
+//! Energies and products of the residuals r = τ − A∇s of the solution and ζ ∓ A∇z of the weights, cell by cell and on R:
+//! ```text
+//!   ⟨a, b⟩ = ∫ a·A⁻¹b + ∫_R a b/h          r on R is τ·n + h (s − u_ext),   ζ·n ± (h z − κ) that of ζ ∓ A∇z
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::answer::Answered;
+use super::dual::Weights;
+use super::goal::Goal;
+use signorini_certify::admissible::{Admissible, Following};
+use signorini_certify::cell::Cell;
+use signorini_certify::conductivity::{Conductivity, apply, dot, inverse};
+use signorini_certify::curved;
+use signorini_certify::deviation::{Deviation, Deviations};
+use signorini_certify::robin::robin;
+use signorini_kernel::Real;
+use signorini_problem::Problem;
+use signorini_problem::field::CellField;
+use signorini_problem::quadrature::{DATA_POINTS, Point, gauss};
+use signorini_problem::threads::in_portions;
+use signorini_scene::error::Result;
+
+/// Squares and products.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Products {
+    /// ⟨r, r⟩
+    pub residual: f64,
+    /// ⟨ζ − A∇z, ζ − A∇z⟩
+    pub weights: f64,
+    /// ⟨r, ζ + A∇z⟩
+    pub both: f64,
+    /// ⟨A∇z, A∇z⟩ and ⟨ζ, ζ⟩
+    pub sizes: [f64; 2],
+}
+
+/// The solution's side of the products.
+pub(super) struct Residual<'p> {
+    problem: &'p Problem,
+    s: Admissible<'p>,
+    deviations: &'p Deviations<'p>,
+    /// Points of the cells in which s follows data, with A∇s there: these take long to evaluate.
+    lifted: BTreeMap<usize, Vec<(Point, [f64; 2])>>,
+}
+
+/// The points of a cell in which s follows data, with A∇s at each.
+fn gradients(
+    problem: &Problem,
+    s: &Admissible,
+    deviations: &Deviations,
+    at: usize,
+) -> Result<Vec<(Point, [f64; 2])>> {
+    let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+    let s = s.on_cell(problem, at, deviations);
+    let points = curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))?;
+    let along = |point: Point| {
+        let gradient = s.at(&cell.local(point.reference))?.gradient;
+        Ok((point, apply(&conductivity.at(point.x), gradient)))
+    };
+    points.into_iter().map(along).collect()
+}
+
+/// r, ζ and A∇z at one point; on R the flux that passes, that of ζ beyond its density, and −h (z − its value).
+struct Fluxes<T> {
+    residual: T,
+    zeta: T,
+    gradient: T,
+}
+
+/// A flux below this part of the largest is what a solver rounds.
+const ROUNDING: f64 = 1e-12;
+
+fn largest(flux: &[f64]) -> f64 {
+    flux.iter().fold(0.0, |most, flux| most.max(flux.abs()))
+}
+
+impl Fluxes<f64> {
+    /// Whether nothing passes but what is below these, of r and of ζ.
+    fn is_rounding(&self, [of_residual, of_zeta]: [f64; 2]) -> bool {
+        self.residual.abs() <= of_residual && self.zeta.abs() <= of_zeta
+    }
+}
+
+impl<T: Copy> Fluxes<T> {
+    /// Their share of all products, by the inner product at the point.
+    fn products(&self, inner: impl Fn(T, T) -> f64) -> Products {
+        let Self { residual, zeta, gradient } = *self;
+        let (of_zeta, of_gradient) = (inner(zeta, zeta), inner(gradient, gradient));
+        Products {
+            residual: inner(residual, residual),
+            weights: of_zeta - 2.0 * inner(zeta, gradient) + of_gradient,
+            both: inner(residual, zeta) + inner(residual, gradient),
+            sizes: [of_gradient, of_zeta],
+        }
+    }
+}
+
+impl Products {
+    fn and(self, other: Self) -> Self {
+        Self {
+            residual: self.residual + other.residual,
+            weights: self.weights + other.weights,
+            both: self.both + other.both,
+            sizes: [0, 1].map(|at| self.sizes[at] + other.sizes[at]),
+        }
+    }
+}
+
+/// Points a direction where s has no lift.
+fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
+    match cell {
+        Cell::Triangle(_) if conductivity.is_constant() => 2,
+        Cell::Quad(_) if conductivity.is_constant() && cell.is_affine() => 3,
+        _ => DATA_POINTS,
+    }
+}
+
+impl<'p> Residual<'p> {
+    /// That of a solution.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn new(
+        problem: &'p Problem,
+        answer: &Answered<'p>,
+        deviations: &'p Deviations<'p>,
+    ) -> Result<Self> {
+        let s = answer.certified.admissible();
+        let cell = |of: &Deviation| problem.topology.first_side(of.edge).0;
+        let cells: BTreeSet<usize> = deviations.found.iter().map(cell).collect();
+        let lifted = cells.into_iter().map(|at| Ok((at, gradients(problem, &s, deviations, at)?)));
+        let lifted = lifted.collect::<Result<_>>()?;
+        Ok(Self { problem, s, deviations, lifted })
+    }
+
+    /// The products with these weights.
+    ///
+    /// # Errors
+    /// Data that are not finite.
+    pub fn with(&self, goal: &Goal, weights: &Weights) -> Result<Products> {
+        let following = Following::Except(Vec::new());
+        let Weights { vertices, bubbles, flux } = weights;
+        let z = Admissible { vertices, bubbles, tau: flux, following: &following };
+        let cells = in_portions(self.problem.cells(), |cells| {
+            let mut sum = Products::default();
+            for at in cells {
+                self.add_cell(at, &z, &mut sum);
+            }
+            Ok(sum)
+        })?;
+        let mut sum = cells.into_iter().fold(Products::default(), Products::and);
+        self.add_transfer(goal, &z, &mut sum)?;
+        Ok(sum)
+    }
+
+    fn add_cell(&self, at: usize, z: &Admissible, sum: &mut Products) {
+        let problem = self.problem;
+        let (cell, conductivity) = (Cell::of(problem, at), Conductivity::of(problem, at));
+        let z_here = z.chordal(problem, at);
+        let [tau, zeta] = [self.s.tau, z.tau].map(|flux| CellField::new(problem, at, flux, flux));
+        let mut add = |point: &Point, along_s: [f64; 2]| {
+            let (local, a) = (cell.local(point.reference), conductivity.at(point.x));
+            let tau = tau.sample(point).flux;
+            let here = Fluxes {
+                residual: [tau[0] - along_s[0], tau[1] - along_s[1]],
+                zeta: zeta.sample(point).flux,
+                gradient: apply(&a, z_here.at(&local).gradient),
+            };
+            let inverse = inverse(&a);
+            *sum = sum.and(here.products(|a, b| point.weight * dot(apply(&inverse, a), b)));
+        };
+        if let Some(lifted) = self.lifted.get(&at) {
+            lifted.iter().for_each(|(point, along_s)| add(point, *along_s));
+            return;
+        }
+        let s = self.s.chordal(problem, at);
+        for point in cell.points(&gauss(points(&cell, &conductivity))) {
+            let gradient = s.at(&cell.local(point.reference)).gradient;
+            add(&point, apply(&conductivity.at(point.x), gradient));
+        }
+    }
+
+    fn add_transfer(&self, goal: &Goal, z: &Admissible, sum: &mut Products) -> Result<()> {
+        let problem = self.problem;
+        let transfer = robin(problem, problem.time)?;
+        let rounding = [self.s.tau, z.tau].map(|flux| ROUNDING * largest(flux));
+        for (record, points) in problem.loads.robin.iter().zip(&transfer) {
+            let edge = record.edge as usize;
+            let length = problem.lengths[edge];
+            let table = problem.binding.boundary(problem.ends[edge]);
+            let [value, density] =
+                table.map_or([0.0; 2], |at| [goal.values[at], goal.densities[at]]);
+            for (&[t, weight], &[h, outside]) in f64::GAUSS[DATA_POINTS - 1].iter().zip(points) {
+                let h = h / length;
+                let s = self.s.on_edge(problem, edge, self.deviations.on(edge), t)?;
+                let here = Fluxes {
+                    residual: self.s.tau[edge] / length + h * (s - outside),
+                    zeta: z.tau[edge] / length - density,
+                    gradient: -h * (z.on_edge(problem, edge, None, t)? - value),
+                };
+                // Where h is 0 nothing passes, and what the solver rounds of nothing is none.
+                if h == 0.0 && here.is_rounding(rounding.map(|flux| flux / length)) {
+                    continue;
+                }
+                *sum = sum.and(here.products(|a, b| weight * length * a * b / h));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,47 @@
+//! Weights of a controller beside those on paper.
+
+use super::super::weights::{Answers, weights};
+use signorini_problem::fixtures::on_grid;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_tolerances::solve::OUTPUT_WEIGHTS;
+
+/// A bar from x = −1 to 1 and of height 1 with A = 3, u given on the left, heat by a law of transfer with h = 2 on the right.
+const BAR: &str = r#"
+mesh = "grid"
+material.default.conductivity = "3"
+source.f = "0"
+boundary.left = { kind = "dirichlet", value = "0" }
+boundary.right = { kind = "robin", coefficient = "2", ambient = "1" }
+boundary.dirichlet = { kind = "neumann", flux = "0" }
+boundary.contact = { kind = "neumann", flux = "0" }
+output.cold = { kind = "flux", of = "left" }
+output.skin = { kind = "mean", of = "right" }
+output.roof = { kind = "mean", of = "dirichlet" }
+"#;
+
+/// z and ζ are known: z falls from 1 with the slope b, 3b = 2 (1 − 2b), and ‖A∇z‖² = 3 · 2 b² + 2 (1 − 2b)². ζ of the mean on the right
+/// is 1 − 2z there, with ‖ζ‖² = 2 ζ²/3 + (1 − ζ)²/2 where ζ = 3z/2.
+#[test]
+fn weights_of_a_bar_are_those_of_its_resistances() -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads] {
+        let (_, problem) = on_grid(BAR, grid(4, cells))?;
+        let of_a =
+            |are_balanced| weights(&problem, &Answers { open: &[], total: 0.0, are_balanced });
+        let found = of_a(cells == Cells::Triangles);
+        let slope: f64 = 2.0 / 7.0;
+        let flux = (6.0 * slope * slope + 2.0 * (1.0 - 2.0 * slope).powi(2)).sqrt();
+        let through: f64 = 3.0 / 7.0;
+        let mean = (2.0 * through * through / 3.0 + (1.0 - through).powi(2) / 2.0).sqrt();
+        let weight = |at: usize| found[at].clone().expect("weights").total;
+        OUTPUT_WEIGHTS.check_relative("flux", weight(0), flux);
+        OUTPUT_WEIGHTS.check_relative("mean", weight(1), mean);
+        assert!(weight(2) > 0.0);
+        if cells == Cells::Quads {
+            // s of a condensed model does not keep the means of u_h between quads.
+            let of_u = of_a(true)[1].clone().expect("weights").of_u;
+            OUTPUT_WEIGHTS.check_relative("mean of u_h", of_u, mean);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,211 @@
+//! Outputs of s and τ, the functions that the error bound is about, and such that the data give.
+
+use super::answer::Answered;
+use super::part::Part;
+use signorini_certify::cell::Cell;
+use signorini_certify::curved;
+use signorini_certify::deviation::Deviations;
+use signorini_problem::field::CellField;
+use signorini_problem::functional::Functional;
+use signorini_problem::quadrature::bisected::{
+    graded_mean, graded_over_quad, mean_on_edge, over_quad, over_triangle, quad_and_doubt,
+    quarters_of_quad, quarters_of_triangle, triangle_and_doubt,
+};
+use signorini_problem::quadrature::gauss;
+use signorini_problem::threads::in_portions;
+use signorini_problem::{EdgeKind, Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Condition, Field, Output};
+
+/// What the quadrature of smooth data may miss, next to their size.
+pub(super) const INTEGRATED: f64 = 2e-9;
+
+/// Cells up to which f is integrated on their quarters too, and on thin parts along their sides where it may have kinks.
+const LOOKS: [usize; 2] = [20_000, 5_000];
+
+/// The value of an output, and what it may be off beside the error of s and τ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Value {
+    /// The value.
+    pub value: f64,
+    /// The size of what it is summed from: data are integrated up to a part of it.
+    pub terms: f64,
+    /// The size of all numbers of its kind: the solver's scalar rounds next to it.
+    pub largest: f64,
+}
+
+/// A mean over a part of the boundary, or a flux through it, that the data give: over D or through N. Nothing for others.
+pub(super) fn given(problem: &Problem, part: &Part, field: Field) -> Result<Value> {
+    let [mut value, mut terms] = [0.0; 2];
+    for edge in part.edges() {
+        let Some(data) = Sum::on_edge(problem, edge, field, problem.time) else { continue };
+        let [of_edge, size] = integral(problem, edge, &data)?;
+        (value, terms) = (value + of_edge, terms + size);
+    }
+    if field == Field::Value {
+        (value, terms) = (value / part.length(), terms / part.length());
+    }
+    Ok(Value { value, terms, largest: 0.0 })
+}
+
+/// ∫_E of data, on parts of the edge where they are not smooth, and of their modulus, which what is in doubt adds to.
+fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
+    let (segment, length) = (problem.segment(edge), problem.lengths[edge]);
+    if let Some(constant) = data.constant() {
+        return Ok([constant, constant.abs()].map(|x| length * x));
+    }
+    let [mean, doubt] = graded_mean(segment, &|x, y| data.at(x, y));
+    let size = mean_on_edge(segment, &|x, y| data.at(x, y).abs());
+    Ok([length * data.finite(mean, segment[0])?, length * (size + doubt / INTEGRATED)])
+}
+
+/// What is in doubt of the integrals of given fluxes, and of the ends of fluxes on C.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn doubt_on_edges(problem: &Problem) -> Result<f64> {
+    let mut sum = 0.0;
+    for edge in 0..problem.kinds.len() {
+        if let EdgeKind::Neumann | EdgeKind::Contact = problem.kinds[edge] {
+            for field in [Field::Flux, Field::Limit] {
+                let data = Sum::on_edge(problem, edge, field, problem.time);
+                if let Some(data) = data.filter(|data| data.constant().is_none()) {
+                    sum += INTEGRATED * integral(problem, edge, &data)?[1];
+                }
+            }
+        }
+    }
+    Ok(sum)
+}
+
+/// What τ leaves of the loads of cells and of the fluxes through N, added up: rounding.
+pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
+    let tau = &answer.certified.tau;
+    let surplus =
+        |at: usize| CellField::new(problem, at, tau, tau).surplus(problem.loads.of_cell(at));
+    let cells: f64 = (0..problem.cells()).map(|at| surplus(at).abs()).sum();
+    let mut given = vec![0.0; problem.ends.len()];
+    problem.loads.neumann.iter().for_each(|record| given[record.edge as usize] = record.flux);
+    let on_neumann = (0..given.len()).filter(|&edge| problem.kinds[edge] == EdgeKind::Neumann);
+    cells + on_neumann.map(|edge| (tau[edge] - given[edge]).abs()).sum::<f64>()
+}
+
+/// What is in doubt of the integrals of f.
+///
+/// # Errors
+/// Data that are not finite.
+pub(super) fn doubt_of_source(problem: &Problem) -> Result<f64> {
+    let f = Sum::source(&problem.scene, problem.time);
+    if f.constant().is_some() {
+        return Ok(0.0);
+    }
+    let at = |x: f64, y: f64| f.at(x, y);
+    // A kink beside a corner, or a jump beside a side, no rule on the whole cell sees.
+    let [looks, grades] = LOOKS.map(|most| problem.cells() <= most);
+    let grades = grades && !f.is_smooth();
+    let of_cell = |at_cell| {
+        let cell = Cell::of(problem, at_cell);
+        let [load, doubt] = match cell {
+            Cell::Triangle(corners) => triangle_and_doubt(corners, &at),
+            Cell::Quad(corners) => quad_and_doubt(corners, &at),
+        };
+        let [finer, more] = match cell {
+            _ if !looks => [load, 0.0],
+            Cell::Triangle([a, b, c]) if grades => graded_over_quad([a, b, c, c], &at),
+            Cell::Quad(corners) if grades => graded_over_quad(corners, &at),
+            Cell::Triangle(corners) => {
+                [quarters_of_triangle(&corners).map(|of| over_triangle(of, &at)).iter().sum(), 0.0]
+            }
+            Cell::Quad(corners) => {
+                [quarters_of_quad(&corners).map(|of| over_quad(of, &at)).iter().sum(), 0.0]
+            }
+        };
+        INTEGRATED * load.abs() + doubt + more + (finer - load).abs()
+    };
+    let sums = in_portions(problem.cells(), |cells| Ok(cells.map(of_cell).sum::<f64>()))?;
+    Ok(sums.iter().sum())
+}
+
+/// The mean of s over a part of the boundary. Where s follows data above their chord, theirs is integrated as the loads are.
+pub(super) fn mean(
+    problem: &Problem,
+    answer: &Answered,
+    deviations: &Deviations,
+    part: &Part,
+) -> Result<Value> {
+    let s = answer.certified.admissible();
+    let [mut sum, mut terms] = [0.0; 2];
+    for edge in part.edges() {
+        let [a, b] = problem.ends[edge].map(|vertex| s.vertices[vertex as usize]);
+        let above = deviations.on(edge).map_or(Ok(0.0), |deviation| deviation.mean())?;
+        let bubble = 2.0 / 3.0 * s.bubbles[edge];
+        sum += problem.lengths[edge] * (0.5 * (a + b) + bubble + above);
+        terms += problem.lengths[edge] * (a.abs() + b.abs() + bubble.abs() + above.abs());
+    }
+    let length = part.length();
+    Ok(Value { value: sum / length, terms: terms / length, largest: largest(s.vertices) })
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// The cell with a probe, and the mean of s over it.
+pub(super) fn cell(
+    problem: &Problem,
+    answer: &Answered,
+    deviations: &Deviations,
+    output: &Output,
+) -> Result<Option<(usize, Value)>> {
+    let Functional::Probe(at, _) = Functional::of(problem, output)? else { return Ok(None) };
+    let (cell, s) = (Cell::of(problem, at), answer.certified.admissible());
+    let on_cell = s.on_cell(problem, at, deviations);
+    let [mut value, mut terms, mut area] = [0.0; 3];
+    for point in curved::points_along_sides(problem, at, deviations, &gauss(curved::POINTS))? {
+        let here = on_cell.at(&cell.local(point.reference))?.value;
+        (value, terms) = (value + point.weight * here, terms + point.weight * here.abs());
+        area += point.weight;
+    }
+    let [value, terms] = [value, terms].map(|sum| sum / area);
+    Ok(Some((at, Value { value, terms, largest: largest(s.vertices) })))
+}
+
+/// ∫τ·n over a part of the boundary; as a force, from the ends that it is measured from.
+pub(super) fn flux(
+    problem: &Problem,
+    answer: &Answered,
+    part: &Part,
+    is_force: bool,
+) -> Result<Value> {
+    let [mut value, mut terms] = [0.0; 2];
+    for edge in part.edges() {
+        let flux = answer.certified.tau[edge];
+        let (direction, [end, size]) = match is_force {
+            true if problem.kinds[edge] != EdgeKind::Contact => continue,
+            true => end(problem, edge)?,
+            false => (1.0, [0.0; 2]),
+        };
+        value += direction * (flux - end);
+        terms += flux.abs() + size;
+    }
+    Ok(Value { value, terms, largest: largest(&answer.certified.tau) })
+}
+
+/// 1 where the force on a boundary is measured from its least flux, −1 where it has none, and it is the way to its limit.
+pub(super) fn direction(problem: &Problem, table: usize) -> f64 {
+    let Condition::Contact { flux, .. } = &problem.scene.boundaries[table].condition else {
+        return 0.0;
+    };
+    if flux.value.is_constant() == Some(f64::NEG_INFINITY) { -1.0 } else { 1.0 }
+}
+
+/// The direction of the force on a contact edge, and ∫_E of the end that it is measured from, with its size.
+pub(super) fn end(problem: &Problem, edge: usize) -> Result<(f64, [f64; 2])> {
+    let table = problem.binding.boundary(problem.ends[edge]);
+    let direction = table.map_or(0.0, |table| direction(problem, table));
+    let field = if direction > 0.0 { Field::Flux } else { Field::Limit };
+    let Some(end) = Sum::on_edge(problem, edge, field, problem.time) else {
+        return Ok((direction, [0.0; 2]));
+    };
+    Ok((direction, integral(problem, edge, &end)?))
+}

@@ -1,0 +1,275 @@
+//! What the error bound of any answer weighs in an output: the few numbers that a controller has.
+//!
+//! ```text
+//!   |J(σ) − J(τ)| ≤ ‖A∇z‖ · total       a flux or a force, z = ±1 on its boundary and 0 on the rest of C and D
+//!   |J(u) − J(s)| ≤ ‖ζ‖ · total         a mean, ζ·n = 1/|P| on P and 0 on the rest of N and C
+//! ```
+//! They hold for all loads and on whatever sides of ψ the edges are, and are of first order: the intervals of a solve ([`super`])
+//! know its contact zone and are narrower. Where an edge is open in all answers, with s − ψ ≥ e there, z may be off its value by
+//! c e, which adds c/2 · total². Where boundaries of C meet, z jumps, and an edge beside counts with its λ: 0 where it is always open.
+//!
+//! A controller gives u_h and σ_h. σ_h is τ but for the algebraic part of the bound. Means of s and u_h over an edge are equal
+//! between quads, where s is that of a mesh: that of a condensed model is the best one, whatever its means. On triangles with A constant in each, u_h is of the same mean error as σ_h:
+//! ∫ζ·∇_h u_h = ∫ζ·A⁻¹σ_h, since σ_h − A∇_h u_h has no mean. In all other cases of_u bounds it.
+
+use super::MOST_UNKNOWNS;
+use super::answer::Answered;
+use super::contact::ContactEdge;
+use super::dual::{self, Dual};
+use super::goal::Goal;
+use super::interval::{FAR, UNBOUNDED, UNSOLVED};
+use super::kept::{keep, left};
+use super::part::Part;
+use super::products::Residual;
+use signorini_certify::CertifiedFields;
+use signorini_certify::conductivity::Conductivity;
+use signorini_certify::deviation::Deviations;
+use signorini_problem::functional::wanted;
+use signorini_problem::{EdgeKind, Parts, Problem, Sum};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Field, Output, Quantity};
+use signorini_solve::energy_norm::nonconformity;
+use signorini_solve::{ScalarKind, SharedFactor};
+
+/// Parts that are tried, and by how much each is larger than the last.
+const PARTS: i32 = 10;
+const STEP: f64 = 2.0;
+
+/// What data of nothing have above their chords.
+const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
+
+/// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Weights {
+    /// Of `total`.
+    pub total: f64,
+    /// Of its square.
+    pub square: f64,
+    /// Of `algebraic`.
+    pub algebraic: f64,
+    /// Of `of_u`.
+    pub of_u: f64,
+}
+
+/// Those of an output, or why there are none.
+pub type Weighed = std::result::Result<Weights, String>;
+
+/// What is known of a controller's answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Answers<'a> {
+    /// How far s is above ψ at least at the ends of the contact edges that are open in all answers, in the order of the edges and in
+    /// the unit of u; nothing where nothing is known.
+    pub open: &'a [Option<[f64; 2]>],
+    /// A total as answers have it.
+    pub total: f64,
+    /// Whether all equations but those on contact edges hold, for all answers: those of a condensed model.
+    pub are_balanced: bool,
+}
+
+/// Those of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
+pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
+    let outputs = wanted(&problem.scene);
+    let found = weighed(problem, answers, &outputs);
+    found.unwrap_or_else(|error| vec![Err(error.reason()); outputs.len()])
+}
+
+fn weighed(problem: &Problem, answers: &Answers, outputs: &[Output]) -> Result<Vec<Weighed>> {
+    let none = |why: &str| Ok(vec![Err(why.to_owned()); outputs.len()]);
+    if problem.topology.counts.unknowns() > MOST_UNKNOWNS {
+        return none(&format!("the mesh has more than {MOST_UNKNOWNS} unknowns"));
+    }
+    if Parts::whatever_inputs(problem)?.counts.contact > 0 {
+        return none(
+            "contact alone holds a part: what a tick leaves open passes through any of its edges",
+        );
+    }
+    let Some(factor) = SharedFactor::of(problem)? else {
+        return none("its linear problem has no factor");
+    };
+    let of = Weighing { problem, factor, corners: corners(problem)?, answers };
+    outputs.iter().map(|output| of.output(output)).collect()
+}
+
+/// The problem at all corners of the ranges of its transfer coefficients: norms of weights are convex in them.
+fn corners(problem: &Problem) -> Result<Vec<Problem>> {
+    let mut all = vec![problem.clone()];
+    for (at, input) in problem.scene.inputs.iter().enumerate() {
+        if let (Field::Coefficient, Some(range)) = (input.field.value, &input.range) {
+            let ends = [range.value.lo, range.value.hi];
+            let moved = all.iter().flat_map(|problem| ends.map(|end| (problem, end)));
+            let moved = moved.map(|(problem, end)| {
+                let mut problem = problem.clone();
+                problem.set(&[(at, end)], problem.time).map(|()| problem)
+            });
+            all = moved.collect::<Result<_>>()?;
+        }
+    }
+    Ok(all)
+}
+
+struct Weighing<'p> {
+    problem: &'p Problem,
+    factor: SharedFactor,
+    corners: Vec<Problem>,
+    answers: &'p Answers<'p>,
+}
+
+impl Weighing<'_> {
+    fn output(&self, output: &Output) -> Result<Weighed> {
+        let (nothing, none) = (self.nothing(), |why: &str| Ok(Err(why.to_owned())));
+        let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
+        if let Quantity::Probe { .. } = output.quantity {
+            return none("u at a point has none; a mean over a boundary has one");
+        }
+        let goal = match Goal::of(self.problem, &answer, &NOTHING, output)? {
+            Ok(goal) => goal,
+            Err(why) => return Ok(Err(why)),
+        };
+        let part = Part::new(self.problem, output);
+        match (output.quantity, part.kind()) {
+            (Quantity::Mean, Some(EdgeKind::Dirichlet))
+            | (Quantity::Flux, Some(EdgeKind::Neumann)) => {
+                none("the data give it, up to their quadrature")
+            }
+            (Quantity::Mean, kind) => self.mean(&goal, kind == Some(EdgeKind::Contact)),
+            _ => self.flux(&goal, &part),
+        }
+    }
+
+    fn nothing(&self) -> CertifiedFields {
+        let edges = self.problem.ends.len();
+        CertifiedFields {
+            vertices: vec![0.0; self.problem.mesh.vertices.len()],
+            bubbles: vec![0.0; edges],
+            tau: vec![0.0; edges],
+            ..CertifiedFields::default()
+        }
+    }
+
+    fn contact(&self) -> Vec<ContactEdge> {
+        let open = |at: usize| self.answers.open.get(at).copied().flatten();
+        let counts = self.problem.topology.counts;
+        (0..counts.contact).map(|at| ContactEdge::unknown(self.problem, at, open(at))).collect()
+    }
+
+    fn flux(&self, goal: &Goal, part: &Part) -> Result<Weighed> {
+        let (problem, contact) = (self.problem, self.contact());
+        let (mut dual, far) = (Dual::new(problem, goal)?, FAR * goal.size(problem));
+        let mut sides = [None::<Weights>; 2];
+        for part in self.parts(&contact) {
+            // z is free where all of [0, 1] is within its part, and has its value on all other contact edges.
+            let held = contact.iter().map(|of| {
+                let is_free =
+                    of.clear.iter().all(|&clear| clear == f64::INFINITY || part * clear >= 1.0);
+                of.held(!is_free)
+            });
+            let held: Vec<_> = held.collect();
+            let Some(solved) = dual.solve(&self.factor, &held, goal, far) else {
+                return Ok(Err(UNSOLVED.to_owned()));
+            };
+            for takes_least in [true, false] {
+                let mut weights = solved.clone();
+                // Nothing is asked of ζ.
+                weights.flux.fill(0.0);
+                let differ = keep(problem, goal, &contact, part, takes_least, &mut weights);
+                let rest = left(problem, goal, &contact, &weights);
+                let [total, _] = self.sizes(goal, &weights)?;
+                for at in [0, 1] {
+                    let found =
+                        Weights { total, square: 0.5 * rest.part[at], ..Weights::default() };
+                    if rest.loose[at] == 0.0 {
+                        sides[at] = Some(self.less(sides[at], found));
+                    }
+                }
+                if !differ {
+                    break;
+                }
+            }
+        }
+        let [Some(below), Some(above)] = sides else { return Ok(Err(UNBOUNDED.to_owned())) };
+        let total = below.total.max(above.total);
+        let square = below.square.max(above.square);
+        if !(total.is_finite() && square.is_finite()) {
+            return Ok(Err(UNBOUNDED.to_owned()));
+        }
+        // On contact edges τ is within the law, and so is the output.
+        let algebraic = match part.kind() {
+            Some(EdgeKind::Contact) => 0.0,
+            _ => self.of_edges(goal, part)?.max(total),
+        };
+        Ok(Ok(Weights { total, square, algebraic, of_u: 0.0 }))
+    }
+
+    /// Parts of s − ψ that z may be off by: none, and such that z is off by up to 1 at some of the edges that are open.
+    fn parts(&self, contact: &[ContactEdge]) -> Vec<f64> {
+        let clear = contact.iter().flat_map(|of| of.clear).filter(|clear| *clear > 0.0);
+        let most = clear.filter(|clear| clear.is_finite()).fold(0.0, f64::max);
+        let parts = (0..PARTS).map(|at| STEP.powi(at) / most);
+        std::iter::once(0.0).chain(parts.filter(|part| part.is_finite())).collect()
+    }
+
+    /// The one that is less at such a total.
+    fn less(&self, one: Option<Weights>, other: Weights) -> Weights {
+        let at =
+            |of: Weights| of.total * self.answers.total + of.square * self.answers.total.powi(2);
+        one.filter(|one| at(*one) <= at(other)).unwrap_or(other)
+    }
+
+    fn mean(&self, goal: &Goal, on_contact: bool) -> Result<Weighed> {
+        let (problem, contact) = (self.problem, self.contact());
+        let solved = Dual::new(problem, goal)?.solve(&self.factor, &contact, goal, 0.0);
+        let Some(solved) = solved else {
+            return Ok(Err(UNSOLVED.to_owned()));
+        };
+        let [_, size] = self.sizes(goal, &solved)?;
+        let transfers = !problem.loads.robin.is_empty();
+        let (total, of_u) = (Weights { total: size, ..Weights::default() }, size);
+        Ok(if !size.is_finite() {
+            Err(UNBOUNDED.to_owned())
+        } else if problem.mesh.triangles.is_empty() && !on_contact && !self.answers.are_balanced {
+            Ok(total)
+        } else if self.has_plain_triangles() && (self.answers.are_balanced || !transfers) {
+            Ok(Weights { algebraic: size, ..total })
+        } else if !transfers || problem.mesh.triangles.is_empty() {
+            Ok(Weights { of_u, ..Weights::default() })
+        } else {
+            Err("a law of transfer that the answer does not meet exactly is part of it".to_owned())
+        })
+    }
+
+    /// Whether all cells are triangles with one A in each, and h is constant along every edge.
+    fn has_plain_triangles(&self) -> bool {
+        let problem = self.problem;
+        let is_plain = |edge: usize| {
+            Sum::transfer(problem, edge, problem.time).is_none_or(|h| h.constant().is_some())
+        };
+        problem.mesh.quads.is_empty()
+            && (0..problem.cells()).all(|at| Conductivity::of(problem, at).is_constant())
+            && problem.loads.robin.iter().all(|record| is_plain(record.edge as usize))
+    }
+
+    /// The largest ‖A∇z‖ and ‖ζ‖ over the ranges of transfer coefficients.
+    fn sizes(&self, goal: &Goal, weights: &dual::Weights) -> Result<[f64; 2]> {
+        let (nothing, mut most) = (self.nothing(), [0.0_f64; 2]);
+        for corner in &self.corners {
+            let dual = Dual::new(corner, goal)?;
+            let answer = Answered { certified: &nothing, bound: None, scalar: ScalarKind::F64 };
+            let sizes =
+                Residual::new(dual.problem(), &answer, &NOTHING)?.with(goal, weights)?.sizes;
+            for (most, size) in most.iter_mut().zip(sizes) {
+                // A NaN is no size.
+                *most = if size <= *most { *most } else { size };
+            }
+        }
+        Ok(most.map(f64::sqrt))
+    }
+
+    /// max |Σ_P ∫(τ − σ_h)·n| over ‖A^−½(τ − σ_h)‖, cell by cell: both have the same sources there, so that it is the energy of the
+    /// nonconforming function which has the mean 1 on P and 0 on all other edges.
+    fn of_edges(&self, goal: &Goal, part: &Part) -> Result<f64> {
+        let (nothing, dual) = (self.nothing(), Dual::new(self.problem, goal)?);
+        let mut means = vec![0.0; self.problem.ends.len()];
+        part.edges().for_each(|edge| means[edge] = 1.0);
+        nonconformity(dual.problem(), &nothing.admissible(), &means)
+    }
+}

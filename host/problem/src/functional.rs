@@ -1,0 +1,115 @@
+//! Outputs as functionals: which edges or which point they are read off, and how.
+
+use std::borrow::Cow;
+
+use crate::field::CellField;
+use crate::quadrature::Point;
+use crate::{EdgeKind, Problem};
+use signorini_scene::error::Result;
+use signorini_scene::scene::{Located, Output, Quantity, Scene};
+
+/// What an output is made of; edges are counted as [`Problem`] has them.
+#[derive(Debug, Clone)]
+pub enum Functional {
+    /// ∫τ·n over edges: within the law of contact where they are in contact, elsewhere the flux (15).
+    Flux(Vec<usize>),
+    /// ∫(τ·n − q) ≥ 0 over contact edges, τ within the law of contact.
+    Force(Vec<usize>),
+    /// u_h at a point of a cell (triangles first).
+    Probe(usize, Point),
+    /// The mean of u_h over edges, each with its part of their length.
+    Mean(Vec<(usize, f64)>),
+    /// The lengths of those of these contact edges that are active.
+    Length(Vec<(usize, f64)>),
+    /// The lengths of those of these contact edges whose flux is at its limit.
+    Saturated(Vec<(usize, f64)>),
+    /// The error bound.
+    Bound,
+}
+
+/// The declared outputs; without any, contact force and length.
+pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
+    if !scene.outputs.is_empty() {
+        return Cow::Borrowed(&scene.outputs);
+    }
+    let output = |(name, quantity): (&str, Quantity)| {
+        let name = Located { value: name.to_owned(), key: "output".to_owned(), span: 0..0 };
+        Output { name, quantity, of: None, unit: None }
+    };
+    let defaults =
+        [("contact_force", Quantity::Force), ("contact_length", Quantity::Length)].map(output);
+    Cow::Owned(defaults.into())
+}
+
+/// Those of [`wanted`], in its order.
+///
+/// # Errors
+/// A probe outside the mesh.
+pub fn functionals(problem: &Problem) -> Result<Vec<Functional>> {
+    wanted(&problem.scene).iter().map(|output| Functional::of(problem, output)).collect()
+}
+
+impl Functional {
+    /// That of one output.
+    ///
+    /// # Errors
+    /// A probe outside the mesh.
+    pub fn of(problem: &Problem, output: &Output) -> Result<Self> {
+        let edges = boundary_edges(problem, output);
+        let contact = |edge: &usize| problem.kinds[*edge] == EdgeKind::Contact;
+        let length = |edge: usize| (edge, problem.lengths[edge]);
+        Ok(match output.quantity {
+            Quantity::Flux => Self::Flux(edges.collect()),
+            Quantity::Force => Self::Force(edges.filter(contact).collect()),
+            Quantity::Probe { at } => probe(problem, output, at)?,
+            Quantity::Mean => Self::Mean(parts(edges.map(length).collect())),
+            Quantity::Length => Self::Length(edges.filter(contact).map(length).collect()),
+            Quantity::Saturated => Self::Saturated(edges.filter(contact).map(length).collect()),
+            Quantity::Bound => Self::Bound,
+        })
+    }
+}
+
+/// The sides of a cell, each with the value of its basis function at a point of that cell.
+pub fn basis_at(problem: &Problem, cell: usize, point: &Point) -> Vec<(usize, f64)> {
+    let none = vec![0.0; problem.ends.len()];
+    let sides: &[u32] = match cell.checked_sub(problem.mesh.triangles.len()) {
+        None => &problem.topology.of_triangles[cell],
+        Some(quad) => &problem.topology.of_quads[quad],
+    };
+    let weight = |&edge: &u32| {
+        let mut unit = none.clone();
+        unit[edge as usize] = 1.0;
+        (edge as usize, CellField::new(problem, cell, &unit, &none).sample(point).u)
+    };
+    sides.iter().map(weight).collect()
+}
+
+/// Lengths over their sum.
+fn parts(lengths: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    let all: f64 = lengths.iter().map(|(_, length)| length).sum();
+    lengths.into_iter().map(|(edge, length)| (edge, length / all)).collect()
+}
+
+/// The boundary edges that an output is about.
+fn boundary_edges(problem: &Problem, output: &Output) -> impl Iterator<Item = usize> {
+    (0..problem.ends.len()).filter(move |&edge| {
+        let boundary = problem.binding.boundary(problem.ends[edge]);
+        let name = boundary.map(|at| &problem.scene.boundaries[at].name.value);
+        let wanted = output.of.as_ref().is_none_or(|of| Some(&of.value) == name);
+        problem.kinds[edge] != EdgeKind::Interior && wanted
+    })
+}
+
+/// u_h at a point: in the first cell that holds it.
+fn probe(problem: &Problem, output: &Output, at: [f64; 2]) -> Result<Functional> {
+    let nothing = vec![0.0; problem.ends.len()];
+    let found = (0..problem.cells()).find_map(|cell| {
+        let reference = CellField::new(problem, cell, &nothing, &nothing).locate(at)?;
+        Some(Functional::Probe(cell, Point { x: at, reference, weight: 0.0 }))
+    });
+    found.ok_or_else(|| {
+        let message = format!("the probe at ({}, {}) lies outside the mesh", at[0], at[1]);
+        problem.scene.error(&output.name, message).hint("move `at` into the domain").into()
+    })
+}

@@ -1,0 +1,232 @@
+//! What each approach to a problem cannot treat, and in which words it says so.
+//!
+//! ```text
+//!   Property (found in the problem) × Approach (asked by whoever takes it) ─► Lack, or nothing
+//! ```
+//! All refusals that follow from what a scene states are here. Two kinds are elsewhere, for they follow from numbers:
+//! what a scalar type cannot hold (`range` of bake, `unfit` of solve), and matrices that prove singular.
+//! Why there is an answer without an error bound is a `NoBound` of certify.
+
+use std::fmt;
+
+use signorini_kernel::mesh::components::PartCounts;
+
+use super::property::{MOST_NUMBERS, Property};
+use super::{Parts, Problem};
+use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::scene::Field;
+use signorini_scene::scene::term::first_in_time;
+
+/// What is done with a problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Approach {
+    /// The elimination of all but the contact edges.
+    Condensation,
+    /// The same for every value of one transfer coefficient.
+    Modes,
+    /// The kernel's tick on the mesh.
+    Tick,
+    /// The full model that `bake` writes: that tick, with loads linear in inputs.
+    FullModel,
+    /// The kernel's sparse factor, in a solve.
+    Factor,
+    /// The same in the ticks of a full model, one factor for all of them.
+    FactoredTicks,
+    /// Data for tests of the kernel's stages.
+    Export,
+    /// Other solvers on the same matrices.
+    Baselines,
+}
+
+/// A property of a problem that an approach cannot treat; its text is the reason without the file.
+#[derive(Debug)]
+pub struct Lack {
+    /// What the problem has.
+    pub property: Property,
+    refusal: InputError,
+}
+
+impl Approach {
+    /// How `problem` is condensed: for every value of a transfer coefficient where one input changes it.
+    pub fn condensing(problem: &Problem) -> Self {
+        let inputs = problem.scene.inputs.iter();
+        match inputs.filter(|input| input.field.value == Field::Coefficient).count() {
+            1 => Self::Modes,
+            _ => Self::Condensation,
+        }
+    }
+
+    /// The first property of `problem` that this approach cannot treat.
+    ///
+    /// # Errors
+    /// A part without a solution, where it matters what holds the parts.
+    pub fn lack(self, problem: &Problem) -> Result<Option<Lack>> {
+        let needs_parts = |of: &Property| of.is_of_parts() && !self.treats(*of);
+        let parts = match Property::ALL.iter().any(needs_parts) {
+            true => Parts::whatever_inputs(problem)?.counts,
+            false => PartCounts::default(),
+        };
+        Ok(self.lack_with(problem, parts))
+    }
+
+    /// The same for who has examined the `parts` of `problem`.
+    pub fn lack_with(self, problem: &Problem, parts: PartCounts) -> Option<Lack> {
+        Property::ALL.into_iter().find_map(|property| self.lack_of(property, problem, parts))
+    }
+
+    /// This property of `problem`, where it has it and this approach cannot treat it.
+    pub fn lack_of(self, property: Property, problem: &Problem, parts: PartCounts) -> Option<Lack> {
+        let refusal = self.refusal(property)?;
+        let is_there = property.is_in(problem, parts);
+        is_there.then(|| Lack { property, refusal: refusal(problem) })
+    }
+
+    /// Refuses a problem with a property that this approach cannot treat.
+    ///
+    /// # Errors
+    /// Such a property; as for [`Approach::lack`].
+    pub fn check(self, problem: &Problem) -> Result<()> {
+        self.lack(problem)?.map_or(Ok(()), |lack| Err(lack.into()))
+    }
+
+    /// Whether it can treat problems with this property.
+    pub const fn treats(self, property: Property) -> bool {
+        self.refusal(property).is_none()
+    }
+
+    /// How it refuses a problem with this property, if it does.
+    const fn refusal(self, property: Property) -> Option<fn(&Problem) -> InputError> {
+        use Approach::{
+            Baselines, Condensation, Export, Factor, FactoredTicks, FullModel, Modes, Tick,
+        };
+        match property {
+            Property::NoContact => match self {
+                Baselines => Some(nothing_to_compare),
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Export => None,
+            },
+            Property::ManyContactEdges => match self {
+                Condensation | Modes => Some(too_many),
+                Tick | FullModel | Factor | FactoredTicks | Export | Baselines => None,
+            },
+            // Where that leaves a matrix singular, the factor finds it out.
+            Property::FloatingPart => match self {
+                Condensation | Modes => Some(no_level),
+                Tick | FullModel => Some(|problem| no_tick(problem, "nothing holds")),
+                Factor | FactoredTicks | Export | Baselines => None,
+            },
+            Property::PartHeldByContact => match self {
+                Tick | FullModel => Some(|problem| no_tick(problem, "contact alone holds")),
+                // Where h is what may fail to hold it, its matrix is singular for some h alone.
+                Modes => Some(|problem| no_tick(problem, "contact alone holds")),
+                Condensation | Factor | FactoredTicks | Export | Baselines => None,
+            },
+            Property::LoadInTime => match self {
+                Condensation | Modes | FullModel => Some(no_clock),
+                Tick | Factor | FactoredTicks | Export | Baselines => None,
+            },
+            Property::TransferInput => match self {
+                Condensation | Export => Some(one_matrix),
+                FactoredTicks => Some(one_factor),
+                FullModel | Modes | Tick | Factor | Baselines => None,
+            },
+            Property::Limit => match self {
+                Export => Some(two_sides),
+                Condensation | Modes | Tick | FullModel | Factor | FactoredTicks | Baselines => {
+                    None
+                }
+            },
+        }
+    }
+}
+
+fn nothing_to_compare(problem: &Problem) -> InputError {
+    InputError::new("without contact there is nothing to compare").file(&problem.scene.path)
+}
+
+fn too_many(problem: &Problem) -> InputError {
+    let counts = problem.topology.counts;
+    let (contact, edges) = (counts.contact, counts.edges());
+    let message = format!(
+        "boundary: {contact} contact edges on a mesh of {edges} edges are too many to condense, expected at \
+         most {MOST_NUMBERS} numbers in their fields"
+    );
+    let hint = "refine less, or take the full model (--full, model = \"full\")";
+    InputError::new(message).file(&problem.scene.path).hint(hint)
+}
+
+/// The fields of a condensed model would have no level.
+fn no_level(problem: &Problem) -> InputError {
+    let message = "boundary: a part of the domain has neither dirichlet, robin nor contact edges: its \
+                   solution has no level, and its loads would have to stay in balance";
+    let hint = "give it a dirichlet or robin boundary to condense it";
+    InputError::new(message).file(&problem.scene.path).hint(hint)
+}
+
+/// The tick's certificate needs a way out of every part that no iterate can close.
+fn no_tick(problem: &Problem, held: &str) -> InputError {
+    let scene = &problem.scene;
+    if let Some(range) = problem.insulating_input().and_then(|input| input.range.as_ref()) {
+        let message = format!("within it nothing may pass, and then {held} a part of the domain");
+        let hint = "narrow the range, or give every part another dirichlet or robin boundary";
+        return scene.error(range, message).hint(hint);
+    }
+    let message = format!("boundary: the full model has no tick for a part that {held}");
+    let hint = "bake it with --condensed, or give every part a dirichlet or robin boundary";
+    InputError::new(message).file(&scene.path).hint(hint)
+}
+
+/// Firmware has no clock of the scene's.
+fn no_clock(problem: &Problem) -> InputError {
+    let scene = &problem.scene;
+    let hint =
+        "declare an [input.…] with the part in x and y as its pattern, and set it every tick";
+    let refusal = match first_in_time(scene) {
+        Some(load) => {
+            scene.error(&load, format!("{} depends on t, which firmware does not know", load.value))
+        }
+        None => InputError::new("a load depends on t").file(&scene.path),
+    };
+    refusal.hint(hint)
+}
+
+/// A condensed model has one matrix, or one for each value of a single coefficient; data for tests have one.
+fn one_matrix(problem: &Problem) -> InputError {
+    changes_matrix(problem, "it changes the matrix, and one is written for all ticks")
+        .hint("take the full model (--full, model = \"full\")")
+}
+
+fn one_factor(problem: &Problem) -> InputError {
+    changes_matrix(problem, "it changes the matrix, and a factor holds for one of them")
+        .hint("take solver = \"sweeps\"")
+}
+
+fn changes_matrix(problem: &Problem, message: &str) -> InputError {
+    let scene = &problem.scene;
+    match scene.transfer_input() {
+        Some(input) => scene.error(&input.field, message),
+        None => InputError::new(message).file(&scene.path),
+    }
+}
+
+/// Contact with two sides.
+fn two_sides(problem: &Problem) -> InputError {
+    let scene = &problem.scene;
+    let message = "the flux of contact has a limit, which test data know nothing of";
+    let refusal = match scene.limited() {
+        Some(boundary) => scene.error(&boundary.name, message),
+        None => InputError::new(message).file(&scene.path),
+    };
+    refusal.hint("without `limit` and with a finite `flux`, u ≥ gap holds everywhere")
+}
+
+impl fmt::Display for Lack {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.refusal.message())
+    }
+}
+
+impl From<Lack> for Error {
+    fn from(lack: Lack) -> Self {
+        lack.refusal.into()
+    }
+}

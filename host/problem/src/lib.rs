@@ -1,0 +1,178 @@
+//! A scene on its mesh: every integral that the method needs, in f64, before a scalar is chosen.
+//!
+//! ```text
+//!   Scene + Mesh ─► binding (names to cells and edges) ─► topology ─► integrals ─► Problem ─► Assembled<R>
+//!                                        other loads or units on the same mesh ◄─ restated ◄─┘
+//! ```
+//! [`Approach`] says what can be done with it, and what not: no other place decides that.
+//!
+//! A [`Problem`] keeps the scene that states it: whoever has the one asks it for expressions, setting and places in the
+//! file. Clones share what does not change: mesh, edges and A.
+
+mod assembled;
+mod binding;
+mod corners;
+mod diagonal;
+mod element_matrices;
+pub mod field;
+#[cfg(any(test, feature = "fixtures"))]
+pub mod fixtures;
+pub mod functional;
+pub mod inputs;
+mod integrals;
+mod lacks;
+mod least_transfer;
+mod limit_ranges;
+mod limits;
+mod loads;
+pub mod pointwise;
+pub mod progress;
+mod property;
+pub mod quadrature;
+mod range_terms;
+mod restated;
+pub mod scalar;
+pub mod search;
+mod solvability;
+mod sum;
+#[cfg(test)]
+mod tests;
+pub mod threads;
+mod topology;
+mod transfer;
+mod transfer_pattern;
+mod unit_box;
+mod warnings;
+
+pub use assembled::Assembled;
+pub use binding::Binding;
+pub use integrals::{Coefficients, QuadCoefficient};
+pub use lacks::{Approach, Lack};
+pub use limits::{Spread, spread};
+pub use loads::Loads;
+pub use property::Property;
+pub use range_terms::RangeTerm;
+pub use solvability::Parts;
+pub use sum::Sum;
+pub use topology::{EdgeKind, Topology};
+pub use transfer_pattern::TransferPattern;
+
+use std::sync::Arc;
+
+use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::mesh::Mesh as KernelMesh;
+
+use element_matrices::ElementMatrices;
+use signorini_scene::error::Result;
+use signorini_scene::mesh::{Mesh, shape};
+use signorini_scene::scene::Scene;
+use topology::wrong_mesh;
+
+/// Everything that defines one discrete contact problem.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// What states it, its inputs at the values of the loads.
+    pub scene: Arc<Scene>,
+    /// The mesh as read.
+    pub mesh: Arc<Mesh>,
+    /// Edge numbering.
+    pub topology: Arc<Topology>,
+    /// Start and end vertex of each edge: the normal is this direction turned clockwise.
+    pub ends: Arc<[[u32; 2]]>,
+    /// |E|
+    pub lengths: Arc<[f64]>,
+    /// What lies on each edge.
+    pub kinds: Arc<[EdgeKind]>,
+    /// What u_h is made of on quads.
+    pub element: QuadElement,
+    /// Which names mean which cells and edges.
+    pub binding: Arc<Binding>,
+    /// A.
+    pub coefficients: Arc<Coefficients>,
+    /// Loads, gaps and boundary values at `time`.
+    pub loads: Loads,
+    /// The time t of the loads and of the exact solution.
+    pub time: f64,
+    /// What was found and is no error, but may not be meant: a sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl Problem {
+    /// Binds `scene` to `mesh` and integrates its data at time t = 0.
+    ///
+    /// # Errors
+    /// Names that do not match, boundary edges without a condition, conditions inside the domain, data that are
+    /// not finite or not admissible; each names the culprit.
+    pub fn new(scene: &Scene, mesh: impl Into<Arc<Mesh>>) -> Result<Self> {
+        let mesh = mesh.into();
+        let binding = Binding::new(scene, &mesh)?;
+        let (topology, ends) = number_edges(scene, &mesh, &binding)?;
+        let count = topology.counts.edges();
+        let outer = topology.half_edges.iter().zip(&ends).filter(|(pair, _)| pair[1] == u32::MAX);
+        let outer: Vec<_> = outer.map(|(_, &ends)| ends).collect();
+        outer.iter().try_for_each(|&ends| binding.check_once(scene, &mesh, ends))?;
+        Binding::check_outside(scene, &mesh, outer.iter().copied())?;
+        let kinds = (0..count).map(|edge| binding.kind(scene, &topology, edge, ends[edge]));
+        let at = |ends: [u32; 2]| ends.map(|vertex| mesh.vertices[vertex as usize]);
+        let lengths = ends.iter().map(|&ends| shape::edge_length(at(ends)));
+        let coefficients = integrals::coefficients(scene, &mesh, &binding)?;
+        let mut problem = Self {
+            scene: Arc::new(scene.clone()),
+            kinds: kinds.collect(),
+            lengths: lengths.collect(),
+            mesh,
+            topology: Arc::new(topology),
+            ends: ends.into(),
+            element: scene.setting.unwrap_or_default().element,
+            binding: Arc::new(binding),
+            coefficients: Arc::new(coefficients),
+            loads: Loads::default(),
+            time: 0.0,
+            warnings: Vec::new(),
+        };
+        problem.set_time(0.0)?;
+        transfer::check(&problem)?;
+        problem.warnings = warnings::warnings(&problem);
+        Ok(problem)
+    }
+
+    /// Number of cells: triangles, then quads.
+    pub fn cells(&self) -> usize {
+        self.mesh.triangles.len() + self.mesh.quads.len()
+    }
+
+    /// The largest entry of an element matrix.
+    pub fn stiffest(&self) -> f64 {
+        ElementMatrices::<f64>::of(self).map_or(0.0, |matrices| {
+            matrices.entries().fold(0.0, |most: f64, entry| most.max(entry.abs()))
+        })
+    }
+
+    /// Coordinates of the ends of an edge.
+    pub fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
+        self.ends[edge].map(|vertex| self.mesh.vertices[vertex as usize])
+    }
+
+    /// The vertices of cell `at`, triangles first.
+    pub fn vertices_of(&self, at: usize) -> &[u32] {
+        match self.mesh.triangles.get(at) {
+            Some(vertices) => vertices,
+            None => &self.mesh.quads[at - self.mesh.triangles.len()],
+        }
+    }
+}
+
+/// The edges of `mesh` and their ends; the mesh is checked once, here.
+fn number_edges(
+    scene: &Scene,
+    mesh: &Mesh,
+    binding: &Binding,
+) -> Result<(Topology, Vec<[u32; 2]>)> {
+    let kernel_mesh = KernelMesh::new(&mesh.vertices, &mesh.triangles, &mesh.quads)
+        .map_err(|error| wrong_mesh(scene, error))?;
+    let topology = Topology::number(scene, mesh, &kernel_mesh, binding)?;
+    let edges = topology.edges().map_err(|error| wrong_mesh(scene, error))?;
+    let ends = (0..edges.counts().edges()).map(|edge| edges.endpoints(&kernel_mesh, edge));
+    let ends = ends.collect();
+    Ok((topology, ends))
+}

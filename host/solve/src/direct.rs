@@ -1,0 +1,115 @@
+//! The host's own solver: the faer reference on the kernel's matrix.
+
+use std::collections::HashSet;
+
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::mesh::components::Support;
+use signorini_kernel::solve::solver::{Outcome, Status};
+
+use super::{Clock, Factored, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
+use signorini_problem::progress::stage;
+use signorini_problem::{Assembled, Parts, Problem};
+use signorini_reference::{Factor, ReferenceError};
+use signorini_scene::error::{InputError, Result};
+
+pub(super) fn directly(problem: &Problem, parts: &Parts, options: &Options) -> Result<Solution> {
+    let unfit = unfit::<f64>(&problem.scene);
+    let mut clock = Clock::start();
+    let assembled = Assembled::<f64>::new(problem).map_err(&unfit)?;
+    let system = assembled.system().map_err(&unfit)?;
+    let assembly = clock.lap();
+    let failed = |error: ReferenceError| {
+        InputError::new(format!("the direct solver found no solution: {error}"))
+            .file(&problem.scene.path)
+    };
+    let mut u = assembled.start();
+    let reduced = Reduced::new(problem, parts, &assembled, &u).map_err(&unfit)?;
+    stage("a sparse Cholesky factor");
+    let (lower, spans) = (system.law().lower(), system.law().spans().lengths());
+    let factor = Factor::new(&reduced.problem(lower, spans)).map_err(failed)?;
+    let found = factor.solve_between(&reduced.load, lower, spans, None).map_err(failed)?;
+    u[..found.u.len()].copy_from_slice(&found.u);
+    system.make_feasible(&mut u);
+    let residual = system.residual(&u);
+    // It always goes on until rounding ends it: that may be short of a tolerance.
+    let status = match options.tolerance {
+        Some(tolerance) if residual.scaled() > tolerance => Status::RoundingLimit,
+        _ => Status::Converged,
+    };
+    let outcome = Outcome { status, sweeps: 0, conjugate: 0, residual, omega: 0.0 };
+    let (ran, scalar) = (Ran::Direct, ScalarKind::F64);
+    let (exchanges, rounds) = (found.steps as u32, found.passes as u32);
+    let factored = Some(Factored { entries: factor.entries(), exchanges, rounds });
+    let solved = Solved { outcome, ran, factored, u, low: Vec::new(), scalar, assembly, clock };
+    conclude(problem, parts, &assembled, solved)
+}
+
+/// K and b with the Dirichlet columns moved to the right: what the reference takes.
+pub struct Reduced {
+    /// Where the rows of K start, and the last one ends.
+    pub row_ptr: Vec<u32>,
+    /// The column of each entry.
+    pub col_idx: Vec<u32>,
+    /// The entries.
+    pub values: Vec<f64>,
+    /// b
+    pub load: Vec<f64>,
+    /// For each contact edge, whether nothing but contact holds its part.
+    pub floating: Vec<bool>,
+}
+
+impl Reduced {
+    /// A part held by nothing gets a spring to 0 at one of its edges: in balance, that spring
+    /// carries no force, and it only picks one of the solutions.
+    pub fn new(
+        problem: &Problem,
+        parts: &Parts,
+        assembled: &Assembled<f64>,
+        u: &[f64],
+    ) -> std::result::Result<Self, KernelError> {
+        let (system, edges) = (assembled.system()?, assembled.edges());
+        let counts = problem.topology.counts;
+        let mut sprung = HashSet::new();
+        let mut reduced = Self {
+            row_ptr: vec![0],
+            col_idx: Vec::new(),
+            values: Vec::new(),
+            load: system.load().to_vec(),
+            floating: Vec::new(),
+        };
+        for (i, row) in system.matrix().iter().enumerate() {
+            let part = parts.of_edge(edges, i);
+            let support = parts.support(part);
+            let spring = support == Support::None && sprung.insert(part);
+            for (column, value) in row.entries() {
+                if column >= counts.unknowns() {
+                    reduced.load[i] -= value * u[column];
+                    continue;
+                }
+                reduced.col_idx.push(column as u32);
+                reduced.values.push(if spring && column == i { 2.0 * value } else { value });
+            }
+            reduced.row_ptr.push(reduced.values.len() as u32);
+            if i >= counts.free {
+                reduced.floating.push(support != Support::Held);
+            }
+        }
+        Ok(reduced)
+    }
+
+    fn problem<'a>(
+        &'a self,
+        lower: &'a [f64],
+        spans: &'a [f64],
+    ) -> signorini_reference::Problem<'a> {
+        signorini_reference::Problem {
+            row_ptr: &self.row_ptr,
+            col_idx: &self.col_idx,
+            values: &self.values,
+            load: &self.load,
+            lower,
+            spans,
+            floating: &self.floating,
+        }
+    }
+}

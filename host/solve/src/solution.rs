@@ -1,0 +1,183 @@
+//! A solved problem and what is read off it.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use serde::Serialize;
+use signorini_kernel::Real;
+use signorini_kernel::device::report::Ended;
+use signorini_kernel::mesh::components::{PartCounts, Support};
+use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
+use signorini_kernel::solve::solver::Status;
+
+use super::{Factored, Ran, ScalarKind};
+use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
+use signorini_problem::field::CellField;
+use signorini_problem::{Parts, Problem};
+use signorini_scene::scene::units::Units;
+
+/// A solved problem; numbers of an f32 solve are held exactly in f64.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Its scalar type.
+    pub scalar: ScalarKind,
+    /// How the solve ended.
+    pub status: Status,
+    /// Sweeps; those before a factor took over are not in the answer.
+    pub sweeps: u32,
+    /// Iterations of conjugate gradients among them.
+    pub conjugate: u32,
+    /// What solved it in the end.
+    pub ran: Ran,
+    /// The factor, where one solved it.
+    pub factored: Option<Factored>,
+    /// The units in which it was solved; all numbers here are in the scene's.
+    pub units: Units,
+    /// The problem in these units, where they are not the scene's.
+    pub scaled: Option<Arc<Problem>>,
+    /// The scaled complementarity residual.
+    pub algebraic_residual: f64,
+    /// The last relaxation factor; 0 for the direct solver.
+    pub omega: f64,
+    /// Mean of u_h over each edge.
+    pub u: Vec<f64>,
+    /// ∫_E σ·n for each edge along its direction's normal: (15), the mean of both sides.
+    pub flux: Vec<f64>,
+    /// Largest disagreement of the two sides, relative to the largest flux.
+    pub mismatch: f64,
+    /// ∫_C (τ·n − q) ≥ 0: τ is [`Solution::flux`] within the law of contact, so that it is q where u > ψ and not
+    /// below q where u = ψ, wherever the solve was stopped.
+    pub contact_force: f64,
+    /// Σ|E| over active contact edges.
+    pub contact_length: f64,
+    /// Active contact edges, u_E = ψ_E.
+    pub contact_active: usize,
+    /// Connected parts of the domain.
+    pub parts: PartCounts,
+    /// How wrong it can be; `None` where there is no bound.
+    pub bound: Option<ErrorBound>,
+    /// Why there is no bound.
+    pub no_bound: Option<NoBound>,
+    /// The continuous function and the flux that the bound is about.
+    pub certified: CertifiedFields,
+    /// Wall-clock seconds.
+    pub seconds: Seconds,
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Seconds {
+    /// Element matrices, pattern, values, load.
+    pub assembly: f64,
+    /// Sweeps, or factorisation and active set.
+    pub solve: f64,
+    /// Flux recovery.
+    pub flux: f64,
+    /// The error bound, with the integrals of data that it needs.
+    pub certificate: f64,
+}
+
+impl Solution {
+    /// The solve reached its tolerance, or all that rounding allows.
+    pub fn converged(&self) -> bool {
+        matches!(self.status, Status::Converged | Status::RoundingLimit)
+    }
+
+    /// max |∫_E σ·n|, at least the smallest normal number.
+    pub fn largest_flux(&self) -> f64 {
+        self.flux.iter().fold(f64::TINY, |most, flux| most.max(flux.abs()))
+    }
+
+    /// max over the cells of |Σ_E ∫σ·n + ∫f|, relative to the largest edge flux.
+    pub fn conservation_defect(&self, problem: &Problem) -> f64 {
+        let defect = (0..problem.cells()).map(|cell| {
+            let field = CellField::new(problem, cell, &self.u, &self.flux);
+            field.surplus(problem.loads.of_cell(cell)).abs()
+        });
+        defect.fold(0.0, f64::max) / self.largest_flux()
+    }
+
+    /// The bound as a part of the energy norm of what it is the bound of; `None` where either is missing, or 0.
+    pub fn relative_bound(&self, energy_norm: Option<f64>) -> Option<f64> {
+        let relative = self.bound?.total / energy_norm?;
+        relative.is_finite().then_some(relative)
+    }
+
+    /// ‖A^½∇_h u_h‖, where the solve has converged: see [`CellField::energy`].
+    pub fn energy(&self, problem: &Problem) -> f64 {
+        let squares = (0..problem.cells()).map(|cell| {
+            let field = CellField::new(problem, cell, &self.u, &self.flux);
+            field.energy(problem.loads.of_cell(cell))
+        });
+        squares.sum::<f64>().max(0.0).sqrt()
+    }
+
+    /// Mean of ψ over contact edge `at` in the scalar of u, so that u_E = ψ_E can be asked.
+    pub fn gap(&self, problem: &Problem, at: usize) -> f64 {
+        let scalar = self.ran.scalar_of_u(self.scalar);
+        scalar.round(problem.loads.gap[at] / self.units.u) * self.units.u
+    }
+
+    /// λ = σ·n − q, the mean over contact edge `at` (counted from the first one).
+    pub fn multiplier(&self, problem: &Problem, at: usize) -> f64 {
+        let edge = problem.topology.counts.free + at;
+        problem.loads.flux_range(at).multiplier(self.flux[edge]) / problem.lengths[edge]
+    }
+}
+
+/// A part held by nothing is determined up to a constant: the one with ∫u = 0 is given.
+pub fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64], vertices: &mut [f64]) {
+    let Ok(edges) = problem.topology.edges() else { return };
+    let mesh = &problem.mesh;
+    let corner = |vertex: u32| mesh.vertices[vertex as usize];
+    let triangles = mesh.triangles.iter();
+    let areas = triangles
+        .map(|cell| triangle_area(cell.map(corner)))
+        .chain(mesh.quads.iter().map(|cell| quad_area(cell.map(corner))));
+    let mut means = HashMap::<usize, (f64, f64)>::new();
+    let no_flux = vec![0.0; u.len()];
+    for (cell, area) in areas.enumerate() {
+        let mean = CellField::new(problem, cell, u, &no_flux).mean();
+        let sums = means.entry(parts.of_cell(cell)).or_default();
+        *sums = (sums.0 + area * mean, sums.1 + area);
+    }
+    let shift = |part: usize| match parts.support(part) {
+        Support::None => means[&part].0 / means[&part].1,
+        Support::Contact | Support::Held => 0.0,
+    };
+    for (edge, u) in u.iter_mut().enumerate() {
+        *u -= shift(parts.of_edge(&edges, edge));
+    }
+    let cells = mesh.triangles.iter().map(|cell| cell.as_slice());
+    let cells = cells.chain(mesh.quads.iter().map(|cell| cell.as_slice())).enumerate();
+    let of_vertex: HashMap<u32, usize> =
+        cells.flat_map(|(cell, corners)| corners.iter().map(move |&v| (v, cell))).collect();
+    for (&vertex, &cell) in &of_vertex {
+        if let Some(value) = vertices.get_mut(vertex as usize) {
+            *value -= shift(parts.of_cell(cell));
+        }
+    }
+}
+
+/// The word for the end of a tick in `ticks.csv`.
+pub fn ended_name(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Exact => "exact",
+        Ended::Accurate => "accurate",
+        Ended::Settled => "settled",
+        Ended::OutOfSweeps => "out-of-sweeps",
+        Ended::OutOfTime => "out-of-time",
+        Ended::NotFinite => "not-finite",
+    }
+}
+
+/// The word for a status in `summary.json`.
+pub fn status_name(status: Status) -> &'static str {
+    match status {
+        Status::Converged => "converged",
+        Status::RoundingLimit => "rounding-limit",
+        Status::OutOfSweeps => "out-of-sweeps",
+        Status::Stalled => "stalled",
+        Status::NotFinite => "not-finite",
+    }
+}

@@ -1,0 +1,95 @@
+//! The bound of a solve: it holds where rounding is most of it (thin cells, u large against its changes), and it is the
+//! identity where extensions of rough data are.
+
+use crate::{Options, ScalarKind, SolverKind, solve};
+use signorini_certify::exact::distance;
+use signorini_problem::fixtures::{self, on_grid};
+use signorini_scene::error::Result;
+use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_tolerances::solve::{CURVED_ENERGY, GUARANTEE};
+
+const PARABOLA: &str = r#"
+mesh = "grid"
+material.default.conductivity = "1"
+source.f = "-2"
+boundary.dirichlet = { kind = "dirichlet", value = "x + x^2" }
+boundary.contact = { kind = "contact", gap = "x + x^2", flux = "-1" }
+exact = { u = "x + x^2", gradient = ["1 + 2*x", "0"] }
+"#;
+
+const HIGH_UP: &str = r#"
+mesh = "grid"
+material.default.conductivity = "1"
+source.f = "0"
+boundary.left = { kind = "robin", coefficient = "1000", ambient = "OFFSET - 1.001" }
+boundary.right = { kind = "robin", coefficient = "1000", ambient = "OFFSET + 1.001" }
+boundary.default = { kind = "neumann", flux = "0" }
+exact = { u = "OFFSET + x", gradient = ["1", "0"] }
+"#;
+
+/// Total and combined error after at most `max_sweeps`, `height` being that of the grid.
+fn bound(text: &str, cells: Cells, height: f64, options: Options) -> Result<[f64; 2]> {
+    let mut mesh = grid(3, cells);
+    mesh.vertices.iter_mut().for_each(|vertex| vertex[1] *= height);
+    let (scene, problem) = on_grid(text, mesh)?;
+    let solution = solve(&problem, &options)?;
+    let exact = scene.exact.as_ref().expect("an exact solution");
+    let found = distance(exact, &problem, &solution.certified.admissible())?;
+    Ok([solution.bound.expect("a bound").total, found.combined])
+}
+
+fn holds(text: &str, height: f64, scalar: ScalarKind) -> Result<()> {
+    for cells in [Cells::Triangles, Cells::Quads, Cells::Mixed] {
+        for max_sweeps in [20, 100_000] {
+            let options = Options { scalar, max_sweeps, ..Options::default() };
+            let [total, combined] = bound(text, cells, height, options)?;
+            GUARANTEE.check_at_most(format_args!("{height} {max_sweeps}"), combined, total);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn of_thin_cells() -> Result<()> {
+    for height in [1e-2, 1e-3, 1e-4, 1e-5] {
+        holds(PARABOLA, height, ScalarKind::F32)?;
+    }
+    holds(PARABOLA, 1e-8, ScalarKind::F64)?;
+    holds(PARABOLA, 1e-9, ScalarKind::F64)
+}
+
+#[test]
+fn of_transfer_between_large_values() -> Result<()> {
+    for offset in ["1000.3", "10000.3", "1000000.3"] {
+        holds(&HIGH_UP.replace("OFFSET", offset), 1.0, ScalarKind::F32)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn the_bound_is_the_identity_for_gaps_with_kinks() -> Result<()> {
+    // u = y² − x² + 1 with σ·n = 0 above a gap that is rough: nothing touches, and the extensions are most of the bound.
+    let exact = "[exact]\nu = \"y^2 - x^2 + 1\"\ngradient = [\"-2*x\", \"2*y\"]\n";
+    for gap in [
+        "-0.5 - 30*max(0, x - 0.99)",
+        "-0.5 - 3*max(0, x - 0.85)",
+        "-0.5 + 0.3*max(0, 1 - abs(x - 0.3)/0.05)",
+        "-0.5 - 30*max(0, x - 0.99) - 3*abs(x + 0.9)",
+        "-1.5 + tanh((x - 0.4)/1e-4)",
+    ] {
+        let text = fixtures::PARABOLA
+            .replace("20 + 1e6*y", "y^2 - x^2 + 1")
+            .replace("\"-x^2\"", &format!("{gap:?}"));
+        for cells in [Cells::Triangles, Cells::Quads] {
+            let (scene, problem) = on_grid(&(text.clone() + exact), grid(4, cells))?;
+            let options = Options { solver: SolverKind::Direct, ..Options::default() };
+            let solution = solve(&problem, &options)?;
+            let exact = scene.exact.as_ref().expect("an exact solution");
+            let admissible = solution.certified.admissible();
+            let found = distance(exact, &problem, &admissible)?;
+            let ratio = solution.bound.expect("a bound").duality_gap / found.identity;
+            CURVED_ENERGY.check(format_args!("{gap}, {cells:?}"), ratio - 1.0);
+        }
+    }
+    Ok(())
+}
