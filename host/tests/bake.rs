@@ -255,12 +255,12 @@ fn the_dependency_line_builds_as_printed() {
     let (status, _, _, source) = bake(LEVEE, &[], &[]);
     assert_eq!(status, 0);
     let source = source.expect("a module");
-    let line = source.lines().find_map(|line| line.strip_prefix("//! signorini-kernel = "));
+    let line = source.lines().find_map(|line| line.strip_prefix("//! signorini-device = "));
     let line = line.expect("a dependency line");
     let package = Folder::new();
     std::fs::create_dir(package.path("src")).expect("a folder");
     let head = "[package]\nname = \"firmware\"\nedition = \"2024\"\n\n[dependencies]\n";
-    package.write("Cargo.toml", format!("{head}signorini-kernel = {line}\n"));
+    package.write("Cargo.toml", format!("{head}signorini-device = {line}\n"));
     package.write("src/levee.rs", &source);
     package.write(
         "src/main.rs",

@@ -203,17 +203,17 @@ impl fmt::Display for CellId {
 impl core::error::Error for Error {}
 
 /// `Ok` when an array is as long as the others ask for.
-pub(crate) fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error> {
+pub fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { of, found, expected }) }
 }
 
 /// The same for an array that may be left out.
-pub(crate) fn same_length_or_empty(of: Array, found: usize, expected: usize) -> Result<(), Error> {
+pub fn same_length_or_empty(of: Array, found: usize, expected: usize) -> Result<(), Error> {
     if found == 0 { Ok(()) } else { same_length(of, found, expected) }
 }
 
 /// `Ok` when every number of an array is finite.
-pub(crate) fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(), Error> {
+pub fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(), Error> {
     match numbers.iter().position(|x| !x.finite()) {
         Some(at) => Err(Error::NotFinite { of, at }),
         None => Ok(()),
@@ -221,8 +221,7 @@ pub(crate) fn all_finite<R: crate::Real>(of: Array, numbers: &[R]) -> Result<(),
 }
 
 /// max |x| of numbers whose answer has room in the scalar: 1/ε² times as large they are still finite.
-#[cfg(feature = "mesh")]
-pub(crate) fn all_moderate<R: crate::Real>(
+pub fn all_moderate<R: crate::Real>(
     of: Array,
     numbers: impl Iterator<Item = R>,
 ) -> Result<R, Error> {

@@ -47,7 +47,7 @@ impl<R: Real> Span<R> {
 
     /// Both ends from the base on.
     #[inline(always)]
-    pub(crate) fn ends(self) -> [R; 2] {
+    pub fn ends(self) -> [R; 2] {
         let length = self.length();
         if length < R::ZERO { [length, R::ZERO] } else { [R::ZERO, length] }
     }
@@ -134,7 +134,7 @@ impl<'a, R: Real> Spans<'a, R> {
 
     /// Whether any may be other than ∞.
     #[inline(always)]
-    pub(crate) fn are_limited(&self) -> bool {
+    pub fn are_limited(&self) -> bool {
         features::LIMITED && !self.lengths().is_empty()
     }
 

@@ -49,7 +49,7 @@ index!(u32);
 
 /// The entry at `position`, or the default where a (never validated) index points outside.
 #[inline(always)]
-pub(crate) fn read<T: Copy + Default>(slice: &[T], position: usize) -> T {
+pub fn read<T: Copy + Default>(slice: &[T], position: usize) -> T {
     match slice.get(position) {
         Some(&entry) => entry,
         None => T::default(),
@@ -58,7 +58,7 @@ pub(crate) fn read<T: Copy + Default>(slice: &[T], position: usize) -> T {
 
 /// Sets the entry at `position`; nothing where a (never validated) index points outside.
 #[inline(always)]
-pub(crate) fn write<T>(slice: &mut [T], position: usize, entry: T) {
+pub fn write<T>(slice: &mut [T], position: usize, entry: T) {
     if let Some(place) = slice.get_mut(position) {
         *place = entry;
     }

@@ -1,13 +1,13 @@
 //! Elements and areas against numbers worked out by hand, on cells of no special size.
 #![allow(clippy::indexing_slicing)]
 
-use signorini_kernel::discrete::element::{crouzeix_raviart, rannacher_turek};
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::stiffness::{Coefficient, fill};
+use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
 use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::edges::EdgeCounts;
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
-use signorini_kernel::{Error, Mesh, Real, Tensor, discrete::contact};
+use signorini_kernel::stiffness::{Coefficient, fill};
+use signorini_kernel::{Error, Mesh, Real, Tensor, contact};
 use signorini_tolerances::kernel::BASIS;
 
 /// Area 3.

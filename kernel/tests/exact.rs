@@ -1,21 +1,22 @@
 //! Small facts worked out by hand: limits that are just met, and figures that larger problems hide.
 #![allow(clippy::indexing_slicing)]
 
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{Row, Rows};
-use signorini_kernel::discrete::signorini::Shifts;
-use signorini_kernel::discrete::signorini::{Residual, System};
+use signorini_kernel::conjugate::{self, ConjugateBuffers};
+use signorini_kernel::csr::Csr;
 use signorini_kernel::error::Array;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::solve::conjugate::{self, ConjugateBuffers};
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Settings, Solver, Status};
-use signorini_kernel::{Error, Index, Libm, solve::Relaxation, solve::psor};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::{Residual, System};
+use signorini_kernel::{Error, Index, Libm, psor};
 
 const NONE: u16 = u16::MAX;
 

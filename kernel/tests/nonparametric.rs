@@ -1,11 +1,9 @@
 //! The nonparametric quad against what defines it, and against the parametric one on parallelograms.
 #![allow(clippy::indexing_slicing)]
 
-use signorini_kernel::discrete::element::{
-    QuadElement, crouzeix_raviart, nonparametric, rannacher_turek,
-};
-use signorini_kernel::discrete::stiffness::{Coefficient, fill_with};
+use signorini_kernel::element::{QuadElement, crouzeix_raviart, nonparametric, rannacher_turek};
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::{Coefficient, fill_with};
 use signorini_kernel::{Error, Real, Tensor};
 use signorini_tolerances::kernel::{BASIS, GRADIENT, LINEAR, LINEAR_FLUX, STIFFNESS};
 

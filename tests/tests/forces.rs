@@ -11,8 +11,8 @@ use std::path::Path;
 
 use signorini_bake::{condensed, full};
 use signorini_condense::{CondensedModel, Recovery, recoverable};
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_device::tick::Limits;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::gmsh;

@@ -5,8 +5,8 @@ use signorini_tolerances::twins::SLENDER;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_kernel::{Error, Tensor};
 use signorini_tests::cell::Cell;
 use signorini_tests::element::Element;

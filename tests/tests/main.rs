@@ -6,7 +6,7 @@
 mod bound;
 mod catalogue;
 mod condensed;
-#[path = "../../kernel/tests/factored/mod.rs"]
+#[path = "../../kernel/device/tests/factored/mod.rs"]
 mod factored;
 mod forces;
 mod hostile;

@@ -1,25 +1,25 @@
 //! The kernel against the naive twin on random scenes: every kind of cell, tensor and condition.
 
 use crate::factored;
-use signorini_kernel::discrete::law::Law;
+use signorini_kernel::law::Law;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::signorini::Shifts;
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::csr::Csr;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Settings, Status};
-use signorini_kernel::{Index, Libm, Real, Tensor, discrete::contact, discrete::flux, solve::psor};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Settings, Status};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::System;
+use signorini_kernel::{Index, Libm, Real, Tensor, contact, flux, psor};
 use signorini_tests::cell::Cell;
 use signorini_tests::field::Scalar;
 use signorini_tests::grid::{Edge, edge};
@@ -345,7 +345,7 @@ fn random_scenes_in_f32_and_with_wide_indices() {
 
 #[test]
 fn element_matrices() {
-    use signorini_kernel::discrete::element::{crouzeix_raviart, rannacher_turek};
+    use signorini_kernel::element::{crouzeix_raviart, rannacher_turek};
     for seed in 0..100 {
         let problem = random::problem(&mut Random::new(1000 + seed), 3);
         for cell in 0..problem.grid.cell_count() {

@@ -18,24 +18,31 @@ const FULL: Absence = Absence {
     what: "code of the full model",
     is: |name| {
         let modules = [
-            "4mesh",
-            "8discrete",
-            "5solve4psor",
-            "5bound5cells",
-            "5bound6forest",
-            "5bound8averages",
-            "5bound10conforming",
-            "5bound11equilibrium",
-            "6device4tick",
-            "6device4full",
+            "kernel4mesh",
+            "kernel7element",
+            "kernel8assembly",
+            "kernel3csr",
+            "kernel4rows",
+            "kernel6system",
+            "kernel3law",
+            "kernel4psor",
+            "kernel4flux",
+            "kernel7contact",
+            "bound5cells",
+            "bound6forest",
+            "bound8averages",
+            "bound10conforming",
+            "bound11equilibrium",
+            "device4tick",
+            "device4full",
         ];
         let own = |rest: &str| modules.iter().any(|module| rest.starts_with(module));
         let parts = ["4walk", "4quad", "8triangle", "8boundary", "5parts"];
         let bound = |rest: &str| {
-            let part = rest.strip_prefix("5bound11certificate");
+            let part = rest.strip_prefix("bound11certificate");
             part.is_some_and(|rest| parts.iter().any(|part| rest.starts_with(part)))
         };
-        name.split("signorini_kernel").skip(1).any(|rest| own(rest) || bound(rest))
+        name.split("signorini_").skip(1).any(|rest| own(rest) || bound(rest))
     },
 };
 /// All that solves a condensed problem.
@@ -81,12 +88,12 @@ const QUADS: Absence = Absence {
 const BOUND: Absence = Absence {
     what: "code of the error bound",
     is: |name| {
-        let modules = ["5bound8averages", "5bound10conforming", "5bound11equilibrium"];
+        let modules = ["bound8averages", "bound10conforming", "bound11equilibrium"];
         let certificate = ["7certify", "4walk", "8boundary", "4quad", "8triangle", "5parts"]
-            .map(|part| format!("5bound11certificate{part}"));
+            .map(|part| format!("bound11certificate{part}"));
         let names = || modules.iter().copied().chain(certificate.iter().map(String::as_str));
         let own = |rest: &str| names().any(|part| rest.starts_with(part));
-        name.split("signorini_kernel").skip(1).any(own)
+        name.split("signorini_").skip(1).any(own)
     },
 };
 const ROBIN: Absence = Absence { what: "Robin code", is: |name| name.contains("E5robin") };
@@ -169,7 +176,12 @@ fn judge(image: &Image, names: &[String]) -> Result<(), String> {
 
 /// All functions of the image, and those of the kernel that were inlined.
 fn functions(image: &Path) -> Result<Vec<String>, String> {
-    let kernel = inlined(image)?.into_iter().filter(|name| name.contains("signorini_kernel"));
+    let is_own = |name: &str| {
+        ["kernel", "contact", "device"]
+            .iter()
+            .any(|part| name.contains(&format!("signorini_{part}")))
+    };
+    let kernel = inlined(image)?.into_iter().filter(|name| is_own(name));
     let mut names: Vec<_> = sized(image)?.into_iter().map(|(name, _)| name).collect();
     let own = names.len();
     names.extend(kernel);
@@ -183,8 +195,8 @@ mod tests {
 
     #[test]
     fn what_must_not_and_what_must_be_there_are_both_asked_for() {
-        let solver = "_RNvNtNtCs1_16signorini_kernel5solve5dense3sor5sweepf".to_owned();
-        let mesh = "_RNvNtCs1_16signorini_kernel8discrete8assembly4loadft".to_owned();
+        let solver = "_RNvNtNtCs1_17signorini_contact5dense3sor5sweepf".to_owned();
+        let mesh = "_RNvNtCs1_16signorini_kernel8assembly4loadft".to_owned();
         let [linear, levee, ..] = &IMAGES;
         assert_eq!(judge(linear, &[]), Ok(()));
         let refused = |image, names: &[String]| judge(image, names).expect_err("refused");
@@ -199,13 +211,16 @@ mod tests {
 
     #[test]
     fn the_bound_of_a_condensed_model_is_its_own() {
-        let of = |path: &str| (FULL.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
-        assert!(of("5bound11certificate4walk10over_cells"));
+        let of = |path: &str| (FULL.is)(&format!("_RNvCs1_{path}"));
+        assert!(of("15signorini_bound11certificate4walk10over_cells"));
         assert!(
-            !of("5bound11certificate11Certificatef") && !of("6device9condensed11certificate4Form")
+            !of("15signorini_bound11certificate11Certificatef")
+                && !of("17signorini_contact11certificate4Form")
         );
-        let bound = |path: &str| (BOUND.is)(&format!("_RNvCs1_16signorini_kernel{path}"));
-        assert!(bound("5bound11certificate7certifyft") && bound("5bound11equilibrium6impose"));
-        assert!(!bound("5solve4psor5sweep") && !bound("6device9condensed11certificate7certify"));
+        let bound = |path: &str| (BOUND.is)(&format!("_RNvCs1_{path}"));
+        assert!(bound("15signorini_bound11certificate7certifyft"));
+        assert!(bound("15signorini_bound11equilibrium6impose"));
+        assert!(!bound("16signorini_kernel4psor5sweep"));
+        assert!(!bound("17signorini_contact11certificate7certify"));
     }
 }

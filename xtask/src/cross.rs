@@ -16,7 +16,7 @@ const BOARDS: [Board; 3] = [M4, M4F, M7];
 
 /// Packages, and what to call them.
 const PACKAGES: [(&str, &str); 3] = [
-    ("signorini-kernel", "the kernel"),
+    ("signorini-device", "the kernel"),
     ("signorini-firmware", "the images"),
     ("signorini-rtic", "the RTIC example"),
 ];

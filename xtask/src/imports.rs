@@ -11,16 +11,19 @@ use crate::steps::Steps;
 use signorini_image::cargo::root;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 17] = [
+const CRATES: [(&str, &[&str]); 20] = [
     ("kernel", &[]),
+    ("kernel/bound", &["kernel"]),
+    ("kernel/contact", &["kernel"]),
+    ("kernel/device", &["kernel", "bound", "contact"]),
     ("host/draw", &[]),
     ("host/image", &[]),
     ("host/scene", &["kernel"]),
     ("host/reference", &[]),
-    ("host/problem", &["kernel", "scene"]),
-    ("host/certify", &["kernel", "scene", "problem"]),
-    ("host/solve", &["kernel", "scene", "reference", "problem", "certify"]),
-    ("host/condense", &["kernel", "scene", "reference", "problem", "certify", "solve"]),
+    ("host/problem", &["kernel", "bound", "device", "scene"]),
+    ("host/certify", &["kernel", "bound", "scene", "problem"]),
+    ("host/solve", &["kernel", "contact", "device", "scene", "reference", "problem", "certify"]),
+    ("host/condense", &["kernel", "bound", "scene", "reference", "problem", "certify", "solve"]),
     ("host/intervals", &["kernel", "scene", "problem", "certify", "solve"]),
     ("host/files", &["kernel", "scene", "problem", "certify", "solve", "intervals"]),
     (

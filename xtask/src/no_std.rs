@@ -20,6 +20,10 @@ pub const MANIFEST: &str = "tests/no_std/Cargo.toml";
 /// The functions that stand for the kernel in both scalars: without them the archive shows nothing.
 const ENTRIES: [&str; 2] = ["force_f32_u16", "force_f64_u32"];
 
+/// The crates of the kernel.
+const CRATES: [&str; 4] =
+    ["signorini-kernel", "signorini-bound", "signorini-contact", "signorini-device"];
+
 /// The kernel as it is, then each way of breaking it.
 pub fn run(steps: &mut Steps) {
     steps.check("kernel without std and allocator", || {
@@ -27,11 +31,13 @@ pub fn run(steps: &mut Steps) {
         inspect()
     });
     steps.check("the kernel of a condensed scene needs libm alone", || {
-        let tree = ["tree", "--package", "signorini-kernel", "--no-default-features"];
+        let tree = ["tree", "--package", "signorini-device", "--no-default-features"];
         let mut command = cargo(&tree);
         let said = output(command.args(["--edges", "normal", "--prefix", "none", "--locked"]))?;
         let names = said.lines().filter_map(|line| line.split(' ').next());
-        match names.skip(1).collect::<Vec<_>>()[..] {
+        let mut others: Vec<_> = names.filter(|name| !name.starts_with("signorini-")).collect();
+        others.dedup();
+        match others[..] {
             ["libm"] => Ok(()),
             ref others => Err(format!("it needs {}", others.join(", "))),
         }
@@ -39,25 +45,21 @@ pub fn run(steps: &mut Steps) {
     steps.check("no warning whatever the kernel leaves out", || {
         ["", "mesh", "triangles", "quads,contact", "workspace", "micromath"].iter().try_for_each(
             |of| {
-                let what = [
-                    "clippy",
-                    "--package",
-                    "signorini-kernel",
-                    "--locked",
-                    "--no-default-features",
-                ];
+                let what = ["clippy", "--package", "signorini-device", "--no-default-features"];
                 let mut command = cargo(&what);
-                command.args(["--features", of, "--", "-D", "warnings"]);
+                command.args(["--locked", "--features", of, "--", "-D", "warnings"]);
                 run_cargo(command)
             },
         )
     });
-    steps.check("the kernel as a package, and its pages without a warning", || {
-        let package = ["package", "--package", "signorini-kernel", "--allow-dirty", "--locked"];
-        run_cargo(cargo(&package))?;
+    steps.check("the kernel as packages, and its pages without a warning", || {
+        let of_each = || CRATES.iter().flat_map(|name| ["--package", name]);
+        let mut package = cargo(&["package", "--allow-dirty", "--locked"]);
+        package.args(of_each());
+        run_cargo(package)?;
         [&["--all-features"][..], &["--no-default-features"], &[]].iter().try_for_each(|features| {
-            let mut doc = cargo(&["doc", "--package", "signorini-kernel", "--no-deps", "--locked"]);
-            doc.args(*features).env("RUSTDOCFLAGS", "-D warnings");
+            let mut doc = cargo(&["doc", "--no-deps", "--locked"]);
+            doc.args(of_each()).args(*features).env("RUSTDOCFLAGS", "-D warnings");
             run_cargo(doc)
         })
     });

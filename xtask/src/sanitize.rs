@@ -56,7 +56,15 @@ fn caught() -> Result<(), String> {
 }
 
 fn tests() -> Result<Command, String> {
-    let mut command = cargo(&["test", "--locked", "--no-fail-fast", "-p", "signorini-kernel"]);
+    let mut command = cargo(&[
+        "test",
+        "--locked",
+        "--no-fail-fast",
+        "-p",
+        "signorini-kernel",
+        "-p",
+        "signorini-device",
+    ]);
     command.args(TESTS.iter().flat_map(|test| ["--test", test]));
     // With a target of its own, programs that run while it builds stay as they are.
     command.arg("--target").arg(host()?).arg("--target-dir").arg(target_dir("sanitize"));

@@ -9,7 +9,7 @@ fn kernels(folder: &Path) -> Vec<PathBuf> {
     let paths = files.filter_map(|file| Some(file.ok()?.path()));
     let is_kernel = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        name.starts_with("libsignorini_kernel-") && name.ends_with(".rlib")
+        name.starts_with("libsignorini_device-") && name.ends_with(".rlib")
     };
     let age = |path: &PathBuf| path.metadata().and_then(|of| of.modified()).ok();
     let mut kernels: Vec<_> = paths.filter(is_kernel).collect();
@@ -21,7 +21,7 @@ fn kernels(folder: &Path) -> Vec<PathBuf> {
 /// after a reset is the first again, whether there is a bound, and how a tick ends for which there is no time.
 pub const FIRMWARE: &str = "
 fn main() {
-    use signorini_kernel::device::report::{Ended, Report};
+    use signorini_device::kernel::report::{Ended, Report};
     let mut controller = Box::new(Controller::new());
     let first: Answer = controller.tick(Inputs::DEFAULT).unwrap();
     let report: Report<Scalar> = first.report;
@@ -57,7 +57,7 @@ pub fn ran(text: &str) -> Result<String, String> {
             .arg("-L")
             .arg(dependencies)
             .arg("--extern")
-            .arg(format!("signorini_kernel={}", kernel.display()))
+            .arg(format!("signorini_device={}", kernel.display()))
             .arg("-o")
             .args([&program, &file])
             .output()

@@ -6,8 +6,9 @@
 use std::fmt::Debug;
 use std::fmt::Write as _;
 
+use signorini_device::model::Model;
 use signorini_kernel::error::Array;
-use signorini_kernel::{Error, Index, device::model::Model};
+use signorini_kernel::{Error, Index};
 
 use crate::range::{refuse_lengths, refuse_squares};
 use signorini_problem::scalar::Scalar;
@@ -122,7 +123,7 @@ fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> Strin
 /// What the fields below may name; a scene without Robin edges, say, leaves some of it unused.
 const IMPORTS: &str = "\
 #[allow(unused_imports)]
-use signorini_kernel::{device::model::Model, Tensor, discrete::assembly::CellLoads, mesh::boundary::{Neumann, Robin}, mesh::edges::EdgeCounts, discrete::stiffness::Stiffness};
+use signorini_device::{model::Model, kernel::{Tensor, assembly::CellLoads, mesh::boundary::{Neumann, Robin}, mesh::edges::EdgeCounts, stiffness::Stiffness}};
 
 ";
 

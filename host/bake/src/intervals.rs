@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::device::intervals::OutputWeights;
+use signorini_device::intervals::OutputWeights;
 
 use crate::choice::{Choice, Model, Origin};
 use crate::text::{code, prose};
@@ -56,7 +56,7 @@ pub fn narrowed<R: Scalar>(weighed: &Weighed) -> OutputWeights<R> {
 pub fn constants<R: Scalar>(problem: &Problem, weighed: &[Weighed]) -> String {
     let mut text = "
 /// How much of the error bound may be in each output: see [`Answer::plus_minus`].
-pub const OUTPUT_WEIGHTS: [signorini_kernel::device::intervals::OutputWeights<Scalar>; OUTPUTS] = ["
+pub const OUTPUT_WEIGHTS: [signorini_device::intervals::OutputWeights<Scalar>; OUTPUTS] = ["
         .to_owned();
     for (output, weighed) in wanted(&problem.scene).iter().zip(weighed) {
         let why = weighed
@@ -76,10 +76,10 @@ pub const OUTPUT_WEIGHTS: [signorini_kernel::device::intervals::OutputWeights<Sc
 fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
     let OutputWeights { total, square, algebraic, of_u } = *of;
     if total == R::INFINITY {
-        return "signorini_kernel::device::intervals::OutputWeights::NONE".to_owned();
+        return "signorini_device::intervals::OutputWeights::NONE".to_owned();
     }
     format!(
-        "signorini_kernel::device::intervals::OutputWeights {{ total: {total:?}, square: {square:?}, algebraic: {algebraic:?}, of_u: {of_u:?} }}"
+        "signorini_device::intervals::OutputWeights {{ total: {total:?}, square: {square:?}, algebraic: {algebraic:?}, of_u: {of_u:?} }}"
     )
 }
 
@@ -89,7 +89,7 @@ impl Answer {
     /// guaranteed. What the sum of an output rounds is not in it.
     pub fn plus_minus(&self) -> Outputs {
         let weights = &OUTPUT_WEIGHTS;
-        Outputs::from_array(signorini_kernel::device::intervals::plus_minus(weights, &self.report))
+        Outputs::from_array(signorini_device::intervals::plus_minus(weights, &self.report))
     }
 }
 ";

@@ -86,7 +86,7 @@ impl ModuleApi {
         match self.ranges::<f64>().is_empty() {
             true => "",
             false => {
-                "        signorini_kernel::device::ranges::check(&inputs.to_array(), &Inputs::RANGES)?;\n"
+                "        signorini_device::ranges::check(&inputs.to_array(), &Inputs::RANGES)?;\n"
             }
         }
     }
@@ -182,7 +182,7 @@ pub type Scalar = {scalar};
 pub const MODEL: &str = {model:?};
 /// The scene that it was made of.
 pub const SCENE_HASH: u64 = 0x{hash:016x};
-/// The features of `signorini-kernel` that it needs.
+/// The features of `signorini-device` that it needs.
 pub const KERNEL_FEATURES: &[&str] = &{features:?};
 /// Number of inputs.
 pub const INPUTS: usize = {inputs};
@@ -230,9 +230,7 @@ impl ModuleApi {
         let range = |[lo, hi]: &[f64; 2]| format!("[{}, {}]", end(*lo), end(*hi));
         let ranges: Vec<_> = self.ranges.iter().map(range).collect();
         let clamped = self.inputs().enumerate().map(|(at, name)| {
-            format!(
-                "{name}: signorini_kernel::device::ranges::clamp(self.{name}, Self::RANGES[{at}])"
-            )
+            format!("{name}: signorini_device::ranges::clamp(self.{name}, Self::RANGES[{at}])")
         });
         format!(
             "
@@ -253,9 +251,9 @@ impl ModuleApi {
 /// The module's data are laid out for one version of the kernel.
 const VERSION: &str = concat!(
     "\n// Written for this kernel: bake the scene again for another one.\n",
-    "const _: () = assert!(signorini_kernel::is_version(\"",
+    "const _: () = assert!(signorini_device::is_version(\"",
     env!("CARGO_PKG_VERSION"),
-    "\"), \"baked for signorini-kernel ",
+    "\"), \"baked for signorini-device ",
     env!("CARGO_PKG_VERSION"),
     "; bake the scene again\");\n"
 );
@@ -263,12 +261,16 @@ const VERSION: &str = concat!(
 /// The line of a Cargo.toml. The kernel is on no registry: it is found where the checkout stands that has baked this.
 fn dependency(features: &[String]) -> String {
     let (place, remark) = match checkout::find() {
-        Ok(root) => (root.join("kernel").display().to_string(), "the checkout that has baked this"),
-        Err(_) => ("kernel".to_owned(), "the folder kernel of a checkout of signorini"),
+        Ok(root) => {
+            (root.join("kernel/device").display().to_string(), "the checkout that has baked this")
+        }
+        Err(_) => {
+            ("kernel/device".to_owned(), "the folder kernel/device of a checkout of signorini")
+        }
     };
     let features = features.join(", ");
     format!(
-        "signorini-kernel = {{ path = {place:?}, default-features = false, features = [{features}] }} # {remark}"
+        "signorini-device = {{ path = {place:?}, default-features = false, features = [{features}] }} # {remark}"
     )
 }
 

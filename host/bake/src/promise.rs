@@ -4,7 +4,7 @@
 
 use std::cell::Cell;
 
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use crate::choice::{Choice, Model, Wanted};
 use crate::{condensed, full};

@@ -8,7 +8,7 @@
 //! 1e±32 and 1e±12 in f32.
 
 use signorini_condense::CondensedModel;
-use signorini_kernel::solve::dense::blocks::padded;
+use signorini_contact::dense::blocks::padded;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{InputError, Result};

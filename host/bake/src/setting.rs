@@ -1,7 +1,7 @@
 //! What a module can have of a scene's `[setting]`, and what it cannot.
 
-use signorini_kernel::device::tick::Progress;
-use signorini_kernel::solve::Relaxation;
+use signorini_device::tick::Progress;
+use signorini_kernel::relaxation::Relaxation;
 
 use super::range::refuse_inputs;
 use signorini_problem::scalar::Scalar;

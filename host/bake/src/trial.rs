@@ -1,7 +1,7 @@
 //! Warm ticks on this machine: how many exchanges and sweeps a model takes for inputs of the declared ranges.
 
-use signorini_kernel::device::report::Ended;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::report::Ended;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::dense::Done;
 use super::{condensed, full};

@@ -4,7 +4,7 @@
 use crate::direct::{HEATER, directly, narrowed};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, condense};
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{changed, on_grid};
 use signorini_problem::scalar::Scalar;

@@ -6,7 +6,7 @@ use signorini_bake::full::{Baked, Controller};
 use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
-use signorini_kernel::device::tick::{Limits, Report};
+use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;

@@ -4,9 +4,9 @@
 use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
 use signorini_certify::exact::distance;
+use signorini_device::tick::Limits;
 use signorini_kernel::Error;
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::limited::crossing;
 use signorini_problem::fixtures::{changed, on_grid};

@@ -1,7 +1,7 @@
 //! A full model with limits of the flux, tick after tick, against the direct solver; and what a baked module refuses.
 
 use crate::direct::{Beside, HEATER};
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{changed, on_grid};
 use signorini_problem::scalar::Scalar;

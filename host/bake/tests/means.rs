@@ -2,8 +2,8 @@
 
 use signorini_bake::{condensed, full};
 use signorini_condense::condense;
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_device::tick::Limits;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{distorted, on_grid};
 use signorini_problem::scalar::Scalar;

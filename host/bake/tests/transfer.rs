@@ -3,8 +3,8 @@
 use crate::direct::{Beside, certified, directly, narrowed, played, to_the_end};
 use signorini_bake::full::{Baked, Controller, source};
 use signorini_certify::exact::distance;
-use signorini_kernel::device::tick::{Limits, Report};
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_device::tick::{Limits, Report};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::fixtures::{self, SMOOTH, changed, on_grid};
 use signorini_problem::scalar::Scalar;

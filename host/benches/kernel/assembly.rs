@@ -1,8 +1,8 @@
 //! Matrix and load from element matrices, and packed rows from either.
 
 use criterion::Bencher;
-use signorini_kernel::discrete::assembly;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::assembly;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;

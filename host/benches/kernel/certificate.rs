@@ -3,7 +3,7 @@
 use criterion::Bencher;
 use signorini_bake::full::{Baked, Controller};
 use signorini_certify::{Certifier, Data};
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::{Strip, scene};

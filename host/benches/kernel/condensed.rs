@@ -3,10 +3,10 @@
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, condense};
-use signorini_kernel::device::condensed::candidate::Candidate;
-use signorini_kernel::solve::dense::blocks::padded;
-use signorini_kernel::solve::dense::ranges::Given;
-use signorini_kernel::solve::dense::sor;
+use signorini_contact::candidate::Candidate;
+use signorini_contact::dense::blocks::padded;
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::sor;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
 

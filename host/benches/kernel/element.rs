@@ -2,8 +2,8 @@
 
 use criterion::Bencher;
 use signorini_kernel::Tensor;
-use signorini_kernel::discrete::stiffness::{self, Coefficient};
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::{self, Coefficient};
 use signorini_problem::quadrature::DATA_POINTS;
 use signorini_problem::scalar::Scalar;
 

@@ -1,7 +1,7 @@
 //! Fluxes from edge means.
 
 use criterion::Bencher;
-use signorini_kernel::discrete::flux;
+use signorini_kernel::flux;
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;

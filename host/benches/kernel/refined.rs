@@ -2,10 +2,10 @@
 
 use criterion::{BatchSize, Bencher};
 use signorini_kernel::Libm;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Settings, Solver};
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Settings, Solver};
 use signorini_problem::scalar::Scalar;
 use signorini_solve::Mixed;
 

@@ -2,10 +2,11 @@
 
 use criterion::{BatchSize, Bencher};
 use signorini_bake::tick::coarse;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solve::prolongation::prolong;
-use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{Error, solve::Relaxation};
+use signorini_kernel::Error;
+use signorini_kernel::prolongation::prolong;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_problem::Assembled;
 use signorini_problem::scalar::Scalar;
 

@@ -1,9 +1,9 @@
 //! One sweep, and what it costs to know how far one is.
 
 use criterion::Bencher;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solve::psor;
+use signorini_kernel::law::Law;
+use signorini_kernel::psor;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_problem::scalar::Scalar;
 
 use crate::strip::Strip;

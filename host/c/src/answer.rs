@@ -3,8 +3,8 @@
 use crate::report::Report;
 use crate::scene::{Answer, Inputs, Outputs, Scalar};
 use crate::state::{Seal, State};
-use signorini_kernel::Error;
-use signorini_kernel::device::codes::{Refusal, refusal};
+use signorini_device::Error;
+use signorini_device::codes::{Refusal, refusal};
 
 /// State and inputs of a call, where they may reach the controller.
 ///

@@ -7,7 +7,7 @@ use crate::named;
 use crate::report::Report;
 use crate::scene::{Inputs, Scalar};
 use crate::state::State;
-use signorini_kernel::device::codes::{Bounded, EndedCode, Refusal};
+use signorini_device::codes::{Bounded, EndedCode, Refusal};
 
 /// # Safety
 /// `state` is null or has room for a state.

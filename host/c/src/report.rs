@@ -1,8 +1,8 @@
 //! What a tick came to, as C reads it.
 
 use crate::scene::{Answer, Outputs, Scalar};
-use signorini_kernel::bound::verdict::{Certificate, Verdict};
-use signorini_kernel::device::codes;
+use signorini_device::codes;
+use signorini_device::kernel::verdict::{Certificate, Verdict};
 
 /// `NAME_report` of the header, field by field.
 #[repr(C)]

@@ -3,7 +3,7 @@
 use core::mem::{align_of, size_of};
 
 use crate::scene::{Controller, MODEL, SCENE_HASH, Scalar};
-use signorini_kernel::device::codes::Refusal;
+use signorini_device::codes::Refusal;
 
 /// What tells an initialised state from any other bytes. Each of its bytes is checked, as each of the controller's is.
 #[repr(C)]

@@ -6,7 +6,7 @@ use crate::named;
 use crate::report::Report;
 use crate::scene::{Answer, Controller, Inputs, Outputs};
 use crate::state::State;
-use signorini_kernel::Error;
+use signorini_device::Error;
 
 /// # Safety
 /// Each pointer is null or valid, and of a state nobody else writes to.

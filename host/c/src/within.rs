@@ -8,7 +8,7 @@ use crate::named;
 use crate::report::Report;
 use crate::scene::{Inputs, LIMITS, Outputs, Scalar};
 use crate::state::State;
-use signorini_kernel::device::limits::{Deadline, Limits};
+use signorini_device::kernel::limits::{Deadline, Limits};
 
 /// `NAME_limits`.
 #[repr(C)]

@@ -1,8 +1,8 @@
 //! The bound of one solve, for reports.
 
 use serde::Serialize;
+use signorini_bound::certificate::Certificate;
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::bound::certificate::Certificate;
 
 use super::{CertifiedFields, Certifier, Data, NoBound};
 use signorini_problem::scalar::Scalar;

@@ -15,7 +15,7 @@
 //!   ∇v = w′(t) (1−η)∇t − w(t) ∇η,     on triangles (1−η)∇t = ∇λ_b + t ∇λ_c, ∇η = ∇λ_c.
 //! ```
 
-use signorini_kernel::discrete::element::rannacher_turek;
+use signorini_kernel::element::rannacher_turek;
 use signorini_kernel::mesh::geometry::{doubled_area, scaled_normal};
 
 use signorini_problem::Problem;

@@ -1,10 +1,11 @@
 //! The kernel's certificate on a scene: its memory, and what of it depends on the mesh and A alone.
 
-use signorini_kernel::bound::certificate::{self, Buffers, Certificate, Discretization, Verdict};
-use signorini_kernel::bound::conforming;
-use signorini_kernel::bound::equilibrium::Iterate;
+use signorini_bound::averages;
+use signorini_bound::certificate::{self, Buffers, Certificate, Discretization, Verdict};
+use signorini_bound::conforming;
+use signorini_bound::equilibrium::Iterate;
+use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
-use signorini_kernel::{Error as KernelError, bound::averages};
 
 use super::admissible::{Admissible, Following};
 use super::cell::Cell;

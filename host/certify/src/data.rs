@@ -1,8 +1,8 @@
 //! Loads and boundary data of one time as the kernel's certificate takes them.
 
+use signorini_bound::certificate::{Curved, LoadCase};
+use signorini_bound::conforming::VertexData;
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::bound::certificate::{Curved, LoadCase};
-use signorini_kernel::bound::conforming::VertexData;
 
 use super::curved::{Curved as Bent, curved_edges};
 use super::ends::Ends;

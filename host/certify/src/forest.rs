@@ -1,10 +1,10 @@
 //! The ways out: the forest over the cells and the cells packed in its order, owned.
 
+use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_bound::certificate::{Discretization, Stability, stability};
+use signorini_bound::equilibrium::is_root;
+use signorini_bound::forest::{Forest, ForestBuffers, grow};
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::bound::certificate::{Discretization, Stability, stability};
-use signorini_kernel::bound::equilibrium::is_root;
-use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
 
 use super::metric::Metric;
 use signorini_problem::scalar::Scalar;

@@ -1,6 +1,6 @@
 //! The guaranteed error bound on a scene, and the exact norms that it is checked by.
 //!
-//! The kernel bounds the error of any iterate ([`signorini_kernel::bound::certificate`]) from vertex values, edge
+//! The kernel bounds the error of any iterate ([`signorini_bound::certificate`]) from vertex values, edge
 //! fluxes and element integrals. Here are the numbers that only the scene's expressions can give:
 //! ```text
 //!   metric       A in reference coordinates where it varies  ─┬─► ways (forest, packed cells) ─┐

@@ -1,9 +1,9 @@
-//! A in reference coordinates, as the kernel's certificate takes it ([`signorini_kernel::bound::certificate`]).
+//! A in reference coordinates, as the kernel's certificate takes it ([`signorini_bound::certificate`]).
 
-use signorini_kernel::bound::certificate::{POINTS, of_quad, of_triangle};
-use signorini_kernel::discrete::element::QuadElement;
-use signorini_kernel::discrete::element::nonparametric::axes;
-use signorini_kernel::discrete::element::rannacher_turek::place;
+use signorini_bound::certificate::{POINTS, of_quad, of_triangle};
+use signorini_kernel::element::QuadElement;
+use signorini_kernel::element::nonparametric::axes;
+use signorini_kernel::element::rannacher_turek::place;
 use signorini_kernel::{Real, Tensor};
 
 use super::conductivity::Conductivity;
@@ -17,7 +17,7 @@ const _: () = assert!(POINTS == DATA_POINTS);
 /// B at the 64 points of a cell.
 pub type Points<R> = [Tensor<R>; POINTS * POINTS];
 
-/// Owned arrays of a [`signorini_kernel::bound::certificate::Metric`], and ½ tr A of the cells.
+/// Owned arrays of a [`signorini_bound::certificate::Metric`], and ½ tr A of the cells.
 #[derive(Debug, Clone)]
 pub struct Metric<R: Scalar> {
     compliance: Vec<R>,
@@ -53,8 +53,8 @@ impl<R: Scalar> Metric<R> {
     }
 
     /// The kernel's view of it.
-    pub fn view(&self) -> signorini_kernel::bound::certificate::Metric<'_, R> {
-        signorini_kernel::bound::certificate::Metric {
+    pub fn view(&self) -> signorini_bound::certificate::Metric<'_, R> {
+        signorini_bound::certificate::Metric {
             at_points: &self.at_points,
             place: &self.place,
             distortions: &self.distortions,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use signorini_kernel::bound::certificate::Verdict;
+use signorini_bound::certificate::Verdict;
 
 use super::curved::{Curved, Rough};
 use super::ends::Ends;

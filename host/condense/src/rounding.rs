@@ -4,7 +4,7 @@
 //!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  stability ‖ΔŜ_j‖
 //! ```
 //! First comes the residual itself, a sum of terms that cancel. Then τ, which balances on the cells up to rounding: what is
-//! left is brought along the forest to the boundary (`way`, see [`signorini_kernel::bound::certificate::stability`]), and where contact
+//! left is brought along the forest to the boundary (`way`, see [`signorini_bound::certificate::stability`]), and where contact
 //! alone holds a part through a contact edge (`out`). Last Ŝ, which is made symmetric. What oblique element matrices hide of
 //! themselves is a share of all of F ([`Assembled::hidden`]). Next to the rounding of f32 all of
 //! this is nothing; in f64 it is what is left to be wrong of an answer that is exact.

@@ -1,6 +1,6 @@
 //! What is known of contact edges: where u is, and how far from the gap.
 
-use signorini_kernel::discrete::law::EdgeLaw;
+use signorini_kernel::law::EdgeLaw;
 
 use super::vtu::Contact;
 use signorini_problem::Problem;

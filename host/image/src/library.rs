@@ -139,7 +139,7 @@ impl Library {
 }
 
 fn features_of(kernel: &[String], own: &[&str]) -> Vec<String> {
-    let kernel = kernel.iter().map(|feature| format!("signorini-kernel/{feature}"));
+    let kernel = kernel.iter().map(|feature| format!("signorini-device/{feature}"));
     kernel.chain(own.iter().map(|&feature| feature.to_owned())).collect()
 }
 

@@ -114,7 +114,7 @@ impl Module {
 
     fn of_kernel(&self) -> Vec<String> {
         let features = self.chosen.kernel_features.iter();
-        features.map(|feature| format!("signorini-kernel/{feature}")).collect()
+        features.map(|feature| format!("signorini-device/{feature}")).collect()
     }
 
     /// What `command` puts at `program`: a copy that the next scene's does not replace.

@@ -1,19 +1,20 @@
 //! A problem in the kernel's hands: narrowed to one scalar and assembled.
 
-use signorini_kernel::discrete::law::Law;
+use signorini_kernel::law::Law;
 use std::collections::HashMap;
 
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::flux::{self, Recovered};
-use signorini_kernel::discrete::signorini::Shifts;
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_device::model::Model;
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::csr::Csr;
+use signorini_kernel::flux::{self, Recovered};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
-use signorini_kernel::{Error, Tensor, device::model::Model};
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Tensor};
 
 use super::element_matrices::ElementMatrices;
 use super::unit_box::UnitBox;
@@ -170,7 +171,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
     }
 
     /// The share of a bound that rounded element matrices can hide, 64 ε κ with κ the [`Assembled::obliqueness`]: see
-    /// [`signorini_kernel::bound::certificate::Stability::oblique`].
+    /// [`signorini_bound::certificate::Stability::oblique`].
     pub fn hidden(&self) -> f64 {
         64.0 * R::EPSILON.wide() * self.obliqueness()
     }

@@ -1,7 +1,7 @@
 //! The diagonal of K and the load b alone: what tells the size of a problem's numbers before it is assembled.
 
 use signorini_kernel::Error;
-use signorini_kernel::discrete::assembly;
+use signorini_kernel::assembly;
 use signorini_kernel::error::Array;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Edges, Side};

@@ -1,9 +1,9 @@
 //! Element matrices in f64, integrated once, narrowed once, and whether the scalar can hold them.
 
-use signorini_kernel::discrete::element::crouzeix_raviart;
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_kernel::element::crouzeix_raviart;
 use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh;
+use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Real, Tensor};
 
 use super::Problem;

@@ -1,6 +1,6 @@
 //! u_h and σ_h inside the cells, from edge means and edge fluxes.
 
-use signorini_kernel::discrete::element::{QuadElement, crouzeix_raviart, rannacher_turek};
+use signorini_kernel::element::{QuadElement, crouzeix_raviart, rannacher_turek};
 use signorini_kernel::mesh::geometry::doubled_area;
 
 use crate::Problem;

@@ -1,7 +1,7 @@
 //! The inputs of a controller: their ranges in its scalar, and values drawn from them for trials.
 
 use crate::scalar::Scalar;
-use signorini_kernel::device::ranges::clamp;
+use signorini_device::ranges::clamp;
 use signorini_scene::scene::{Input, Scene};
 
 /// Inputs of which all corners are tried; of more, those that are drawn.

@@ -59,7 +59,7 @@ pub use transfer_pattern::TransferPattern;
 
 use std::sync::Arc;
 
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 use signorini_kernel::mesh::Mesh as KernelMesh;
 
 use element_matrices::ElementMatrices;

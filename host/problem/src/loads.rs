@@ -1,9 +1,9 @@
 //! Loads, gaps and boundary values as integrals over cells and edges, at one time.
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::discrete::law::Law;
+use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::{FluxRange, Span, Spans};
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
 

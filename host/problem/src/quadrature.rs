@@ -8,7 +8,7 @@ pub mod bisected;
 use std::sync::OnceLock;
 
 use signorini_kernel::Real;
-use signorini_kernel::discrete::element::rannacher_turek::place;
+use signorini_kernel::element::rannacher_turek::place;
 
 /// Points a direction for data on edges and quads.
 pub const DATA_POINTS: usize = 8;

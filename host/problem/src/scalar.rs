@@ -10,7 +10,7 @@ pub trait Scalar: Real + Send + Sync {
     /// The fastest square root there is for it.
     type Fast: Math<Self> + Copy;
 
-    /// Its value, as a [`signorini_kernel::device::tick::Method`] takes it.
+    /// Its value, as a [`signorini_device::tick::Method`] takes it.
     const FAST: Self::Fast;
 
     /// Rounds to the scalar; too large a number becomes infinite, which the kernel refuses.

@@ -1,6 +1,6 @@
 //! Whether a problem has a solution, part by part, before any sweep is spent on it.
 
-use signorini_kernel::discrete::assembly;
+use signorini_kernel::assembly;
 use signorini_kernel::mesh::components::{Part, PartCounts, Support, examine};
 use signorini_kernel::mesh::edges::{Edges, Side};
 

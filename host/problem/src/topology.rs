@@ -1,9 +1,10 @@
 //! What joins cells: edges by number, and what lies on each.
 
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::error::CellId;
 use signorini_kernel::mesh::Mesh as KernelMesh;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::{Error as KernelError, error::CellId};
 
 use super::Binding;
 use signorini_scene::error::{InputError, Result};

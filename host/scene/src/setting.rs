@@ -22,7 +22,7 @@
 
 use crate::goal::Goal;
 use serde::{Deserialize, Serialize};
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 
 /// How a scene is discretised, solved and certified.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

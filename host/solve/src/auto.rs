@@ -15,8 +15,8 @@
 //! of that at 6000, its answers have a low part in f32, and parts that contact alone holds are no exception.
 //! The direct solver takes over where it has no answer, in f64: where nothing holds a part.
 
-use signorini_kernel::discrete::rows;
-use signorini_kernel::solve::solver::Status;
+use signorini_kernel::rows;
+use signorini_kernel::solver::Status;
 
 use super::{
     Clock, Ldlt, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude, direct,

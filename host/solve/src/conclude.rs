@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use signorini_kernel::solve::solver::{Outcome, Status};
-use signorini_kernel::{Error as KernelError, Real, discrete::contact};
+use signorini_kernel::solver::{Outcome, Status};
+use signorini_kernel::{Error as KernelError, Real, contact};
 
 use super::{Factored, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit};
 use signorini_certify::{Certified, Data};

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::components::Support;
-use signorini_kernel::solve::solver::{Outcome, Status};
+use signorini_kernel::solver::{Outcome, Status};
 
 use super::{Clock, Factored, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use signorini_problem::progress::stage;

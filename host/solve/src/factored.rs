@@ -1,12 +1,12 @@
 //! The kernel's exact solver in memory of the right size: where projected SOR does not get there.
 
 use serde::Serialize;
+use signorini_contact::dense::blocks::padded;
+use signorini_device::sparse::{Direct, DirectMemory, Factor, SolveSummary};
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::solve::dense::blocks::padded;
-use signorini_kernel::solve::solver::{Outcome, Settings};
-use signorini_kernel::solve::sparse::{Direct, DirectMemory, Factor, SolveSummary};
+use signorini_kernel::solver::{Outcome, Settings};
+use signorini_kernel::system::System;
 
 use super::ldlt::{Ldlt, exchanges};
 use signorini_problem::progress::stage;

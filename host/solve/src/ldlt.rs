@@ -1,12 +1,12 @@
 //! The kernel's factor, owned: order, pattern and numbers worked out in memory of the right size.
 
+use signorini_contact::dense::blocks::{Block, SIDE, count};
+use signorini_device::sparse::elimination::PatternBuffers;
+use signorini_device::sparse::factor::FactorBuffers;
+use signorini_device::sparse::{Factor, Pattern, Storage, storage};
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::mesh::edges::EdgeCounts;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count};
-use signorini_kernel::solve::sparse::elimination::PatternBuffers;
-use signorini_kernel::solve::sparse::factor::FactorBuffers;
-use signorini_kernel::solve::sparse::{Factor, Pattern, Storage, storage};
+use signorini_kernel::system::System;
 
 use signorini_problem::scalar::Scalar;
 use signorini_reference::minimum_degree;

@@ -40,13 +40,13 @@ pub use solution::{Seconds, Solution, ended_name, status_name};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
 
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::conjugate::ConjugateBuffers;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Outcome, Settings, Status};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::solver::{Outcome, Settings, Status};
+use signorini_kernel::system::System;
 use signorini_kernel::{Error as KernelError, Libm};
 
 use conclude::{Clock, Solved, conclude};

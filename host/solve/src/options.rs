@@ -2,8 +2,8 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
-use signorini_kernel::solve::Relaxation;
-use signorini_kernel::solve::solver::Settings;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::solver::Settings;
 
 use signorini_problem::scalar::Scalar;
 

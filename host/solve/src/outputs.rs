@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use signorini_kernel::discrete::law::EdgeLaw;
+use signorini_kernel::law::EdgeLaw;
 
 use crate::{ScalarKind, Solution};
 use signorini_problem::field::CellField;

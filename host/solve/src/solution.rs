@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use signorini_kernel::Real;
-use signorini_kernel::device::report::Ended;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
-use signorini_kernel::solve::solver::Status;
+use signorini_kernel::report::Ended;
+use signorini_kernel::solver::Status;
 
 use super::{Factored, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};

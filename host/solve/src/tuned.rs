@@ -11,9 +11,10 @@
 
 use std::f64::consts::LN_2;
 
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::solve::solver::{Settings, Solver};
-use signorini_kernel::{Error as KernelError, solve::Relaxation};
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::solver::{Settings, Solver};
 
 use super::{Options, SolverKind, solve, unfit};
 use signorini_problem::scalar::Scalar;

@@ -251,7 +251,7 @@ mod tests {
         let (module, rest) = lines.split_first().expect("lines");
         assert_eq!(*module, "mod levee;");
         let program = format!(
-            "mod levee {{\n{}}}\nfn run() -> Result<levee::Scalar, signorini_kernel::Error> {{\n{}\nOk(seepage)\n}}\n\
+            "mod levee {{\n{}}}\nfn run() -> Result<levee::Scalar, signorini_device::Error> {{\n{}\nOk(seepage)\n}}\n\
              fn main() {{ println!(\"{{}}\", run().is_ok_and(|seepage| seepage > 0.0)); }}\n",
             levee(),
             rest.join("\n")

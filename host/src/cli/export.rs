@@ -20,7 +20,7 @@ Examples:
   signorini export meshes/scenes/levee.toml -o levee.rs
   signorini export slab.toml -o slab.rs --scalar f64
 
-In the firmware: include!(\"levee.rs\"); then MODEL is a signorini_kernel::device::model::Model.";
+In the firmware: include!(\"levee.rs\"); then MODEL is a signorini_device::model::Model.";
 
 /// Arguments of `export`.
 #[derive(Debug, Args)]

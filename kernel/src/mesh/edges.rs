@@ -260,7 +260,7 @@ impl<'a, I: Index> Edges<'a, I> {
 }
 
 /// Refuses things of a kind for which there is no code.
-pub(crate) fn known(of: Array, has_code: bool, needed: usize) -> Result<(), Error> {
+pub fn known(of: Array, has_code: bool, needed: usize) -> Result<(), Error> {
     if has_code || needed == 0 { Ok(()) } else { Err(Error::Capacity { of, needed, limit: 0 }) }
 }
 

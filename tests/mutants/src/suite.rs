@@ -12,8 +12,10 @@ use serde::Deserialize;
 
 use crate::error::{Result, failed};
 
-/// Whose tests they are: tests that need the host would take minutes to build, and kill no more.
-const PACKAGE: &str = "signorini-kernel";
+/// The crates of the kernel, with the tests that judge: those that need the host would take minutes to build, and kill
+/// no more.
+pub const PACKAGES: [&str; 4] =
+    ["signorini-kernel", "signorini-bound", "signorini-contact", "signorini-device"];
 /// A test that takes longer judges nothing.
 const SLOWEST: Duration = Duration::from_secs(10);
 /// Bytes of memory, in units of 1024.
@@ -81,7 +83,7 @@ pub fn suite(tree: &Path, target: &Path, workers: usize) -> Result<Vec<Test>> {
 fn list(tree: &Path, target: &Path) -> Result<Vec<Test>> {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(["test", "--no-run", "--locked", "--lib", "--tests", "--message-format", "json"]);
-    command.args(["--package", PACKAGE]);
+    command.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
     let output = command.arg("--target-dir").arg(target).current_dir(tree);
     let output = output.stderr(Stdio::inherit()).output()?;
     if !output.status.success() {

@@ -10,10 +10,15 @@ use crate::mutant::{Mutant, SourcePosition};
 use crate::switch::switch;
 use crate::viable::Viability;
 
-/// What stands at the end of the kernel's `lib.rs` in the copy.
+/// What stands at the end of each `lib.rs` of the kernel in the copy.
 const RUNTIME: &str = include_str!("runtime.txt");
-/// The kernel's root module.
-const ROOT: &str = "kernel/src/lib.rs";
+/// The root modules of the kernel's crates.
+const ROOTS: [&str; 4] = [
+    "kernel/src/lib.rs",
+    "kernel/bound/src/lib.rs",
+    "kernel/contact/src/lib.rs",
+    "kernel/device/src/lib.rs",
+];
 /// Mutants may do what no person would write.
 const ALLOWED: &str =
     "#![allow(warnings, arithmetic_overflow, unconditional_panic, unused_comparisons)] ";
@@ -44,7 +49,7 @@ impl Tree {
         let mut sources = BTreeMap::new();
         for path in paths {
             let Some(bytes) = present(fs::read(root.join(path)))? else { continue };
-            if path.starts_with("kernel/src/") && path.ends_with(".rs") {
+            if is_source(path) {
                 let text =
                     String::from_utf8(bytes).map_err(|_| failed(format!("{path}: not UTF-8")))?;
                 sources.insert(path.to_owned(), text);
@@ -65,7 +70,7 @@ impl Tree {
                 .map_err(|error| failed(format!("{path}: {error}")))?;
             known.unswitched.extend(switched.without);
             known.unviable.extend(switched.barred);
-            let text = if path == ROOT {
+            let text = if ROOTS.contains(&path.as_str()) {
                 ALLOWED.to_owned() + &switched.text + RUNTIME
             } else {
                 switched.text
@@ -88,6 +93,12 @@ impl Tree {
         let text = format!("{}{}{}", &text[..start], mutant.replacement, &text[end..]);
         write(&self.checked.join(&mutant.file), text.as_bytes())
     }
+}
+
+/// Whether a path is one of the kernel's own sources.
+fn is_source(path: &str) -> bool {
+    let folders = ROOTS.iter().filter_map(|root| root.strip_suffix("lib.rs"));
+    path.ends_with(".rs") && folders.into_iter().any(|folder| path.starts_with(folder))
 }
 
 /// Removes what an earlier copy had below `folder` and git knows no more: cargo would find it.

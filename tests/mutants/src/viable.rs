@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use crate::error::{Result, failed};
 use crate::mutant::Mutant;
+use crate::suite::PACKAGES;
 use crate::tree::Tree;
 
 #[derive(Deserialize)]
@@ -86,14 +87,8 @@ pub fn make_viable(tree: &Tree, mutants: &[Mutant], target: &Path) -> Result<Via
 
 fn check(folder: &Path, target: &Path) -> Result<Vec<Diagnostic>> {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args([
-        "check",
-        "--package",
-        "signorini-kernel",
-        "--locked",
-        "--message-format",
-        "json",
-    ]);
+    command.args(["check", "--locked", "--message-format", "json"]);
+    command.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
     let output = command.arg("--target-dir").arg(target).current_dir(folder);
     let output = output.stderr(Stdio::null()).output()?;
     let messages = String::from_utf8_lossy(&output.stdout).into_owned();

@@ -7,23 +7,23 @@
 //!   0 ----- 1 ----- 4
 //! ```
 
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::csr::Csr;
 use signorini_kernel::flux_range::Spans;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::components::{self, Part};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{Block, Edges};
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::Settings;
-use signorini_kernel::{Error, Index, Libm, Real, Tensor, discrete::contact, discrete::flux};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::solver::Settings;
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Index, Libm, Real, Tensor, contact, flux};
 
 const VERTICES: usize = 6;
 const HALF_EDGES: usize = 10;

@@ -21,6 +21,8 @@ extern crate std;
 mod allocator;
 mod bar;
 
+// Linked with its crates and dependencies, though nothing here calls it.
+use signorini_device as _;
 use signorini_kernel::{Index, Real};
 
 /// The contact force of [`bar`] in `f32`, numbered by `u16`; NaN where the kernel refuses.

@@ -1,20 +1,20 @@
 //! What a certificate stands on, for any sound numbering: owned arrays, filled from bytes.
 
-use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::bound::certificate::{
+use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_bound::certificate::{
     self, Buffers, Certificate, Curved, Discretization, LoadCase, Metric, Verdict, certify,
 };
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::bound::equilibrium::{Iterate, is_root};
-use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::device::tick::Data;
-use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_bound::conforming::VertexData;
+use signorini_bound::equilibrium::{Iterate, is_root};
+use signorini_bound::forest::{Forest, ForestBuffers, grow};
+use signorini_device::tick::Data;
+use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::Spans;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::edges::{Block, Edges};
+use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Error, Tensor};
 
 use super::bytes::{Bits, Bytes};

@@ -1,20 +1,22 @@
 //! The kernel's public constructors: arrays of any lengths, indices and bits.
 
-use signorini_kernel::bound::forest::Forest;
-use signorini_kernel::device::condition::Condition;
-use signorini_kernel::device::tick::Progress;
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{Row, Rows};
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_bound::forest::Forest;
+use signorini_device::condition::Condition;
+use signorini_device::tick::Progress;
+use signorini_device::workspace;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::solve::prolongation::{Origin, prolong};
-use signorini_kernel::solve::solver::{Settings, Status};
-use signorini_kernel::{Error, Libm, Tensor, solve::Relaxation, workspace};
+use signorini_kernel::prolongation::{Origin, prolong};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::solver::{Settings, Status};
+use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Libm, Tensor};
 
 use super::bytes::{Bits, Bytes};
 use super::plate::{NONE, Plate};

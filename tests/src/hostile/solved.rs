@@ -3,7 +3,7 @@
 use signorini_bake::tick::{Budget, TickRecord, play, schedule};
 use signorini_bake::{condensed, full};
 use signorini_condense::condense;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -87,14 +87,14 @@ fn baked_full<R: Scalar>(problem: &Problem) -> Result<()> {
     let baked = full::Baked::<R>::new(problem)?;
     let inputs: Vec<_> =
         problem.scene.inputs.iter().map(|input| R::narrow(input.default)).collect();
-    let limits = signorini_kernel::device::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
+    let limits = signorini_device::tick::Limits { sweeps: SWEEPS / 2, ..baked.limits() };
     let found = if baked.has_quads() {
         full::Controller::<R, QUADS>::new(&baked).tick_within(&inputs, limits)
     } else {
         full::Controller::<R, TRIANGLES>::new(&baked).tick_within(&inputs, limits)
     };
     if let Ok((values, report)) = found {
-        let finite = report.ended != signorini_kernel::device::tick::Ended::NotFinite;
+        let finite = report.ended != signorini_device::tick::Ended::NotFinite;
         assert!(!finite || values.iter().all(no_nan), "{values:?} {report:?}");
     }
     Ok(())

@@ -1,21 +1,22 @@
 //! The kernel's stages one after the other, on any numbering: matrix, solver, rows, flux, certificate.
 
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows};
-use signorini_kernel::discrete::signorini::Shifts;
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::csr::Csr;
 use signorini_kernel::flux_range::Spans;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::components::{Part, examine};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Outcome, Settings, Status};
-use signorini_kernel::{Error, Libm, Tensor, discrete::flux, solve::Relaxation, solve::psor};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::solver::{Outcome, Settings, Status};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Libm, Tensor, flux, psor};
 
 use super::bytes::{Bits, Bytes};
 use super::certified::{Conditions, Foundation, Loads, judged};

@@ -4,12 +4,13 @@ use std::cell::Cell;
 use std::sync::OnceLock;
 
 use signorini_bake::full::{Baked, Controller};
-use signorini_kernel::device::tick::{
+use signorini_device::tick::{
     CertifiedSweeps, Deadline, Ended, Limits, Memory, Report, Tick, UncertifiedSweeps,
 };
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::stiffness::{self, Coefficient};
-use signorini_kernel::{Error, Libm, Tensor, solve::Relaxation};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::stiffness::{self, Coefficient};
+use signorini_kernel::{Error, Libm, Tensor};
 use signorini_problem::Problem;
 
 use super::bytes::{Bits, Bytes};

@@ -1,6 +1,6 @@
 //! On random scenes with an exact solution, stopped at any time.
 
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 use signorini_solve::ScalarKind;
 use signorini_tests::polynomial::Polynomial;
 use signorini_tests::random::Random;

@@ -12,9 +12,9 @@
 use std::path::Path;
 
 use signorini_bake::condensed::{Baked, Controller};
+use signorini_bound::certificate::Verdict;
 use signorini_condense::{CondensedModel, Measure};
-use signorini_kernel::bound::certificate::Verdict;
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::gmsh;

@@ -2,8 +2,8 @@
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_kernel::Error;
-use signorini_kernel::device::report::Ended;
 use signorini_kernel::error::Array;
+use signorini_kernel::report::Ended;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::mesh::structured::Cells;
 use signorini_scene::mesh::{Curve, Mesh};

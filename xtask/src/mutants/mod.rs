@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use crate::counted::counted;
 use crate::steps::Steps;
-use record::{Record, Row, content, sources};
+use record::{Record, Row, SOURCES, content, sources};
 use signorini_image::cargo::{cargo, root, run, run_with_lines, target_dir};
 use signorini_image::toolchain::output;
 use survivors::{Key, Survivors};
@@ -20,7 +20,7 @@ use survivors::{Key, Survivors};
 const HELP: &str = "\
 Usage: cargo xtask mutants [--force] [FILE...]
 
-Mutates files of kernel/src that have changed since tests/mutants/record.txt, with --force all, or those that are
+Mutates sources of the kernel that have changed since tests/mutants/record.txt, with --force all, or those that are
 named, and judges each mutant by the tests of the kernel. Mutants that live are listed in
 tests/mutants/survivors.txt, where a person writes a reason beside each.
 
@@ -40,12 +40,14 @@ pub fn command(words: &[&str]) -> ExitCode {
     }
     let (flags, named): (Vec<_>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
     let wrong = flags.iter().find(|flag| **flag != "--force").copied().or_else(|| {
-        let is_source =
-            |word: &&str| word.starts_with("kernel/src/") && root().join(word).is_file();
+        let is_source = |word: &&str| {
+            let is_below = |folder: &str| Path::new(word).starts_with(folder);
+            SOURCES.iter().any(|folder| is_below(folder)) && root().join(word).is_file()
+        };
         named.iter().find(|word| !is_source(word)).copied()
     });
     if let Some(wrong) = wrong {
-        eprintln!("error: `{wrong}` is no file of kernel/src\n\n{HELP}");
+        eprintln!("error: `{wrong}` is no source file of the kernel\n\n{HELP}");
         return ExitCode::from(2);
     }
     match judge(&named, !flags.is_empty()).and_then(|()| check()) {
@@ -159,7 +161,9 @@ fn run_all(files: &[String]) -> Result<Vec<Found>, String> {
 
 /// Writes all mutants of the kernel, in JSON.
 fn list(path: &Path) -> Result<(), String> {
-    let mut listing = cargo(&["mutants", "--list", "--json", "--package", "signorini-kernel"]);
+    let mut listing = cargo(&["mutants", "--list", "--json"]);
+    let crates = ["kernel", "bound", "contact", "device"].map(|name| format!("signorini-{name}"));
+    listing.args(crates.iter().flat_map(|name| ["--package", name]));
     if output(&mut cargo(&["mutants", "--version"])).is_err() {
         println!("installing cargo-mutants");
         run(cargo(&["install", "--locked", "cargo-mutants"]))?;

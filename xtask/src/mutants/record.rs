@@ -93,9 +93,13 @@ pub fn content(path: &str) -> Result<String, String> {
     Ok(said.trim().to_owned())
 }
 
+/// Where the sources of the kernel's crates are.
+pub const SOURCES: [&str; 4] =
+    ["kernel/src", "kernel/bound/src", "kernel/contact/src", "kernel/device/src"];
+
 /// The kernel's source files, by path from the root.
 pub fn sources() -> Result<Vec<String>, String> {
-    let (mut folders, mut files) = (vec!["kernel/src".to_owned()], Vec::new());
+    let (mut folders, mut files) = (SOURCES.map(str::to_owned).to_vec(), Vec::new());
     while let Some(folder) = folders.pop() {
         let entries = fs::read_dir(root().join(&folder)).map_err(|e| format!("{folder}: {e}"))?;
         for entry in entries {

@@ -80,14 +80,16 @@ pub fn kernel(folder: &Path, is_limited: bool) -> Result<Measured, String> {
     let (package, bins) = ("signorini-scene", &["exact"]);
     let scenes = folder.join("contact.rs");
     let features: &[&str] =
-        if is_limited { &["exact", "signorini-kernel/limited"] } else { &["exact"] };
+        if is_limited { &["exact", "signorini-device/limited"] } else { &["exact"] };
     let what = Build { package, bins, features, scenes: &scenes };
     let (mut command, built) = M4F.build(what)?;
     command.env("SIGNORINI_SCENE", &scenes);
     run(command)?;
     let image = built.join("exact");
     let (ram, ticks) = parse(&M4F.run(&image, true)?)?;
-    let own = |name: &str| ["signorini_kernel", "5solve"].iter().any(|part| name.contains(part));
+    let own = |name: &str| {
+        ["signorini_kernel", "signorini_contact", "5solve"].iter().any(|part| name.contains(part))
+    };
     let code = sized(&image)?.iter().filter(|(name, _)| own(name)).map(|(_, size)| size).sum();
     Ok(Measured { code, ram, ticks })
 }

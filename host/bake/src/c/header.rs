@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::device::codes::{Bounded, EndedCode, Refusal};
+use signorini_device::codes::{Bounded, EndedCode, Refusal};
 
 use super::comment::{MARK, as_is, comment, wrapped};
 use super::names::field;

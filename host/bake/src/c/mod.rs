@@ -6,7 +6,7 @@
 //!                     cmake, example ──┘
 //! ```
 //! The header states what the library has: inputs and outputs from [`ModuleApi`], numbers and words from the kernel's
-//! [`signorini_kernel::device::codes`], sizes from the library that was built.
+//! [`signorini_device::codes`], sizes from the library that was built.
 
 mod cmake;
 mod comment;

@@ -1,6 +1,6 @@
 //! The variants of the condensed model, each with what it takes.
 
-use signorini_kernel::solve::dense::blocks::padded;
+use signorini_contact::dense::blocks::padded;
 
 use super::work::{allowed, entries, fixed, within};
 use super::{Candidate, Model, Origin};

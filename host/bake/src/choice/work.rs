@@ -1,6 +1,6 @@
 //! What a condensed tick costs without changes, and how many exchanges and sweeps that leaves time for.
 
-use signorini_kernel::solve::dense::blocks::padded;
+use signorini_contact::dense::blocks::padded;
 
 use crate::condensed::{Modes, Work};
 use crate::costs::Costs;

@@ -1,12 +1,13 @@
 //! Everything of a condensed scene in the scalar of the target: what the module's statics will hold.
 
-use signorini_kernel::device::condensed::Condensed;
-use signorini_kernel::device::condensed::certificate::Corner;
-use signorini_kernel::device::condensed::method::Sweeps;
-use signorini_kernel::device::condensed::spans::SpanColumns;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, padded};
-use signorini_kernel::solve::dense::rule::{Phases, Rule as _};
-use signorini_kernel::{Error, error::Array};
+use signorini_contact::Condensed;
+use signorini_contact::certificate::Corner;
+use signorini_contact::dense::blocks::{Block, SIDE, padded};
+use signorini_contact::dense::rule::{Phases, Rule as _};
+use signorini_contact::method::Sweeps;
+use signorini_contact::spans::SpanColumns;
+use signorini_kernel::Error;
+use signorini_kernel::error::Array;
 
 use super::bound::Bound;
 use super::modes::{Modes, Scaled};

@@ -1,8 +1,8 @@
 //! The form of a condensed scene's error bound as the target has it.
 
-use signorini_kernel::device::condensed::certificate::{Corner, Form, Vertex};
-use signorini_kernel::device::condensed::factor::Factor;
-use signorini_kernel::device::condensed::sides::{self, ON_GAP, Sides};
+use signorini_contact::certificate::{Corner, Form, Vertex};
+use signorini_contact::factor::Factor;
+use signorini_contact::sides::{self, ON_GAP, Sides};
 
 use super::padding::narrow;
 use signorini_condense::CondensedModel;

@@ -1,14 +1,14 @@
 //! What the baked module does, on this machine and on the same numbers.
 
+use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use signorini_contact::method::{Linear, Method};
+use signorini_contact::modes::{Modal, ModalMemory, ModalStorage};
+use signorini_contact::storage::{Storage, TableauStorage};
+use signorini_contact::{Condensed, Memory};
+use signorini_device::ranges::check;
 use signorini_kernel::Error;
-use signorini_kernel::device::condensed::method::{Linear, Method};
-use signorini_kernel::device::condensed::modes::{Modal, ModalMemory, ModalStorage};
-use signorini_kernel::device::condensed::storage::{Storage, TableauStorage};
-use signorini_kernel::device::condensed::{Condensed, Memory};
-use signorini_kernel::device::limits::Deadline;
-use signorini_kernel::device::ranges::check;
-use signorini_kernel::device::report::Report;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_kernel::limits::Deadline;
+use signorini_kernel::report::Report;
 
 use super::arrays::{Baked, Solver};
 use super::visited::Visited;

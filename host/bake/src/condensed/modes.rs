@@ -15,8 +15,8 @@ mod tests;
 
 use signorini_condense::ranges::split::Split;
 use signorini_condense::{CondensedModel, LawsForm, Measure, ModalModel};
-use signorini_kernel::device::condensed::Condensed;
-use signorini_kernel::device::condensed::modes::Modal;
+use signorini_contact::Condensed;
+use signorini_contact::modes::Modal;
 use signorini_problem::scalar::Scalar;
 
 use super::bound::{Bound, Columns};

@@ -1,6 +1,6 @@
 //! Outputs of a condensed scene as the target has them.
 
-use signorini_kernel::device::condensed::outputs::Measure;
+use signorini_contact::outputs::Measure;
 
 use super::padding::narrow;
 use signorini_problem::scalar::Scalar;

@@ -1,6 +1,6 @@
 //! Arrays and the matrix in the target's scalar, filled up with 0 to whole blocks.
 
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
+use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
 
 use signorini_condense::CondensedModel;
 use signorini_problem::scalar::Scalar;

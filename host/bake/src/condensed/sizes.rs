@@ -1,6 +1,6 @@
 //! What a condensed model takes of a device, from its sizes alone.
 
-use signorini_kernel::solve::dense::blocks::{count, padded};
+use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::bound::Columns;

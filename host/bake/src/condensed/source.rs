@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::solve::dense::blocks::{count, padded};
+use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
@@ -42,7 +42,7 @@ fn imports<R: Scalar>(baked: &Baked<R>) -> String {
         true => "{modes::ArrayModalStorage, storage::ArrayTableauStorage}",
         false => "storage::{ArrayStorage, ArrayTableauStorage}",
     };
-    let method = |name| format!("use signorini_kernel::device::condensed::method::{name};\n");
+    let method = |name| format!("use signorini_device::contact::method::{name};\n");
     let (method, storage) = match baked.solver() {
         Solver::Linear => (method("Linear"), one),
         Solver::Sweeps => (method("Sweeps"), one),
@@ -51,9 +51,9 @@ fn imports<R: Scalar>(baked: &Baked<R>) -> String {
     };
     format!(
         "
-{method}use signorini_kernel::device::condensed::{storage};
-use signorini_kernel::device::limits::{{Deadline, Limits}};
-use signorini_kernel::{{Error, Report}};
+{method}use signorini_device::contact::{storage};
+use signorini_device::kernel::limits::{{Deadline, Limits}};
+use signorini_device::{{Error, Report}};
 "
     )
 }

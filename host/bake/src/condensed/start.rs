@@ -1,8 +1,8 @@
 //! The answer to the default inputs, in which the first tick begins.
 
+use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use signorini_contact::dense::tableau::{self, Tableau};
 use signorini_kernel::Error;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::solve::dense::tableau::{self, Tableau};
 
 use super::padding::{filled_up, matrix};
 use signorini_condense::CondensedModel;

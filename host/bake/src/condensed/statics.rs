@@ -2,7 +2,7 @@
 
 use std::fmt::{Debug, Write as _};
 
-use signorini_kernel::solve::dense::blocks::Block;
+use signorini_contact::dense::blocks::Block;
 
 use super::arrays::{Baked, Solver};
 use super::bound::{Bound, Ends};
@@ -105,8 +105,8 @@ pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
 #[rustfmt::skip]
 #[allow(clippy::all)]
 mod data {{
-    use signorini_kernel::device::condensed::{{{uses}{uses_modes}outputs::Measure, spans::SpanColumns, Condensed}};
-    use signorini_kernel::solve::dense::tableau::InitialTableau;
+    use signorini_device::contact::{{{uses}{uses_modes}outputs::Measure, spans::SpanColumns, Condensed}};
+    use signorini_device::contact::dense::tableau::InitialTableau;
 
     use super::Scalar;
 {text}
@@ -260,7 +260,7 @@ fn baked_sides<R: Debug>(text: &mut String, sides: &Ends<R>) -> String {
     numbers(text, "SCALE", "From the unit of vertices to that of 1/r.", &sides.scale);
     numbers(text, "LARGEST_SPAN", "The largest span of each input.", &sides.largest);
     format!(
-        "Sides::new(signorini_kernel::device::condensed::sides::Baked {{
+        "Sides::new(signorini_device::contact::sides::Baked {{
                 ends: &ENDS,
                 scale: &SCALE,
                 excess: {:?},

@@ -1,6 +1,6 @@
 //! What a tick of the condensed model looks at: the exact method and the bound leave out what is zero.
 
-use signorini_kernel::solve::dense::blocks::SIDE;
+use signorini_contact::dense::blocks::SIDE;
 
 /// Of one tick; products and norms cost by these.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The controller that `bake` would write, on this machine.
 
-use signorini_kernel::bound::verdict::Certificate;
+use signorini_kernel::verdict::Certificate;
 
 use super::{Engine, condensed, full};
 use crate::choice::{Choice, Model, Wanted};

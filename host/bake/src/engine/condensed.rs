@@ -1,7 +1,7 @@
 //! The condensed model.
 
-use signorini_kernel::device::report::{Ended, Report};
-use signorini_kernel::solve::solver::Status;
+use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::solver::Status;
 
 use super::{Engine, TickSolution, status};
 use crate::choice::Origin;

@@ -1,8 +1,8 @@
 //! The full model: the mesh, swept as a baked module does.
 
-use signorini_kernel::device::tick::Report;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
-use signorini_kernel::solve::solver::Status;
+use signorini_device::tick::Report;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::solver::Status;
 
 use super::{Engine, TickSolution, status};
 use crate::full::{Baked, Controller};

@@ -18,8 +18,8 @@ pub use solution::solve;
 
 use std::fmt::Display;
 
-use signorini_kernel::device::report::Ended;
-use signorini_kernel::solve::solver::Status;
+use signorini_kernel::report::Ended;
+use signorini_kernel::solver::Status;
 
 use signorini_certify::{ErrorBound, NoBound};
 use signorini_problem::{Approach, Problem, Property};

@@ -3,10 +3,11 @@
 //! That is a domain that contact alone or nothing holds, whose parts have to be shifted, which the kernel's solver
 //! does and its tick does not; and sweeps in f32 on residuals in f64.
 
-use signorini_kernel::bound::certificate::Certificate;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
+use signorini_bound::certificate::Certificate;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::{Error as KernelError, contact};
 
 use super::{Engine, TickSolution, completed};
 use signorini_certify::{Certifier, Data, ErrorBound, NoBound};

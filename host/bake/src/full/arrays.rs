@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
-use signorini_kernel::bound::cells::{Cells, Quad, Triangle};
-use signorini_kernel::bound::certificate::{Discretization, Metric, POINTS, Stability};
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_bound::cells::{Cells, Quad, Triangle};
+use signorini_bound::certificate::{Discretization, Metric, POINTS, Stability};
+use signorini_device::tick::Limits;
+use signorini_kernel::Tensor;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
-use signorini_kernel::{Tensor, solve::Relaxation};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::stiffness::Stiffness;
 
 use super::data::{Data, Pattern};
 use super::factored::Factored;

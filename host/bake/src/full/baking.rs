@@ -1,6 +1,6 @@
 //! A scene baked: in units in which its numbers are near 1, and with a factor where one is asked for.
 
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::arrays::Baked;
 use super::controller::Controller;

@@ -4,8 +4,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use signorini_kernel::bound::certificate;
-use signorini_kernel::device::full::{CurvedPart, Product};
+use signorini_bound::certificate;
+use signorini_device::full::{CurvedPart, Product};
 
 use crate::superposition::{Part, curved_pair};
 use signorini_certify::curved::{Curved, may_be_cleared};

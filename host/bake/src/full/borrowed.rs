@@ -1,10 +1,8 @@
 //! A baked scene as the kernel takes it: what the desk solves, and what the module lists.
 
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::device::full::{
-    self, Base, CurvedSum, Full, Functional, Lengths, TransferPattern,
-};
-use signorini_kernel::discrete::assembly::CellLoads;
+use signorini_bound::conforming::VertexData;
+use signorini_device::full::{self, Base, CurvedSum, Full, Functional, Lengths, TransferPattern};
+use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::flux_range::Spans;
 
 use super::arrays::Baked;

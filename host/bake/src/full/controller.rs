@@ -1,15 +1,15 @@
 //! What the baked module does, on this machine and on the same numbers.
 
-use signorini_kernel::Error as KernelError;
-use signorini_kernel::bound::certificate::Curved;
-use signorini_kernel::device::full::{Lengths, Numbers, Storage};
-use signorini_kernel::device::ranges::check;
-use signorini_kernel::device::tick::{
+use signorini_bound::certificate::Curved;
+use signorini_device::full::{Lengths, Numbers, Storage};
+use signorini_device::ranges::check;
+use signorini_device::sparse::{Exact, Solved};
+use signorini_device::tick::{
     CertifiedSweeps, Deadline, Limits, Method, Report, Substitutions, UncertifiedSweeps,
 };
-use signorini_kernel::discrete::rows::Row;
+use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
-use signorini_kernel::solve::sparse::{Exact, Solved};
+use signorini_kernel::rows::Row;
 use signorini_kernel::{Libm, Math};
 
 use super::arrays::Baked;

@@ -1,10 +1,11 @@
 //! Loads and boundary data as the target adds them up: base and patterns, narrowed.
 
-use signorini_kernel::bound::certificate::Curved;
-use signorini_kernel::device::full::{Contribution, EdgeTrace, Points};
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_bound::certificate::Curved;
+use signorini_device::full::{Contribution, EdgeTrace, Points};
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::error::Array;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
-use signorini_kernel::{Error as KernelError, error::Array};
+use signorini_kernel::stiffness::Stiffness;
 
 use super::bent::{Bent, bent};
 use super::shares::{chords, shares};
@@ -15,7 +16,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
-/// The arrays of [`signorini_kernel::device::full::Base`], the patterns, the oscillation.
+/// The arrays of [`signorini_device::full::Base`], the patterns, the oscillation.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Data<R> {
     pub triangles: Vec<R>,

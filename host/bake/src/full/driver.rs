@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use signorini_kernel::device::limits::Limits;
+use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
 use super::imports::imports;
@@ -13,19 +13,19 @@ use signorini_problem::scalar::Scalar;
 /// What the controller may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
     ("Error", "Error"),
-    ("Libm", "Libm"),
-    ("Micromath", "Micromath"),
-    ("ArrayStorage", "device::full::ArrayStorage"),
-    ("Lengths", "device::full::Lengths"),
-    ("Certificate", "bound::certificate::Certificate"),
-    ("Verdict", "bound::certificate::Verdict"),
-    ("sparse", "solve::sparse"),
-    ("Exact", "solve::sparse::Exact"),
-    ("Deadline", "device::limits::Deadline"),
-    ("Limits", "device::limits::Limits"),
-    ("CertifiedSweeps", "device::tick::CertifiedSweeps"),
-    ("Substitutions", "device::tick::Substitutions"),
-    ("UncertifiedSweeps", "device::tick::UncertifiedSweeps"),
+    ("Libm", "kernel::Libm"),
+    ("Micromath", "kernel::Micromath"),
+    ("ArrayStorage", "full::ArrayStorage"),
+    ("Lengths", "full::Lengths"),
+    ("Certificate", "kernel::Certificate"),
+    ("Verdict", "kernel::Verdict"),
+    ("sparse", "sparse"),
+    ("Exact", "sparse::Exact"),
+    ("Deadline", "kernel::limits::Deadline"),
+    ("Limits", "kernel::limits::Limits"),
+    ("CertifiedSweeps", "tick::CertifiedSweeps"),
+    ("Substitutions", "tick::Substitutions"),
+    ("UncertifiedSweeps", "tick::UncertifiedSweeps"),
     ("Report", "Report"),
 ];
 

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
+use signorini_contact::dense::blocks::{Block, padded};
+use signorini_contact::dense::tableau::InitialTableau;
+use signorini_device::sparse::direct::normalise;
+use signorini_device::sparse::{self, Factor};
 use signorini_kernel::Index;
-use signorini_kernel::solve::dense::blocks::{Block, padded};
-use signorini_kernel::solve::dense::tableau::InitialTableau;
-use signorini_kernel::solve::sparse::direct::normalise;
-use signorini_kernel::solve::sparse::{self, Factor};
 
 use super::statics::Statics;
 use signorini_problem::scalar::Scalar;

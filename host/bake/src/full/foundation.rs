@@ -1,14 +1,14 @@
 //! The statics of mesh and data without inputs, written by the structs that borrow them.
 
-use signorini_kernel::bound::cells::{Cells, Quad, Triangle};
-use signorini_kernel::bound::certificate::{Curved, Discretization, Metric, POINTS, Stability};
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::device::full::{Base, CurvedPart, CurvedSum, Product};
-use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::discrete::stiffness::Stiffness;
+use signorini_bound::cells::{Cells, Quad, Triangle};
+use signorini_bound::certificate::{Curved, Discretization, Metric, POINTS, Stability};
+use signorini_bound::conforming::VertexData;
+use signorini_device::full::{Base, CurvedPart, CurvedSum, Product};
+use signorini_kernel::assembly::CellLoads;
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::mesh::edges::Edges;
+use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Index, Tensor};
 
 use super::statics::{Statics, lines};

@@ -13,6 +13,6 @@ pub(super) fn imports(known: &[(&str, &str)], text: &str, indent: &str) -> Strin
         })
     };
     let used = known.iter().filter(|(name, _)| is_named(name));
-    let line = |(_, path): &(&str, &str)| format!("{indent}use signorini_kernel::{path};\n");
+    let line = |(_, path): &(&str, &str)| format!("{indent}use signorini_device::{path};\n");
     "\n".to_owned() + &used.map(line).collect::<String>()
 }

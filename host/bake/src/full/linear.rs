@@ -1,9 +1,9 @@
 //! The statics of inputs and outputs: what each adds, and what each is read off.
 
-use signorini_kernel::Index;
-use signorini_kernel::device::full::{
+use signorini_device::full::{
     AmbientShare, Contribution, EdgeTrace, Functional, Pattern, Points, TransferPattern,
 };
+use signorini_kernel::Index;
 
 use super::statics::{Statics, lines, named};
 use crate::module_api::ModuleApi;

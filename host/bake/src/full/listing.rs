@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use signorini_device::full::Full;
 use signorini_kernel::Index;
-use signorini_kernel::device::full::Full;
 
 use super::arrays::Baked;
 use super::foundation::{base, discretization};
@@ -15,10 +15,10 @@ use signorini_problem::scalar::Scalar;
 
 /// What they may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
-    ("CellLoads", "discrete::assembly::CellLoads"),
-    ("InitialTableau", "solve::dense::tableau::InitialTableau"),
-    ("Neumann", "mesh::boundary::Neumann"),
-    ("Robin", "mesh::boundary::Robin"),
+    ("CellLoads", "kernel::assembly::CellLoads"),
+    ("InitialTableau", "contact::dense::tableau::InitialTableau"),
+    ("Neumann", "kernel::mesh::boundary::Neumann"),
+    ("Robin", "kernel::mesh::boundary::Robin"),
     ("Cell", "bound::cells::Cell"),
     ("Cells", "bound::cells::Cells"),
     ("Quad", "bound::cells::Quad"),
@@ -28,27 +28,27 @@ const NAMES: &[(&str, &str)] = &[
     ("Metric", "bound::certificate::Metric"),
     ("Stability", "bound::certificate::Stability"),
     ("VertexData", "bound::conforming::VertexData"),
-    ("EdgeCounts", "mesh::edges::EdgeCounts"),
-    ("Edges", "mesh::edges::Edges"),
-    ("AmbientShare", "device::full::AmbientShare"),
-    ("Base", "device::full::Base"),
-    ("EdgeTrace", "device::full::EdgeTrace"),
-    ("CurvedPart", "device::full::CurvedPart"),
-    ("CurvedSum", "device::full::CurvedSum"),
-    ("Full", "device::full::Full"),
-    ("Functional", "device::full::Functional"),
-    ("Pattern", "device::full::Pattern"),
-    ("Points", "device::full::Points"),
-    ("TransferPattern", "device::full::TransferPattern"),
-    ("Product", "device::full::Product"),
-    ("Contribution", "device::full::Contribution"),
-    ("Mesh", "Mesh"),
-    ("Relaxation", "solve::Relaxation"),
-    ("Factor", "solve::sparse::Factor"),
-    ("Factored", "solve::sparse::Factored"),
-    ("Spans", "flux_range::Spans"),
-    ("Stiffness", "discrete::stiffness::Stiffness"),
-    ("Tensor", "Tensor"),
+    ("EdgeCounts", "kernel::mesh::edges::EdgeCounts"),
+    ("Edges", "kernel::mesh::edges::Edges"),
+    ("AmbientShare", "full::AmbientShare"),
+    ("Base", "full::Base"),
+    ("EdgeTrace", "full::EdgeTrace"),
+    ("CurvedPart", "full::CurvedPart"),
+    ("CurvedSum", "full::CurvedSum"),
+    ("Full", "full::Full"),
+    ("Functional", "full::Functional"),
+    ("Pattern", "full::Pattern"),
+    ("Points", "full::Points"),
+    ("TransferPattern", "full::TransferPattern"),
+    ("Product", "full::Product"),
+    ("Contribution", "full::Contribution"),
+    ("Mesh", "kernel::Mesh"),
+    ("Relaxation", "kernel::relaxation::Relaxation"),
+    ("Factor", "sparse::Factor"),
+    ("Factored", "sparse::Factored"),
+    ("Spans", "kernel::flux_range::Spans"),
+    ("Stiffness", "kernel::stiffness::Stiffness"),
+    ("Tensor", "kernel::Tensor"),
 ];
 
 /// The statics, in a module of their own.

@@ -6,7 +6,7 @@
 //!                                                                                   └─► controller: the same here
 //! ```
 
-use signorini_kernel::device::tick::Limits;
+use signorini_device::tick::Limits;
 
 use signorini_problem::scalar::Scalar;
 use signorini_scene::setting::Setting;

@@ -1,6 +1,6 @@
 //! Declared outputs as the arrays that the target evaluates.
 
-use signorini_kernel::device::full::Contribution;
+use signorini_device::full::Contribution;
 
 use signorini_problem::Problem;
 use signorini_problem::functional::{Functional, basis_at};

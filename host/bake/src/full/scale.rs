@@ -9,8 +9,8 @@
 //! All of it by powers of two, exact but for what leaves the range of the scalar; [`super::rescaling`] writes the same
 //! into the module.
 
-use signorini_kernel::bound::certificate::{Certificate, Verdict};
-use signorini_kernel::device::tick::{Limits, Report};
+use signorini_bound::certificate::{Certificate, Verdict};
+use signorini_device::tick::{Limits, Report};
 
 use super::output::Output;
 use crate::range::refuse_answers;

@@ -1,6 +1,6 @@
 //! What inputs add, place by place: nothing where that is 0.
 
-use signorini_kernel::device::full::{Contribution, EdgeTrace};
+use signorini_device::full::{Contribution, EdgeTrace};
 use signorini_problem::scalar::Scalar;
 
 /// The weights other than 0.

@@ -1,8 +1,8 @@
 //! What a baked module takes of a device, and the type of its positions.
 
+use signorini_device::sparse::storage;
 use signorini_kernel::Index;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
-use signorini_kernel::solve::sparse::storage;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::arrays::Baked;
 use super::listing::listed;

@@ -44,7 +44,7 @@ fn required(features: &[&str]) -> String {
     let assertion = |name: &&str| {
         let constant = name.to_ascii_uppercase();
         format!(
-            "const _: () = assert!(signorini_kernel::features::{constant}, \"signorini-kernel \
+            "const _: () = assert!(signorini_device::kernel::features::{constant}, \"signorini-device \
              lacks its feature `{name}`\");\n"
         )
     };

@@ -1,6 +1,6 @@
 //! An input's pattern of a transfer coefficient, owned and narrowed: see [`TransferPattern`].
 
-use signorini_kernel::device::full::{AmbientShare, Contribution, Points, TransferPattern};
+use signorini_device::full::{AmbientShare, Contribution, Points, TransferPattern};
 
 use super::shares::shares;
 use signorini_problem::scalar::Scalar;

@@ -6,7 +6,7 @@ use super::{conflict, constants, found, reach::Reach, runs::runs, section};
 use crate::choice::{Choice, Wanted};
 use crate::condensed::Controller;
 use signorini_condense::ranges::outputs::intervals;
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::fixtures::on_grid;
 use signorini_problem::scalar::Scalar;

@@ -1,9 +1,10 @@
 //! The kernel's tick on a scene whose parts D or R holds: what a device would do.
 
-use signorini_kernel::device::tick::{CertifiedSweeps, Data, Deadline, Memory, Report, Tick};
-use signorini_kernel::discrete::rows::{Row, Rows};
-use signorini_kernel::solve::prolongation::prolong;
-use signorini_kernel::{Error as KernelError, Libm, discrete::contact, solve::Relaxation};
+use signorini_device::tick::{CertifiedSweeps, Data, Deadline, Memory, Report, Tick};
+use signorini_kernel::prolongation::prolong;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::{Error as KernelError, Libm, contact};
 
 use super::player::PlayedTick;
 use super::{Budget, coarse};

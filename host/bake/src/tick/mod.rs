@@ -20,9 +20,9 @@ pub mod schedule;
 
 pub use picture::picture;
 
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::rows;
-use signorini_kernel::solve::solver::Settings;
+use signorini_device::tick::Limits;
+use signorini_kernel::rows;
+use signorini_kernel::solver::Settings;
 
 use intervals::Intervals;
 use player::{PlayedTick, Player};

@@ -4,10 +4,11 @@
 //! tick is a solve, started from the last answer with the relaxation factor found there, and then
 //! certified.
 
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
-use signorini_kernel::{Error as KernelError, discrete::contact, solve::Relaxation};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error as KernelError, contact};
 
 use super::Budget;
 use signorini_certify::{Certified, Data, ErrorBound};

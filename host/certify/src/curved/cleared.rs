@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use signorini_kernel::bound::certificate::is_clear;
+use signorini_bound::certificate::is_clear;
 
 use super::panels::Panels;
 use crate::admissible::{Admissible, Following};

@@ -4,7 +4,7 @@ use std::iter::once_with;
 use std::path::Path;
 use std::time::Instant;
 
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 
 use super::active_set::ActiveSet;
 use super::cascade::Cascade;

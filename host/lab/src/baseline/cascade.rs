@@ -5,10 +5,11 @@
 //! that distance from 2 to begin its search with. All grids are solved to the same residual; all of them
 //! and the prolongations are counted, the search for the coarse cells is not: it belongs to the meshes.
 
-use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::solve::prolongation::{Origin, prolong};
-use signorini_kernel::{Error as KernelError, Real, solve::Relaxation};
+use signorini_kernel::prolongation::{Origin, prolong};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows, TRIANGLES};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error as KernelError, Real};
 
 use super::failed;
 use super::full::Full;

@@ -1,6 +1,6 @@
 //! The full problem of a scene over some ticks: in the kernel's hands, and as a [`Quadratic`].
 
-use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::system::System;
 
 use super::failed;
 use super::load_case::LoadCase;

@@ -1,13 +1,13 @@
 //! The kernel's exact method on the condensed problem.
 
+use signorini_contact::dense::Iterate;
+use signorini_contact::dense::blocks::{Block, SIDE, count, padded};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_contact::method::{Method, Pivots as Exchanges, SolveSummary};
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::device::condensed::method::{Method, Pivots as Exchanges, SolveSummary};
-use signorini_kernel::device::limits::Deadline;
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::solve::dense::Iterate;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE, count, padded};
-use signorini_kernel::solve::dense::ranges::Given;
-use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
+use signorini_kernel::limits::Deadline;
 
 use super::failed;
 use super::quadratic::QuadraticLoads;

@@ -1,11 +1,11 @@
 //! The kernel's projected SOR as a contestant: on edges, and on vertices for conforming P1 alike.
 
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{Row, Rows};
-use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::solve::Relaxation;
-use signorini_kernel::solve::solver::{Outcome, Settings, Solver};
+use signorini_kernel::law::Law;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::solver::{Outcome, Settings, Solver};
+use signorini_kernel::system::System;
 
 use super::failed;
 use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};

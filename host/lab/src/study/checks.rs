@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use signorini_kernel::Real;
-use signorini_kernel::discrete::law::EdgeLaw;
+use signorini_kernel::law::EdgeLaw;
 
 use signorini_problem::Problem;
 use signorini_solve::{ScalarKind, Solution, status_name};

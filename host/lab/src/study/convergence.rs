@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 
 use super::checks::Check;
 use signorini_draw::{ConvergencePlot, ConvergenceSeries, measured_rate};

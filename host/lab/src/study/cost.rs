@@ -1,8 +1,8 @@
 //! Cycles per unknown: the sweep, the whole solve, and how near the sweep is to what memory allows.
 
 use serde::Serialize;
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::solve::psor;
+use signorini_kernel::psor;
+use signorini_kernel::rows::{self, Row, Rows};
 
 use crate::cycles::smallest;
 use signorini_problem::scalar::Scalar;

@@ -3,7 +3,7 @@
 use super::record::Point;
 use super::reference::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
-use signorini_kernel::solve::solver::Status;
+use signorini_kernel::solver::Status;
 
 use crate::cycles;
 use signorini_bake::engine::{self, Engine, TickSolution};

@@ -1,13 +1,13 @@
 //! The kernel's pivoting with three sides against the reference, on dense problems.
 
 use faer::Mat;
+use signorini_contact::dense::Iterate;
+use signorini_contact::dense::blocks::{Block, Blocks, SIDE, count, padded};
+use signorini_contact::dense::pivoting::{Found, find};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::rule::Largest;
+use signorini_contact::dense::tableau::{InitialTableau, Tableau};
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::solve::dense::Iterate;
-use signorini_kernel::solve::dense::blocks::{Block, Blocks, SIDE, count, padded};
-use signorini_kernel::solve::dense::pivoting::{Found, find};
-use signorini_kernel::solve::dense::ranges::Given;
-use signorini_kernel::solve::dense::rule::Largest;
-use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
 use signorini_tolerances::solve::THREE_SIDES;
 
 use super::super::minimise_between;

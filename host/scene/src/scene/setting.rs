@@ -1,6 +1,6 @@
 //! `[setting]`: how to solve the scene, with what excludes what.
 
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 use toml::de::DeValue;
 
 use super::entry::Entry;

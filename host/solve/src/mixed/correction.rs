@@ -1,9 +1,9 @@
 //! What is left of u, as a contact problem in f32.
 
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::signorini::System;
 use signorini_kernel::flux_range::Spans;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::system::System;
 
 use super::Refused;
 

@@ -17,8 +17,8 @@ mod correction;
 mod rounds;
 
 use signorini_kernel::Error as KernelError;
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::solve::solver::{Outcome, Settings};
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::solver::{Outcome, Settings};
 
 use super::{Clock, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use correction::Correction;

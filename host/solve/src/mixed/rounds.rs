@@ -1,9 +1,9 @@
 //! Rounds of sweeps in f32, each followed by a correction in f64, until the residual in f64 is small.
 
-use signorini_kernel::discrete::rows::Rows;
-use signorini_kernel::discrete::signorini::{Residual, System};
-use signorini_kernel::solve::Relaxation;
-use signorini_kernel::solve::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::Rows;
+use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_kernel::system::{Residual, System};
 
 use super::correction::{Correction, Posed};
 use super::{Corrected, Refused};

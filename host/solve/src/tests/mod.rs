@@ -12,8 +12,8 @@ mod transfer;
 use signorini_tolerances::solve::AGREEMENT;
 use std::path::{Path, PathBuf};
 
-use signorini_kernel::solve::Relaxation;
-use signorini_kernel::solve::solver::{Settings, Status};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::solver::{Settings, Status};
 
 use super::{Mixed, Options, SolverKind, Trials, mixed, solve, tuned_omega};
 use signorini_problem::{Parts, Problem};

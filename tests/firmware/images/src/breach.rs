@@ -2,7 +2,8 @@
 
 use core::hint::black_box;
 
-use signorini_kernel::{Real, device::model::Model};
+use signorini_device::model::Model;
+use signorini_kernel::Real;
 
 #[cfg(feature = "broken-alloc")]
 extern crate alloc;
@@ -23,18 +24,17 @@ pub fn commit<R: Real>(model: &Model<R, u16>, force: R) {
     if let Ok(edges) = black_box(model).edges() {
         let (mut flux, stiffness) = ([[R::ZERO; 4]; 1], black_box(model).stiffness);
         let start = black_box(model.start);
-        let done =
-            signorini_kernel::discrete::flux::of_quads(&edges, stiffness, &[], start, &mut flux);
+        let done = signorini_kernel::flux::of_quads(&edges, stiffness, &[], start, &mut flux);
         let _ = black_box((done, flux));
     }
     #[cfg(feature = "broken-contact")]
     if let Ok(edges) = black_box(model).edges() {
-        use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
+        use signorini_kernel::rows::{Row, Rows, TRIANGLES};
         let (mut memory, mut u) = ([Row::EMPTY; 4], [R::ZERO; 4]);
         if let Ok(rows) = Rows::<R, u16, TRIANGLES>::new(&edges, black_box(&mut memory)) {
-            let done = signorini_kernel::solve::psor::sweep(
+            let done = signorini_kernel::psor::sweep(
                 &rows,
-                signorini_kernel::discrete::law::Law::above(black_box(model.gap)),
+                signorini_kernel::law::Law::above(black_box(model.gap)),
                 &mut u,
             );
             let _ = black_box((done, u));

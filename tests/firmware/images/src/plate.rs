@@ -1,7 +1,7 @@
 //! A condensed matrix to count on, since counts depend on its size alone: S_ij = −0.3/|i − j|².
 
+use signorini_contact::dense::blocks::{Block, SIDE};
 use signorini_kernel::Real;
-use signorini_kernel::solve::dense::blocks::{Block, SIDE};
 
 /// Fills the blocks, padding included.
 pub fn fill<R: Real>(blocks: &mut [Block<R>]) {

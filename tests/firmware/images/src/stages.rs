@@ -3,9 +3,10 @@
 mod matrix;
 mod solve;
 
-use signorini_kernel::discrete::stiffness::{self, Coefficient};
+use signorini_device::model::Model;
 use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
-use signorini_kernel::{Error, Libm, Micromath, device::model::Model};
+use signorini_kernel::stiffness::{self, Coefficient};
+use signorini_kernel::{Error, Libm, Micromath};
 
 use crate::journal::{Bits, Journal};
 use crate::scenes;

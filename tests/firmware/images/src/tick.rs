@@ -6,13 +6,11 @@
 //!         row in f64: 48 bytes on triangles, 72 elsewhere
 //! ```
 
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
+use signorini_device::model::Model;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::{
-    Error, Real, device::model::Model, discrete::assembly, discrete::contact, discrete::flux,
-    solve::psor,
-};
+use signorini_kernel::rows::{Row, Rows, TRIANGLES};
+use signorini_kernel::{Error, Real, assembly, contact, flux, psor};
 
 use crate::journal::{Bits, Journal};
 

@@ -10,21 +10,20 @@
 //! the bound holds, and nothing is NaN. Arithmetic that flushes subnormal numbers has other bits, but must
 //! have the same lines.
 
-use signorini_kernel::bound::cells::{CellBuffers, Triangle, pack};
-use signorini_kernel::bound::certificate::{Discretization, LoadCase, Metric, stability};
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::bound::equilibrium::is_root;
-use signorini_kernel::bound::forest::{ForestBuffers, grow};
-use signorini_kernel::device::tick::{
-    CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick,
-};
-use signorini_kernel::discrete::assembly::CellLoads;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_bound::cells::{CellBuffers, Triangle, pack};
+use signorini_bound::certificate::{Discretization, LoadCase, Metric, stability};
+use signorini_bound::conforming::VertexData;
+use signorini_bound::equilibrium::is_root;
+use signorini_bound::forest::{ForestBuffers, grow};
+use signorini_device::tick::{CertifiedSweeps, Data, Deadline, Limits, Memory, Report, Tick};
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::geometry::{doubled_area, triangle_area};
-use signorini_kernel::{Error, Libm, Tensor, solve::Relaxation};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows, TRIANGLES};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::{Error, Libm, Tensor};
 
 use crate::grid::{COLUMNS, EDGES, Grid, SQUARES, VERTICES};
 use crate::journal::Journal;

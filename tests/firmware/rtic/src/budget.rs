@@ -1,8 +1,8 @@
 //! The time of a tick, in counts of the clock: what there is, and what the kernel's steps take of it.
 
 use cortex_m::peripheral::SYST;
+use signorini_device::tick::{Deadline, Limits};
 use signorini_kernel::Error;
-use signorini_kernel::device::tick::{Deadline, Limits};
 
 use crate::clock::count;
 use crate::mesh::COLUMNS;

@@ -1,6 +1,6 @@
 //! The verdict: on every answer, and on the run.
 
-use signorini_kernel::bound::certificate::Certificate;
+use signorini_bound::certificate::Certificate;
 use signorini_kernel::{Libm, Math};
 
 use crate::budget::Costs;

@@ -1,6 +1,6 @@
 //! What the tick counts.
 
-use signorini_kernel::device::tick::Ended;
+use signorini_device::tick::Ended;
 
 use crate::budget::{BUDGET, PERIOD};
 use crate::plant::Answer;

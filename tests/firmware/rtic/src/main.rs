@@ -20,8 +20,8 @@ mod mesh;
 mod plant;
 mod sensor;
 
+use signorini_device::tick::Deadline;
 use signorini_kernel::Error;
-use signorini_kernel::device::tick::Deadline;
 
 use budget::{BUDGET, CERTIFICATE, SWEEP};
 use clock::elapsed;

@@ -11,12 +11,14 @@
 //! A is the same everywhere, and loss and gap are constant along each segment: the bound of the error
 //! leaves nothing out.
 
-use signorini_kernel::bound::certificate::Verdict;
-use signorini_kernel::device::condition::{BoundaryEdge, Condition};
-use signorini_kernel::device::tick::{Deadline, Ended, Limits};
-use signorini_kernel::discrete::stiffness::Coefficient;
+use signorini_bound::certificate::Verdict;
+use signorini_device::condition::{BoundaryEdge, Condition};
+use signorini_device::tick::{Deadline, Ended, Limits};
+use signorini_device::workspace;
 use signorini_kernel::mesh::edges::{Block, EdgeCounts};
-use signorini_kernel::{Error, Mesh, Tensor, solve::Relaxation, workspace};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::stiffness::Coefficient;
+use signorini_kernel::{Error, Mesh, Tensor};
 
 use crate::mesh::{CELLS, COLUMNS, HEIGHT, NODES, SIDE, TRIANGLES, VERTICES, WIDTH};
 

@@ -1,8 +1,8 @@
 //! What the report of a controller holds, as lines of a journal.
 
 use signorini_board::journal::{Bits, Journal};
-use signorini_kernel::bound::verdict::{Certificate, Verdict};
-use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::report::{Ended, Report};
+use signorini_kernel::verdict::{Certificate, Verdict};
 
 /// A report whose figures can be told.
 pub trait Figures {

@@ -14,11 +14,11 @@ use core::hint::black_box;
 use signorini_board::clock::{Clock, UNIT};
 use signorini_board::draw::Draw;
 use signorini_board::journal::Journal;
-use signorini_kernel::device::condensed::Condensed;
-use signorini_kernel::device::condensed::method::TwoPhases;
-use signorini_kernel::device::report::{Ended, Report};
-use signorini_kernel::solve::dense::blocks::padded;
-use signorini_kernel::solve::dense::tableau::InitialTableau;
+use signorini_contact::Condensed;
+use signorini_contact::dense::blocks::padded;
+use signorini_contact::dense::tableau::InitialTableau;
+use signorini_contact::method::TwoPhases;
+use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::{Error, Real as _};
 
 use crate::loads::loads;

@@ -6,7 +6,7 @@ use std::path::Path;
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_certify::exact::distance;
 use signorini_condense::{Recovery, recoverable};
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;

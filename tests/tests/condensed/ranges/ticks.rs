@@ -2,7 +2,7 @@
 
 use signorini_bake::condensed::{Baked, Controller, Work};
 use signorini_condense::{CondensedModel, Measure};
-use signorini_kernel::device::report::{Ended, Report};
+use signorini_kernel::report::{Ended, Report};
 use signorini_problem::scalar::Scalar;
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;

@@ -1,7 +1,7 @@
 //! The worst case that is proved: no tick exceeds it.
 
 use signorini_bake::condensed::{Baked, Controller};
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_problem::scalar::Scalar;
 

@@ -1,6 +1,6 @@
 //! The text as the compiler sees it: no warnings, and the bits of the same arrays on the host.
 
-use signorini_kernel::discrete::rows;
+use signorini_kernel::rows;
 
 use super::setting::{scene, unbounded};
 use super::{BENT, Baked, Controller, fixtures, source};
@@ -49,11 +49,11 @@ pub(super) fn same_bits_of<R: Scalar, const WIDTH: usize>(
 fn a_kernel_of_another_version_is_refused() -> Result<()> {
     let (_, problem) = fixtures::on_grid(BENT, grid(2, Cells::Triangles))?;
     let text = source(&Baked::<f32>::new(&problem)?) + "fn main() {}\n";
-    let own = format!("is_version({:?})", signorini_kernel::VERSION);
-    assert!(text.contains(&own), "{}", signorini_kernel::VERSION);
+    let own = format!("is_version({:?})", signorini_device::VERSION);
+    assert!(text.contains(&own), "{}", signorini_device::VERSION);
     assert_eq!(ran(&text), Ok(String::new()));
     let said = ran(&text.replace(&own, "is_version(\"0.0.9\")")).expect_err("another version");
-    assert!(said.contains("baked for signorini-kernel"), "{said}");
+    assert!(said.contains("baked for signorini-device"), "{said}");
     assert!(said.contains("bake the scene again"), "{said}");
     Ok(())
 }

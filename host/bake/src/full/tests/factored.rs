@@ -6,8 +6,8 @@ use signorini_tolerances::bake::{
 };
 use std::path::Path;
 
-use signorini_kernel::device::tick::{Ended, Report};
-use signorini_kernel::discrete::rows::TRIANGLES;
+use signorini_device::tick::{Ended, Report};
+use signorini_kernel::rows::TRIANGLES;
 
 use super::compiled::same_bits_of;
 use super::setting::{scene, unbounded};

@@ -9,10 +9,10 @@ use signorini_tolerances::Tolerance;
 use signorini_tolerances::bake::{OSCILLATION, TICK, TICK_NARROW};
 use std::path::Path;
 
+use signorini_device::tick::Limits;
 use signorini_kernel::Error;
-use signorini_kernel::device::tick::Limits;
-use signorini_kernel::discrete::rows;
 use signorini_kernel::error::Array;
+use signorini_kernel::rows;
 
 use super::{Baked, Controller, source};
 use signorini_problem::Problem;

@@ -1,7 +1,7 @@
 //! Scenes far from 1: the module's answers are those of the same scene near 1, in other units.
 
-use signorini_kernel::device::tick::{Ended, Limits, Report};
-use signorini_kernel::discrete::rows;
+use signorini_device::tick::{Ended, Limits, Report};
+use signorini_kernel::rows;
 use signorini_tolerances::bake::WITHOUT_UNITS;
 
 use super::{BENT, Baked, Controller, fixtures, source, to_the_end};

@@ -1,8 +1,8 @@
 //! A scene's setting: what its ticks do, and what is refused.
 
-use signorini_kernel::bound::certificate::Verdict;
-use signorini_kernel::device::tick::{Ended, Report};
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+use signorini_bound::certificate::Verdict;
+use signorini_device::tick::{Ended, Report};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_tolerances::bake::{SWEPT, SWEPT_NARROW};
 
 use super::{BENT, Baked, Controller, fixtures};

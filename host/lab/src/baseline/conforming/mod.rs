@@ -11,9 +11,9 @@ mod mesh;
 mod tests;
 mod vertices;
 
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::signorini::System;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::law::Law;
+use signorini_kernel::system::System;
 
 use super::failed;
 use super::load_case::LoadCase;

@@ -7,7 +7,7 @@ use signorini_bake::intervals::narrowed;
 use signorini_certify::cell::Cell;
 use signorini_intervals::weights::{Answers, weights};
 use signorini_intervals::{Answered, exact_value, of_answer};
-use signorini_kernel::bound::verdict::Certificate;
+use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
 use signorini_scene::scene::{Condition, Located, Output, Quantity, Scene};
 use signorini_solve::Solution;

@@ -1,6 +1,6 @@
 //! How far two answers on one mesh are apart, relative to the first.
 
-use signorini_kernel::{Error, discrete::flux};
+use signorini_kernel::{Error, flux};
 
 use signorini_problem::Assembled;
 

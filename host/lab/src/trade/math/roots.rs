@@ -4,9 +4,9 @@
 use std::cell::Cell;
 use std::marker::PhantomData;
 
-use signorini_kernel::discrete::rows::{self, Row, Rows};
-use signorini_kernel::solve::solver::{Settings, Solver, Status};
-use signorini_kernel::{Error, Libm, Math, Micromath, discrete::contact};
+use signorini_kernel::rows::{self, Row, Rows};
+use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::{Error, Libm, Math, Micromath, contact};
 
 use super::super::record::FunctionCost;
 use super::change::{Change, State};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use signorini_kernel::discrete::element::QuadElement;
+use signorini_kernel::element::QuadElement;
 
 use super::{LEVEE, SMALL, hint, parse};
 use crate::goal::Goal;

@@ -9,29 +9,29 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
+use signorini_bound::certificate::{
+    self, Buffers, Discretization, LoadCase, Metric, POINTS, certify,
+};
+use signorini_bound::conforming::VertexData;
+use signorini_bound::equilibrium::{Iterate, is_root};
+use signorini_bound::forest::{Forest, ForestBuffers, grow};
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::grid::{EDGES, Grid, SQUARES, VERTICES};
 use signorini_firmware::journal::Bits;
 use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
-use signorini_kernel::bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_kernel::bound::certificate::{
-    self, Buffers, Discretization, LoadCase, Metric, POINTS, certify,
-};
-use signorini_kernel::bound::conforming::VertexData;
-use signorini_kernel::bound::equilibrium::{Iterate, is_root};
-use signorini_kernel::bound::forest::{Forest, ForestBuffers, grow};
-use signorini_kernel::discrete::assembly::{self, CellLoads};
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::signorini::System;
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::csr::Csr;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::solve::solver::{Settings, Solver};
-use signorini_kernel::{Error, Tensor, discrete::flux, solve::psor};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Settings, Solver};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Tensor, flux, psor};
 
 #[entry]
 fn main() -> ! {

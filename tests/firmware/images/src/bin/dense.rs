@@ -8,6 +8,12 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use signorini_contact::dense::blocks::{self, Blocks, SIDE};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::rule::{Largest, Phases};
+use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_contact::dense::{Iterate, pivoting, sor};
+use signorini_contact::factor::Factor;
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::journal::Bits;
@@ -15,12 +21,6 @@ use signorini_firmware::meter::Meter;
 use signorini_firmware::plate::fill;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
-use signorini_kernel::device::condensed::factor::Factor;
-use signorini_kernel::solve::dense::blocks::{self, Blocks, SIDE};
-use signorini_kernel::solve::dense::ranges::Given;
-use signorini_kernel::solve::dense::rule::{Largest, Phases};
-use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
-use signorini_kernel::solve::dense::{Iterate, pivoting, sor};
 
 const MOST: usize = 64;
 const BLOCKS: usize = blocks::count(MOST);

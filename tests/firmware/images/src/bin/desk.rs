@@ -13,7 +13,7 @@ macro_rules! show {
 fn main() -> std::process::ExitCode {
     use signorini_firmware::journal::Journal;
     use signorini_firmware::stages;
-    use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
+    use signorini_kernel::rows::{QUADS, TRIANGLES};
 
     let mut print = |text: &str| print!("{text}");
     let journal = &mut Journal(&mut print);

@@ -9,22 +9,22 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use signorini_contact::dense::blocks::{SIDE, count};
+use signorini_device::sparse::elimination::PatternBuffers;
+use signorini_device::sparse::factor::FactorBuffers;
+use signorini_device::sparse::{Balance, Factor, Pattern};
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::grid::{COLUMNS, EDGES, Grid, SQUARES, column};
 use signorini_firmware::journal::Bits;
 use signorini_firmware::meter::Meter;
 use signorini_firmware::stages::cut;
-use signorini_kernel::discrete::assembly;
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::rows::{QUADS, TRIANGLES};
-use signorini_kernel::discrete::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::assembly;
+use signorini_kernel::csr::Csr;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::solve::dense::blocks::{SIDE, count};
-use signorini_kernel::solve::sparse::elimination::PatternBuffers;
-use signorini_kernel::solve::sparse::factor::FactorBuffers;
-use signorini_kernel::solve::sparse::{Balance, Factor, Pattern};
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Tensor};
 
 /// More entries than L has.

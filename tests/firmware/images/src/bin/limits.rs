@@ -12,6 +12,12 @@
 #![no_main]
 
 use cortex_m_rt::entry;
+use signorini_contact::dense::blocks::{self, Blocks, SIDE};
+use signorini_contact::dense::outer::{add_outer, without_positive};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::rule::Phases;
+use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_contact::dense::{Iterate, pivoting};
 use signorini_firmware::board;
 use signorini_firmware::board::clock::Clock;
 use signorini_firmware::meter::Meter;
@@ -19,12 +25,6 @@ use signorini_firmware::plate::fill;
 use signorini_firmware::stages::cut;
 use signorini_kernel::Error;
 use signorini_kernel::flux_range::Spans;
-use signorini_kernel::solve::dense::blocks::{self, Blocks, SIDE};
-use signorini_kernel::solve::dense::outer::{add_outer, without_positive};
-use signorini_kernel::solve::dense::ranges::Given;
-use signorini_kernel::solve::dense::rule::Phases;
-use signorini_kernel::solve::dense::tableau::{InitialTableau, Tableau};
-use signorini_kernel::solve::dense::{Iterate, pivoting};
 
 const MOST: usize = 64;
 const BLOCKS: usize = blocks::count(MOST);

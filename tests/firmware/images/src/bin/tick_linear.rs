@@ -3,6 +3,6 @@
 #![no_main]
 
 use signorini_firmware::tick_image;
-use signorini_kernel::discrete::rows::TRIANGLES;
+use signorini_kernel::rows::TRIANGLES;
 
 tick_image!(linear_f32, f32, TRIANGLES, false);

@@ -3,6 +3,6 @@
 #![no_main]
 
 use signorini_firmware::tick_image;
-use signorini_kernel::discrete::rows::QUADS;
+use signorini_kernel::rows::QUADS;
 
 tick_image!(strip_f32, f32, QUADS, true);

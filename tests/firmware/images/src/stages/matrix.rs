@@ -1,17 +1,15 @@
 //! Assembly, sweeps and flux on memory of fixed size.
 
-use signorini_kernel::discrete::csr::Csr;
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::signorini::Shifts;
-use signorini_kernel::discrete::signorini::{Residual, System};
+use signorini_device::model::Model;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
 use signorini_kernel::mesh::edges::Edges;
-use signorini_kernel::{
-    Error, Real, device::model::Model, discrete::assembly as numeric, discrete::flux as recovery,
-    solve::psor,
-};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::{Residual, System};
+use signorini_kernel::{Error, Real, assembly as numeric, flux as recovery, psor};
 
 use super::{CELLS, EDGES, ENTRIES, cut};
 use crate::journal::{Bits, Journal};

@@ -1,13 +1,14 @@
 //! A whole solve, step by step what `signorini solve` does.
 
-use signorini_kernel::discrete::law::Law;
-use signorini_kernel::discrete::rows::{QUADS, Row, Rows, TRIANGLES};
-use signorini_kernel::discrete::signorini::System;
+use signorini_device::model::Model;
+use signorini_kernel::conjugate::ConjugateBuffers;
+use signorini_kernel::law::Law;
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::solve::conjugate::ConjugateBuffers;
-use signorini_kernel::solve::refinement::{self, RefinementBuffers};
-use signorini_kernel::solve::solver::{Outcome, Settings, Status};
-use signorini_kernel::{Error, Math, device::model::Model, discrete::contact, discrete::flux};
+use signorini_kernel::refinement::{self, RefinementBuffers};
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Outcome, Settings, Status};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Math, contact, flux};
 
 use super::matrix::{Memory, residual};
 use super::{CONTACT, EDGES, cut};

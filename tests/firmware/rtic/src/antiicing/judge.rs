@@ -1,6 +1,6 @@
 //! The verdict: on every answer, and on the run.
 
-use signorini_kernel::device::report::Ended;
+use signorini_kernel::report::Ended;
 
 use crate::budget::{BUDGET, Costs, PERIOD};
 use crate::clock::INSTRUCTIONS;

@@ -20,8 +20,8 @@ mod judge;
 // What `mod scene;` is to a user's own module.
 include!(concat!(env!("OUT_DIR"), "/module.rs"));
 
+use signorini_device::tick::Deadline;
 use signorini_kernel::Error;
-use signorini_kernel::device::tick::Deadline;
 
 use budget::{BUDGET, CERTIFICATE, SWEEP};
 use clock::elapsed;

@@ -11,12 +11,12 @@ use cortex_m_rt::entry;
 use signorini_board::clock::Clock;
 use signorini_board::draw::Draw;
 use signorini_board::{end, run};
+use signorini_contact::dense::blocks::{count, padded};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::method::Method as _;
+use signorini_contact::storage::{ArrayStorage, ArrayTableauStorage};
 use signorini_kernel::Error;
-use signorini_kernel::device::condensed::method::Method as _;
-use signorini_kernel::device::condensed::storage::{ArrayStorage, ArrayTableauStorage};
-use signorini_kernel::device::limits::Deadline;
-use signorini_kernel::solve::dense::blocks::{count, padded};
-use signorini_kernel::solve::dense::ranges::Given;
+use signorini_kernel::limits::Deadline;
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, SYSTEM};
 
 const PADDED: usize = padded(CONTACT);

@@ -9,13 +9,13 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use signorini_board::run;
+use signorini_contact::dense::blocks::{count, padded};
+use signorini_contact::modes::ArrayModalStorage;
+use signorini_contact::storage::ArrayTableauStorage;
+use signorini_device::ranges::check;
 use signorini_kernel::Error;
-use signorini_kernel::device::condensed::modes::ArrayModalStorage;
-use signorini_kernel::device::condensed::storage::ArrayTableauStorage;
-use signorini_kernel::device::limits::Deadline;
-use signorini_kernel::device::ranges::check;
-use signorini_kernel::device::report::Report;
-use signorini_kernel::solve::dense::blocks::{count, padded};
+use signorini_kernel::limits::Deadline;
+use signorini_kernel::report::Report;
 use signorini_scene::scene::{CONTACT, INPUTS, Inputs, OUTPUTS, SYSTEM, Scalar};
 use signorini_scene::worst::{Starts, all, exchange, search};
 

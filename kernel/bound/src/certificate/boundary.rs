@@ -1,0 +1,237 @@
+//! What the boundary adds to the bound: contact, transfer laws, curved data.
+
+use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
+use super::parts::Parts;
+use super::{Continuous, Discretization, LoadCase};
+use crate::equilibrium::Iterate;
+use signorini_kernel::Real;
+use signorini_kernel::excess::Excess;
+use signorini_kernel::features;
+use signorini_kernel::flux_range::FluxRange;
+use signorini_kernel::index::{Index, read};
+use signorini_kernel::law::Law;
+use signorini_kernel::mesh::edges::Side;
+
+/// Adds it all to the sums and to the indicators of the cells.
+pub(super) fn add<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    Iterate { u, law: contact }: Iterate<R>,
+    s: Continuous<R>,
+    tau: &[R],
+    indicators: &mut [R],
+    parts: &mut Parts<R>,
+) {
+    let edges = &discretization.edges;
+    let counts = edges.counts();
+    let mut take = |parts: &mut Parts<R>, edge: usize, term: R, terms: R| {
+        parts.gap.add(term);
+        parts.direct += R::from_count(8) * R::EPSILON * terms;
+        let cell = edges.cell_of(read(edges.half_edges(), edge)[0].at());
+        if let Some(indicator) = cell.and_then(|cell| indicators.get_mut(cell)) {
+            *indicator += term;
+        }
+    };
+    let gap = if features::CONTACT { given.ends.gap } else { &[] };
+    for (at, gap) in gap.iter().enumerate() {
+        let edge = counts.free + at;
+        let (tau, range) = (read(tau, edge), given.boundary.contact_flux(at));
+        let [a, b] = ends(discretization, s, edge);
+        let excess = Excess { ends: [a - gap[0], b - gap[1]], bubble: read(s.bubbles, edge) };
+        let means = if contact.is_limited() { excess.sides() } else { [excess.mean(), R::ZERO] };
+        let (term, terms) = charge(range, contact, tau, means);
+        take(parts, edge, term, terms);
+    }
+    let mut moved = R::ZERO;
+    let laws = if features::ROBIN { given.boundary.robin() } else { &[] };
+    for (at, law) in laws.iter().enumerate() {
+        let edge = law.edge.at();
+        let transfer = Transfer {
+            flux: read(tau, edge),
+            s: ends(discretization, s, edge),
+            bubble: read(s.bubbles, edge),
+        };
+        let term = match given.transfer.get(at) {
+            Some(points) => transfer.at_points(points),
+            None => transfer.constant(law.coefficient, law.ambient),
+        };
+        take(parts, edge, term, R::ZERO);
+        moved += transfer.moved(law.coefficient, law.ambient);
+        if law.coefficient > R::ZERO {
+            let of_u = law.ambient - law.coefficient * read(u, edge);
+            let off = read(tau, edge) - of_u;
+            parts.algebraic += off * off / law.coefficient;
+        }
+    }
+    parts.perturbation += moved + perturbation(discretization, given, contact, s);
+    let curved = if features::CURVED { given.curved } else { &[] };
+    for curved in curved {
+        let edge = curved.edge.at();
+        if let Some((term, terms)) = cleared(discretization, given, contact, (s, tau), curved) {
+            take(parts, edge, term, terms);
+            continue;
+        }
+        let in_cell = of_s(discretization, given, s, edge);
+        let (term, terms) = extension(&in_cell, tau, curved);
+        take(parts, edge, term, terms);
+        jump(&in_cell, of_means(discretization, u, edge).as_ref(), curved, parts);
+    }
+}
+
+/// 2∫(s − ψ)⁺(τ·n − lo) + (ψ − s)⁺(hi − τ·n) along an edge for these means of both parts of s − ψ, and the size of its terms.
+#[inline(always)]
+fn charge<R: Real>(range: FluxRange<R>, contact: Law<R>, tau: R, [above, below]: [R; 2]) -> (R, R) {
+    if !contact.is_limited() {
+        let (above, terms) = (R::TWO * above, tau.magnitude() + range.base().magnitude());
+        return (range.multiplier(tau) * above, terms * above.magnitude());
+    }
+    let (mut sum, mut size, nearest) = (R::ZERO, R::ZERO, range.nearest_end(tau));
+    for (end, mean) in range.ends().into_iter().zip([above, below]) {
+        // On a side that there is not, s is but for rounding, which stands elsewhere.
+        if end.finite() {
+            let (mean, terms) = (R::TWO * mean, tau.magnitude() + end.magnitude());
+            // The nearest end is the one that counts in the mean where hi − lo varies.
+            let unseen = if end == nearest { R::ZERO } else { contact.spans().excess() };
+            sum += ((tau - end).magnitude() + unseen) * mean;
+            size += terms * mean.magnitude();
+        }
+    }
+    (sum, size)
+}
+
+/// What the contact term changes by on an edge where s has no extension, so that s − ψ is less by w, and the size of its terms;
+/// nothing where s has one.
+fn cleared<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    contact: Law<R>,
+    (s, tau): (Continuous<R>, &[R]),
+    curved: &Curved<R, I>,
+) -> Option<(R, R)> {
+    let edge = curved.edge.at();
+    let at = edge.checked_sub(discretization.edges.counts().free)?;
+    let gap = if features::CONTACT { given.ends.gap.get(at)? } else { return None };
+    let [a, b] = ends(discretization, s, edge);
+    let excess = [a - gap[0], b - gap[1]];
+    let means = match excess[0] > R::ZERO {
+        true => [-curved.mean, R::ZERO],
+        false => [R::ZERO, curved.mean],
+    };
+    let range = given.boundary.contact_flux(at);
+    is_clear(excess, curved.peak).then(|| charge(range, contact, read(tau, edge), means))
+}
+
+fn ends<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    s: Continuous<R>,
+    edge: usize,
+) -> [R; 2] {
+    s.at(&discretization.edges.endpoints(&discretization.mesh, edge))
+}
+
+/// A transfer edge: r = ∫τ·n + H(s − u_ext) with H = ∫h along it.
+struct Transfer<R> {
+    flux: R,
+    s: [R; 2],
+    bubble: R,
+}
+
+impl<R: Real> Transfer<R> {
+    /// ∫ r²/H with H and u_ext constant, `ambient` = ∫h u_ext: Simpson's rule for the linear part of r,
+    /// and what the bubble H·4t(1 − t)d adds.
+    fn constant(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            // Nothing passes: a flux there has no finite bound.
+            return if self.flux == R::ZERO { R::ZERO } else { R::ONE / R::ZERO };
+        }
+        let [a, b] = self.s.map(|s| self.flux + (h * s - ambient));
+        let bubble = h * self.bubble;
+        let linear = (a * a + a * b + b * b) * R::THIRD;
+        let cross = R::TWO * R::THIRD * bubble * (a + b);
+        let square = R::from_count(8) / R::from_count(15) * bubble * bubble;
+        (linear + cross + square) / h
+    }
+
+    /// ∫ e²/H, e what rounding of the data and of r can do: r is a small difference of large terms where
+    /// u is large against its changes.
+    fn moved(&self, h: R, ambient: R) -> R {
+        if !(h > R::ZERO) {
+            return R::ZERO;
+        }
+        let [a, b] = self.s.map(R::magnitude);
+        let s = a.or_larger(b) + self.bubble.magnitude();
+        let terms = self.flux.magnitude() + h * s + ambient.magnitude();
+        let e = R::TWO * R::EPSILON * terms;
+        e * e / h
+    }
+
+    /// The same from H and u_ext at the 8 Gauss points.
+    fn at_points(&self, points: &[[R; 2]; 8]) -> R {
+        let [a, b] = self.s;
+        let rule = R::GAUSS[7].iter().zip(points);
+        rule.fold(R::ZERO, |sum, (&[t, weight], &[h, ambient])| {
+            let arch = (R::TWO + R::TWO) * t * (R::ONE - t);
+            let s = a * (R::ONE - t) + b * t + arch * self.bubble;
+            let r = self.flux + h * (s - ambient);
+            // Where nothing passes the law asks for τ·n = 0; a flux there has no finite bound.
+            let term = if r == R::ZERO { R::ZERO } else { r * r / h };
+            sum + weight * term
+        })
+    }
+}
+
+/// The square of what storing u_D and ψ in this scalar can do: each value moves by ε|value|, and the
+/// perturbation's energy in the cells along the boundary is at most 4Σ|K| for each square. Where u_D lies below ψ, which only
+/// rounding may do, s does as well, and ψ moves by what is missing.
+fn perturbation<R: Real, I: Index>(
+    discretization: &Discretization<R, I>,
+    given: &LoadCase<R, I>,
+    contact: Law<R>,
+    s: Continuous<R>,
+) -> R {
+    let (edges, k) = (&discretization.edges, discretization.stiffness);
+    let size = |entries: &[R]| entries.iter().fold(R::ZERO, |sum, k| sum + k.magnitude());
+    let pairs = given.ends.gap.iter().chain(given.ends.given).enumerate();
+    // More is no rounding, and there is no bound: it must not end a tick as if all but rounding were done.
+    let slack = given.ends.slack();
+    pairs.fold(R::ZERO, |sum, (at, pair)| {
+        let value = pair[0].magnitude().or_larger(pair[1].magnitude());
+        let (edge, mut moved) = (edges.counts().free + at, R::TWO * R::EPSILON * value);
+        if features::CONTACT && at < given.ends.gap.len() {
+            let [a, b] = ends(discretization, s, edge);
+            let depth = |value, psi| contact.on(at).depth_at(value, psi);
+            let missing = depth(a, pair[0]).or_larger(depth(b, pair[1])).or_larger(R::ZERO);
+            moved += if missing <= slack { missing } else { R::ZERO };
+        }
+        let of_cell = match edges.first_side(edge) {
+            Side::Triangle(cell, _) => size(&read(k.triangles, cell)),
+            Side::Quad(cell, _) => size(&read(k.quads, cell)),
+        };
+        sum + R::from_count(4) * of_cell * moved * moved
+    })
+}
+
+#[cfg(all(test, feature = "limited"))]
+mod tests {
+    use super::*;
+    use signorini_kernel::flux_range::{Span, Spans};
+
+    fn charged(span: f64, excess: f64, tau: f64, means: [f64; 2]) -> f64 {
+        let lengths = [span];
+        let spans = Spans::new(&lengths).unwrap_or(Spans::UNLIMITED).varying(excess);
+        let law = Law::above(&[0.0]).with_spans(spans);
+        charge(FluxRange::new(1.0, Span::new(span)), law, tau, means).0
+    }
+
+    #[test]
+    fn either_side_is_charged_for_its_own_end_and_less_s_less_of_it() {
+        // lo = 1, hi = 3.
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.25, 0.0]), 0.25);
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.0, 0.25]), 0.75);
+        assert_eq!(charged(2.0, 0.0, 1.5, [-0.25, 0.0]), -0.25);
+        assert_eq!(charged(2.0, 0.0, 1.5, [0.25, 0.25]), 1.0);
+        // Where hi − lo varies, on the side of the farther end.
+        assert_eq!(charged(2.0, 0.5, 1.5, [0.25, 0.25]), 1.25);
+        assert_eq!(charged(f64::INFINITY, 0.0, 1.5, [0.25, 0.0]), 0.25);
+    }
+}

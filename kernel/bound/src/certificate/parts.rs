@@ -1,0 +1,89 @@
+//! The sums over the mesh that a certificate is drawn from.
+
+use super::sum::Sum;
+use super::{Certificate, Stability, Verdict};
+use signorini_kernel::Real;
+
+/// One cell's share of everything.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellTerms<R> {
+    /// ‖A^½∇s − A^{−½}τ‖²
+    pub gap: R,
+    /// ‖A^{−½}(τ − σ_h)‖²
+    pub algebraic: R,
+    /// ‖A^½∇(s − u_h)‖²
+    pub nonconforming: R,
+    /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
+    pub uncertainty: R,
+    /// The same of `nonconforming`.
+    pub uncertainty_of_u: R,
+    /// (∫f)² + Στ², the terms of the balance.
+    pub terms: R,
+}
+
+/// Sums over the mesh.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Parts<R> {
+    pub gap: Sum<R>,
+    pub algebraic: R,
+    pub nonconforming: R,
+    /// ‖A^½∇v‖² of what s has above the chords of its boundary data, on distorted quads.
+    pub lifted: R,
+    pub uncertainty: R,
+    pub uncertainty_of_u: R,
+    /// The square of what storing the data has done.
+    pub perturbation: R,
+    /// What rounding can have done to `gap` itself.
+    pub direct: R,
+    /// The same of `nonconforming`.
+    pub direct_of_u: R,
+    pub terms: R,
+}
+
+impl<R: Real> Parts<R> {
+    #[inline(always)]
+    pub fn add(&mut self, share: CellTerms<R>) {
+        self.gap.add(share.gap);
+        self.algebraic += share.algebraic;
+        self.nonconforming += share.nonconforming;
+        self.uncertainty += share.uncertainty;
+        self.uncertainty_of_u += share.uncertainty_of_u;
+        self.terms += share.terms;
+    }
+
+    /// `cells`: how many there are.
+    pub fn conclude(&self, cells: usize, stability: Stability<R>, oscillation: R) -> Verdict<R> {
+        let root = |square: R| square.or_larger(R::ZERO).rounded_sqrt();
+        let gap = root(self.gap.value());
+        let times = |count: u32| R::from_count(count) * R::EPSILON;
+        // A difference of 4 terms, each rounded 4 times: half an ε of each, and (Σ|x|)² ≤ 4 Σx².
+        let uncertainty = times(4) * root(self.uncertainty);
+        // A sum of 4 terms at most, and of all cells (Σ|ρ|)² ≤ cells · Σρ².
+        let all = |squares: R| times(2) * root(R::from_count(cells as u32) * squares);
+        let plainly = stability.largest * all(self.terms);
+        let unbalanced = plainly.or_smaller(stability.weighed * all(self.uncertainty));
+        let lifted = root(gap * gap + self.direct).or_larger(gap) - gap;
+        // Squares below the smallest normal number are lost, some in every cell.
+        let lost = (R::ONE + stability.largest) * root(R::from_count(16 * cells as u32) * R::TINY);
+        let rounding =
+            uncertainty + unbalanced + root(self.perturbation) + lifted + lost + times(16) * gap;
+        let rounding = rounding + times(4) * oscillation;
+        let both = root(gap * gap + oscillation * oscillation);
+        // √(gap²) underflows before gap does.
+        let exact = oscillation + both.or_larger(gap);
+        // What rounded element matrices hide, of all that is drawn from them.
+        let rounding = rounding + stability.oblique * (exact + rounding);
+        let total = exact + rounding;
+        let algebraic = root(self.algebraic);
+        let jump = root(self.nonconforming.or_larger(R::ZERO) + self.direct_of_u);
+        // A plain sum over the cells loses half an ε of itself in each, its root half of that.
+        let summed = times(16) + R::QUARTER * times(cells as u32);
+        let uncertainty_of_u = times(4) * root(self.uncertainty_of_u) + summed * jump + lost;
+        let apart = jump + root(self.lifted) + uncertainty_of_u;
+        let of_u = total + (apart + stability.oblique * apart);
+        let certificate =
+            Certificate { duality_gap: gap, algebraic, oscillation, rounding, total, of_u };
+        let known = certificate.of_u.finite() && algebraic.finite();
+        if known { Verdict::Certified(certificate) } else { Verdict::NotFinite }
+    }
+}

@@ -1,0 +1,201 @@
+//! Owned memory of exactly the size that a model needs: arrays that can be a `static`, or whatever else lends slices.
+
+use super::method::{Pivots, Sweeps, TwoPhases};
+use super::spans::SpanBuffer;
+use super::{Condensed, Memory};
+use crate::dense::Iterate;
+use crate::dense::blocks::{Block, SIDE};
+use crate::dense::tableau::Tableau;
+use signorini_kernel::Real;
+use signorini_kernel::error::Error;
+
+/// Iterate and scratch. Numbers and flags have [`crate::dense::blocks::padded`] contact edges, columns those of the
+/// bound's factor; spans are as many as contact edges with padding where inputs change them, none elsewhere.
+#[derive(Debug)]
+pub struct Storage<Numbers, Flags, Columns, Spans> {
+    x: Numbers,
+    residual: Numbers,
+    scratch: Numbers,
+    open: Flags,
+    load: Numbers,
+    spans: Spans,
+    combination: Columns,
+    sum: Columns,
+    has_begun: bool,
+}
+
+/// The same in arrays: P padded contact edges, C columns, S spans.
+pub type ArrayStorage<R, const P: usize, const C: usize, const S: usize = 0> =
+    Storage<[R; P], [bool; P], [R; C], [R; S]>;
+
+impl<R: Real, const P: usize, const C: usize, const S: usize> ArrayStorage<R, P, C, S> {
+    /// Zeros, which take no room in flash: the first tick takes the model's x over.
+    pub const fn zeros() -> Self {
+        Self {
+            x: [R::ZERO; P],
+            residual: [R::ZERO; P],
+            scratch: [R::ZERO; P],
+            open: [false; P],
+            load: [R::ZERO; P],
+            spans: [R::ZERO; S],
+            combination: [R::ZERO; C],
+            sum: [R::ZERO; C],
+            has_begun: false,
+        }
+    }
+}
+
+impl<Numbers: Clone, Flags, Columns: Clone, Spans> Storage<Numbers, Flags, Columns, Spans> {
+    /// Before the first tick, with buffers like these, of any contents.
+    pub fn of(numbers: Numbers, open: Flags, columns: Columns, spans: Spans) -> Self {
+        Self {
+            x: numbers.clone(),
+            residual: numbers.clone(),
+            scratch: numbers.clone(),
+            open,
+            load: numbers,
+            spans,
+            combination: columns.clone(),
+            sum: columns,
+            has_begun: false,
+        }
+    }
+}
+
+impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
+    /// The view that [`Condensed::tick`] takes.
+    pub fn memory<R: Real>(&mut self, model: &Condensed<R>) -> Memory<'_, R>
+    where
+        Numbers: AsMut<[R]>,
+        Flags: AsMut<[bool]>,
+        Columns: AsMut<[R]>,
+        Spans: AsMut<[R]>,
+    {
+        let x = self.x.as_mut();
+        if !self.has_begun {
+            x.iter_mut().zip(model.x).for_each(|(x, &given)| *x = given);
+            self.has_begun = true;
+        }
+        let (residual, scratch) = (self.residual.as_mut(), self.scratch.as_mut());
+        Memory {
+            iterate: Iterate { x, residual, scratch, open: self.open.as_mut() },
+            load: self.load.as_mut(),
+            spans: SpanBuffer::new(self.spans.as_mut()),
+            combination: self.combination.as_mut(),
+            sum: self.sum.as_mut(),
+        }
+    }
+
+    /// x of the last tick, padding included.
+    pub fn x<R>(&self) -> &[R]
+    where
+        Numbers: AsRef<[R]>,
+    {
+        self.x.as_ref()
+    }
+
+    /// The edges that the last tick left open, padding included.
+    pub fn open(&self) -> &[bool]
+    where
+        Flags: AsRef<[bool]>,
+    {
+        self.open.as_ref()
+    }
+
+    /// What the certificate of the last tick multiplied the columns of its factor by.
+    pub fn combination<R>(&self) -> &[R]
+    where
+        Columns: AsRef<[R]>,
+    {
+        self.combination.as_ref()
+    }
+
+    /// Forgets all ticks: the next one takes the model's x over again.
+    pub fn reset(&mut self) {
+        self.has_begun = false;
+    }
+}
+
+/// A tableau for the exact method, in [`crate::dense::blocks::count`] blocks; flags and columns have
+/// [`crate::dense::blocks::padded`] contact edges.
+#[derive(Debug)]
+pub struct TableauStorage<Blocks, Flags, Column> {
+    blocks: Blocks,
+    exchanged: Flags,
+    columns: [Column; 2],
+    is_built: bool,
+}
+
+/// The same in arrays: P padded contact edges, B blocks.
+pub type ArrayTableauStorage<R, const P: usize, const B: usize> =
+    TableauStorage<[Block<R>; B], [bool; P], [R; P]>;
+
+impl<R: Real, const P: usize, const B: usize> ArrayTableauStorage<R, P, B> {
+    /// Nothing yet: the first tick takes the model's own over.
+    pub const fn zeros() -> Self {
+        Self::of([[[R::ZERO; SIDE]; SIDE]; B], [false; P], [[R::ZERO; P]; 2])
+    }
+}
+
+impl<Blocks, Flags, Column> TableauStorage<Blocks, Flags, Column> {
+    /// Before the first tick, in buffers of any contents.
+    pub const fn of(blocks: Blocks, exchanged: Flags, columns: [Column; 2]) -> Self {
+        Self { blocks, exchanged, columns, is_built: false }
+    }
+
+    /// The exact method on `model`: at most so many exchanges a tick, and what follows where they do not
+    /// suffice.
+    ///
+    /// # Errors
+    /// A model of another size.
+    pub fn method<'a, R: Real>(
+        &'a mut self,
+        model: &Condensed<'a, R>,
+        most: u32,
+        sweeps: Sweeps<R>,
+    ) -> Result<Pivots<'a, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
+        Ok(Pivots { tableau: self.tableau(model)?, start: model.start, most, sweeps })
+    }
+
+    /// The exact method on a `model` whose matrix has no positive entry off the diagonal.
+    ///
+    /// # Errors
+    /// A model of another size.
+    pub fn two_phases<'a, R: Real>(
+        &'a mut self,
+        model: &Condensed<'a, R>,
+    ) -> Result<TwoPhases<'a, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
+        Ok(TwoPhases { tableau: self.tableau(model)? })
+    }
+
+    fn tableau<R: Real>(&mut self, model: &Condensed<R>) -> Result<Tableau<'_, R>, Error>
+    where
+        Blocks: AsMut<[Block<R>]>,
+        Flags: AsMut<[bool]>,
+        Column: AsMut<[R]>,
+    {
+        let columns = self.columns.each_mut().map(Column::as_mut);
+        let (blocks, exchanged) = (self.blocks.as_mut(), self.exchanged.as_mut());
+        let mut tableau = Tableau::new(model.contact, blocks, exchanged, columns)?;
+        if !self.is_built {
+            tableau.reset(&model.start)?;
+            self.is_built = true;
+        }
+        Ok(tableau)
+    }
+
+    /// Forgets all ticks: the next one takes the model's tableau over again.
+    pub fn reset(&mut self) {
+        self.is_built = false;
+    }
+}

@@ -1,0 +1,239 @@
+//! Contact whose flux has two ends: what the law allows, and exchanges with three sides by complementarity itself.
+
+#[path = "condensed/strip.rs"]
+#[allow(dead_code)] // Other tests need more of it.
+mod strip;
+
+use signorini_contact::dense::Iterate;
+use signorini_contact::dense::blocks::{SIDE, count, padded};
+use signorini_contact::dense::pivoting::{Found, find};
+use signorini_contact::dense::ranges::Given;
+use signorini_contact::dense::rule::Largest;
+use signorini_contact::dense::tableau::{InitialTableau, Tableau};
+use signorini_kernel::Error;
+use signorini_kernel::error::Array;
+use signorini_kernel::flux_range::{FluxRange, Span, Spans};
+use signorini_kernel::law::{EdgeLaw, Move};
+use signorini_tolerances::kernel::THREE_SIDES;
+use strip::{Random, Strip};
+
+const ENDLESS: f64 = f64::INFINITY;
+
+/// Base 1 with a span of 2, of ∞, of −∞, of 0.
+const RANGES: [FluxRange<f64>; 4] = [
+    FluxRange::new(1.0, Span::new(2.0)),
+    FluxRange::new(1.0, Span::new(ENDLESS)),
+    FluxRange::new(1.0, Span::new(-ENDLESS)),
+    FluxRange::new(1.0, Span::new(0.0)),
+];
+
+#[test]
+fn a_flux_is_between_its_ends() {
+    let ends = [[1.0, 3.0], [1.0, ENDLESS], [-ENDLESS, 1.0], [1.0, 1.0]];
+    assert_eq!(RANGES.map(FluxRange::ends), ends);
+    assert_eq!(RANGES.map(FluxRange::base), [1.0; 4]);
+    let fluxes = [-5.0, 0.5, 1.0, 1.5, 3.0, 3.5, f64::NAN];
+    let admitted = [
+        [false, false, true, true, true, false, false],
+        [false, false, true, true, true, true, false],
+        [true, true, true, false, false, false, false],
+        [false, false, true, false, false, false, false],
+    ];
+    let nearest = [
+        [1.0, 1.0, 1.0, 1.5, 3.0, 3.0],
+        [1.0, 1.0, 1.0, 1.5, 3.0, 3.5],
+        [-5.0, 0.5, 1.0, 1.0, 1.0, 1.0],
+        [1.0; 6],
+    ];
+    for ((range, admitted), nearest) in RANGES.into_iter().zip(admitted).zip(nearest) {
+        assert_eq!(fluxes.map(|flux| range.admits(flux)), admitted, "{range:?}");
+        for (flux, nearest) in fluxes.into_iter().zip(nearest) {
+            assert_eq!(range.nearest(flux), nearest, "{range:?} {flux}");
+        }
+        assert_eq!(
+            range.span().length().is_finite(),
+            range.ends()[0] != -ENDLESS && range.ends()[1] != ENDLESS
+        );
+    }
+    assert_eq!(RANGES.map(|range| range.multiplier(0.25)), [-0.75, -0.75, 0.75, -0.75]);
+    let near = [1.9, 2.0, 2.1].map(|flux| RANGES[0].nearest_end(flux));
+    assert_eq!(near, [1.0, 1.0, 3.0]);
+}
+
+#[test]
+fn spans_are_numbers_or_infinite() {
+    let lengths = [0.0, 2.0, ENDLESS, -ENDLESS];
+    let spans = Spans::new(&lengths).expect("spans");
+    assert_eq!(spans.lengths(), lengths);
+    assert_eq!(
+        [0, 1, 2, 3, 4].map(|at| spans.on(at).length()),
+        [0.0, 2.0, ENDLESS, -ENDLESS, ENDLESS]
+    );
+    assert_eq!((spans.check_length(4), spans.excess()), (Ok(()), 0.0));
+    assert_eq!(spans.varying(0.5).excess(), 0.5);
+    let wrong = Err(Error::Length { of: Array::ContactSpans, found: 4, expected: 3 });
+    assert_eq!(spans.check_length(3), wrong);
+    assert_eq!(Spans::<f64>::UNLIMITED.check_length(3), Ok(()));
+    for at in 0..3 {
+        let mut lengths = [1.0, -1.0, 0.0];
+        assert!(Spans::new(&lengths).is_ok());
+        lengths[at] = f64::NAN;
+        let error = Spans::new(&lengths).err();
+        assert_eq!(error, Some(Error::OutOfRange { of: Array::ContactSpans, at }));
+    }
+    let baked = Spans::baked(&lengths, 0.25);
+    assert_eq!((baked.lengths(), baked.excess()), (&lengths[..], 0.25));
+}
+
+/// ψ = 2 with these spans.
+fn law(span: f64) -> EdgeLaw<f64> {
+    EdgeLaw::above(2.0).with_span(Span::new(span))
+}
+
+#[test]
+fn u_is_on_a_side_that_there_is() {
+    let u = [1.0, 2.0, 3.0, f64::NAN];
+    let admitted = |span| u.map(|u| law(span).admits(u));
+    assert_eq!(admitted(ENDLESS), [false, true, true, false]);
+    assert_eq!(admitted(-ENDLESS), [true, true, false, false]);
+    assert_eq!(admitted(0.5), [true, true, true, false]);
+    let saturated = |span| u.map(|u| law(span).is_saturated(u));
+    assert_eq!(saturated(0.5), [true, false, false, false]);
+    assert_eq!(saturated(ENDLESS), [false; 4]);
+    assert_eq!([-ENDLESS, -0.5].map(saturated), [[true, false, false, false]; 2]);
+    assert_eq!(u.map(|u| law(-0.5).missing(u)), [0.0, 0.0, -0.5, 0.0]);
+    assert_eq!([ENDLESS, -ENDLESS].map(|span| law(span).missing(1.0)), [0.0; 2]);
+    assert_eq!(u.map(|u| law(0.5).missing(u)), [0.5, 0.0, 0.0, 0.0]);
+}
+
+/// A row with 4 on its diagonal: a unit of load moves u by ¼.
+#[test]
+fn a_relaxation_ends_between_both_loads() {
+    let softness = 0.25;
+    let ends = |span| [0.0, 1.25, 1.75, 2.0, 3.0, f64::NAN].map(|u| law(span).project(u, softness));
+    assert_eq!(ends(2.0), [0.5, 1.75, 2.0, 2.0, 3.0, 2.0]);
+    assert_eq!(ends(ENDLESS), [2.0, 2.0, 2.0, 2.0, 3.0, 2.0]);
+    assert_eq!(ends(-ENDLESS), [0.0, 1.25, 1.75, 2.0, 2.0, 2.0]);
+    assert_eq!(ends(0.0)[..5], [0.0, 1.25, 1.75, 2.0, 3.0]);
+    for span in [2.0, 0.0, ENDLESS, -ENDLESS] {
+        let law = law(span);
+        for u in [0.5, 1.9, 2.0, 2.25, 4.0] {
+            for step in [-3.0, -0.25, -0.1, 0.0, 0.1, 3.0] {
+                if !law.admits(u) {
+                    continue;
+                }
+                let by = match law.movement(law.opening(u), step, softness) {
+                    Move::Row(by) => by,
+                    Move::Gap(opening) => -opening,
+                };
+                let ends = law.project(u + step, softness);
+                assert!((u + by - ends).abs() < 1e-12, "{span} {u} {step}: {by} {ends}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_ends_on_the_gap_from_either_side() {
+    assert_eq!(law(2.0).room(3.0, -0.5), Some(2.0));
+    assert_eq!(law(2.0).room(1.0, 0.25), Some(4.0));
+    assert_eq!([law(2.0).room(3.0, 0.5), law(2.0).room(1.0, -0.5)], [None, None]);
+    assert!(law(2.0).lands(2.1, -1.0, 0.2) && law(2.0).lands(1.9, 1.0, 0.2));
+    assert!(!law(2.0).lands(2.1, 0.0, 0.2) && !law(2.0).lands(1.5, 1.0, 0.2));
+    assert!(law(ENDLESS).lands(1.0, -1.0, 0.2) && !law(ENDLESS).lands(2.1, 1.0, 0.2));
+}
+
+#[test]
+fn a_flux_goes_with_its_side() {
+    let flux = |span: f64, u, given| law(span).flux(u, given, FluxRange::new(1.0, Span::new(span)));
+    let sides = |span| [3.0, 2.0, 1.0].map(|u| flux(span, u, 1.5));
+    assert_eq!(sides(2.0), [1.0, 1.5, 3.0]);
+    assert_eq!(sides(ENDLESS)[..2], [1.0, 1.5]);
+    assert_eq!(sides(-ENDLESS)[1..], [1.0, 1.0]);
+    assert_eq!(flux(-ENDLESS, 2.0, -4.0), -4.0);
+    assert_eq!([flux(2.0, 2.0, 0.0), flux(2.0, 2.0, 9.0)], [1.0, 3.0]);
+    // The same range from its upper end on.
+    let from_above = FluxRange::new(3.0, Span::new(-2.0));
+    let sides = [3.0, 2.0, 1.0].map(|u| law(-2.0).flux(u, 1.5, from_above));
+    assert_eq!((sides, from_above.ends()), ([1.0, 1.5, 3.0], [1.0, 3.0]));
+    assert_eq!([0.5, 1.0, 1.5].map(|flux| from_above.multiplier(flux)), [-0.5, 0.0, 0.5]);
+}
+
+fn residual_of(strip: &Strip<f64>, load: &[f64], x: &[f64], row: usize) -> f64 {
+    (0..strip.order).fold(-load[row], |sum, column| sum + strip.at(row, column) * x[column])
+}
+
+/// How far x and w = Sx − b are from the law, relative to the load.
+fn defect(strip: &Strip<f64>, load: &[f64], x: &[f64], most: impl Fn(usize) -> f64) -> f64 {
+    let w: Vec<f64> = (0..strip.order).map(|row| residual_of(strip, load, x, row)).collect();
+    let size = load.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
+    let one = |at: usize| {
+        let (x, w, most) = (x[at], w[at], most(at));
+        let [least, most] = if most < 0.0 { [most, 0.0] } else { [0.0, most] };
+        match x {
+            0.0 => (least - w).max(w - most).max(0.0),
+            _ if x > 0.0 => (w - least).abs(),
+            _ => (w - most).abs(),
+        }
+    };
+    (0..strip.order).map(one).fold(0.0, f64::max) / size
+}
+
+/// Loads that follow each other, with spans that are scaled edge by edge.
+#[test]
+fn exchanges_find_all_three_sides() -> Result<(), Error> {
+    let mut random = Random::new(17);
+    let mut seen = [0; 3];
+    for order in [1, 5, 8, 13, 24] {
+        let strip = Strip::<f64>::new(order);
+        let (length, matrix) = (padded(order), strip.matrix()?);
+        let spans: Vec<f64> =
+            (0..order).map(|at| [0.6, 1e-9, ENDLESS, -ENDLESS, 0.0, -2.0, -0.3][at % 7]).collect();
+        let mut scale = vec![0.0; length];
+        scale
+            .iter_mut()
+            .take(order)
+            .enumerate()
+            .for_each(|(at, scale)| *scale = 0.5 + 0.1 * at as f64);
+        let most = |at: usize| spans[at] * scale[at];
+        let mut blocks = vec![[[0.0; SIDE]; SIDE]; count(order)];
+        let [mut x, mut residual, mut scratch, mut column, mut next] =
+            [(); 5].map(|()| vec![0.0; length]);
+        let (mut open, mut exchanged) = (vec![false; length], vec![false; length]);
+        let start = InitialTableau::untouched(&matrix);
+        let mut tableau =
+            Tableau::new(order, &mut blocks, &mut exchanged, [&mut column, &mut next])?;
+        tableau.reset(&start)?;
+        let mut load = vec![0.0; length];
+        for _ in 0..40 {
+            for b in load.iter_mut().take(order) {
+                *b = 0.5 * *b + random.next();
+            }
+            let given = Given::between(&load, Spans::new(&spans)?, &scale);
+            let iterate = Iterate {
+                x: &mut x,
+                residual: &mut residual,
+                scratch: &mut scratch,
+                open: &mut open,
+            };
+            let (found, pivots) =
+                find(&matrix, given, &mut tableau, &start, &mut Largest, |_| true, iterate)?;
+            assert!(found == Found::Exact && pivots as usize <= 4 * order, "{order}: {pivots}");
+            THREE_SIDES.check(format_args!("{order}"), defect(&strip, &load, &x, most));
+            for (at, &x) in x.iter().enumerate() {
+                assert_eq!(open[at], x != 0.0);
+                if at < order {
+                    seen[usize::from(x > 0.0) + 2 * usize::from(x < 0.0)] += 1;
+                    // Of a side that is exchanged nothing is left.
+                    assert!(
+                        x == 0.0 || residual[at].abs() < 1e-9,
+                        "{order} {at}: {}",
+                        residual[at]
+                    );
+                }
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! Loads and boundary data of one tick: the statics, or copies of them with the inputs' shares.
+
+use super::curved::CurvedSum;
+use super::pattern::{DataMemory, Pattern};
+use crate::tick::Data;
+use signorini_bound::certificate::{Curved, LoadCase};
+use signorini_bound::conforming::VertexData;
+use signorini_kernel::Real;
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::error::{Array, Error, same_length_or_empty};
+use signorini_kernel::features;
+use signorini_kernel::flux_range::Spans;
+use signorini_kernel::index::Index;
+use signorini_kernel::law::Law;
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::edges::Edges;
+
+/// The data where all inputs are 0 (borrowed), as [`Data`] takes them.
+#[derive(Debug, Clone, Copy)]
+pub struct Base<'a, R, I> {
+    /// ∫f of the cells.
+    pub loads: CellLoads<'a, R>,
+    /// Given fluxes: every edge on which there may be one.
+    pub neumann: &'a [Neumann<R, I>],
+    /// Transfer laws.
+    pub robin: &'a [Robin<R, I>],
+    /// ∫q, one a contact edge, or nothing where q = 0.
+    pub contact_flux: &'a [R],
+    /// The ranges of the fluxes on contact edges, whose bases `contact_flux` holds then.
+    pub spans: Spans<'a, R>,
+    /// Means of ψ, one a contact edge.
+    pub gap: &'a [R],
+    /// Means of u_D, one a Dirichlet edge.
+    pub dirichlet: &'a [R],
+    /// ψ and u_D at the ends of the edges.
+    pub ends: VertexData<'a, R>,
+    /// Edges on which ψ or u_D is not affine, where no input bends them.
+    pub curved: &'a [Curved<R, I>],
+    /// The same where inputs do, `curved` being empty then.
+    pub curved_sums: &'a [CurvedSum<'a, R, I>],
+    /// ∫h and u_ext at the Gauss points of transfer edges, or nothing where both are constant along them.
+    pub transfer: &'a [[[R; 2]; 8]],
+}
+
+impl<R: Real, I: Index> DataMemory<'_, R, I> {
+    /// Fills it in for these inputs.
+    pub(super) fn evaluate(
+        &mut self,
+        base: &Base<R, I>,
+        patterns: &[Pattern<R, I>],
+        inputs: &[R],
+    ) -> Result<(), Error> {
+        copy(Array::CellLoads, base.loads.triangles, self.triangles)?;
+        copy(Array::CellLoads, base.loads.quads, self.quads)?;
+        copy(Array::Neumann, base.neumann, self.neumann)?;
+        copy(Array::Robin, base.robin, self.robin)?;
+        copy(Array::Contact, base.contact_flux, self.contact_flux)?;
+        copy(Array::LowerBounds, base.gap, self.gap)?;
+        copy(Array::Contact, base.ends.gap, self.gap_ends)?;
+        copy(Array::Dirichlet, base.dirichlet, self.dirichlet)?;
+        copy(Array::Dirichlet, base.ends.given, self.dirichlet_ends)?;
+        copy(Array::Robin, base.transfer, self.transfer)?;
+        #[cfg(feature = "limited")]
+        copy(Array::ContactSpans, base.spans.lengths(), self.spans)?;
+        for (pattern, &p) in patterns.iter().zip(inputs) {
+            pattern.add(p, self);
+        }
+        if features::TRANSFER {
+            self.transfer(patterns, inputs);
+        }
+        #[cfg(feature = "limited")]
+        super::ranges::check(
+            self.spans,
+            [base.spans.lengths(), base.contact_flux],
+            patterns,
+            inputs,
+        )?;
+        if features::CURVED {
+            same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
+            let sums = base.curved_sums.iter().zip(self.curved.iter_mut());
+            sums.for_each(|(sum, record)| *record = sum.at(inputs));
+        }
+        Ok(())
+    }
+
+    /// What a tick takes.
+    pub(super) fn view<'d>(
+        &'d self,
+        base: &Base<'d, R, I>,
+        edges: &Edges<I>,
+        oscillation: R,
+    ) -> Result<Data<'d, R, I>, Error> {
+        let contact_flux = own_or(self.contact_flux, base.contact_flux);
+        let spans = self.spans(base.spans);
+        let (neumann, robin) = (own_or(self.neumann, base.neumann), own_or(self.robin, base.robin));
+        let given = LoadCase {
+            loads: CellLoads {
+                triangles: own_or(self.triangles, base.loads.triangles),
+                quads: own_or(self.quads, base.loads.quads),
+            },
+            boundary: Boundary::new(edges, neumann, robin, contact_flux)?
+                .with_spans(edges, spans)?,
+            ends: VertexData {
+                gap: own_or(self.gap_ends, base.ends.gap),
+                given: own_or(self.dirichlet_ends, base.ends.given),
+            },
+            curved: own_or(self.curved, base.curved),
+            transfer: own_or(self.transfer, base.transfer),
+            oscillation,
+        };
+        let law = Law::above(own_or(self.gap, base.gap)).with_spans(spans);
+        Ok(Data { given, law, dirichlet: own_or(self.dirichlet, base.dirichlet) })
+    }
+
+    /// The ranges of fluxes on contact edges.
+    fn spans<'d>(&'d self, base: Spans<'d, R>) -> Spans<'d, R> {
+        #[cfg(feature = "limited")]
+        if !self.spans.is_empty() {
+            return Spans::baked(self.spans, base.excess());
+        }
+        base
+    }
+}
+
+fn copy<T: Copy>(of: Array, base: &[T], own: &mut [T]) -> Result<(), Error> {
+    same_length_or_empty(of, own.len(), base.len())?;
+    own.iter_mut().zip(base).for_each(|(own, &base)| *own = base);
+    Ok(())
+}
+
+fn own_or<'d, T>(own: &'d [T], base: &'d [T]) -> &'d [T] {
+    if own.is_empty() { base } else { own }
+}

@@ -1,0 +1,167 @@
+//! The full model of a baked scene: its mesh solved on the target, tick after tick, by its inputs.
+//!
+//! ```text
+//!   inputs p ─► patterns: loads, gaps, boundary data, h of p ─► tick ─► functionals: outputs
+//! ```
+//! Everything that the host can compute beforehand is a `static` ([`Full`]): numbering, element matrices,
+//! packed cells in the order of the walk, the patterns of the inputs, the weights of the outputs. Nothing of it
+//! is checked on the target; the host has checked it, and wrong numbers make wrong answers and nothing worse.
+//! What changes lives in memory of the caller ([`Memory`], owned by a [`Storage`]), of exactly the size that the scene
+//! needs ([`Lengths`]): data that no input changes are read from the statics, and their memory is empty.
+
+mod curved;
+mod data;
+mod functional;
+mod lengths;
+mod pattern;
+#[cfg(feature = "limited")]
+mod ranges;
+mod storage;
+mod transfer;
+
+pub use curved::{CurvedPart, CurvedSum, Product};
+pub use data::Base;
+pub use functional::Functional;
+pub use lengths::{Lengths, Numbers};
+pub use pattern::{
+    AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
+};
+pub use storage::{ArrayStorage, Storage};
+
+use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
+use functional::TickState;
+use signorini_bound::certificate::{Discretization, Verdict};
+use signorini_bound::conforming::VertexData;
+use signorini_kernel::Real;
+use signorini_kernel::error::{Array, Error, all_finite, same_length};
+use signorini_kernel::features;
+use signorini_kernel::index::{Index, read};
+use signorini_kernel::law::Law;
+use signorini_kernel::relaxation::Relaxation;
+
+/// A baked scene (borrowed).
+#[derive(Debug, Clone, Copy)]
+pub struct Full<'a, R, I> {
+    /// Mesh, A and ways out.
+    pub discretization: Discretization<'a, R, I>,
+    /// Loads and boundary data where all inputs are 0.
+    pub base: Base<'a, R, I>,
+    /// What each input adds for each unit of its value.
+    pub patterns: &'a [Pattern<'a, R, I>],
+    /// What f, g and q leave out: of the base, then of each input.
+    pub oscillation: &'a [R],
+    /// What each output is.
+    pub outputs: &'a [Functional<'a, R, I>],
+    /// Whether the data allow for a bound: u_D is continuous, and no transfer coefficient nearly vanishes.
+    pub has_bound: bool,
+    /// Where C meets D: the places of ψ and u_D there, counted over the ends of all edges of their blocks.
+    pub corners: &'a [[I; 2]],
+    /// Where u starts off the contact and Dirichlet edges.
+    pub start: R,
+    /// How ω is chosen.
+    pub relaxation: Relaxation<R>,
+}
+
+/// Memory of a baked scene (borrowed).
+#[derive(Debug)]
+pub struct Memory<'a, R, I, const WIDTH: usize> {
+    /// That of the tick.
+    pub tick: tick::Memory<'a, R, I, WIDTH>,
+    /// Loads and boundary data that inputs change.
+    pub data: DataMemory<'a, R, I>,
+    /// What the last tick left.
+    pub progress: &'a mut Progress<R>,
+}
+
+impl<R: Real, I: Index> Full<'_, R, I> {
+    /// Answers for these inputs, one value a pattern, by `method`: fills in `outputs` and says how wrong they can be.
+    ///
+    /// Where there is no bound an output that is the bound is infinite, and the report's verdict says why:
+    /// [`Verdict::NotAsked`] for methods without one, [`Verdict::Unavailable`] for data that never allow for one,
+    /// [`Verdict::BelowGap`] where u_D lies below ψ where they meet. A method without one does not use
+    /// the memory of s, and of the discretization only edges and element matrices; the rest of either may be empty.
+    ///
+    /// # Errors
+    /// Inputs that are not finite, or so large that data or answers may overflow ([`Tick::begin`]), or that leave a contact
+    /// edge no flux; arrays of the wrong length, a factor of another mesh. The last answer stays then, bit for bit, and
+    /// `outputs` are as they were.
+    pub fn tick<const WIDTH: usize, F: FnMut() -> u32>(
+        &self,
+        inputs: &[R],
+        mut method: impl Method<R, I>,
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, I, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        if !memory.progress.has_begun() {
+            method.restart()?;
+        }
+        same_length(Array::Inputs, inputs.len(), self.patterns.len())?;
+        same_length(Array::Outputs, outputs.len(), self.outputs.len())?;
+        all_finite(Array::Inputs, inputs)?;
+        let Memory { tick: of_tick, data: mut of_data, progress } = memory;
+        of_data.evaluate(&self.base, self.patterns, inputs)?;
+        let oscillation = self.oscillation(inputs);
+        let data = of_data.view(&self.base, &self.discretization.edges, oscillation)?;
+        let known = match progress.has_begun() {
+            true => *progress,
+            false => Progress::new(self.relaxation)?,
+        };
+        let mut tick = Tick::resume(self.discretization, of_tick, known)?;
+        let size = tick.admit(&data)?;
+        if !progress.has_begun() {
+            self.start(data.law, tick.memory());
+        }
+        // All of it in one function: in parts it lost the compiler's knowledge of the statics, and cost 3 % more.
+        let report = tick.enter(data, size).advance(method, limits, deadline)?;
+        *progress = tick.progress();
+        let report = Report { verdict: self.allowed(report.verdict, &data.given.ends), ..report };
+        let answer = TickState { tick: &tick, data: &data, report: &report };
+        let mut is_known = true;
+        for (output, functional) in outputs.iter_mut().zip(self.outputs) {
+            *output = functional.of(&answer);
+            // Without a bound its output is infinite, and nothing else is.
+            is_known &= output.finite() || *functional == Functional::Bound;
+        }
+        Ok(if is_known { report } else { Report { ended: Ended::NotFinite, ..report } })
+    }
+
+    /// The verdict that the data allow for.
+    fn allowed(&self, verdict: Verdict<R>, ends: &VertexData<R>) -> Verdict<R> {
+        match verdict {
+            Verdict::NotAsked => verdict,
+            _ if !self.has_bound => Verdict::Unavailable,
+            _ if !self.meet(ends) => Verdict::BelowGap,
+            _ => verdict,
+        }
+    }
+
+    /// Whether u_D ≥ ψ where C meets D, up to rounding.
+    fn meet(&self, ends: &VertexData<R>) -> bool {
+        if !features::CONTACT || self.corners.is_empty() {
+            return true;
+        }
+        let (gap, given) = (ends.gap.as_flattened(), ends.given.as_flattened());
+        let slack = ends.slack();
+        let below = |&[at, place]: &[I; 2]| read(gap, at.at()) - read(given, place.at());
+        self.corners.iter().all(|corner| below(corner) <= slack)
+    }
+
+    /// osc(p) ≤ osc₀ + Σ|p_j| osc_j
+    fn oscillation(&self, inputs: &[R]) -> R {
+        let (first, rest) = match self.oscillation.split_first() {
+            Some((&first, rest)) => (first, rest),
+            None => return R::ZERO,
+        };
+        rest.iter().zip(inputs).fold(first, |sum, (&of_one, p)| sum + of_one * p.magnitude())
+    }
+
+    /// A cold start: on the gap, elsewhere at one value.
+    fn start<const WIDTH: usize>(&self, law: Law<R>, memory: &mut tick::Memory<R, I, WIDTH>) {
+        memory.u.fill(self.start);
+        let on_contact = memory.u.iter_mut().skip(self.discretization.edges.counts().free);
+        on_contact.zip(law.edges()).for_each(|(u, law)| *u = law.gap());
+        memory.active.fill(false);
+    }
+}

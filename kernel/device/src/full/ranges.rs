@@ -1,0 +1,153 @@
+//! Inputs of either end of a contact edge's flux: lo = lo₀ + Σ p_j π_j and hi = hi₀ + Σ p_j ϖ_j.
+//!
+//! Where inputs change them the base of every range is its lower end, if that is finite, and the span ∫(hi − lo) is linear in
+//! the inputs. Below 0 it leaves no flux. What rounding may leave there is 0: two ends that are equal for these inputs.
+
+use super::pattern::{Contribution, Pattern};
+use signorini_kernel::Real;
+use signorini_kernel::error::{Array, Error};
+use signorini_kernel::index::{Index, read};
+
+/// Terms of a sum whose rounding is counted, in ε.
+const ROUNDINGS: u32 = 16;
+
+/// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it. `first` holds the spans
+/// without inputs, `bases` the bases.
+///
+/// # Errors
+/// [`Error::EmptyRange`] with the first such edge, [`Error::NotFinite`] where a span overflows.
+pub(super) fn check<R: Real, I: Index>(
+    spans: &mut [R],
+    [first, bases]: [&[R]; 2],
+    patterns: &[Pattern<R, I>],
+    inputs: &[R],
+) -> Result<(), Error> {
+    for (at, (span, &first)) in spans.iter_mut().zip(first).enumerate() {
+        if *span >= R::ZERO && span.finite() || !first.finite() {
+            continue;
+        }
+        if !span.finite() {
+            return Err(Error::NotFinite { of: Array::ContactSpans, at });
+        }
+        let ends = read(bases, at).magnitude() + first.magnitude();
+        let terms = patterns
+            .iter()
+            .zip(inputs)
+            .fold(ends, |sum, (pattern, &p)| sum + p.magnitude() * (pattern.share_of(at)));
+        if *span < -R::from_count(ROUNDINGS) * R::EPSILON * terms {
+            return Err(Error::EmptyRange { contact: at });
+        }
+        *span = R::ZERO;
+    }
+    Ok(())
+}
+
+impl<R: Real, I: Index> Pattern<'_, R, I> {
+    /// How much a unit of the input moves the ends of this contact edge's flux.
+    fn share_of(&self, contact: usize) -> R {
+        let Self::ContactRange { fluxes, spans } = *self else { return R::ZERO };
+        let here = |share: &&Contribution<R, I>| share.at.at() == contact;
+        let both = fluxes.iter().chain(spans).filter(here);
+        both.fold(R::ZERO, |sum, share| sum + share.weight.magnitude())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::full::data::Base;
+    use crate::full::pattern::DataMemory;
+    use signorini_bound::conforming::VertexData;
+    use signorini_kernel::assembly::CellLoads;
+    use signorini_kernel::flux_range::Spans;
+
+    const SUPPLY: [Contribution<f64, u16>; 2] =
+        [Contribution { at: 0, weight: 3.0 }, Contribution { at: 1, weight: 0.1 }];
+    /// A unit of the first input raises both limits, one of the second lo of the second edge.
+    const PATTERNS: [Pattern<f64, u16>; 2] = [
+        Pattern::ContactRange { fluxes: &[], spans: &SUPPLY },
+        Pattern::ContactRange {
+            fluxes: &[Contribution { at: 1, weight: 0.3 }],
+            spans: &[Contribution { at: 1, weight: -0.3 }],
+        },
+    ];
+    const FIRST: [f64; 4] = [1.0, 0.0, f64::INFINITY, f64::NEG_INFINITY];
+
+    /// Bases and spans for these inputs: lo = 0 and hi = 1 at first on the first edge, lo = hi = 0.1 on the second.
+    fn at(inputs: [f64; 2]) -> Result<([f64; 4], [f64; 4]), Error> {
+        let bases = [0.0, 0.1, 2.0, 2.0];
+        let base = Base {
+            loads: CellLoads { triangles: &[], quads: &[] },
+            neumann: &[],
+            robin: &[],
+            spans: Spans::baked(&FIRST, 0.0),
+            contact_flux: &bases,
+            gap: &[],
+            dirichlet: &[],
+            ends: VertexData { gap: &[], given: &[] },
+            curved: &[],
+            curved_sums: &[],
+            transfer: &[],
+        };
+        let (mut contact_flux, mut spans) = ([7.0; 4], [7.0; 4]);
+        let mut data = DataMemory {
+            contact_flux: &mut contact_flux,
+            spans: &mut spans,
+            ..DataMemory::default()
+        };
+        data.evaluate(&base, &PATTERNS, &inputs)?;
+        Ok((contact_flux, spans))
+    }
+
+    #[test]
+    fn ends_are_linear_in_the_inputs() {
+        let [up, down] = [f64::INFINITY, f64::NEG_INFINITY];
+        assert_eq!(at([0.0, 0.0]), Ok(([0.0, 0.1, 2.0, 2.0], FIRST)));
+        assert_eq!(at([2.0, -10.0]), Ok(([0.0, -2.9, 2.0, 2.0], [7.0, 3.2, up, down])));
+    }
+
+    #[test]
+    fn what_rounding_leaves_of_equal_ends_is_nothing() {
+        // 3 · 0.1 − 0.3 is 5.6e−17, and with the other sign less than nothing.
+        let spans = |inputs| at(inputs).map(|(_, spans)| spans[1]);
+        assert_eq!(spans([3.0, 1.0]), Ok(0.1 * 3.0 - 0.3));
+        assert_eq!(spans([3.0, 1.0 + 4.0 * f64::EPSILON]), Ok(0.0));
+        assert_eq!(spans([3.0, 1.0 + 100.0 * f64::EPSILON]), Err(Error::EmptyRange { contact: 1 }));
+    }
+
+    /// Up to 16 ε of |lo₀|, |hi₀ − lo₀| and all that inputs move of both ends.
+    #[test]
+    fn rounding_is_counted_by_all_terms() {
+        let of = |bases: [f64; 2], first: [f64; 2], p: f64, span: f64| {
+            let shares = [
+                Contribution { at: 0, weight: 9.0 },
+                Contribution { at: 1, weight: -2.0 },
+                Contribution { at: 1, weight: 0.5 },
+            ];
+            let (fluxes, spans) = shares.split_at(2);
+            let pattern: Pattern<f64, u16> = Pattern::ContactRange { fluxes, spans };
+            let mut spans = [1.0, span];
+            check(&mut spans, [&first, &bases], &[pattern], &[p]).map(|()| spans)
+        };
+        let unit = 16.0 * f64::EPSILON;
+        for (bases, first, p, terms) in [
+            ([7.0, -3.0], [7.0, 0.5], 0.0, 3.5),
+            ([7.0, 0.25], [7.0, -2.0], 0.0, 2.25),
+            ([7.0, 0.0], [7.0, 0.0], -4.0, 10.0),
+        ] {
+            let within = of(bases, first, p, -0.999 * unit * terms);
+            assert_eq!(within, Ok([1.0, 0.0]), "{terms}");
+            let beyond = of(bases, first, p, -1.001 * unit * terms);
+            assert_eq!(beyond, Err(Error::EmptyRange { contact: 1 }), "{terms}");
+        }
+    }
+
+    #[test]
+    fn a_limit_below_the_least_flux_is_refused() {
+        assert_eq!(at([-0.4, -1.0]), Err(Error::EmptyRange { contact: 0 }));
+        assert_eq!(at([0.0, 0.1]), Err(Error::EmptyRange { contact: 1 }));
+        let beyond = Err(Error::NotFinite { of: Array::ContactSpans, at: 0 });
+        assert_eq!(at([1e308, 0.0]), beyond);
+        assert_eq!(at([-1e308, -1e307]), beyond);
+    }
+}

@@ -1,0 +1,81 @@
+//! Ticks from owned memory: everything is borrowed for one tick, and the next one goes on from there.
+
+use super::{Memory, Tick};
+use signorini_bound::certificate::Discretization;
+use signorini_kernel::Real;
+use signorini_kernel::error::{Array, Error, same_length};
+use signorini_kernel::index::Index;
+use signorini_kernel::mesh::edges::EdgeCounts;
+use signorini_kernel::relaxation::{Relaxation, Search};
+
+/// What a tick leaves to the next one besides its arrays: how far the search for ω has come.
+///
+/// Before the first tick it is [`Progress::NONE`], which is all zeros, so that a `static` that holds it
+/// costs no flash.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress<R> {
+    search: Search<R>,
+    begun: bool,
+}
+
+impl<R: Real> Progress<R> {
+    /// No tick yet.
+    pub const NONE: Self = Self { search: Search::NONE, begun: false };
+
+    /// Whether there has been a tick.
+    pub fn has_begun(&self) -> bool {
+        self.begun
+    }
+
+    /// That of a first tick; `relaxation` is where ω starts.
+    ///
+    /// # Errors
+    /// An ω outside (0, 2).
+    pub fn new(relaxation: Relaxation<R>) -> Result<Self, Error> {
+        Ok(Self { search: Search::checked(relaxation)?, begun: true })
+    }
+}
+
+impl<'a, R: Real, I: Index, const WIDTH: usize> Tick<'a, R, I, WIDTH> {
+    /// Goes on where a tick ended whose [`Tick::progress`] this is: `memory.u` and `memory.active` are the
+    /// answer and the active set that it left, and what else is in `memory` does not matter.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length, [`Progress::NONE`].
+    pub fn resume(
+        discretization: Discretization<'a, R, I>,
+        memory: Memory<'a, R, I, WIDTH>,
+        progress: Progress<R>,
+    ) -> Result<Self, Error> {
+        check(&discretization, &memory)?;
+        if !progress.begun {
+            return Err(Error::Relaxation);
+        }
+        Ok(Self { discretization, memory, search: progress.search, report: None })
+    }
+
+    /// What the next tick needs besides the memory.
+    pub fn progress(&self) -> Progress<R> {
+        Progress { search: self.search, begun: true }
+    }
+
+    /// Sizes of the blocks of edges.
+    pub fn counts(&self) -> EdgeCounts {
+        self.discretization.edges.counts()
+    }
+}
+
+/// Lengths of the memory.
+pub(super) fn check<R: Real, I: Index, const WIDTH: usize>(
+    discretization: &Discretization<R, I>,
+    memory: &Memory<R, I, WIDTH>,
+) -> Result<(), Error> {
+    let counts = discretization.edges.counts();
+    let vertices = discretization.mesh.vertices().len();
+    same_length(Array::Rows, memory.rows.counts().edges(), counts.edges())?;
+    same_length(Array::Load, memory.load.len(), counts.unknowns())?;
+    same_length(Array::Contact, memory.active.len(), counts.contact)?;
+    same_length(Array::Vertices, memory.vertices.len(), vertices)?;
+    same_length(Array::Fluxes, memory.tau.len(), counts.edges())?;
+    same_length(Array::Unknowns, memory.u.len(), counts.edges())
+}

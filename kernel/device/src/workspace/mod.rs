@@ -1,0 +1,390 @@
+//! Owned storage of fixed capacity, and the short way through the layers.
+//!
+//! A [`Workspace`] is a `static` or a local of the size that its type says; nothing is allocated. Build
+//! it once for a mesh, then, as often as loads change, set them and tick or solve: pattern, element matrices
+//! and the last iterate stay, so that every one starts warm. Who needs another arrangement takes the
+//! layers themselves: they work on slices.
+
+mod bound;
+mod conditions;
+mod sizes;
+mod ticks;
+
+use heapless::Vec;
+use signorini_kernel::law::Law;
+
+use crate::condition::{BoundaryEdge, Condition};
+use crate::tick::Progress;
+use signorini_bound::conforming::VertexData;
+use signorini_kernel::Real;
+use signorini_kernel::assembly::{self, CellLoads};
+use signorini_kernel::csr::Csr;
+use signorini_kernel::error::{Array, Error, all_moderate};
+use signorini_kernel::index::{Index, read};
+use signorini_kernel::mesh::Mesh;
+use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::mesh::numbering::{NumberingBuffers, number};
+use signorini_kernel::rows::OwnedRows;
+use signorini_kernel::solver::{Outcome, Settings, Solver};
+use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
+use signorini_kernel::system::Shifts;
+use signorini_kernel::system::System;
+use signorini_kernel::{Libm, Math};
+use signorini_kernel::{contact, flux};
+
+use bound::{Allowed, Equilibration};
+
+/// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles, quads, boundary
+/// edges, cells, edges plus one, matrix entries, and entries of a packed row. [`workspace!`](macro@crate::workspace) works
+/// out the last four from the others.
+///
+/// Too small a capacity is an error that names the array and the number that it needs. Without room for matrix entries
+/// it [`tick`](Workspace::tick)s and does not [`solve`](Workspace::solve).
+#[derive(Debug)]
+pub struct Workspace<
+    R,
+    I,
+    const VERTICES: usize,
+    const TRIANGLES: usize,
+    const QUADS: usize,
+    const BOUNDARY: usize,
+    const CELLS: usize,
+    const EDGES: usize,
+    const ENTRIES: usize,
+    const WIDTH: usize,
+> {
+    at_vertex: Vec<[I; 2], VERTICES>,
+    of_triangles: Vec<[I; 3], TRIANGLES>,
+    of_quads: Vec<[I; 4], QUADS>,
+    half_edges: Vec<[I; 2], EDGES>,
+    counts: EdgeCounts,
+    /// The boundary edges, ascending.
+    boundary: Vec<I, BOUNDARY>,
+    /// Their lengths.
+    lengths: Vec<R, BOUNDARY>,
+    triangles: Vec<[R; 3], TRIANGLES>,
+    quads: Vec<[R; 6], QUADS>,
+    source_triangles: Vec<R, TRIANGLES>,
+    source_quads: Vec<R, QUADS>,
+    neumann: Vec<Neumann<R, I>, BOUNDARY>,
+    robin: Vec<Robin<R, I>, BOUNDARY>,
+    contact_flux: Vec<R, BOUNDARY>,
+    gap: Vec<R, BOUNDARY>,
+    gap_ends: Vec<[R; 2], BOUNDARY>,
+    dirichlet: Vec<R, BOUNDARY>,
+    dirichlet_ends: Vec<[R; 2], BOUNDARY>,
+    /// Whether all is as [`Workspace::build`] and the last conditions ask, with matrix and ways out those of `robin`.
+    built: bool,
+    /// That of the cells' vertices.
+    fingerprint: u32,
+    /// ∫_C (τ·n − q) of the last answer.
+    force: R,
+    row_ptr: Vec<u32, EDGES>,
+    col_idx: Vec<I, ENTRIES>,
+    values: Vec<R, ENTRIES>,
+    rows: OwnedRows<R, I, WIDTH, EDGES>,
+    load: Vec<R, EDGES>,
+    u: Vec<R, EDGES>,
+    flux: Vec<R, EDGES>,
+    equilibration: Equilibration<R, I, VERTICES, TRIANGLES, QUADS, CELLS, EDGES>,
+    /// What the boundary data allow for.
+    allowed: Allowed,
+    active: Vec<bool, BOUNDARY>,
+    vertices: Vec<R, VERTICES>,
+    bubbles: Vec<R, EDGES>,
+    progress: Progress<R>,
+}
+
+impl<
+    R: Real,
+    I: Index,
+    const V: usize,
+    const T: usize,
+    const Q: usize,
+    const B: usize,
+    const C: usize,
+    const E: usize,
+    const N: usize,
+    const W: usize,
+> Default for Workspace<R, I, V, T, Q, B, C, E, N, W>
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<
+    R: Real,
+    I: Index,
+    const V: usize,
+    const T: usize,
+    const Q: usize,
+    const B: usize,
+    const C: usize,
+    const E: usize,
+    const N: usize,
+    const W: usize,
+> Workspace<R, I, V, T, Q, B, C, E, N, W>
+{
+    /// An empty workspace; can initialise a `static`.
+    pub const fn new() -> Self {
+        Self {
+            at_vertex: Vec::new(),
+            of_triangles: Vec::new(),
+            of_quads: Vec::new(),
+            half_edges: Vec::new(),
+            counts: EdgeCounts { free: 0, contact: 0, dirichlet: 0 },
+            boundary: Vec::new(),
+            lengths: Vec::new(),
+            triangles: Vec::new(),
+            quads: Vec::new(),
+            source_triangles: Vec::new(),
+            source_quads: Vec::new(),
+            neumann: Vec::new(),
+            robin: Vec::new(),
+            contact_flux: Vec::new(),
+            gap: Vec::new(),
+            gap_ends: Vec::new(),
+            dirichlet: Vec::new(),
+            dirichlet_ends: Vec::new(),
+            built: false,
+            fingerprint: 0,
+            force: R::ZERO,
+            row_ptr: Vec::new(),
+            col_idx: Vec::new(),
+            values: Vec::new(),
+            rows: OwnedRows::new(),
+            load: Vec::new(),
+            u: Vec::new(),
+            flux: Vec::new(),
+            equilibration: Equilibration::new(),
+            allowed: Allowed::Bound,
+            active: Vec::new(),
+            vertices: Vec::new(),
+            bubbles: Vec::new(),
+            progress: Progress::NONE,
+        }
+    }
+
+    /// Numbers the edges, computes element matrices and assembles. `condition` is asked twice for every
+    /// boundary edge; the iterate, the source and the relaxation start anew. It takes an index per edge of stack.
+    ///
+    /// # Errors
+    /// Capacities that are too small, meshes, coefficients or conditions that are not admissible. Nothing else works then
+    /// before another mesh is built.
+    pub fn build(
+        &mut self,
+        mesh: &Mesh<R, I>,
+        coefficient: Coefficient<R>,
+        mut condition: impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
+    ) -> Result<EdgeCounts, Error> {
+        self.built = false;
+        self.progress = Progress::NONE;
+        self.fingerprint = fingerprint(mesh);
+        self.robin.clear();
+        self.number_edges(mesh, &mut condition)?;
+        fit(&mut self.triangles, mesh.triangles().len(), Array::Stiffness)?;
+        fit(&mut self.quads, mesh.quads().len(), Array::Stiffness)?;
+        stiffness::fill(mesh, coefficient, POINTS, &mut self.triangles, &mut self.quads)?;
+        if N > 0 {
+            self.lay_out_matrix()?;
+        }
+        self.fit_answer(mesh)?;
+        self.equilibration.build(mesh, coefficient, POINTS, self.counts.edges())?;
+        self.replace_conditions(mesh, condition)?;
+        self.built = false;
+        let edges = Edges::baked(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts);
+        self.rows.within(&edges)?;
+        self.built = true;
+        Ok(self.counts)
+    }
+
+    fn number_edges(
+        &mut self,
+        mesh: &Mesh<R, I>,
+        condition: &mut impl FnMut(&BoundaryEdge<R, I>) -> Option<Condition<R>>,
+    ) -> Result<(), Error> {
+        fit(&mut self.at_vertex, mesh.vertices().len(), Array::Vertices)?;
+        fit(&mut self.of_triangles, mesh.triangles().len(), Array::Triangles)?;
+        fit(&mut self.of_quads, mesh.quads().len(), Array::Quads)?;
+        let most = E.min(mesh.half_edges());
+        fit(&mut self.half_edges, most, Array::Edges)?;
+        let mut next = Vec::<I, E>::new();
+        fit(&mut next, most, Array::Edges)?;
+        let buffers = NumberingBuffers {
+            of_triangles: &mut self.of_triangles,
+            of_quads: &mut self.of_quads,
+            half_edges: &mut self.half_edges,
+            at_vertex: &mut self.at_vertex,
+            next: &mut next,
+        };
+        let block = |ends| condition(&BoundaryEdge::new(mesh, ends)).map(|found| found.block());
+        self.counts = number(mesh, buffers, block)?.counts();
+        self.half_edges.truncate(self.counts.edges());
+        self.list_boundary(mesh)
+    }
+
+    fn list_boundary(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
+        let Self { of_triangles, of_quads, half_edges, boundary, lengths, .. } = self;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, self.counts);
+        let is_outer = |at: &usize| read(edges.half_edges(), *at)[1] == I::NONE;
+        let needed = (0..self.counts.edges()).filter(is_outer).count();
+        fit(boundary, needed, Array::Boundary)?;
+        fit(lengths, needed, Array::Boundary)?;
+        let places = boundary.iter_mut().zip(lengths.iter_mut());
+        for (at, (edge, length)) in (0..self.counts.edges()).filter(is_outer).zip(places) {
+            *edge = I::new(at).unwrap_or(I::NONE);
+            *length = edges.length::<R, Libm>(mesh, at);
+        }
+        Ok(())
+    }
+
+    fn lay_out_matrix(&mut self) -> Result<(), Error> {
+        let nonzeros = self.numbered().nonzeros();
+        fit(&mut self.row_ptr, self.counts.unknowns() + 1, Array::RowPointers)?;
+        fit(&mut self.col_idx, nonzeros, Array::MatrixValues)?;
+        fit(&mut self.values, nonzeros, Array::MatrixValues)?;
+        let (triangles, quads) = (&self.of_triangles, &self.of_quads);
+        let edges = Edges::baked(triangles, quads, &self.half_edges, self.counts);
+        assembly::pattern(&edges, &mut self.row_ptr, &mut self.col_idx)
+    }
+
+    /// Room for data and answer, all of it 0.
+    fn fit_answer(&mut self, mesh: &Mesh<R, I>) -> Result<(), Error> {
+        let counts = self.counts;
+        self.rows.forget();
+        fit(&mut self.load, counts.unknowns(), Array::Load)?;
+        fit(&mut self.u, counts.edges(), Array::Unknowns)?;
+        fit(&mut self.flux, counts.edges(), Array::Fluxes)?;
+        fit(&mut self.source_triangles, mesh.triangles().len(), Array::CellLoads)?;
+        fit(&mut self.source_quads, mesh.quads().len(), Array::CellLoads)?;
+        fit(&mut self.active, counts.contact, Array::Contact)?;
+        fit(&mut self.vertices, mesh.vertices().len(), Array::Vertices)?;
+        self.force = R::ZERO;
+        let bubbles = if mesh.quads().is_empty() { 0 } else { counts.edges() };
+        fit(&mut self.bubbles, bubbles, Array::Scratch)
+    }
+
+    /// Solves from the present iterate and recovers the flux. Look at the outcome's status: the
+    /// iterate is feasible and usable also where sweeps ran out.
+    ///
+    /// # Errors
+    /// Data that are not finite or within 1/ε² of the largest number, where the answer may overflow (ψ, u_D, b and
+    /// b_i/K_ii); a relaxation factor outside (0, 2); a workspace for ticks only. The last answer stays then, bit for bit.
+    pub fn solve(&mut self, settings: Settings<R>) -> Result<Outcome<R>, Error> {
+        if !self.built {
+            return Err(Error::NotBuilt);
+        }
+        if N == 0 {
+            let needed = self.numbered().nonzeros();
+            return Err(Error::Capacity { of: Array::MatrixValues, needed, limit: 0 });
+        }
+        // Borrowed apart, since moving an array out of the workspace would pass through the stack.
+        let Self { of_triangles, of_quads, half_edges, counts, u, flux, .. } = self;
+        let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
+        let matrix = Csr::new(&self.row_ptr, &self.col_idx, &self.values, counts.edges())?;
+        let boundary = Boundary::new(&edges, &self.neumann, &self.robin, &self.contact_flux)?;
+        let shifts = Shifts { part: &[], parts: 1, diagonal: DiagonalTerms::new(&boundary) };
+        let system =
+            System::new(matrix, &self.load, Law::above(&self.gap), *counts)?.with_shifts(shifts)?;
+        let (unknowns, given) = u.split_at_mut_checked(counts.unknowns()).unwrap_or_default();
+        all_moderate(Array::Load, self.load.iter().copied())?;
+        let steps = matrix.iter().zip(&self.load).map(|(row, &load)| load / row.diagonal());
+        all_moderate(Array::Load, steps)?;
+        all_moderate(Array::LowerBounds, self.gap.iter().copied())?;
+        all_moderate(Array::Dirichlet, self.dirichlet.iter().copied())?;
+        let mut solver = Solver::<R>::new(settings)?;
+        given.iter_mut().zip(&self.dirichlet).for_each(|(u, &value)| *u = value);
+        if unknowns.iter().any(|u| !u.finite()) {
+            // An overflow of the last solve: start anew.
+            unknowns.fill(R::ZERO);
+        }
+        let mut rows = self.rows.within(&edges)?;
+        let outcome = solver.run(&system, &mut rows, u)?;
+        let stiffness = stiffness_of(&self.triangles, &self.quads);
+        let cells = CellLoads { triangles: &self.source_triangles, quads: &self.source_quads };
+        flux::recover(&edges, stiffness, cells, u, &[], flux)?;
+        for (at, active) in self.active.iter_mut().enumerate() {
+            *active = contact::is_active(*counts, Law::above(&self.gap), u, at);
+        }
+        self.force = contact::force(*counts, &boundary, Law::above(&self.gap), u, flux);
+        Ok(outcome)
+    }
+
+    /// The edges and their order.
+    ///
+    /// # Errors
+    /// None once [`Workspace::build`] has succeeded.
+    pub fn edges(&self) -> Result<Edges<'_, I>, Error> {
+        Edges::new(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+
+    /// The same, as [`Workspace::build`] has numbered them.
+    fn numbered(&self) -> Edges<'_, I> {
+        Edges::baked(&self.of_triangles, &self.of_quads, &self.half_edges, self.counts)
+    }
+
+    /// Means of u over the edges.
+    pub fn u(&self) -> &[R] {
+        &self.u
+    }
+
+    /// ∫_E σ·n of every edge, outward on the boundary: the flux (15) after a solve, the equilibrated τ of the bound after
+    /// a tick.
+    pub fn flux(&self) -> &[R] {
+        &self.flux
+    }
+
+    /// ∫_C (τ·n − q) ≥ 0 of the last answer: the sum of λ, within the law of contact wherever the solve was stopped
+    /// ([`contact::force`]).
+    pub fn contact_force(&self) -> R {
+        self.force
+    }
+
+    /// Σ|E| over the contact edges that touch in the last answer, lengths by the square root of `M`.
+    ///
+    /// # Errors
+    /// None once [`Workspace::build`] has succeeded.
+    pub fn contact_length<M: Math<R>>(&self, mesh: &Mesh<R, I>) -> Result<R, Error> {
+        let edges = self.edges()?;
+        let touching = self.active.iter().enumerate().filter(|(_, active)| **active);
+        let length = |(at, _): (usize, &bool)| edges.length::<R, M>(mesh, self.counts.free + at);
+        Ok(touching.map(length).fold(R::ZERO, |sum, length| sum + length))
+    }
+
+    fn cells(&self) -> usize {
+        self.of_triangles.len() + self.of_quads.len()
+    }
+}
+
+/// A number that other cells hardly have.
+fn fingerprint<R: Real, I: Index>(mesh: &Mesh<R, I>) -> u32 {
+    let cells = mesh.triangles().as_flattened().iter().chain(mesh.quads().as_flattened());
+    // 32-bit FNV.
+    cells.fold(0x811c_9dc5, |hash: u32, vertex| {
+        (hash ^ vertex.at() as u32).wrapping_mul(0x0100_0193)
+    })
+}
+
+/// Gauss points a direction for quads: exact on parallelograms, a relative error of 2e−6 in the flux
+/// on moderately distorted ones, at a quarter of the host's work.
+const POINTS: usize = 4;
+
+fn stiffness_of<'a, R>(triangles: &'a [[R; 3]], quads: &'a [[R; 6]]) -> Stiffness<'a, R> {
+    Stiffness { triangles, quads }
+}
+
+fn ends<'a, R>(gap: &'a [[R; 2]], given: &'a [[R; 2]]) -> VertexData<'a, R> {
+    VertexData { gap, given }
+}
+
+fn fit<T: Copy + Default, const N: usize>(
+    storage: &mut Vec<T, N>,
+    needed: usize,
+    of: Array,
+) -> Result<(), Error> {
+    storage.clear();
+    storage.resize_default(needed).map_err(|_| Error::Capacity { of, needed, limit: N })
+}

@@ -1,0 +1,358 @@
+//! The smallest and strangest problems first: what they answer, and how they are refused.
+
+use signorini_device::condition::{BoundaryEdge, Condition};
+use signorini_device::workspace;
+use signorini_kernel::csr::Csr;
+use signorini_kernel::error::{Array, CellId};
+use signorini_kernel::flux_range::Spans;
+use signorini_kernel::law::Law;
+use signorini_kernel::mesh::boundary::{Boundary, Robin};
+use signorini_kernel::mesh::components::{Part, PartCounts, examine};
+use signorini_kernel::mesh::diagonal::DiagonalTerms;
+use signorini_kernel::mesh::edges::{EdgeCounts, Edges};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{Row, Rows};
+use signorini_kernel::solver::{Settings, Solver, Status};
+use signorini_kernel::stiffness::{Coefficient, Stiffness};
+use signorini_kernel::system::System;
+use signorini_kernel::{Error, Libm, Mesh, Micromath, Tensor, psor};
+use signorini_tolerances::kernel::{BASIS, FAST_ROOT, SOLVED};
+
+type Small = workspace!(f64, u16: vertices 16, triangles 16, quads 16, boundary 16);
+
+const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+const UNIT: Coefficient<'static, f64> = Coefficient::Uniform(Tensor { xx: 1.0, xy: 0.0, yy: 1.0 });
+const OPEN: Condition<f64> = Condition::Neumann { flux: 0.0 };
+
+fn build(
+    mesh: &Mesh<f64, u16>,
+    condition: impl FnMut(&BoundaryEdge<f64, u16>) -> Option<Condition<f64>>,
+) -> Result<Small, Error> {
+    let mut small = Small::new();
+    small.build(mesh, UNIT, condition)?;
+    Ok(small)
+}
+
+#[test]
+fn a_single_triangle_and_a_single_quad() {
+    for (triangles, quads) in [(&[[0u16, 1, 2]][..], &[][..]), (&[], &[[0u16, 1, 2, 3]])] {
+        let mesh = Mesh::new(&SQUARE, triangles, quads).expect("a valid cell");
+        // All sides given: nothing to solve, and the flux of u = x through the sides is exact.
+        let value =
+            |edge: &BoundaryEdge<f64, u16>| Some(Condition::Dirichlet { value: edge.middle()[0] });
+        let mut cell = build(&mesh, value).expect("fits");
+        let outcome = cell.solve(Settings::default()).expect("finite");
+        assert_eq!(outcome.status, Status::Converged);
+        let total: f64 = cell.flux().iter().sum();
+        BASIS.check("sum of fluxes", total);
+        let outward = cell.flux().iter().copied().fold(0.0, f64::max);
+        BASIS.check("flux through the right side", outward - 1.0);
+    }
+}
+
+/// −Δu = −4 pushes the whole plate onto its gap: λ takes the load, and nothing moves.
+#[test]
+fn all_contact() {
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let gap = |_: &_| Some(Condition::Contact { gap: 1.0, flux: 0.0 });
+    let mut plate = build(&mesh, gap).expect("fits");
+    plate.set_source(&[-2.0, -2.0], &[]).expect("lengths");
+    let outcome = plate.solve(Settings::default()).expect("finite");
+    assert!(matches!(outcome.status, Status::Converged | Status::RoundingLimit));
+    // ∫λ = ∫σ·n = −∫f
+    SOLVED.check("force", plate.contact_force() - 4.0);
+    assert_eq!(outcome.residual.active, 4);
+}
+
+#[test]
+fn no_contact_is_a_linear_problem() {
+    let mesh = Mesh::new(&SQUARE, &[], &[[0u16, 1, 2, 3]]).expect("valid");
+    let sides = |edge: &BoundaryEdge<f64, u16>| match edge.middle() {
+        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
+        [1.0, _] => Some(Condition::Neumann { flux: 3.0 }),
+        _ => Some(OPEN),
+    };
+    let mut bar = build(&mesh, sides).expect("fits");
+    bar.solve(Settings::default()).expect("finite");
+    let highest = bar.u().iter().fold(0.0, |most: f64, u| most.max(*u));
+    SOLVED.check("u", highest - 3.0);
+    assert_eq!(bar.contact_force(), 0.0);
+}
+
+/// Two separate triangles: one held, one not.
+#[test]
+fn parts_are_told_apart() {
+    let vertices = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
+    let mesh = Mesh::<f64, u16>::new(&vertices, &[[0, 1, 2], [3, 4, 5]], &[]).expect("valid");
+    let check = |second: Condition<f64>, load: f64| {
+        let conditions = |edge: &BoundaryEdge<f64, u16>| {
+            Some(if edge.middle()[0] < 2.0 { Condition::Dirichlet { value: 0.0 } } else { second })
+        };
+        let parts = build(&mesh, conditions)?;
+        let edges = parts.edges()?;
+        let boundary = Boundary::new(&edges, &[], &[], &[])?;
+        let unknowns = edges.counts().unknowns();
+        let loads = vec![load; unknowns];
+        examine(
+            &edges,
+            DiagonalTerms::new(&boundary),
+            (&loads, Spans::UNLIMITED),
+            1e-9,
+            &mut [Part::default(); 2],
+        )
+    };
+    let contact = Condition::Contact { gap: 0.0, flux: 0.0 };
+    let counts = |held, contact, floating| Ok(PartCounts { held, contact, floating });
+    assert_eq!(check(contact, -1.0), counts(1, 1, 0));
+    assert_eq!(check(contact, 1.0), Err(Error::NoSolution { cell: 1 }));
+    assert_eq!(check(contact, 0.0), Err(Error::NotUnique { cell: 1 }));
+    assert_eq!(check(OPEN, 0.0), counts(1, 0, 1));
+    assert_eq!(check(OPEN, 1.0), Err(Error::NoSolution { cell: 1 }));
+}
+
+#[test]
+fn bad_meshes_are_named() {
+    let new = |vertices: &[[f64; 2]], triangles: &[[u16; 3]], quads: &[[u16; 4]]| {
+        Mesh::new(vertices, triangles, quads).map(|mesh| mesh.cells())
+    };
+    let triangle = CellId::Triangle(0);
+    assert_eq!(new(&SQUARE, &[[0, 2, 1]], &[]), Err(Error::Clockwise(triangle)));
+    assert_eq!(new(&SQUARE, &[[0, 1, 1]], &[]), Err(Error::RepeatedVertex(triangle)));
+    let outside = Error::OutOfRange { of: Array::Triangles, at: 0 };
+    assert_eq!(new(&SQUARE, &[[0, 1, 9]], &[]), Err(outside));
+    let line = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
+    assert_eq!(new(&line, &[[0, 1, 2]], &[]), Err(Error::Degenerate(triangle)));
+    assert_eq!(new(&SQUARE, &[], &[[0, 1, 3, 2]]), Err(Error::NotConvex(CellId::Quad(0))));
+    let nan = [[0.0, f64::NAN], [1.0, 0.0], [0.0, 1.0]];
+    assert_eq!(new(&nan, &[], &[]), Err(Error::NotFinite { of: Array::Vertices, at: 0 }));
+    let many = vec![[0u16, 1, 2]; 22_000];
+    let capacity = Error::Capacity { of: Array::HalfEdges, needed: 66_000, limit: 65_535 };
+    assert_eq!(new(&SQUARE, &many, &[]), Err(capacity));
+}
+
+#[test]
+fn bad_topology_is_named() {
+    let all = |_: &BoundaryEdge<f64, u16>| Some(OPEN);
+    let error = |triangles: &[[u16; 3]]| {
+        let vertices = [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.5, -1.0], [0.5, 2.0]];
+        build(&Mesh::new(&vertices, triangles, &[])?, all).map(|_| ())
+    };
+    assert_eq!(error(&[[0, 1, 2], [0, 1, 2]]), Err(Error::Overlap([0, 1])));
+    assert_eq!(error(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), Err(Error::Overlap([0, 1])));
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2]], &[]).expect("valid");
+    assert_eq!(build(&mesh, |_| None).map(|_| ()), Err(Error::NoCondition([0, 1])));
+}
+
+#[test]
+fn a_workspace_that_is_too_small_says_by_how_much() {
+    let mesh = Mesh::new(&SQUARE, &[[0u16, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mut tight = <workspace!(f64, u16: vertices 4, triangles 1, quads 0, boundary 7)>::new();
+    let error = tight.build(&mesh, UNIT, |_| Some(OPEN));
+    assert_eq!(error, Err(Error::Capacity { of: Array::Triangles, needed: 2, limit: 1 }));
+}
+
+#[test]
+fn arrays_that_do_not_fit_are_refused() {
+    let csr = |row_ptr: &[u32], col_idx: &[u16], values: &[f64]| {
+        Csr::new(row_ptr, col_idx, values, 2).map(|matrix| matrix.rows())
+    };
+    assert_eq!(csr(&[0, 1, 2], &[0, 1], &[1.0, 1.0]), Ok(2));
+    assert_eq!(
+        csr(&[0, 2, 1], &[0, 1], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 9], &[0, 1], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 2 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 7], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::ColumnIndices, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[1, 0], &[1.0, 1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 0 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 1], &[1.0, -1.0]).err(),
+        Some(Error::OutOfRange { of: Array::RowPointers, at: 1 })
+    );
+    assert_eq!(
+        csr(&[0, 1, 2], &[0, 1], &[1.0, f64::NAN]).err(),
+        Some(Error::NotFinite { of: Array::MatrixValues, at: 1 })
+    );
+    assert_eq!(
+        csr(&[], &[], &[]).err(),
+        Some(Error::Length { of: Array::RowPointers, found: 0, expected: 1 })
+    );
+    let one = EdgeCounts { free: 1, contact: 0, dirichlet: 0 };
+    assert_eq!(
+        Edges::<u16>::new(&[[0, 0, 0]], &[], &[[0, 1]], one).err(),
+        Some(Error::Length { of: Array::HalfEdges, found: 2, expected: 3 })
+    );
+    assert_eq!(
+        Edges::<u16>::new(&[[7, 0, 0]], &[], &[[9, 1]], one).err(),
+        Some(Error::OutOfRange { of: Array::HalfEdges, at: 0 })
+    );
+    for omega in [0.0, 2.0, -1.0, f64::NAN] {
+        let settings = Settings { relaxation: Relaxation::Fixed(omega), ..Settings::default() };
+        assert_eq!(Solver::new(settings).err(), Some(Error::Relaxation));
+    }
+}
+
+#[test]
+fn a_system_refuses_loads_and_gaps_that_are_no_numbers() {
+    let counts = EdgeCounts { free: 0, contact: 1, dirichlet: 0 };
+    let matrix = Csr::<f64, u16>::new(&[0, 1], &[0], &[1.0], 1).expect("one row");
+    for wrong in [f64::NAN, f64::INFINITY] {
+        for (load, gap, of) in [(wrong, 0.0, Array::Load), (0.0, wrong, Array::LowerBounds)] {
+            let refused = System::new(matrix, &[load], Law::above(&[gap]), counts).err();
+            assert_eq!(refused, Some(Error::NotFinite { of, at: 0 }));
+        }
+    }
+}
+
+#[test]
+fn rows_and_sweeps_refuse_what_does_not_fit() {
+    let sides = EdgeCounts { free: 2, contact: 1, dirichlet: 1 };
+    let edges = Edges::<u16>::new(
+        &[],
+        &[[0, 1, 2, 3]],
+        &[[0, NONE], [1, NONE], [2, NONE], [3, NONE]],
+        sides,
+    )
+    .expect("a square");
+    let mut memory = [Row::<f64, u16, 6>::EMPTY; 3];
+    assert_eq!(
+        Rows::new(&edges, &mut memory[..2]).err(),
+        Some(Error::Length { of: Array::Rows, found: 2, expected: 3 })
+    );
+    let narrow = &mut [Row::<f64, u16, 2>::EMPTY; 3];
+    assert!(matches!(Rows::new(&edges, narrow), Err(Error::Capacity { needed: 3, limit: 2, .. })));
+    let rows = Rows::new(&edges, &mut memory).expect("fits");
+    let unknowns = |found| Error::Length { of: Array::Unknowns, found, expected: 4 };
+    let bounds = |found| Error::Length { of: Array::LowerBounds, found, expected: 1 };
+    let wrong = [(1, 3, unknowns(3)), (1, 5, unknowns(5)), (0, 4, bounds(0)), (2, 4, bounds(2))];
+    for (lower, u, refused) in wrong {
+        let (lower, mut u) = (vec![0.0; lower], vec![0.0; u]);
+        assert_eq!(psor::sweep(&rows, Law::above(&lower), &mut u), Err(refused));
+    }
+    assert_eq!(
+        psor::sweep_free(&rows, &mut [0.0; 3]).err(),
+        Some(Error::Length { of: Array::Unknowns, found: 3, expected: 4 })
+    );
+    assert_eq!(psor::sweep(&rows, Law::above(&[0.0]), &mut [0.0; 4]), Ok(()));
+
+    // The bill of memory in `docs/embedding.md`.
+    assert_eq!((size_of::<Row<f32, u16, 4>>(), size_of::<Row<f32, u16, 6>>()), (28, 40));
+    assert_eq!((size_of::<Row<f64, u16, 4>>(), size_of::<Row<f64, u16, 6>>()), (48, 72));
+
+    // A free square fits four entries, but only the general rows know its matrix.
+    let free = EdgeCounts { free: 4, contact: 0, dirichlet: 0 };
+    let halves = [[0, NONE], [1, NONE], [2, NONE], [3, NONE]];
+    let square = Edges::<u16>::new(&[], &[[0, 1, 2, 3]], &halves, free).expect("a square");
+    let (mut memory, k) = ([Row::<f64, u16, 4>::EMPTY; 4], [[-1.0; 6]]);
+    let k = Stiffness { triangles: &[], quads: &k };
+    let nothing = Boundary::new(&square, &[], &[], &[]).expect("nothing");
+    let law = |edge| Robin { edge, coefficient: 1.0, ambient: 0.0 };
+    assert!(Boundary::new(&square, &[], &[law(0), law(2)], &[]).is_ok());
+    let second = Some(Error::OutOfRange { of: Array::Robin, at: 1 });
+    let refused = |laws: &[_]| Boundary::new(&square, &[], laws, &[]).err();
+    assert_eq!(refused(&[law(2), law(0)]), second, "out of order");
+    assert_eq!(refused(&[law(2), law(2)]), second, "two on one edge");
+    let mut rows = Rows::new(&square, &mut memory).expect("three neighbours");
+    assert_eq!(
+        rows.gather(&square, k, DiagonalTerms::new(&nothing), &[0.0; 4], 1.0).err(),
+        Some(Error::Capacity { of: Array::Quads, needed: 1, limit: 0 })
+    );
+
+    // A contact edge between two triangles, which no numbering of a mesh has.
+    let inside = EdgeCounts { free: 2, contact: 1, dirichlet: 2 };
+    let pairs = [[0, NONE], [1, NONE], [2, 3], [4, NONE], [5, NONE]];
+    let edges = Edges::<u16>::new(&[[0, 1, 2], [2, 3, 4]], &[], &pairs, inside).expect("sound");
+    let memory = &mut [Row::<f64, u16, 4>::EMPTY; 3];
+    assert!(matches!(Rows::new(&edges, memory), Err(Error::Capacity { needed: 4, limit: 2, .. })));
+
+    // 8192 edges of 8 bytes are one too many for 16-bit offsets.
+    let count = 8192;
+    let cells: Vec<[u16; 4]> =
+        (0..count / 4).map(|cell| [0, 1, 2, 3].map(|k| 4 * cell + k)).collect();
+    let halves: Vec<[u16; 2]> = (0..count).map(|edge| [edge, NONE]).collect();
+    let all = EdgeCounts { free: usize::from(count), contact: 0, dirichlet: 0 };
+    let edges = Edges::new(&[], &cells, &halves, all).expect("squares apart");
+    let mut memory = vec![Row::<f64, u16, 6>::EMPTY; all.free];
+    assert!(matches!(Rows::new(&edges, &mut memory), Err(Error::Capacity { limit: 8191, .. })));
+    let mut memory = vec![Row::<f32, u16, 6>::EMPTY; all.free];
+    assert!(Rows::new(&edges, &mut memory).is_ok());
+}
+
+const NONE: u16 = u16::MAX;
+
+/// The chain −u'' = −1 over an obstacle, small enough to write down.
+fn chain<R>(work: impl FnOnce(&System<f64, u16>, &mut Rows<f64, u16, 2>) -> R) -> R {
+    let (row_ptr, col_idx) = ([0, 2, 5, 7], [0u16, 1, 1, 0, 2, 2, 1]);
+    let values = [2.0, -1.0, 2.0, -1.0, -1.0, 2.0, -1.0];
+    let counts = EdgeCounts { free: 2, contact: 1, dirichlet: 0 };
+    let matrix = Csr::new(&row_ptr, &col_idx, &values, 3).expect("valid");
+    let mut memory = [Row::EMPTY; 3];
+    let mut rows = Rows::of_matrix(&matrix, counts, &mut memory).expect("valid");
+    let system =
+        System::new(matrix, &[-1.0, -1.0, -1.0], Law::above(&[-0.5]), counts).expect("valid");
+    work(&system, &mut rows)
+}
+
+#[test]
+fn every_start_and_every_relaxation_lead_to_the_same_answer() {
+    let factors = [0.5, 1.0, 1.5, 1.9].map(Relaxation::Fixed);
+    for relaxation in factors.into_iter().chain([Relaxation::Adaptive(1.0)]) {
+        for start in [[0.0; 3], [1e6, -1e6, 1e6], [-7.0, 3.0, f64::NAN]] {
+            let mut u = start;
+            let settings = Settings { relaxation, tolerance: 1e-14, ..Settings::default() };
+            let mut solver = Solver::new(settings).expect("valid");
+            let outcome = chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid");
+            if start[2].is_nan() {
+                assert!(u[2].is_finite(), "the gap lifts what is not a number");
+            }
+            assert_eq!(outcome.status, Status::Converged, "{relaxation:?} from {start:?}");
+            // u₃ = −½ is active; 2u₁ − u₂ = −1 and −u₁ + 2u₂ = −1 − ½ give u₁ = −7/6, u₂ = −4/3.
+            for (u, exact) in u.iter().zip([-7.0 / 6.0, -4.0 / 3.0, -0.5]) {
+                SOLVED.check(format_args!("{relaxation:?} from {start:?}"), u - exact);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_way_to_end() {
+    let settings = Settings::<f64>::default();
+    let run = |settings, start: [f64; 3]| {
+        let mut u = start;
+        let mut solver = Solver::new(settings).expect("valid");
+        chain(|system, rows| solver.run(system, rows, &mut u)).expect("valid").status
+    };
+    assert_eq!(run(Settings { tolerance: 1e-6, ..settings }, [0.0; 3]), Status::Converged);
+    let few = Settings { max_sweeps: 1, ..settings };
+    assert_eq!(run(few, [0.0; 3]), Status::OutOfSweeps);
+    let ended = run(settings, [0.0; 3]);
+    assert!(matches!(ended, Status::RoundingLimit | Status::Converged), "{ended:?}");
+    assert_eq!(run(settings, [f64::INFINITY, 0.0, 0.0]), Status::NotFinite);
+}
+
+/// micromath's root is off by up to 6 %: it may serve a length, and never changes the solution.
+#[test]
+fn fast_math_costs_what_it_says() {
+    let vertices = SQUARE.map(|v| v.map(|x| x as f32));
+    let mesh = Mesh::<f32, u16>::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[]).expect("valid");
+    let mut plate = <workspace!(f32, u16: vertices 4, triangles 2, quads 0, boundary 4)>::new();
+    let unit = Coefficient::Uniform(Tensor::scalar(1.0));
+    let sides = |edge: &BoundaryEdge<f32, u16>| match edge.middle() {
+        [0.0, _] => Some(Condition::Dirichlet { value: 0.0 }),
+        _ => Some(Condition::Contact { gap: 1.0, flux: 0.0 }),
+    };
+    plate.build(&mesh, unit, sides).expect("fits");
+    plate.solve(Settings::default()).expect("finite");
+    let exact = plate.contact_length::<Libm>(&mesh).expect("built");
+    let fast = plate.contact_length::<Micromath>(&mesh).expect("built");
+    assert!(exact > 0.0, "{fast} against {exact}");
+    FAST_ROOT.check_relative("length of contact", fast, exact);
+}

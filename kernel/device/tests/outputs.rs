@@ -1,0 +1,102 @@
+//! Outputs of a full model at the end of the range: finite, or said not to be.
+
+mod plate;
+
+use plate::Side;
+use plate::foundation::Foundation;
+use signorini_bound::certificate::Verdict;
+use signorini_device::full::{
+    Base, Contribution, DataMemory, Full, Functional, Memory as FullMemory,
+};
+use signorini_device::tick::{CertifiedSweeps, Deadline, Ended, Limits, Memory, Progress, Report};
+use signorini_kernel::flux_range::Spans;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows};
+use signorini_kernel::{Error, Libm};
+
+const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
+
+/// A tick of the plate with a bound or without, and the outputs that it leaves.
+fn tick<const N: usize>(
+    outputs: &[Functional<f64, u16>; N],
+    has_bound: bool,
+) -> Result<(Report<f64>, [f64; N]), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (discretization, given) = (foundation.discretization()?, foundation.given()?);
+    let boundary = &given.boundary;
+    let contact_flux: Vec<f64> =
+        (0..foundation.lower.len()).map(|at| boundary.contact_flux(at).base()).collect();
+    let counts = discretization.edges.counts();
+    let full = Full {
+        discretization,
+        base: Base {
+            loads: given.loads,
+            neumann: boundary.neumann(),
+            robin: boundary.robin(),
+            spans: Spans::UNLIMITED,
+            contact_flux: &contact_flux,
+            gap: &foundation.lower,
+            dirichlet: &foundation.dirichlet,
+            ends: given.ends,
+            curved: &[],
+            curved_sums: &[],
+            transfer: &[],
+        },
+        patterns: &[],
+        oscillation: &[],
+        outputs,
+        has_bound,
+        corners: &[],
+        start: 0.0,
+        relaxation: Relaxation::Adaptive(1.0),
+    };
+    let (unknowns, edges) = (counts.unknowns(), counts.edges());
+    let mut rows = vec![Row::<f64, u16, QUADS>::EMPTY; unknowns];
+    let mut active = vec![false; counts.contact];
+    let mut numbers = [unknowns, foundation.plate.vertices.len(), edges, edges, edges]
+        .map(|length| vec![0.0; length]);
+    let [load, vertices, bubbles, tau, u] = &mut numbers;
+    let rows = Rows::new(&discretization.edges, &mut rows)?;
+    let tick = Memory { rows, load, active: &mut active, vertices, bubbles, tau, u };
+    let (mut progress, mut found) = (Progress::NONE, [0.0; N]);
+    let memory = FullMemory { tick, data: DataMemory::default(), progress: &mut progress };
+    let never = &mut Deadline::never();
+    let limits = Limits::default();
+    let report = full.tick(&[], CertifiedSweeps(Libm), limits, never, memory, &mut found)?;
+    Ok((report, found))
+}
+
+/// A probe of u on the last edge, where u = 0.9 is given, with this weight twice.
+fn probe(foundation: &Foundation, weight: f64) -> Result<[Contribution<f64, u16>; 2], Error> {
+    let at = foundation.plate.edges()?.counts().edges() as u16 - 1;
+    Ok([(); 2].map(|()| Contribution { at, weight }))
+}
+
+#[test]
+fn an_output_that_overflows_ends_its_tick() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    for (weight, ended) in [(1.0, Ended::Settled), (1e308, Ended::NotFinite)] {
+        let probe = probe(&foundation, weight)?;
+        // Whichever comes last.
+        for outputs in [
+            [Functional::Probe(&probe), Functional::Force(&[])],
+            [Functional::Force(&[]), Functional::Probe(&probe)],
+        ] {
+            let (report, found) = tick(&outputs, true)?;
+            assert_eq!(report.ended, ended, "{weight:e}: {found:?}");
+            let is_finite = found.iter().all(|output| output.is_finite());
+            assert_eq!(is_finite, ended == Ended::Settled, "{weight:e}: {found:?}");
+            // u itself is sound, and so is what bounds its error.
+            assert!(report.verdict.certificate().is_some(), "{report:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn an_infinite_bound_is_none_and_ends_nothing() -> Result<(), Error> {
+    let (report, found) = tick(&[Functional::Bound, Functional::Force(&[])], false)?;
+    assert_eq!((report.ended, report.verdict), (Ended::Settled, Verdict::Unavailable));
+    assert_eq!(found, [f64::INFINITY, 0.0]);
+    Ok(())
+}

@@ -1,0 +1,502 @@
+//! Ticks: warm starts, what ends them, and input that is refused.
+#![allow(clippy::indexing_slicing, clippy::expect_used)]
+
+mod plate;
+
+use signorini_kernel::law::Law;
+use std::cell::Cell;
+
+use plate::Side;
+use plate::foundation::{Foundation, GAP};
+use signorini_bound::certificate::{Certificate, Discretization, LoadCase, Verdict};
+use signorini_bound::conforming::VertexData;
+use signorini_device::tick::{
+    CertifiedSweeps, Data, Deadline, Ended, Limits, Memory, Progress, Report, Tick,
+    UncertifiedSweeps,
+};
+use signorini_kernel::assembly::CellLoads;
+use signorini_kernel::error::Array;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{OwnedRows, QUADS, Row, Rows};
+use signorini_kernel::stiffness::Stiffness;
+use signorini_kernel::{Error, Libm, flux};
+use signorini_tolerances::kernel::{ALGEBRAIC, FORCE_OF_FLUX, RESIDUAL};
+
+const SIDES: [Side; 4] = [Side::Contact, Side::Transfer, Side::Insulated, Side::Given];
+
+/// Arrays of a tick, owned.
+struct Store {
+    rows: Vec<Row<f64, u16, QUADS>>,
+    active: Vec<bool>,
+    /// load, s, bubbles, τ, u
+    numbers: [Vec<f64>; 5],
+}
+
+impl Store {
+    fn new(foundation: &Foundation) -> Result<Self, Error> {
+        let counts = foundation.plate.edges()?.counts();
+        let vertices = foundation.plate.vertices.len();
+        let (unknowns, edges) = (counts.unknowns(), counts.edges());
+        let lengths = [unknowns, vertices, edges, edges, edges];
+        Ok(Self {
+            rows: vec![Row::EMPTY; unknowns],
+            active: vec![true; counts.contact],
+            numbers: lengths.map(|length| vec![0.0; length]),
+        })
+    }
+
+    /// Goes on from the last tick, with rows that lie elsewhere.
+    fn resumed<'a, const UNKNOWNS: usize>(
+        &'a mut self,
+        foundation: &'a Foundation,
+        rows: &'a mut OwnedRows<f64, u16, QUADS, UNKNOWNS>,
+        progress: Progress<f64>,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
+        let discretization = foundation.discretization()?;
+        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
+        let (rows, active) = (rows.of(&discretization.edges)?, &mut self.active);
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
+        Tick::resume(discretization, memory, progress)
+    }
+
+    fn tick<'a>(
+        &'a mut self,
+        foundation: &'a Foundation,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
+        self.on(foundation.discretization()?)
+    }
+
+    fn on<'a>(
+        &'a mut self,
+        discretization: Discretization<'a, f64, u16>,
+    ) -> Result<Tick<'a, f64, u16, QUADS>, Error> {
+        let [load, vertices, bubbles, tau, u] = &mut self.numbers;
+        let rows = Rows::new(&discretization.edges, &mut self.rows)?;
+        let active = &mut self.active;
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
+        Tick::new(discretization, memory, Relaxation::Adaptive(1.0))
+    }
+}
+
+fn data(foundation: &Foundation) -> Result<Data<'_, f64, u16>, Error> {
+    let given = foundation.given()?;
+    Ok(Data { given, law: Law::above(&foundation.lower), dirichlet: &foundation.dirichlet })
+}
+
+fn certificate(report: &Report<f64>) -> Certificate<f64> {
+    *report.verdict.certificate().expect("a bound")
+}
+
+#[test]
+fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let cold = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
+    assert_eq!(cold.ended, Ended::Settled);
+    assert!(certificate(&cold).algebraic <= 0.1 * certificate(&cold).total);
+    assert!(cold.active > 0 && cold.changes == cold.active && cold.sweeps > 8, "{cold:?}");
+    let warm = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
+    assert!(warm.sweeps <= 4 && warm.changes == 0, "{warm:?}");
+    assert_eq!(tick.report(), Some(&warm));
+    let counts = foundation.plate.edges()?.counts();
+    assert!(tick.u()[counts.free..counts.unknowns()].iter().all(|&u| u >= GAP));
+    Ok(())
+}
+
+#[test]
+fn a_tick_resumed_from_its_memory_has_the_bits_of_one_that_went_on() -> Result<(), Error> {
+    const UNKNOWNS: usize = 55;
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut kept, mut put_down) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    put_down.active.fill(false);
+    let mut kept = kept.tick(&foundation)?;
+    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let mut progress = Progress::new(Relaxation::Adaptive(1.0))?;
+    for sweeps in [7, 40, 100, 3] {
+        let limits = Limits { share: 0.0, error: 0.0, sweeps };
+        let expected = kept.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut Deadline::never(),
+        )?;
+        let mut tick = put_down.resumed(&foundation, &mut rows, progress)?;
+        let found = tick.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut Deadline::never(),
+        )?;
+        assert_eq!((found, tick.u(), tick.tau()), (expected, kept.u(), kept.tau()));
+        progress = tick.progress();
+    }
+    let none = put_down.resumed(&foundation, &mut rows, Progress::NONE).map(|_| ());
+    assert_eq!(none, Err(Error::Relaxation));
+    let mut few = OwnedRows::<f64, u16, QUADS, 3>::new();
+    assert_eq!(
+        put_down.resumed(&foundation, &mut few, progress).err(),
+        Some(Error::Length { of: Array::Rows, found: 3, expected: 55 })
+    );
+    Ok(())
+}
+
+#[test]
+fn memory_of_another_size_is_refused() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    for array in [0, 1, 3, 4] {
+        let mut store = Store::new(&foundation)?;
+        store.numbers[array].pop();
+        let refused = store.tick(&foundation).err();
+        assert!(matches!(refused, Some(Error::Length { .. })), "array {array}: {refused:?}");
+    }
+    let mut store = Store::new(&foundation)?;
+    store.active.pop();
+    assert_eq!(
+        store.tick(&foundation).err(),
+        Some(Error::Length { of: Array::Contact, found: 4, expected: 5 })
+    );
+    Ok(())
+}
+
+#[test]
+fn limits_and_deadlines_end_it_and_it_can_be_carried_on() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let mut running = tick.begin(data(&foundation)?)?;
+    let limits = Limits { share: 0.0, error: 0.0, sweeps: 3 };
+    let first = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
+    assert_eq!((first.ended, first.sweeps), (Ended::OutOfSweeps, 3));
+    let second = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
+    assert_eq!((second.ended, second.sweeps), (Ended::OutOfSweeps, 6));
+    assert!(certificate(&second).algebraic < certificate(&first).algebraic);
+
+    // 100 units of time, of which a sweep takes 10 and the certificate 25: 7 sweeps.
+    let left = Cell::new(100_u32);
+    let remaining = || {
+        let now = left.get();
+        left.set(now - 10);
+        now
+    };
+    let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
+    let limits = Limits { share: 0.0, ..Limits::default() };
+    let third = running.advance(CertifiedSweeps(Libm), limits, &mut deadline)?;
+    assert_eq!(third.ended, Ended::OutOfTime);
+    assert!(left.get() >= 15 && third.sweeps > 6, "{third:?}, {left:?}");
+
+    let wanted = certificate(&third).total;
+    let limits = Limits { share: 0.0, error: wanted, ..Limits::default() };
+    let fourth = running.advance(CertifiedSweeps(Libm), limits, &mut Deadline::never())?;
+    assert_eq!((fourth.ended, fourth.sweeps), (Ended::Accurate, third.sweeps));
+    Ok(())
+}
+
+#[test]
+fn a_certificate_waits_until_the_sweeps_have_had_as_long() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    // The first one is good enough, whatever it says.
+    let limits = Limits { share: f64::MAX, ..Limits::default() };
+    for (sweep, certificate, sweeps) in [(0, 0, 4), (10, 25, 4), (10, 125, 12)] {
+        let mut deadline = Deadline { remaining: || u32::MAX, sweep, certificate };
+        let report = tick.begin(data(&foundation)?)?.advance(
+            CertifiedSweeps(Libm),
+            limits,
+            &mut deadline,
+        )?;
+        assert_eq!((report.ended, report.sweeps), (Ended::Settled, sweeps));
+    }
+    Ok(())
+}
+
+#[test]
+fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut with, mut without) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let (mut with, mut without) = (with.tick(&foundation)?, without.tick(&foundation)?);
+    let discretization = foundation.discretization()?;
+    for sweeps in [13, 4] {
+        let limits = Limits { share: 0.0, error: 0.0, sweeps };
+        let never = &mut Deadline::never();
+        let certified =
+            with.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
+        let mut running = without.begin(data(&foundation)?)?;
+        let found = running.advance(UncertifiedSweeps(Libm), limits, never)?;
+        assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
+        assert_eq!((found.verdict, found.residual), (Verdict::NotAsked, certified.residual));
+        assert_eq!(without.u(), with.u());
+        let (loads, mut flux) = (data(&foundation)?.given.loads, vec![0.0; with.u().len()]);
+        flux::recover(
+            &discretization.edges,
+            discretization.stiffness,
+            loads,
+            with.u(),
+            &[],
+            &mut flux,
+        )?;
+        assert_eq!(without.tau(), flux);
+        assert_ne!(without.tau(), with.tau());
+    }
+    Ok(())
+}
+
+#[test]
+fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let mut running = tick.begin(data(&foundation)?)?;
+    let left = Cell::new(100_u32);
+    let remaining = || left.replace(left.get() - 10);
+    let mut deadline = Deadline { remaining, sweep: 10, certificate: 25 };
+    let late = running.advance(UncertifiedSweeps(Libm), Limits::default(), &mut deadline)?;
+    assert_eq!((late.ended, late.sweeps), (Ended::OutOfTime, 7));
+    let never = &mut Deadline::never();
+    let end = running.advance(UncertifiedSweeps(Libm), Limits::default(), never)?;
+    assert_eq!(end.ended, Ended::Settled);
+    assert!(end.sweeps > 50, "{end:?}");
+    RESIDUAL.check("the end", end.residual);
+    // What sweeps have left over is far below the error of the mesh.
+    let after =
+        running.advance(CertifiedSweeps(Libm), Limits { sweeps: 0, ..Limits::default() }, never)?;
+    let (algebraic, total) = (certificate(&after).algebraic, certificate(&after).total);
+    ALGEBRAIC.check_over("what sweeps have left", algebraic, total);
+    Ok(())
+}
+
+/// λ of each contact edge by the law, from a flux and the openings.
+fn multipliers(foundation: &Foundation, u: &[f64], flux: &[f64]) -> Result<Vec<f64>, Error> {
+    let counts = foundation.plate.edges()?.counts();
+    let boundary = foundation.boundary()?;
+    let law = |at: usize| {
+        let edge = counts.free + at;
+        let touches = u[edge] == foundation.lower[at];
+        if touches { (flux[edge] - boundary.contact_flux(at).base()).max(0.0) } else { 0.0 }
+    };
+    Ok((0..counts.contact).map(law).collect())
+}
+
+/// The flux (15) alone pulls on some edges for a long time; the force never does, with or without a bound.
+#[test]
+fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let edges = foundation.plate.edges()?;
+    let counts = edges.counts();
+    let never = &mut Deadline::never();
+    let mut pulled = 0;
+    for sweeps in 0..40 {
+        let limits = Limits { sweeps, share: 0.0, error: 0.0 };
+        let (mut bounded, mut unbounded) = (Store::new(&foundation)?, Store::new(&foundation)?);
+        let mut tick = bounded.tick(&foundation)?;
+        let certified =
+            tick.begin(data(&foundation)?)?.advance(CertifiedSweeps(Libm), limits, never)?;
+        let mut tick = unbounded.tick(&foundation)?;
+        let plain =
+            tick.begin(data(&foundation)?)?.advance(UncertifiedSweeps(Libm), limits, never)?;
+        let loads = foundation.given()?.loads;
+        let mut flux = vec![0.0; counts.edges()];
+        flux::recover(&edges, foundation.stiffness(), loads, tick.u(), &[], &mut flux)?;
+        let by_law: f64 = multipliers(&foundation, tick.u(), &flux)?.iter().sum();
+        for report in [certified, plain] {
+            assert!(report.force >= 0.0, "{sweeps}: {report:?}");
+            FORCE_OF_FLUX
+                .check(format_args!("{sweeps}: {by_law} {report:?}"), report.force - by_law);
+        }
+        let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
+        let given = foundation.boundary()?.contact_flux(0).base();
+        pulled += usize::from(on_contact.map(|flux| flux - given).sum::<f64>() < 0.0);
+    }
+    assert!(pulled > 0, "the flux (15) never pulled: this test tests nothing");
+    Ok(())
+}
+
+#[test]
+fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let before = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
+    // The gap falls: what was in contact stays, though nothing but the bound pushes it down.
+    let counts = foundation.plate.edges()?.counts();
+    let (gap, lower) = (vec![[GAP - 0.01; 2]; counts.contact], vec![GAP - 0.01; counts.contact]);
+    let data = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..data.given.ends };
+    let data = Data { given: LoadCase { ends, ..data.given }, law: Law::above(&lower), ..data };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
+    Ok(())
+}
+
+#[test]
+fn after_an_overflow_a_tick_starts_on_the_gap() -> Result<(), Error> {
+    const UNKNOWNS: usize = 55;
+    let foundation = Foundation::new(SIDES, false)?;
+    let counts = foundation.plate.edges()?.counts();
+    let contact = counts.free..counts.unknowns();
+    let mut store = Store::new(&foundation)?;
+    store.numbers[4][..counts.unknowns()].fill(f64::INFINITY);
+    store.active.fill(false);
+    let mut rows = OwnedRows::<f64, u16, QUADS, UNKNOWNS>::new();
+    let progress = Progress::new(Relaxation::Adaptive(1.0))?;
+    let mut tick = store.resumed(&foundation, &mut rows, progress)?;
+    // A gap above 0, where everything else starts.
+    let (gap, lower) = (vec![[2.0; 2]; counts.contact], vec![2.0; counts.contact]);
+    let good = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..good.given.ends };
+    let raised = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    tick.begin(raised)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    assert!(tick.u()[contact].iter().all(|&u| u == 2.0), "{:?}", tick.u());
+    Ok(())
+}
+
+/// u is finite, but what flows through an edge is not.
+#[test]
+fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let counts = foundation.plate.edges()?.counts();
+    let given = foundation.stiffness();
+    let heavy = |entry: &f64| entry * 1e60;
+    let triangles: Vec<_> = given.triangles.iter().map(|k| k.map(|k| heavy(&k))).collect();
+    let quads: Vec<_> = given.quads.iter().map(|k| k.map(|k| heavy(&k))).collect();
+    let stiffness = Stiffness { triangles: &triangles, quads: &quads };
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.on(Discretization { stiffness, ..foundation.discretization()? })?;
+    let high = f64::MAX / 1e33;
+    let (gap, lower) = (vec![[high; 2]; counts.contact], vec![high; counts.contact]);
+    let good = data(&foundation)?;
+    let ends = VertexData { gap: &gap, ..good.given.ends };
+    let data = Data { given: LoadCase { ends, ..good.given }, law: Law::above(&lower), ..good };
+    let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
+    let report =
+        tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
+    assert!(tick.u().iter().all(|u| u.is_finite()) && report.residual.is_finite(), "{report:?}");
+    assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
+    Ok(())
+}
+
+/// Whether `begin` takes data with ψ, u_D or f multiplied.
+fn takes(
+    tick: &mut Tick<f64, u16, QUADS>,
+    foundation: &Foundation,
+    [gap, given, source]: [f64; 3],
+) -> Result<bool, Error> {
+    let times = |numbers: &[f64], by: f64| numbers.iter().map(|x| x * by).collect::<Vec<_>>();
+    let (lower, dirichlet) = (times(&foundation.lower, gap), times(&foundation.dirichlet, given));
+    let (triangles, quads) =
+        (times(&foundation.loads.0, source), times(&foundation.loads.1, source));
+    let good = data(foundation)?;
+    let loads = CellLoads { triangles: &triangles, quads: &quads };
+    let given = LoadCase { loads, ..good.given };
+    match tick.begin(Data { given, law: Law::above(&lower), dirichlet: &dirichlet }) {
+        Ok(mut running) => {
+            running.advance(CertifiedSweeps(Libm), Limits::default(), &mut Deadline::never())?;
+            Ok(true)
+        }
+        Err(Error::NotFinite { .. }) => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// The same ticks twice, with some between that are refused.
+#[test]
+fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut stores = [Store::new(&foundation)?, Store::new(&foundation)?];
+    let [one, other] = &mut stores;
+    let (mut plain, mut tried) = (one.tick(&foundation)?, other.tick(&foundation)?);
+    let bits = |tick: &Tick<f64, u16, QUADS>| {
+        let arrays = [tick.u(), tick.tau(), tick.vertices(), tick.bubbles()];
+        let bits = arrays.map(|array| array.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+        (bits, tick.report().copied())
+    };
+    for part in [1.0, 0.7, -0.3, 1.4, 0.0] {
+        for tick in [&mut plain, &mut tried] {
+            assert!(takes(tick, &foundation, [1.0, part, 1.0 - part])?);
+        }
+        assert_eq!(bits(&plain), bits(&tried), "{part}");
+        for large in [1e280, -1e290, 1e300, f64::MAX] {
+            for parts in [[large, 1.0, 1.0], [1.0, large, 1.0], [1.0, 1.0, large]] {
+                assert!(!takes(&mut tried, &foundation, parts)?, "{parts:?}");
+            }
+        }
+        assert_eq!(bits(&plain), bits(&tried), "{part}");
+    }
+    Ok(())
+}
+
+/// What data of any size have left leads to the answer that a cold start leads to.
+#[test]
+fn after_extreme_ticks_an_ordinary_one_is_right() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let (mut cold, mut warm) = (Store::new(&foundation)?, Store::new(&foundation)?);
+    let mut cold = cold.tick(&foundation)?;
+    assert!(takes(&mut cold, &foundation, [1.0; 3])?);
+    let expected = cold.report().and_then(|report| report.verdict.certificate()).copied();
+    let expected = expected.expect("a bound").total;
+    let mut warm = warm.tick(&foundation)?;
+    let mut refused = 0;
+    for decade in (0..=308).step_by(4) {
+        let size = 10f64.powi(decade);
+        for parts in [[size, 1.0, 1.0], [1.0, -size, 1.0], [1.0, 1.0, size], [-size, size, -size]] {
+            refused += u32::from(!takes(&mut warm, &foundation, parts)?);
+            assert!(takes(&mut warm, &foundation, [1.0; 3])?, "{parts:?}");
+            let report = warm.report().expect("an answer");
+            assert_eq!(report.ended, Ended::Settled, "{parts:?}");
+            let total = report.verdict.certificate().expect("a bound").total;
+            assert!(total <= 1.5 * expected, "{parts:?}: {total:e} {expected:e}");
+            assert!(report.sweeps < 400, "{parts:?}: {} sweeps", report.sweeps);
+        }
+    }
+    assert!(refused > 20, "{refused}");
+    Ok(())
+}
+
+#[test]
+fn data_that_are_not_finite_change_nothing() -> Result<(), Error> {
+    let foundation = Foundation::new(SIDES, false)?;
+    let mut store = Store::new(&foundation)?;
+    let mut tick = store.tick(&foundation)?;
+    let good = tick.begin(data(&foundation)?)?.advance(
+        CertifiedSweeps(Libm),
+        Limits::default(),
+        &mut Deadline::never(),
+    )?;
+    let u = tick.u().to_vec();
+    let good_data = data(&foundation)?;
+    for poison in [f64::NAN, f64::INFINITY] {
+        let lower = vec![poison; foundation.lower.len()];
+        let dirichlet = vec![poison; foundation.dirichlet.len()];
+        let cells = vec![poison; foundation.loads.0.len()];
+        let mut loads = good_data.given.loads;
+        loads.triangles = &cells;
+        let ends = vec![[poison; 2]; lower.len()];
+        let gap = VertexData { gap: &ends, ..good_data.given.ends };
+        let given = good_data.given;
+        let refused = [
+            Data { law: Law::above(&lower), ..good_data },
+            Data { dirichlet: &dirichlet, ..good_data },
+            Data { given: LoadCase { loads, ..given }, ..good_data },
+            Data { given: LoadCase { ends: gap, ..given }, ..good_data },
+            Data { given: LoadCase { oscillation: poison, ..given }, ..good_data },
+        ];
+        for data in refused {
+            assert!(matches!(tick.begin(data), Err(Error::NotFinite { .. })));
+            assert_eq!((tick.u(), tick.report()), (&u[..], Some(&good)));
+        }
+    }
+    Ok(())
+}

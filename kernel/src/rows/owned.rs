@@ -1,0 +1,98 @@
+//! Rows that own their memory and know whether it is laid out: symbolic once, numeric every tick.
+
+use super::{Row, Rows};
+use crate::error::Error;
+use crate::index::Index;
+use crate::mesh::edges::{EdgeCounts, Edges};
+use crate::real::Real;
+
+/// Memory that becomes the rows of a mesh.
+pub trait LayOut<R, I, const WIDTH: usize> {
+    /// The rows of `edges`.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`].
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error>;
+}
+
+/// Whose offsets nobody vouches for is laid out every time.
+impl<R: Real, I: Index, const WIDTH: usize, T: AsMut<[Row<R, I, WIDTH>]>> LayOut<R, I, WIDTH>
+    for T
+{
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        Rows::new(edges, self.as_mut())
+    }
+}
+
+/// Memory for the rows of one mesh; can initialise a `static`.
+///
+/// `laid_out` tells which numbering the offsets belong to by its sizes: every offset names an entry of an
+/// array over `laid_out.edges()` edges. Zeros, as it starts and as a failed pass leaves it, belong to no mesh.
+#[derive(Debug)]
+pub struct OwnedRows<R, I, const WIDTH: usize, const UNKNOWNS: usize> {
+    rows: [Row<R, I, WIDTH>; UNKNOWNS],
+    laid_out: EdgeCounts,
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
+    OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    /// Memory that belongs to no mesh yet.
+    pub const fn new() -> Self {
+        let laid_out = EdgeCounts { free: 0, contact: 0, dirichlet: 0 };
+        Self { rows: [Row::EMPTY; UNKNOWNS], laid_out }
+    }
+
+    /// The rows of `edges`: laid out at the first call, and as the last call left them ever after. Always
+    /// of the same mesh: another one of the same sizes would find the neighbours of the first.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`].
+    pub fn of(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        let counts = edges.counts();
+        if self.laid_out != counts {
+            self.laid_out = EdgeCounts::default();
+            Rows::new(edges, &mut self.rows)?;
+            self.laid_out = counts;
+        }
+        Ok(Rows { rows: &mut self.rows, counts, omega: R::ONE })
+    }
+
+    /// The same where there is room for more rows than `edges` has unknowns.
+    ///
+    /// # Errors
+    /// As for [`Rows::new`]; too little room.
+    pub fn within(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        let counts = edges.counts();
+        let (of, needed) = (crate::error::Array::Rows, counts.unknowns());
+        let rows = self.rows.get_mut(..needed);
+        let rows = rows.ok_or(Error::Capacity { of, needed, limit: UNKNOWNS })?;
+        if self.laid_out != counts {
+            self.laid_out = EdgeCounts::default();
+            Rows::new(edges, rows)?;
+            self.laid_out = counts;
+        }
+        Ok(Rows { rows, counts, omega: R::ONE })
+    }
+
+    /// Forgets the mesh: the next one has a numbering of its own.
+    pub fn forget(&mut self) {
+        self.laid_out = EdgeCounts::default();
+    }
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize> LayOut<R, I, WIDTH>
+    for OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    fn lay_out(&mut self, edges: &Edges<I>) -> Result<Rows<'_, R, I, WIDTH>, Error> {
+        self.of(edges)
+    }
+}
+
+impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize> Default
+    for OwnedRows<R, I, WIDTH, UNKNOWNS>
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,80 @@
+//! What can be said of how wrong an answer is, whatever model of a scene gave it.
+//!
+//! `signorini_bound::certificate` finds it on a mesh, [`signorini_contact`] in a problem of contact edges alone.
+
+use crate::real::Real;
+
+/// How wrong (s, τ) can be, in the energy norm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Certificate<R> {
+    /// The root of gap²: the bound where f, g and q have no oscillation.
+    pub duality_gap: R,
+    /// ‖A^{−½}(τ − σ_h)‖, with ∫_R ((τ − σ_h)·n)²/h where there is a Robin boundary: what more sweeps
+    /// would remove. Early in a solve it may be more than the total: reports of ticks call that the total
+    /// ([`Certificate::as_parts`]).
+    pub algebraic: R,
+    /// What was given as oscillation.
+    pub oscillation: R,
+    /// What rounding can have hidden.
+    pub rounding: R,
+    /// oscillation + √(gap² + oscillation²) + rounding: never less than the error of s and τ.
+    pub total: R,
+    /// total + ‖A^½∇_h(s − u_h)‖: never less than ‖A^½∇_h(u − u_h)‖, the error of the edge means in the energy norm,
+    /// cell by cell. Where s lifts curved boundary data on distorted quads, the norm of that is added to that of the rest.
+    pub of_u: R,
+}
+
+impl<R: Real> Certificate<R> {
+    /// The same with an algebraic part that is no more than the total it is a part of.
+    #[must_use]
+    pub fn as_parts(self) -> Self {
+        if self.algebraic > self.total { Self { algebraic: self.total, ..self } } else { self }
+    }
+}
+
+/// What can be said of an iterate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict<R> {
+    /// Its error is at most the total of this.
+    Certified(Certificate<R>),
+    /// No bound: only contact edges can take the surplus of a part, and this one would be pulled at.
+    Pulled {
+        /// The edge.
+        edge: usize,
+    },
+    /// No bound: contact alone holds the domain, and no edge is pressed hard enough to take its surplus.
+    Unpressed,
+    /// No bound: a Dirichlet value lies below the gap where they meet, so that no u has both.
+    BelowGap,
+    /// No bound, whatever the inputs: the data do not allow for one. u_D or ψ jumps, say, or a transfer coefficient
+    /// nearly vanishes; `signorini bake` says which.
+    Unavailable,
+    /// No bound: the numbers overflow.
+    NotFinite,
+    /// No bound: nobody asked for one.
+    NotAsked,
+}
+
+impl<R: Real> Verdict<R> {
+    /// The same with [`Certificate::as_parts`].
+    #[must_use]
+    pub fn as_parts(self) -> Self {
+        match self {
+            Self::Certified(certificate) => Self::Certified(certificate.as_parts()),
+            other => other,
+        }
+    }
+
+    /// The certificate, where there is one.
+    pub fn certificate(&self) -> Option<&Certificate<R>> {
+        match self {
+            Self::Certified(certificate) => Some(certificate),
+            Self::Pulled { .. }
+            | Self::Unpressed
+            | Self::BelowGap
+            | Self::Unavailable
+            | Self::NotFinite
+            | Self::NotAsked => None,
+        }
+    }
+}
