@@ -202,6 +202,11 @@ impl fmt::Display for CellId {
 
 impl core::error::Error for Error {}
 
+/// Refuses things of a kind for which there is no code.
+pub fn known(of: Array, has_code: bool, needed: usize) -> Result<(), Error> {
+    if has_code || needed == 0 { Ok(()) } else { Err(Error::Capacity { of, needed, limit: 0 }) }
+}
+
 /// `Ok` when an array is as long as the others ask for.
 pub fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { of, found, expected }) }

@@ -6,43 +6,31 @@
 //! ```
 //! The base is the end that the load b contains: the smaller one, so that no digit of it is lost beside a huge one. A span of ∞
 //! is unilateral contact, u ≥ ψ; −∞ is u ≤ ψ; 0 is a given flux. In a build without the feature `limited` all spans are ∞,
-//! and nothing is stored or asked.
+//! whatever is stored.
 
-use core::marker::PhantomData;
-
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, known, same_length};
 use crate::features;
 use crate::real::Real;
 
 /// From the base of a range to its other end.
 #[derive(Debug, Clone, Copy)]
 pub struct Span<R> {
-    #[cfg(feature = "limited")]
     length: R,
-    scalar: PhantomData<R>,
 }
 
 impl<R: Real> Span<R> {
     /// ∞
-    pub const UNLIMITED: Self = Self {
-        #[cfg(feature = "limited")]
-        length: R::INFINITY,
-        scalar: PhantomData,
-    };
+    pub const UNLIMITED: Self = Self { length: R::INFINITY };
 
     /// A span of this length, of either sign or infinite.
-    #[cfg(feature = "limited")]
     pub const fn new(length: R) -> Self {
-        Self { length, scalar: PhantomData }
+        Self { length }
     }
 
     /// From the base to the other end, ∞ and −∞ among them.
     #[inline(always)]
     pub fn length(self) -> R {
-        #[cfg(feature = "limited")]
-        return self.length;
-        #[cfg(not(feature = "limited"))]
-        R::INFINITY
+        if features::LIMITED { self.length } else { R::INFINITY }
     }
 
     /// Both ends from the base on.
@@ -68,43 +56,32 @@ impl<R: Real> Span<R> {
 /// The spans of all contact edges in their order (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Spans<'a, R> {
-    #[cfg(feature = "limited")]
     lengths: &'a [R],
-    #[cfg(feature = "limited")]
     excess: R,
-    lent: PhantomData<&'a R>,
 }
 
 impl<'a, R: Real> Spans<'a, R> {
     /// ∞ on every edge.
-    pub const UNLIMITED: Self = Self {
-        #[cfg(feature = "limited")]
-        lengths: &[],
-        #[cfg(feature = "limited")]
-        excess: R::ZERO,
-        lent: PhantomData,
-    };
+    pub const UNLIMITED: Self = Self::baked(&[], R::ZERO);
 
-    /// Those of each contact edge, ∞ and −∞ among them; none at all where every one is ∞.
+    /// One span per contact edge, ∞ and −∞ among them; none at all where every one is ∞.
     ///
     /// # Errors
-    /// NaN.
-    #[cfg(feature = "limited")]
+    /// NaN; any span where this build of the kernel has no code for limits ([`features`]).
     pub fn new(lengths: &'a [R]) -> Result<Self, Error> {
+        known(Array::ContactSpans, features::LIMITED, lengths.len())?;
         match lengths.iter().position(|length| !(*length >= R::ZERO || *length < R::ZERO)) {
             Some(at) => Err(Error::OutOfRange { of: Array::ContactSpans, at }),
-            None => Ok(Self { lengths, excess: R::ZERO, lent: PhantomData }),
+            None => Ok(Self::baked(lengths, R::ZERO)),
         }
     }
 
-    /// The same of numbers that the host has checked, with the excess of [`Spans::varying`].
-    #[cfg(feature = "limited")]
+    /// Takes spans that the host has checked, with the excess of [`Spans::varying`].
     pub const fn baked(lengths: &'a [R], excess: R) -> Self {
-        Self { lengths, excess, lent: PhantomData }
+        Self { lengths, excess }
     }
 
-    /// The same where hi − lo varies along edges: |E| (hi − lo) is at most `excess` more than its integral anywhere.
-    #[cfg(feature = "limited")]
+    /// Spans whose hi − lo varies along edges: |E| (hi − lo) is at most `excess` more than its integral anywhere.
     #[must_use]
     pub fn varying(self, excess: R) -> Self {
         Self { excess, ..self }
@@ -112,24 +89,17 @@ impl<'a, R: Real> Spans<'a, R> {
 
     /// By how much |E| (hi − lo) may exceed its integral; 0 where it is constant along every edge.
     pub fn excess(&self) -> R {
-        #[cfg(feature = "limited")]
-        return self.excess;
-        #[cfg(not(feature = "limited"))]
-        R::ZERO
+        if features::LIMITED { self.excess } else { R::ZERO }
     }
 
     /// ∫(hi − lo) of each contact edge, or nothing.
     pub fn lengths(&self) -> &'a [R] {
-        #[cfg(feature = "limited")]
-        return self.lengths;
-        #[cfg(not(feature = "limited"))]
-        &[]
+        if features::LIMITED { self.lengths } else { &[] }
     }
 
-    /// How many there are: none where all are ∞.
-    #[cfg(feature = "limited")]
+    /// Number of spans: 0 where all are ∞.
     pub const fn count(&self) -> usize {
-        self.lengths.len()
+        if features::LIMITED { self.lengths.len() } else { 0 }
     }
 
     /// Whether any may be other than ∞.
@@ -141,13 +111,7 @@ impl<'a, R: Real> Spans<'a, R> {
     /// The span of contact edge `contact`.
     #[inline(always)]
     pub fn on(&self, contact: usize) -> Span<R> {
-        #[cfg(feature = "limited")]
-        return self.lengths.get(contact).map_or(Span::UNLIMITED, |&length| Span::new(length));
-        #[cfg(not(feature = "limited"))]
-        {
-            let _ = contact;
-            Span::UNLIMITED
-        }
+        self.lengths().get(contact).map_or(Span::UNLIMITED, |&length| Span::new(length))
     }
 
     /// `Ok` where there is one for each of so many contact edges, or none at all.
@@ -160,6 +124,14 @@ impl<'a, R: Real> Spans<'a, R> {
         }
         same_length(Array::ContactSpans, self.lengths().len(), contact)
     }
+}
+
+/// The span that a sum of so many `terms` stands for, `size` being the sum of their magnitudes: itself, 0 where it is below
+/// 0 by rounding alone, `None` where the range is empty. Two ends that are equal for some inputs are so to rounding.
+#[inline(always)]
+pub fn settled<R: Real>(span: R, size: R, terms: usize) -> Option<R> {
+    let rounding = R::from_count(terms as u32 + 4) * R::EPSILON;
+    (span >= -(rounding * size)).then(|| span.or_larger(R::ZERO))
 }
 
 /// What ∫_E A∇u·n may be on a contact edge.

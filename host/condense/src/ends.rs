@@ -6,10 +6,8 @@
 //! both ends being counted from the base that the load contains. Without limits they are 0 and ∞.
 
 use super::CondensedModel;
+use signorini_kernel::flux_range::settled;
 use signorini_reference::ReferenceError;
-
-/// A span this far below 0 against the size of its terms is rounding of its sum.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl CondensedModel {
     /// Whether any flux has a limit.
@@ -30,8 +28,8 @@ impl CondensedModel {
             let terms = || others.iter().zip(&p[1..]).map(|(column, p)| column[at] * p);
             let sum = terms().fold(constant, |sum, term| sum + term);
             let size = terms().fold(constant.abs(), |sum, term| sum + term.abs());
-            let is_rounding = sum < 0.0 && constant != sum && sum >= -ROUNDING * size;
-            if is_rounding { 0.0 } else { sum }
+            let is_moved = sum < 0.0 && constant != sum;
+            if is_moved { settled(sum, size, p.len()).unwrap_or(sum) } else { sum }
         };
         constant.iter().enumerate().map(of_edge).collect()
     }

@@ -7,8 +7,9 @@
 //! else it may be is refused tick by tick.
 
 use signorini_kernel::Real;
+use signorini_kernel::flux_range::settled;
 
-use super::limits::ROUNDING;
+use super::limits::TERMS;
 use super::{Problem, Sum};
 use crate::quadrature::DATA_POINTS;
 use signorini_scene::error::Result;
@@ -66,7 +67,7 @@ fn check_at(problem: &Problem, boundary: &Boundary, [x, y]: [f64; 2]) -> Result<
             worst.push((input, value));
         }
     }
-    if most - least >= -ROUNDING * size {
+    if settled(most - least, size, TERMS).is_some() {
         return Ok(());
     }
     let corner: Vec<_> =

@@ -7,6 +7,7 @@
 //! one in size as the base of the range, and the way to the other as its span.
 
 use signorini_kernel::Real;
+use signorini_kernel::flux_range::settled;
 
 use super::{Problem, Sum};
 use crate::quadrature::{DATA_POINTS, gauss, on_panels};
@@ -19,8 +20,8 @@ const PANELS: u32 = 4;
 /// What rounding leaves of a difference that is constant, as a part of it.
 const CONSTANT: f64 = 1e-12;
 
-/// What rounding may leave of two ends that are equal, as a part of their terms.
-pub(super) const ROUNDING: f64 = 1e-12;
+/// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
+pub(super) const TERMS: usize = 4500;
 
 /// The means of both ends of a contact edge's flux; an infinite end is its own mean.
 pub(super) fn ends(problem: &Problem, edge: usize, time: f64) -> Result<[f64; 2]> {
@@ -97,7 +98,7 @@ fn check_edge(problem: &Problem, edge: usize) -> Result<()> {
         let [x, y] = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
         let (low, high) = (least.at(x, y), most.at(x, y));
         let terms = || least.terms_at(x, y) + most.terms_at(x, y);
-        if low > high && low - high > ROUNDING * terms() {
+        if low > high && settled(high - low, terms(), TERMS).is_none() {
             let message =
                 format!("the limit is {high} at ({x}, {y}), less than flux = {low} there");
             let hint =

@@ -201,9 +201,7 @@ impl<R: Real> Condensed<'_, R> {
                 Measure::Flux { of_inputs, of_contact, of_reaction } => {
                     (of_inputs, of_contact, of_reaction)
                 }
-                Measure::Length { .. } | Measure::Bound => continue,
-                #[cfg(feature = "limited")]
-                Measure::Saturated { .. } => continue,
+                Measure::Length { .. } | Measure::Saturated { .. } | Measure::Bound => continue,
             };
             let given = of_inputs.iter().zip(inputs);
             let given = given.fold(R::ZERO, |sum, (&y, &p)| sum + (y * p).magnitude());

@@ -5,9 +5,9 @@
 //! side where it does not touch.
 
 use super::candidate::Candidate;
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length, same_length_or_empty};
 use signorini_kernel::verdict::Certificate;
+use signorini_kernel::{Real, features};
 
 /// One output as a function of the inputs p, whose first is the constant 1, of the openings x, and of r = Sx − b.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +38,6 @@ pub enum Measure<'a, R> {
         of_contact: &'a [R],
     },
     /// The length of the edges at their upper end, x < 0.
-    #[cfg(feature = "limited")]
     Saturated {
         /// That of edges which are there whatever the inputs are, and have no x.
         always: R,
@@ -81,7 +80,7 @@ impl<R: Real> Measure<'_, R> {
                 let touching = of_contact.iter().zip(x).filter(|(_, x)| **x == R::ZERO);
                 Ok(touching.fold(always, |sum, (&length, _)| sum + length))
             }
-            #[cfg(feature = "limited")]
+            Self::Saturated { always, .. } if !features::LIMITED => Ok(always),
             Self::Saturated { always, of_contact } => {
                 same_length(Array::Contact, of_contact.len(), x.len())?;
                 let saturated = of_contact.iter().zip(x).filter(|(_, x)| **x < R::ZERO);

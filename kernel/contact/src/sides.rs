@@ -1,8 +1,6 @@
 //! Where s − ψ comes from at the ends of contact edges, for models whose fluxes have limits.
 
-use core::marker::PhantomData;
-
-use signorini_kernel::Real;
+use signorini_kernel::{Real, features};
 
 /// No vertex: s = ψ at this end.
 pub const ON_GAP: u16 = u16::MAX;
@@ -10,9 +8,7 @@ pub const ON_GAP: u16 = u16::MAX;
 /// Where s − ψ comes from at the ends of contact edges (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Sides<'a, R> {
-    #[cfg(feature = "limited")]
     baked: Option<Baked<'a, R>>,
-    lent: PhantomData<&'a R>,
 }
 
 /// What the host has worked out for it.
@@ -30,16 +26,11 @@ pub struct Baked<'a, R> {
 
 impl<'a, R: Real> Sides<'a, R> {
     /// No flux has a limit.
-    pub const UNLIMITED: Self = Self {
-        #[cfg(feature = "limited")]
-        baked: None,
-        lent: PhantomData,
-    };
+    pub const UNLIMITED: Self = Self { baked: None };
 
     /// Some have.
-    #[cfg(feature = "limited")]
     pub const fn new(baked: Baked<'a, R>) -> Self {
-        Self { baked: Some(baked), lent: PhantomData }
+        Self { baked: Some(baked) }
     }
 
     #[inline(always)]
@@ -49,9 +40,6 @@ impl<'a, R: Real> Sides<'a, R> {
 
     #[inline(always)]
     pub(super) fn baked(&self) -> Option<&Baked<'a, R>> {
-        #[cfg(feature = "limited")]
-        return self.baked.as_ref();
-        #[cfg(not(feature = "limited"))]
-        None
+        if features::LIMITED { self.baked.as_ref() } else { None }
     }
 }

@@ -4,85 +4,46 @@
 //!   span_i(p) = Σ_j p_j span_ij        in the unit of r; ±∞ in the constant column alone
 //! ```
 //! Where no input acts on an end there is one column, and a span has either sign ([`signorini_kernel::flux_range`]). Otherwise the load has
-//! the lower end wherever that is finite, and a span may not fall below 0. Without the feature `limited` nothing is stored.
-
-use core::marker::PhantomData;
+//! the lower end wherever that is finite, and a span may not fall below 0. Without the feature `limited` all are ∞.
 
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, same_length};
 use signorini_kernel::features;
-use signorini_kernel::flux_range::Spans;
+use signorini_kernel::flux_range::{Spans, settled};
 
 /// Spans by columns (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct SpanColumns<'a, R> {
-    #[cfg(feature = "limited")]
     columns: &'a [R],
-    lent: PhantomData<&'a R>,
 }
 
 /// Room for the spans of a tick, one for each contact edge and its padding where inputs change them (borrowed).
 #[derive(Debug)]
 pub struct SpanBuffer<'a, R> {
-    #[cfg(feature = "limited")]
     spans: &'a mut [R],
-    lent: PhantomData<&'a mut R>,
 }
 
 impl<'a, R: Real> SpanBuffer<'a, R> {
     /// Empty where no input changes a span.
     #[inline(always)]
     pub fn new(spans: &'a mut [R]) -> Self {
-        #[cfg(not(feature = "limited"))]
-        let _ = spans;
-        Self {
-            #[cfg(feature = "limited")]
-            spans,
-            lent: PhantomData,
-        }
-    }
-
-    #[inline(always)]
-    fn read(&self) -> &[R] {
-        #[cfg(feature = "limited")]
-        return self.spans;
-        #[cfg(not(feature = "limited"))]
-        &[]
-    }
-
-    #[inline(always)]
-    fn write(&mut self) -> &mut [R] {
-        #[cfg(feature = "limited")]
-        return self.spans;
-        #[cfg(not(feature = "limited"))]
-        &mut []
+        Self { spans }
     }
 }
 
 impl<'a, R: Real> SpanColumns<'a, R> {
     /// No flux has a limit.
-    pub const UNLIMITED: Self = Self {
-        #[cfg(feature = "limited")]
-        columns: &[],
-        lent: PhantomData,
-    };
+    pub const UNLIMITED: Self = Self::new(&[]);
 
     /// One column for all inputs, or one for each input, the constant first; each has
     /// [`crate::dense::blocks::padded`] entries.
-    #[cfg(feature = "limited")]
     pub const fn new(columns: &'a [R]) -> Self {
-        Self { columns, lent: PhantomData }
+        Self { columns }
     }
 
     /// How many spans a tick works out for so many edges with their padding: none where no input changes one.
     pub const fn buffered(&self, padded: usize) -> usize {
-        #[cfg(feature = "limited")]
-        return if self.columns.len() > padded { padded } else { 0 };
-        #[cfg(not(feature = "limited"))]
-        {
-            let _ = padded;
-            0
-        }
+        if features::LIMITED && self.columns.len() > padded { padded } else { 0 }
     }
 
     /// Whether a flux has a limit.
@@ -93,10 +54,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
 
     #[inline(always)]
     fn columns(&self) -> &'a [R] {
-        #[cfg(feature = "limited")]
-        return self.columns;
-        #[cfg(not(feature = "limited"))]
-        &[]
+        if features::LIMITED { self.columns } else { &[] }
     }
 
     /// Works out the spans for these inputs where inputs change them.
@@ -110,8 +68,8 @@ impl<'a, R: Real> SpanColumns<'a, R> {
         padded: usize,
         buffer: &mut SpanBuffer<R>,
     ) -> Result<(), Error> {
-        let are_varying = features::LIMITED && self.buffered(padded) > 0;
-        if are_varying { self.sum_up(inputs, padded, buffer.write()) } else { Ok(()) }
+        let are_varying = self.buffered(padded) > 0;
+        if are_varying { self.sum_up(inputs, padded, buffer.spans) } else { Ok(()) }
     }
 
     #[inline(never)]
@@ -124,18 +82,16 @@ impl<'a, R: Real> SpanColumns<'a, R> {
                 (sum + entry * p, size + (entry * p).magnitude())
             })
         };
-        let rounding = R::from_count(inputs.len() as u32 + 4) * R::EPSILON;
-        let is_reversed = |&at: &usize| {
+        let settled = |at: usize| {
             let (sum, size) = sums(at);
-            size.finite() && sum < -(rounding * size)
+            if size.finite() { settled(sum, size, inputs.len()) } else { Some(sum) }
         };
         // Nothing is written where an edge is refused.
-        if let Some(contact) = (0..padded).find(is_reversed) {
+        if let Some(contact) = (0..padded).find(|&at| settled(at).is_none()) {
             return Err(Error::EmptyRange { contact });
         }
         for (at, span) in spans.iter_mut().enumerate() {
-            let (sum, size) = sums(at);
-            *span = if size.finite() { sum.or_larger(R::ZERO) } else { sum };
+            *span = settled(at).unwrap_or(R::ZERO);
         }
         Ok(())
     }
@@ -147,15 +103,7 @@ impl<'a, R: Real> SpanColumns<'a, R> {
     where
         'a: 's,
     {
-        #[cfg(feature = "limited")]
-        return Spans::baked(
-            if self.buffered(padded) > 0 { buffer.read() } else { self.columns() },
-            R::ZERO,
-        );
-        #[cfg(not(feature = "limited"))]
-        {
-            let _ = (padded, buffer.read());
-            Spans::UNLIMITED
-        }
+        let is_varying = self.buffered(padded) > 0;
+        Spans::baked(if is_varying { buffer.spans } else { self.columns() }, R::ZERO)
     }
 }

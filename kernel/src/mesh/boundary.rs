@@ -11,11 +11,11 @@
 //! is a temperature. A new kind of condition is a record here with what it adds to the load;
 //! [`crate::mesh::diagonal`] has what it adds to the matrix.
 
-use crate::error::{Array, Error, all_finite, same_length};
+use crate::error::{Array, Error, all_finite, known, same_length};
 use crate::features;
 use crate::flux_range::{FluxRange, Spans};
 use crate::index::{Index, read};
-use crate::mesh::edges::{Edges, known};
+use crate::mesh::edges::Edges;
 use crate::real::Real;
 
 /// A given flux on a free boundary edge. An edge without a record has flux 0.

@@ -12,7 +12,7 @@
 //! so that a sweep needs no test of the kind of an edge, contact bounds are an array of their own,
 //! and u_D simply stands in u behind the unknowns.
 
-use crate::error::{Array, Error, same_length};
+use crate::error::{Array, Error, known, same_length};
 use crate::features;
 use crate::index::{Index, read};
 use crate::math::Math;
@@ -257,11 +257,6 @@ impl<'a, I: Index> Edges<'a, I> {
             Side::Quad(at, side) => read(&read(self.of_quads, at), side).at(),
         }
     }
-}
-
-/// Refuses things of a kind for which there is no code.
-pub fn known(of: Array, has_code: bool, needed: usize) -> Result<(), Error> {
-    if has_code || needed == 0 { Ok(()) } else { Err(Error::Capacity { of, needed, limit: 0 }) }
 }
 
 fn side(triangles: usize, half_edge: usize) -> Side {

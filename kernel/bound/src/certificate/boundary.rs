@@ -211,7 +211,7 @@ fn perturbation<R: Real, I: Index>(
     })
 }
 
-#[cfg(all(test, feature = "limited"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use signorini_kernel::flux_range::{Span, Spans};

@@ -31,14 +31,7 @@ impl<'a, R: Real> Given<'a, R> {
 
     /// m in `spans`, each times its entry in `scale` where that is not empty.
     pub const fn between(load: &'a [R], spans: Spans<'a, R>, scale: &'a [R]) -> Self {
-        #[cfg(not(feature = "limited"))]
-        let _ = scale;
-        let ranges = Ranges {
-            spans,
-            #[cfg(feature = "limited")]
-            scale,
-        };
-        Self { load, ranges }
+        Self { load, ranges: Ranges { spans, scale } }
     }
 
     /// b of edge `at` and what its side has beyond.
@@ -70,7 +63,6 @@ impl<'a, R: Real> Given<'a, R> {
 #[derive(Debug, Clone, Copy)]
 pub struct Ranges<'a, R> {
     spans: Spans<'a, R>,
-    #[cfg(feature = "limited")]
     scale: &'a [R],
 }
 
@@ -84,13 +76,10 @@ impl<R: Real> Ranges<'_, R> {
     /// The least and the largest w of an edge.
     #[inline(always)]
     pub(crate) fn ends(&self, at: usize) -> [R; 2] {
-        let ends = self.spans.on(at).ends();
-        #[cfg(feature = "limited")]
-        let ends = ends.map(|end: R| match end.finite() {
-            true if !self.scale.is_empty() => end * read(self.scale, at),
+        self.spans.on(at).ends().map(|end| match end.finite() {
+            true if features::LIMITED && !self.scale.is_empty() => end * read(self.scale, at),
             _ => end,
-        });
-        ends
+        })
     }
 
     /// What the load of an exchanged edge has beyond b.

@@ -60,7 +60,6 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         copy(Array::Dirichlet, base.dirichlet, self.dirichlet)?;
         copy(Array::Dirichlet, base.ends.given, self.dirichlet_ends)?;
         copy(Array::Robin, base.transfer, self.transfer)?;
-        #[cfg(feature = "limited")]
         copy(Array::ContactSpans, base.spans.lengths(), self.spans)?;
         for (pattern, &p) in patterns.iter().zip(inputs) {
             pattern.add(p, self);
@@ -68,13 +67,9 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
         if features::TRANSFER {
             self.transfer(patterns, inputs);
         }
-        #[cfg(feature = "limited")]
-        super::ranges::check(
-            self.spans,
-            [base.spans.lengths(), base.contact_flux],
-            patterns,
-            inputs,
-        )?;
+        if features::LIMITED {
+            super::ranges::check(self.spans, base.spans.lengths(), patterns, inputs)?;
+        }
         if features::CURVED {
             same_length_or_empty(Array::Edges, self.curved.len(), base.curved_sums.len())?;
             let sums = base.curved_sums.iter().zip(self.curved.iter_mut());
@@ -114,11 +109,7 @@ impl<R: Real, I: Index> DataMemory<'_, R, I> {
 
     /// The ranges of fluxes on contact edges.
     fn spans<'d>(&'d self, base: Spans<'d, R>) -> Spans<'d, R> {
-        #[cfg(feature = "limited")]
-        if !self.spans.is_empty() {
-            return Spans::baked(self.spans, base.excess());
-        }
-        base
+        if self.spans.is_empty() { base } else { Spans::baked(self.spans, base.excess()) }
     }
 }
 

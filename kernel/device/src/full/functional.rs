@@ -17,7 +17,6 @@ pub enum Functional<'a, R, I> {
     /// The length of those of these contact edges that are active, with the length of each.
     Length(&'a [Contribution<R, I>]),
     /// The length of those of these contact edges whose flux is at its limit, with the length of each.
-    #[cfg(feature = "limited")]
     Saturated(&'a [Contribution<R, I>]),
     /// u at a point: a sum over edges, with the weight of each.
     Probe(&'a [Contribution<R, I>]),
@@ -57,12 +56,11 @@ impl<R: Real, I: Index> Functional<'_, R, I> {
                 let touches = law.on(at).touches(read(u, free + at));
                 if touches { length } else { R::ZERO }
             }),
-            Self::Force(_) | Self::Length(_) => R::ZERO,
-            #[cfg(feature = "limited")]
-            Self::Saturated(shares) => sum(shares, |at, length| {
+            Self::Saturated(shares) if features::LIMITED => sum(shares, |at, length| {
                 let at_limit = law.on(at).is_saturated(read(u, free + at));
                 if at_limit { length } else { R::ZERO }
             }),
+            Self::Force(_) | Self::Length(_) | Self::Saturated(_) => R::ZERO,
             Self::Probe(shares) => sum(shares, |at, weight| weight * read(u, at)),
             Self::Bound => match report.verdict.certificate() {
                 Some(certificate) => certificate.total,

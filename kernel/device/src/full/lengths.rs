@@ -38,7 +38,6 @@ pub struct Numbers<T> {
     /// ∫h and u_ext at 8 points of each transfer edge.
     pub transfer: T,
     /// ∫(hi − lo) of contact edges.
-    #[cfg(feature = "limited")]
     pub spans: T,
 }
 
@@ -60,7 +59,7 @@ pub struct Lengths {
 }
 
 impl<T> Numbers<T> {
-    /// The same of every array; nothing where one has nothing.
+    /// Applies `each` to every field; `None` if it returns `None` for any.
     pub fn map<U>(self, mut each: impl FnMut(T) -> Option<U>) -> Option<Numbers<U>> {
         Some(Numbers {
             load: each(self.load)?,
@@ -76,14 +75,13 @@ impl<T> Numbers<T> {
             dirichlet: each(self.dirichlet)?,
             dirichlet_ends: each(self.dirichlet_ends)?,
             transfer: each(self.transfer)?,
-            #[cfg(feature = "limited")]
             spans: each(self.spans)?,
         })
     }
 }
 
 impl Numbers<usize> {
-    /// How many they are in all.
+    /// Total number of entries.
     pub const fn sum(&self) -> usize {
         let Self {
             load,
@@ -99,11 +97,8 @@ impl Numbers<usize> {
             dirichlet,
             dirichlet_ends,
             transfer,
-            #[cfg(feature = "limited")]
             spans,
         } = *self;
-        #[cfg(not(feature = "limited"))]
-        let spans = 0;
         let of_tick = load + u + tau + vertices + bubbles;
         let of_data = triangles + quads + contact_flux + gap + gap_ends;
         of_tick + of_data + dirichlet + dirichlet_ends + transfer + spans
@@ -139,7 +134,6 @@ impl Lengths {
             dirichlet: 0,
             dirichlet_ends: 0,
             transfer: 0,
-            #[cfg(feature = "limited")]
             spans: 0,
         };
         let (rows, active) = (counts.unknowns(), counts.contact);
@@ -156,7 +150,6 @@ impl Lengths {
             }
             Pattern::Neumann(_) => self.neumann = base.neumann.len(),
             Pattern::ContactFlux(_) => numbers.contact_flux = base.contact_flux.len(),
-            #[cfg(feature = "limited")]
             Pattern::ContactRange { fluxes, .. } => {
                 if !fluxes.is_empty() {
                     numbers.contact_flux = base.contact_flux.len();

@@ -14,7 +14,6 @@ mod data;
 mod functional;
 mod lengths;
 mod pattern;
-#[cfg(feature = "limited")]
 mod ranges;
 mod storage;
 mod transfer;

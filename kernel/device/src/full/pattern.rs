@@ -70,7 +70,6 @@ pub enum Pattern<'a, R, I> {
     /// ∫q, by number of the contact edge.
     ContactFlux(&'a [Contribution<R, I>]),
     /// An end of a range of fluxes whose both ends are finite, by number of the contact edge.
-    #[cfg(feature = "limited")]
     ContactRange {
         /// ∫lo
         fluxes: &'a [Contribution<R, I>],
@@ -107,7 +106,6 @@ pub struct DataMemory<'a, R, I> {
     pub dirichlet_ends: &'a mut [[R; 2]],
     pub curved: &'a mut [Curved<R, I>],
     pub transfer: &'a mut [[[R; 2]; 8]],
-    #[cfg(feature = "limited")]
     pub spans: &'a mut [R],
 }
 
@@ -127,8 +125,7 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
                 }
             }),
             Self::ContactFlux(shares) if features::CONTACT => add(shares, p, data.contact_flux),
-            #[cfg(feature = "limited")]
-            Self::ContactRange { fluxes, spans } => {
+            Self::ContactRange { fluxes, spans } if features::LIMITED => {
                 add(fluxes, p, data.contact_flux);
                 add(spans, p, data.spans);
             }
@@ -148,7 +145,11 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
                 }
             }
             // Coefficients need all inputs at once: see `super::transfer`.
-            Self::ContactFlux(_) | Self::Gap(_) | Self::Ambient { .. } | Self::Coefficient(_) => {}
+            Self::ContactFlux(_)
+            | Self::ContactRange { .. }
+            | Self::Gap(_)
+            | Self::Ambient { .. }
+            | Self::Coefficient(_) => {}
         }
     }
 }

@@ -3,22 +3,20 @@
 //! Where inputs change them the base of every range is its lower end, if that is finite, and the span ∫(hi − lo) is linear in
 //! the inputs. Below 0 it leaves no flux. What rounding may leave there is 0: two ends that are equal for these inputs.
 
-use super::pattern::{Contribution, Pattern};
+use super::pattern::Pattern;
 use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error};
-use signorini_kernel::index::{Index, read};
+use signorini_kernel::flux_range::settled;
+use signorini_kernel::index::Index;
 
-/// Terms of a sum whose rounding is counted, in ε.
-const ROUNDINGS: u32 = 16;
-
-/// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it. `first` holds the spans
-/// without inputs, `bases` the bases.
+/// Refuses inputs that leave a contact edge no flux, and takes 0 for what rounding brings below it ([`settled`]). `first`
+/// holds the spans without inputs.
 ///
 /// # Errors
 /// [`Error::EmptyRange`] with the first such edge, [`Error::NotFinite`] where a span overflows.
 pub(super) fn check<R: Real, I: Index>(
     spans: &mut [R],
-    [first, bases]: [&[R]; 2],
+    first: &[R],
     patterns: &[Pattern<R, I>],
     inputs: &[R],
 ) -> Result<(), Error> {
@@ -29,26 +27,22 @@ pub(super) fn check<R: Real, I: Index>(
         if !span.finite() {
             return Err(Error::NotFinite { of: Array::ContactSpans, at });
         }
-        let ends = read(bases, at).magnitude() + first.magnitude();
-        let terms = patterns
-            .iter()
-            .zip(inputs)
-            .fold(ends, |sum, (pattern, &p)| sum + p.magnitude() * (pattern.share_of(at)));
-        if *span < -R::from_count(ROUNDINGS) * R::EPSILON * terms {
-            return Err(Error::EmptyRange { contact: at });
-        }
-        *span = R::ZERO;
+        let moved = patterns.iter().zip(inputs);
+        let size = moved.fold(first.magnitude(), |sum, (pattern, &p)| {
+            sum + p.magnitude() * pattern.share_of(at)
+        });
+        let settled = settled(*span, size, inputs.len() + 1);
+        *span = settled.ok_or(Error::EmptyRange { contact: at })?;
     }
     Ok(())
 }
 
 impl<R: Real, I: Index> Pattern<'_, R, I> {
-    /// How much a unit of the input moves the ends of this contact edge's flux.
+    /// How much a unit of the input moves the span of this contact edge's flux.
     fn share_of(&self, contact: usize) -> R {
-        let Self::ContactRange { fluxes, spans } = *self else { return R::ZERO };
-        let here = |share: &&Contribution<R, I>| share.at.at() == contact;
-        let both = fluxes.iter().chain(spans).filter(here);
-        both.fold(R::ZERO, |sum, share| sum + share.weight.magnitude())
+        let Self::ContactRange { spans, .. } = *self else { return R::ZERO };
+        let here = spans.iter().filter(|share| share.at.at() == contact);
+        here.fold(R::ZERO, |sum, share| sum + share.weight.magnitude())
     }
 }
 
@@ -56,7 +50,7 @@ impl<R: Real, I: Index> Pattern<'_, R, I> {
 mod tests {
     use super::*;
     use crate::full::data::Base;
-    use crate::full::pattern::DataMemory;
+    use crate::full::pattern::{Contribution, DataMemory};
     use signorini_bound::conforming::VertexData;
     use signorini_kernel::assembly::CellLoads;
     use signorini_kernel::flux_range::Spans;
@@ -115,29 +109,21 @@ mod tests {
         assert_eq!(spans([3.0, 1.0 + 100.0 * f64::EPSILON]), Err(Error::EmptyRange { contact: 1 }));
     }
 
-    /// Up to 16 ε of |lo₀|, |hi₀ − lo₀| and all that inputs move of both ends.
+    /// Up to 6 ε of |hi₀ − lo₀| and all that the input moves of the span: bases are no terms of it.
     #[test]
     fn rounding_is_counted_by_all_terms() {
-        let of = |bases: [f64; 2], first: [f64; 2], p: f64, span: f64| {
-            let shares = [
-                Contribution { at: 0, weight: 9.0 },
-                Contribution { at: 1, weight: -2.0 },
-                Contribution { at: 1, weight: 0.5 },
-            ];
-            let (fluxes, spans) = shares.split_at(2);
-            let pattern: Pattern<f64, u16> = Pattern::ContactRange { fluxes, spans };
+        let of = |first: f64, p: f64, span: f64| {
+            let shares = [(0, 9.0), (1, -2.0), (1, 0.5), (1, 0.25)];
+            let shares = shares.map(|(at, weight)| Contribution { at, weight });
+            let (fluxes, of_span) = shares.split_at(2);
+            let pattern: Pattern<f64, u16> = Pattern::ContactRange { fluxes, spans: of_span };
             let mut spans = [1.0, span];
-            check(&mut spans, [&first, &bases], &[pattern], &[p]).map(|()| spans)
+            check(&mut spans, &[7.0, first], &[pattern], &[p]).map(|()| spans)
         };
-        let unit = 16.0 * f64::EPSILON;
-        for (bases, first, p, terms) in [
-            ([7.0, -3.0], [7.0, 0.5], 0.0, 3.5),
-            ([7.0, 0.25], [7.0, -2.0], 0.0, 2.25),
-            ([7.0, 0.0], [7.0, 0.0], -4.0, 10.0),
-        ] {
-            let within = of(bases, first, p, -0.999 * unit * terms);
-            assert_eq!(within, Ok([1.0, 0.0]), "{terms}");
-            let beyond = of(bases, first, p, -1.001 * unit * terms);
+        let unit = 6.0 * f64::EPSILON;
+        for (first, p, terms) in [(0.5, 0.0, 0.5), (-2.0, 0.0, 2.0), (0.0, -4.0, 3.0)] {
+            assert_eq!(of(first, p, -0.999 * unit * terms), Ok([1.0, 0.0]), "{terms}");
+            let beyond = of(first, p, -1.001 * unit * terms);
             assert_eq!(beyond, Err(Error::EmptyRange { contact: 1 }), "{terms}");
         }
     }

@@ -126,7 +126,6 @@ impl<R: Real, Rows, Floats, Flags, Fluxes, Laws, Bends>
                 dirichlet_ends: pairs(numbers.dirichlet_ends),
                 curved: self.curved.as_mut(),
                 transfer: pairs(numbers.transfer).as_chunks_mut().0,
-                #[cfg(feature = "limited")]
                 spans: numbers.spans,
             },
             progress: &mut self.progress,

@@ -6,13 +6,13 @@ use super::{Workspace, bound};
 use crate::condition::{BoundaryEdge, Condition};
 use signorini_kernel::Real;
 use signorini_kernel::assembly::{self, CellLoads};
-use signorini_kernel::error::{Array, Error, all_finite, same_length};
+use signorini_kernel::error::{Array, Error, all_finite, known, same_length};
 use signorini_kernel::features;
 use signorini_kernel::index::{Index, read};
 use signorini_kernel::mesh::Mesh;
 use signorini_kernel::mesh::boundary::{Boundary, Neumann, Robin};
 use signorini_kernel::mesh::diagonal::DiagonalTerms;
-use signorini_kernel::mesh::edges::{Edges, known};
+use signorini_kernel::mesh::edges::Edges;
 
 impl<
     R: Real,
