@@ -249,7 +249,7 @@ fn the_dense_problem_is_a_c_header() {
     assert!((0..64 * 64).all(|at| numbers[at] == numbers[at % 64 * 64 + at / 64]), "symmetric");
 }
 
-/// What a module prints for a Cargo.toml builds as it stands, in a package anywhere.
+/// The line for a Cargo.toml that a module prints builds as it stands, in a package anywhere.
 #[test]
 fn the_dependency_line_builds_as_printed() {
     let (status, _, _, source) = bake(LEVEE, &[], &[]);

@@ -208,7 +208,7 @@ value = "0"
 kind = "contact"
 "#;
 
-/// What to replace in a good scene, by what, and a part of the message.
+/// A part of a good scene, its replacement, and a part of the message.
 #[rustfmt::skip]
 const WRONG_SCENES: &[(&str, &str, &str)] = &[
     ("conductivity = \"1\"", "conductivity = \"-1\"", "material.default.conductivity"),
@@ -247,7 +247,7 @@ const WRONG_SCENES: &[(&str, &str, &str)] = &[
     ("[source]", "[time]\nstep = 0\nend = 1\n[source]", "time.step"),
 ];
 
-/// The same for the mesh.
+/// A part of a good mesh, its replacement, and a part of the message.
 #[rustfmt::skip]
 const WRONG_MESHES: &[(&str, &str, &str)] = &[
     ("2.2 0 8", "3.0 0 8", "3.0"),

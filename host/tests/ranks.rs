@@ -81,7 +81,7 @@ fn merge(folder: &Path) -> Result<u8> {
     Ok(0)
 }
 
-/// What rank 0 merged; the journals are gone.
+/// The journal that rank 0 merged; the others are gone.
 fn merged(folder: &Path) -> Vec<Option<f64>> {
     let names = folder.read_dir().unwrap().map(|entry| entry.unwrap().file_name());
     assert_eq!(names.collect::<Vec<_>>(), ["roots.json"]);

@@ -1,4 +1,4 @@
-//! What the page on robustness says of the extremes, of fuzzing and of mutants is what their committed records hold.
+//! The page on robustness quotes the committed records of extremes, fuzzing and mutants.
 
 use serde_json::Value;
 

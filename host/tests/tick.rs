@@ -209,7 +209,7 @@ const WRONG_LOGS: &[(&str, &str, &str)] = &[
     ("t,rain\n0,1\n1\n", "3", "1 fields, expected 2"),
 ];
 
-/// What is far from 1 plays in other units, and each number of the table comes back in the scene's.
+/// Data far from 1 are played in other units, and each number of the table comes back in the scene's.
 #[test]
 fn other_units_change_no_digit() {
     let units = Units { u: 2f64.powi(-60), conductivity: 2f64.powi(-80) };
@@ -289,7 +289,7 @@ fn in_time(mesh: &str, value: &str, gap: &str, more: &str) -> String {
     )
 }
 
-/// What to put for the Dirichlet value and the gap of a scene, further sections, and parts of the
+/// A Dirichlet value and a gap of a scene, further sections, and parts of the
 /// message.
 const WRONG_IN_TIME: &[(&str, &str, &str, &[&str])] = &[
     ("1/(2 - t)", "0", "", &["boundary.dirichlet.value", "a.toml:7:", "t = 2"]),

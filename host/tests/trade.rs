@@ -313,7 +313,7 @@ fn the_page_quotes_the_record() {
 /// Scenes whose fluxes have limits: others take their dual problem or slacks, and the page has a table of its own for them.
 const LIMITED: [&str; 1] = ["antiicing"];
 
-/// What is said of condensed warm ticks, on scenes with more than rounding to be wrong about.
+/// The ratios of condensed warm ticks, on scenes with more than rounding to be wrong about.
 #[test]
 fn the_page_says_how_far_condensed_ticks_are_ahead() {
     let page = page();
@@ -401,7 +401,7 @@ fn the_page_says_how_far_condensed_ticks_are_ahead() {
     assert!(missing.is_empty(), "docs/benchmarks.md lacks\n{}", missing.join("\n"));
 }
 
-/// What micromath costs in the kernel and in load data.
+/// The costs of micromath in the kernel and in load data.
 #[test]
 fn the_page_says_what_micromath_costs() {
     let page = page();

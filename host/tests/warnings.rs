@@ -1,4 +1,4 @@
-//! What is no error but may not be meant: once on standard error, and in the summary.
+//! Warnings of what may not be meant: once on standard error, and in the summary.
 
 use signorini_scene::mesh::gmsh::write;
 use signorini_scene::mesh::structured::{Cells, grid};

@@ -69,7 +69,7 @@ impl Grid {
         Self::rectangle([-1.0, 0.0], [1.0, 1.0], 2 * n, n, cells)
     }
 
-    /// The same mesh with every vertex of the inside of (−1, 1) × (0, 1) moved by
+    /// A copy with every vertex of the inside of (−1, 1) × (0, 1) moved by
     /// 0.05 sin πx sin πy in both coordinates, which is zero on the boundary.
     pub fn moved_smoothly(mut self) -> Self {
         for v in self.vertices.iter_mut().filter(|v| is_inside(**v)) {
@@ -79,7 +79,7 @@ impl Grid {
         self
     }
 
-    /// The same mesh (n squares over the height 1) with the inner vertices of every other column
+    /// A copy (n squares over the height 1) with the inner vertices of every other column
     /// of vertices moved up by h/4 and those of the columns between down by h/4: the quads along the
     /// bottom and the top stay trapezoids however fine the mesh; those between are parallelograms.
     pub fn moved_to_trapezoids(mut self, n: u32) -> Self {

@@ -1,4 +1,4 @@
-//! What the tests of the workspace are judged by, written from the paper's formulas and from
+//! The judges of the workspace's tests, written from the paper's formulas and from
 //! nothing else: no line here uses the kernel or the host, so agreement means something. Only `hostile`
 //! calls both: it compares with nothing, and asks whether arbitrary bytes can break them.
 //!

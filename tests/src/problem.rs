@@ -22,7 +22,7 @@ pub type CellScalar = Arc<dyn Fn(usize, Point) -> f64 + Send + Sync>;
 /// A = [a_xx, a_xy, a_yy] likewise.
 pub type CellTensor = Arc<dyn Fn(usize, Point) -> [f64; 3] + Send + Sync>;
 
-/// What holds on a boundary edge; n is outward.
+/// The condition on a boundary edge; n is outward.
 #[derive(Clone)]
 pub enum Boundary {
     /// u = value.

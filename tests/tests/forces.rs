@@ -42,7 +42,7 @@ fn stops(random: &mut Random) -> Vec<u32> {
     (1..9).chain([late(), late(), late()]).collect()
 }
 
-/// What the table of edges says.
+/// Sums of the table of edges.
 #[derive(Debug)]
 struct Table {
     /// Σ λ
@@ -208,7 +208,7 @@ fn full_models_that_are_cut_off_in_f32() {
     full_models::<f32>(FORCE_OF_EDGES_NARROW);
 }
 
-/// What rounding may do to Σ w max(r, 0): ε of each term of r, once for every term.
+/// The effect of rounding on Σ w max(r, 0): ε of each term of r, once for every term.
 fn rounding<R: Scalar>(of: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
     let size = |i: usize| {
         let row = &of.matrix[i * of.contact..(i + 1) * of.contact];

@@ -1,4 +1,4 @@
-//! What the naive twin computes meets the identities of the method, which proves it where no table
+//! The naive twin's answers meet the identities of the method, which proves it where no table
 //! of targets reaches: patches, conservation, complementarity, closed forms.
 
 use std::sync::Arc;

@@ -30,7 +30,7 @@ pub fn four_sides(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
-/// The same with all vertices moved: along the boundary there, along x = 0 where A may jump.
+/// A copy with all vertices moved: along the boundary there, along x = 0 where A may jump.
 pub fn scattered(random: &mut Random, n: u32, cells: Cells) -> Mesh {
     let mut mesh = regular(n, cells);
     let most = MOVE / f64::from(n);
@@ -47,7 +47,7 @@ pub fn scattered(random: &mut Random, n: u32, cells: Cells) -> Mesh {
     mesh
 }
 
-/// The same mesh with its cells listed backwards and each from its next corner on.
+/// A copy with its cells listed backwards and each from its next corner on.
 pub fn relisted(mut mesh: Mesh) -> Mesh {
     let (triangles, quads) = (mesh.triangles.len() as u32, mesh.quads.len() as u32);
     mesh.triangles.reverse();
@@ -65,13 +65,13 @@ pub fn relisted(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
-/// The same mesh in another unit of length.
+/// A copy in another unit of length.
 pub fn scaled(mut mesh: Mesh, length: f64) -> Mesh {
     mesh.vertices.iter_mut().for_each(|place| *place = place.map(|x| length * x));
     mesh
 }
 
-/// The same rectangle cut along x = 0, where the curve `slit` runs on both sides.
+/// The rectangle cut along x = 0, where the curve `slit` runs on both sides.
 pub fn split(mut mesh: Mesh) -> Mesh {
     let all = (0u32..).zip(&mesh.vertices);
     let middle: Vec<u32> = all.filter(|(_, place)| place[0] == 0.0).map(|(at, _)| at).collect();

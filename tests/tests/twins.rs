@@ -29,7 +29,7 @@ use signorini_tests::random::{self, Random};
 use signorini_tests::{contact as twin_contact, flux as twin_flux};
 use signorini_tolerances::twins::{KERNEL_AGREEMENT, KERNEL_FLUX, NARROW_AGREEMENT, ONE_SWEEP};
 
-/// What kernel and twin are compared by.
+/// The numbers that kernel and twin are compared by.
 struct Answer {
     converged: bool,
     means: BTreeMap<Edge, f64>,

@@ -53,7 +53,7 @@ impl Model {
         Self::of(Scene::read(&folder.join(format!("{file}.toml")))?, mesh)
     }
 
-    /// That of s and the mended τ of (p, x).
+    /// The distance of s and the mended τ of (p, x).
     fn distance(&self, p: &[f64], x: &[f64]) -> Result<Distance> {
         let answer = self.recovery.admissible(&self.condensate, &self.problem, p, x);
         let answer = answer.expect("a certificate");

@@ -44,7 +44,7 @@ const STEPS: [[f64; 3]; 7] = [
     [-3.0, 0.0, 0.5],
 ];
 
-/// What is expected of each tick.
+/// Expectations of each tick.
 struct Expected<'e> {
     work: Work,
     is_exact: bool,

@@ -1,4 +1,4 @@
-//! What controllers say of their outputs holds for all inputs within the ranges: against meshes that are refined twice.
+//! Intervals of controllers' outputs hold for all inputs within the ranges: against meshes that are refined twice.
 
 use std::path::{Path, PathBuf};
 

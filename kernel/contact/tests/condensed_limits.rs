@@ -99,7 +99,7 @@ impl Drawn {
         .within_sides()
     }
 
-    /// The same without a limit, as scenes without any have it.
+    /// A form without a limit, as scenes without any have it.
     fn unlimited(draw: &mut Draw) -> Self {
         let drawn = Self::new(draw);
         Self { spans: [UP; EDGES], span_excess: 0.0, is_limited: false, ..drawn }.within_sides()
@@ -215,7 +215,7 @@ impl Drawn {
             .then(|| (square + change * change).sqrt())
     }
 
-    /// What crossing the gap costs; nothing where u_D is on a side that there is not.
+    /// The price of crossing the gap; `None` where u_D is on a side that there is not.
     fn price(&self) -> Option<f64> {
         let corner = self.excess[0] * self.p[0] + self.excess[1] * self.p[1];
         let mut sum = 0.0;
@@ -291,7 +291,7 @@ fn bounds_are_those_of_the_formulas(is_limited: bool) -> Result<(), Error> {
     Ok(())
 }
 
-/// What rounding hides grows with spans that r is compared with, and with those that inputs make.
+/// Rounding grows with spans that r is compared with, and with those that inputs make.
 #[test]
 fn large_spans_count_in_the_rounding() -> Result<(), Error> {
     let of = |change: &dyn Fn(&mut Drawn)| {
@@ -400,7 +400,7 @@ fn spans_follow_the_inputs() -> Result<(), Error> {
 }
 
 impl Drawn {
-    /// What rounding may hide, as the certificate has it for norms of 1, stability and loads as in [`Drawn::certify`].
+    /// The certificate's allowance for rounding, for norms of 1, stability and loads as in [`Drawn::certify`].
     fn rounding(&self, gap: f64) -> Option<f64> {
         let epsilon = f64::EPSILON;
         let (n, m) = (EDGES as f64, INPUTS as f64);
@@ -493,7 +493,7 @@ fn at_the_least_flux(excess: [f64; INPUTS]) -> Drawn {
     drawn
 }
 
-/// What rounding of r and of u_D − ψ may hide is charged where the formulas are 0.
+/// Rounding of r and of u_D − ψ is charged where the formulas are 0.
 #[test]
 fn where_the_law_holds_rounding_alone_is_charged() -> Result<(), Error> {
     let gap = |drawn: &Drawn| Ok::<_, Error>(drawn.certify()?.certificate().unwrap().duality_gap);
@@ -526,7 +526,7 @@ fn where_the_law_holds_rounding_alone_is_charged() -> Result<(), Error> {
     Ok(())
 }
 
-/// What is mended leaves where there is room for it, rounding included.
+/// A mended surplus leaves where there is room for it, rounding included.
 #[test]
 fn a_way_out_needs_room_for_what_rounding_may_hide() -> Result<(), Error> {
     for (lacking, is_bounded) in [(1e-9, true), (0.0, false), (-1e-9, false)] {

@@ -95,7 +95,7 @@ struct Ticked {
     output: f64,
 }
 
-/// The same by hand: x of two edges, whichever of them touch.
+/// The answer by hand: x of two edges, whichever of them touch.
 fn by_hand(q: f64, h: f64) -> ([f64; 2], f64) {
     let t = (h - 2.5) / 4.0;
     let gain = NU.map(|nu| t / (1.0 + t * nu));

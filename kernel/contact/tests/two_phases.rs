@@ -43,7 +43,7 @@ fn matrix(n: usize, draw: &mut Draw) -> Vec<Block<f64>> {
     blocks
 }
 
-/// What a solve from the edges `open` took, after its answer was checked.
+/// The exchanges of a solve from the edges `open`, after its answer was checked.
 fn exchanges(n: usize, blocks: &[Block<f64>], load: &[f64], open: &[bool]) -> Result<u32, Error> {
     let length = padded(n);
     let [mut x, mut residual, mut scratch, mut column, mut next] =

@@ -1,4 +1,4 @@
-//! What a condensed tick says: who ends it, why it has no bound, and what a reset takes back.
+//! Reports of condensed ticks: their ends, reasons for no bound, and the effect of a reset.
 
 #[path = "../../contact/tests/condensed/strip.rs"]
 #[allow(dead_code)] // Other tests need more of it.

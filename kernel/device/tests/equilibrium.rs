@@ -19,7 +19,7 @@ use signorini_kernel::stiffness::{self, Coefficient, Stiffness};
 use signorini_kernel::{Error, Tensor, assembly, psor};
 use signorini_tolerances::kernel::BALANCE;
 
-/// What a run leaves behind.
+/// The remains of a run.
 struct Run {
     /// A contact edge that is pulled at.
     pulled: Option<usize>,

@@ -33,7 +33,7 @@ fn all_arrays_count_once() {
     assert_eq!(POWERS.sum(), (1 << 14) - 1);
 }
 
-/// What the type takes here has three lengths of 64 bits where the target has 32, and is aligned.
+/// The type has three lengths of 64 bits here where the target has 32, and is aligned.
 #[test]
 fn bytes_are_those_of_the_type() {
     type Own = ArrayStorage<

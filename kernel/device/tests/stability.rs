@@ -1,4 +1,4 @@
-//! What surplus costs, by element matrices of which the scalar has lost something: a loss is never told as a small number.
+//! The cost of surplus, by element matrices of which the scalar has lost something: a loss is never told as a small number.
 
 use signorini_bound::cells::{CellBuffers, Quad, Triangle, pack};
 use signorini_bound::certificate::{Metric, Stability, stability};

@@ -411,7 +411,7 @@ fn takes(
     }
 }
 
-/// The same ticks twice, with some between that are refused.
+/// Equal ticks twice, with some between that are refused.
 #[test]
 fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;
@@ -438,7 +438,7 @@ fn data_too_large_for_an_answer_are_refused_and_change_no_bit() -> Result<(), Er
     Ok(())
 }
 
-/// What data of any size have left leads to the answer that a cold start leads to.
+/// Leftovers of data of any size lead to the answer that a cold start leads to.
 #[test]
 fn after_extreme_ticks_an_ordinary_one_is_right() -> Result<(), Error> {
     let foundation = Foundation::new(SIDES, false)?;

@@ -54,7 +54,7 @@ fn number(plate: &Plate, mesh: &Mesh<f64, u16>, vertices: [u16; 2]) -> usize {
     (0..edges.counts().edges()).find(is_it).expect("an edge")
 }
 
-/// What the square says, cut in two or whole, with this A and this on the boundary.
+/// The verdict on the square, cut in two or whole, with this A and this on the boundary.
 fn of_square(
     (triangles, quads): (&[[u16; 3]], &[[u16; 4]]),
     a: Coefficient<f64>,
@@ -322,7 +322,7 @@ fn a_determinant_that_cancels_is_refused() -> Result<(), Error> {
     Ok(())
 }
 
-/// The same A across the side along (2, 1), with N = (−½, 1): 1 in all over 2η left, twice the κ of det A.
+/// A of the last test across the side along (2, 1), with N = (−½, 1): 1 in all over 2η left, twice the κ of det A.
 #[test]
 fn a_side_that_cancels_is_refused() -> Result<(), Error> {
     let vertices = [[3.0, 5.0], [7.0, 5.0], [7.0, 7.0]];

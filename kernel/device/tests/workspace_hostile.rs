@@ -137,7 +137,7 @@ fn bounds_hold_where_shape_and_tensor_cancel() -> Result<(), Error> {
     Ok(())
 }
 
-/// What a condition says the second time counts; where that is refused, nothing is answered.
+/// A condition's second answer counts; where that is refused, nothing is answered.
 #[test]
 fn a_condition_that_changes_its_mind() -> Result<(), Error> {
     let mesh = Mesh::<f64, u16>::new(&SQUARE, &TWO, &[])?;

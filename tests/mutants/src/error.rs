@@ -1,4 +1,4 @@
-//! What can go wrong: a sentence.
+//! Errors are sentences.
 
 /// With an error that is a sentence.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;

@@ -9,7 +9,7 @@ use crate::error::{Result, failed};
 use crate::mutant::Mutant;
 use crate::suite::{Ended, Test};
 
-/// What became of a mutant.
+/// The fate of a mutant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// A test failed.
@@ -20,9 +20,9 @@ pub enum Outcome {
     Missed,
     /// No test comes past it.
     Unreached,
-    /// It does not compile.
+    /// The mutant does not compile.
     Unviable,
-    /// It has no switch.
+    /// The mutant has no switch.
     Unswitched,
 }
 
@@ -40,7 +40,7 @@ impl Outcome {
     }
 }
 
-/// What a test has been good for.
+/// The record of a test.
 #[derive(Debug, Clone, Copy, Default)]
 struct Merit {
     kills: u32,

@@ -253,7 +253,7 @@ impl<'a> Switches<'a> {
     }
 }
 
-/// What a mutant alone brings.
+/// The parts that a mutant alone brings.
 fn mark(id: u32, text: &str) -> String {
     format!("/*<m{id}*/ {text} /*m{id}>*/")
 }

@@ -32,12 +32,12 @@ struct Place {
     is_primary: bool,
 }
 
-/// What of the mutants can be told before any test.
+/// Verdicts on mutants before any test.
 #[derive(Default)]
 pub struct Viability {
-    /// Those that do not compile.
+    /// Mutants that do not compile.
     pub unviable: BTreeSet<u32>,
-    /// Those whose switch does not compile, which tells nothing of the mutant itself.
+    /// Mutants whose switch does not compile, which tells nothing of the mutant itself.
     pub unswitched: BTreeSet<u32>,
     /// Functions that constants call.
     pub constant: BTreeSet<String>,

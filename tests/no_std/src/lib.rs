@@ -31,7 +31,7 @@ pub extern "C" fn force_f32_u16(load: f32) -> f32 {
     force::<f32, u16>(load)
 }
 
-/// The same in `f64`, numbered by `u32`.
+/// The bar in `f64`, numbered by `u32`.
 #[unsafe(no_mangle)]
 pub extern "C" fn force_f64_u32(load: f64) -> f64 {
     force::<f64, u32>(load)

@@ -16,7 +16,7 @@ mod cycles;
 
 /// Iterations after which it is given up.
 const MOST: u32 = 50_000;
-/// What OSQP takes for infinity.
+/// OSQP's infinity.
 const INFINITY: f64 = 1e30;
 
 /// q and r.
@@ -54,12 +54,12 @@ struct Question {
 #[derive(Deserialize, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 enum Manner {
-    /// As it comes; the tolerance has no say.
+    /// OSQP as it comes; the tolerance has no say.
     Defaults,
-    /// It looks every 5 iterations, not 25, whether the tolerance is met, and adapts its step by iterations,
+    /// A look at the tolerance every 5 iterations, not 25, and steps adapted by iterations,
     /// not by the clock: the same every time.
     Watched,
-    /// The same, after every iteration.
+    /// A look at the tolerance after every iteration.
     Eager,
     /// Every 5 iterations, and the answer solved again on the bounds found active.
     Polished,
@@ -145,7 +145,7 @@ fn settings(question: &Question) -> Settings {
         .polish(question.manner == Manner::Polished)
 }
 
-/// As OSQP takes a matrix of so many rows.
+/// A matrix of so many rows as OSQP takes it.
 fn columns(given: &Columns, rows: usize) -> CscMatrix<'_> {
     CscMatrix {
         nrows: rows,

@@ -35,7 +35,7 @@ impl Bits for f32 {
 }
 
 impl<'a> Bytes<'a> {
-    /// All of `data`.
+    /// Begins with the first byte of `data`.
     pub fn new(data: &'a [u8]) -> Self {
         Self { rest: data }
     }
@@ -62,7 +62,7 @@ impl<'a> Bytes<'a> {
         self.byte() & 1 == 1
     }
 
-    /// What is left.
+    /// The bytes that are left.
     pub fn rest(&self) -> &'a [u8] {
         self.rest
     }

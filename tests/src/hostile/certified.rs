@@ -1,4 +1,4 @@
-//! What a certificate stands on, for any sound numbering: owned arrays, filled from bytes.
+//! The foundation of a certificate, for any sound numbering: owned arrays, filled from bytes.
 
 use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{
@@ -119,7 +119,7 @@ impl<R: Bits> Foundation<R> {
         Ok(foundation)
     }
 
-    /// As the kernel takes it.
+    /// The view that the kernel takes.
     pub fn discretization<'a>(
         &'a self,
         mesh: Mesh<'a, R, u16>,
@@ -177,7 +177,7 @@ impl<R: Bits> Loads<R> {
         }
     }
 
-    /// As a certificate takes them.
+    /// The view that a certificate takes.
     pub fn given(&self, edges: &Edges<u16>) -> Result<LoadCase<'_, R, u16>, Error> {
         let [gap, given] = &self.ends;
         Ok(LoadCase {
@@ -190,7 +190,7 @@ impl<R: Bits> Loads<R> {
         })
     }
 
-    /// As a tick takes them.
+    /// The view that a tick takes.
     pub fn data(&self, edges: &Edges<u16>) -> Result<Data<'_, R, u16>, Error> {
         Ok(Data { given: self.given(edges)?, law: self.law()?, dirichlet: &self.dirichlet })
     }
@@ -199,7 +199,7 @@ impl<R: Bits> Loads<R> {
         Spans::new(&self.spans)
     }
 
-    /// What holds on C.
+    /// The law on C.
     pub fn law(&self) -> Result<Law<'_, R>, Error> {
         Ok(Law::above(&self.lower).with_spans(self.spans()?))
     }

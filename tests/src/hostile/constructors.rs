@@ -91,7 +91,7 @@ impl Numbering {
         Self { of_triangles, of_quads, half_edges, counts }
     }
 
-    /// The same with some entries and counts of any bits.
+    /// A copy with some entries and counts of any bits.
     fn damaged(mut self, bytes: &mut Bytes) -> Self {
         for _ in 0..bytes.below(4) {
             let entry = bytes.bits() as u16;
@@ -209,7 +209,7 @@ fn in_a_workspace<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     workspace.contact_length::<Libm>(&mesh).map(drop)
 }
 
-/// Those that take a few numbers.
+/// Constructors that take a few numbers.
 fn small_ones<R: Bits>(bytes: &mut Bytes) -> Result<(), Error> {
     let tensor = Tensor { xx: bytes.real::<R>(), xy: bytes.real(), yy: bytes.real() };
     if tensor.is_positive_definite() {

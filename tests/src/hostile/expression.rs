@@ -53,7 +53,7 @@ fn accepted(
     assert!(expression.calls(function) > 0 || alike(fast, value), "{fast} {value}");
 }
 
-/// The same number, or neither is one.
+/// Whether both are one number, or neither is one.
 fn alike(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }

@@ -30,7 +30,7 @@ pub fn mesh(data: &[u8]) {
 /// Cells of a mesh that is worth solving on.
 const MOST_SOLVED: usize = 24;
 
-/// What [`Mesh`] promises, and no more of anything than the file can hold.
+/// The promises of [`Mesh`], and no more of anything than the file can hold.
 fn sound(mesh: &Mesh, length: usize) {
     let Mesh { vertices, triangles, quads, surfaces, curves } = mesh;
     assert!(mesh.cells() > 0 && vertices.len() + mesh.cells() <= length);

@@ -1,4 +1,4 @@
-//! What a refusal must be.
+//! Requirements of a refusal.
 
 use signorini_scene::error::Error;
 

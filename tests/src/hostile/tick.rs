@@ -113,7 +113,7 @@ fn limits<R: Bits>(bytes: &mut Bytes) -> Limits<R> {
     Limits { error: bytes.real(), share: bytes.real(), sweeps: bytes.below(100) as u32 }
 }
 
-/// What is said of an answer that is no overflow.
+/// Requirements of a report that is no overflow.
 fn answered<R: Bits>(report: &Report<R>) {
     if report.ended == Ended::NotFinite {
         return;

@@ -8,7 +8,7 @@ use crate::polynomial::Polynomial;
 /// A solution with A = k where X < 0 and 1 where X > 0, in contact where it should be (q = 0).
 #[derive(Clone, Debug)]
 pub struct TwoMaterials {
-    /// What the catalogue calls it.
+    /// The name in the catalogue.
     pub name: String,
     u: String,
     gradient: [String; 2],
@@ -119,7 +119,7 @@ impl TwoMaterials {
         }
     }
 
-    /// As the catalogue has it.
+    /// The scene of the catalogue.
     pub fn written(&self) -> Written {
         self.transformed(0.0, 1.0)
     }

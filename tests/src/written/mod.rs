@@ -9,7 +9,7 @@ mod smooth;
 pub use catalogue::TwoMaterials;
 pub use smooth::{Contact, Smooth};
 
-/// What lies on a side other than the bottom.
+/// The condition on a side other than the bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The value of u.
@@ -28,7 +28,7 @@ pub const SIDES: [&str; 3] = ["left", "right", "top"];
 pub struct Units {
     /// The half of the width of the domain.
     pub length: f64,
-    /// What u = 1 becomes.
+    /// The value that u = 1 becomes.
     pub value: f64,
 }
 

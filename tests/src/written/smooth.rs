@@ -4,7 +4,7 @@ use super::Written;
 use crate::polynomial::Polynomial;
 use crate::random::Random;
 
-/// What happens at the bottom.
+/// The condition at the bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
     /// u = ψ and λ > 0.

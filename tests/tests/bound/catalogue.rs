@@ -22,7 +22,7 @@ fn cases() -> Vec<Named> {
     cases
 }
 
-/// Those of them that are farthest off when cut off.
+/// Scenes that are farthest off when cut off.
 fn slow_cases() -> Vec<Named> {
     let cases = [
         TwoMaterials::b(),
@@ -38,7 +38,7 @@ fn slow_cases() -> Vec<Named> {
 /// Bound over energy error of u_h at convergence: √2 where s and σ_h err alike, and some more for
 /// s at free points.
 const CONVERGED: f64 = 2.0;
-/// The same cut off; 7.5 at worst, H_g after one sweep from a start far below the solution.
+/// Bounds of cut-off solves over errors; 7.5 at worst, H_g after one sweep from a start far below the solution.
 const CUT_OFF: f64 = 8.0;
 
 #[test]

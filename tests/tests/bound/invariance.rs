@@ -1,4 +1,4 @@
-//! What must not change the bound: the order of the cells, the units.
+//! Changes that must not move the bound: the order of the cells, the units.
 
 use signorini_solve::ScalarKind;
 use signorini_tests::random::Random;

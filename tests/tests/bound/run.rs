@@ -17,7 +17,7 @@ pub struct Run {
     pub solution: Solution,
 }
 
-/// What the bound says, and what is true.
+/// The bound, and the truth.
 #[derive(Clone, Copy, Debug)]
 pub struct Certified {
     pub bound: ErrorBound,

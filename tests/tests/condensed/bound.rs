@@ -24,7 +24,7 @@ const WORKS: [Work; 5] = [
 /// Random scenes to draw.
 const SEEDS: u64 = 60;
 
-/// What came of many bounds.
+/// The outcome of many bounds.
 #[derive(Debug, Clone, Copy, Default)]
 struct Found {
     /// The largest part of the stated rounding that there was, and that of which model.

@@ -114,7 +114,7 @@ fn any_number_of_edges_lifted_or_pressed() {
     any_number_of_edges::<f64>();
 }
 
-/// What overflows is an error or a number, never NaN, and the next tick knows nothing of it.
+/// An overflow is an error or a number, never NaN, and the next tick knows nothing of it.
 #[test]
 fn inputs_at_the_end_of_the_range() {
     for work in WORKS {

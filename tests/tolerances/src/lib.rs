@@ -43,7 +43,7 @@ pub const TABLES: [&[Tolerance]; 8] = [
 mod tests {
     use super::{TABLES, seen};
 
-    /// It announces every entry as well, so that one without a comparison is found.
+    /// Every entry is announced as well, so that one without a comparison is found.
     #[test]
     fn entries_have_distinct_names_positive_values_and_reasons() {
         let all = TABLES.concat();

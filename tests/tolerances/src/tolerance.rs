@@ -32,14 +32,14 @@ impl Tolerance {
         );
     }
 
-    /// The same for a difference relative to `size`; where both are 0, nothing is off.
+    /// Checks a difference relative to `size`; where both are 0, nothing is off.
     #[track_caller]
     pub fn check_over(&self, what: impl Display, difference: impl Into<f64>, size: impl Into<f64>) {
         let (difference, size) = (difference.into(), size.into());
         self.check(what, if difference == 0.0 { 0.0 } else { difference / size });
     }
 
-    /// The same for the deviation of `measured` relative to `expected`.
+    /// Checks the deviation of `measured` relative to `expected`.
     #[track_caller]
     pub fn check_relative(
         &self,
@@ -52,7 +52,7 @@ impl Tolerance {
         self.check_over(what, measured - expected, expected);
     }
 
-    /// The same for how far `measured` lies above `most`, relative to it.
+    /// Checks how far `measured` lies above `most`, relative to it.
     #[track_caller]
     pub fn check_at_most(
         &self,
@@ -65,7 +65,7 @@ impl Tolerance {
         self.check(what, if measured <= most { 0.0 } else { (measured - most) / measured });
     }
 
-    /// The same for the largest difference between two rows of numbers.
+    /// Checks the largest difference between two rows of numbers.
     #[track_caller]
     pub fn check_each<R: Into<f64> + Copy>(&self, what: impl Display, found: &[R], expected: &[R]) {
         assert_eq!(found.len(), expected.len(), "{what}");

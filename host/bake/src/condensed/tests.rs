@@ -216,7 +216,7 @@ fn outputs_in<R: Scalar>(units: Units) -> Result<Vec<f64>> {
     Ok(outputs.iter().zip(quantities).map(|(output, unit)| output.wide() / unit).collect())
 }
 
-/// As long as the answers are within range: condensed models have a unit of energy.
+/// Condensed models have a unit of energy: squares may leave the range as long as the answers are within it.
 #[test]
 fn other_units_change_no_digit() -> Result<()> {
     let powers = |u, a| Units { u: 2f64.powi(u), conductivity: 2f64.powi(a) };

@@ -359,7 +359,7 @@ fn kinks_on_two_sides_of_a_cell_meet() -> Result<()> {
     energies_of_pairs(&scene)
 }
 
-/// As many waves along an edge as panels for smooth data find, twice as many in a product of two.
+/// Waves along an edge, as many as panels for smooth data find, and twice as many in a product of two.
 #[test]
 fn waves_on_two_sides_of_a_cell_meet() -> Result<()> {
     for tensor in ["[\"1\", \"-0.95\", \"1\"]", "\"1\""] {
@@ -445,7 +445,7 @@ fn a_derivative_across_the_edge_does_not_matter() -> Result<()> {
     Ok(())
 }
 
-/// What the points miss of |x − 0.3|^0.6 is in the bound: finer panels do not find more than was said.
+/// The bound has the part of |x − 0.3|^0.6 that points miss: finer panels do not find more than was said.
 #[test]
 fn what_the_points_miss_is_told() -> Result<()> {
     // w′ = 0.6·2^-0.6 |t − 0.6|^-0.4 − chord on the edge from 0 to 0.5, whose ∫w′² is known.

@@ -13,7 +13,7 @@ use signorini_problem::fixtures::limited::{three_states, two_transitions};
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Mesh, gmsh};
 
-/// What the bound of (p, x) is about, and how far it is from the exact solution.
+/// The subject of the bound of (p, x), and its distance from the exact solution.
 struct Certified {
     problem: Problem,
     model: CondensedModel,

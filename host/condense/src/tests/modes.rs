@@ -15,7 +15,7 @@ fn with_input(pattern: &str) -> String {
     format!("{ALL}{input}pattern = \"{pattern}\"\ndefault = 1.5\nrange = [-1.0, 1000.0]\n")
 }
 
-/// The same scene where h is what it says, for this value of the input.
+/// The scene that states the h of this value of the input.
 fn stated(pattern: &str, value: f64) -> String {
     let sum = format!("coefficient = \"2+y + ({value})*({pattern})\"");
     changed(ALL, &[("coefficient = \"2+y\"", &sum)])

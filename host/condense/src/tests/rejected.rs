@@ -1,4 +1,4 @@
-//! What cannot be condensed is named; what allows for no bound is told.
+//! Scenes that cannot be condensed are refused by name; data without a bound are told.
 
 use super::*;
 use crate::condense;

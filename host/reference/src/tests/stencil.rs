@@ -2,7 +2,7 @@
 
 use crate::Problem;
 
-/// What stands on a side of the square.
+/// The condition on a side of the square.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Side {
     Contact,

@@ -1,4 +1,4 @@
-//! What `auto` chooses, and that its answers are the kernel's.
+//! The choices of `auto`, and that its answers are the kernel's.
 
 use super::{distance, read, standard_scenes};
 use crate::auto::by_factor;
@@ -28,7 +28,7 @@ source.f = "x"
 boundary.default = { kind = "neumann", flux = "0" }
 "#;
 
-/// The same answer: converged, the same active edges, u and the bound.
+/// Asserts one answer: converged, equal active edges, u and bound.
 fn same(name: &str, found: &Solution, kernel: &Solution, allowed: [Tolerance; 2]) {
     assert!(found.converged() && kernel.converged(), "{name}: {:?}", found.status);
     assert_eq!(found.contact_active, kernel.contact_active, "{name}");

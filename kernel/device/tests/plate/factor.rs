@@ -123,7 +123,7 @@ impl Store {
         Ok((Tick::new(foundation.discretization()?, memory, Relaxation::Adaptive(1.0))?, exact))
     }
 
-    /// That of a tick, and the solver as the last one left it.
+    /// Memory of a tick, and the solver as the last one left it.
     pub fn memory<'a>(
         &'a mut self,
         foundation: &'a Foundation,

@@ -14,7 +14,7 @@ pub const NONE: u16 = u16::MAX;
 /// Squares along x and y, of side 1; every other one is cut into two triangles.
 const SQUARES: [usize; 2] = [5, 4];
 
-/// What lies on a side of the plate.
+/// The condition on a side of the plate.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Side {
     Given,

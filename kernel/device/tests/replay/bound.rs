@@ -1,4 +1,4 @@
-//! What a certificate is made of, and ticks that ask for one.
+//! The parts of a certificate, and certificates themselves.
 
 use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
 use signorini_bound::certificate::{
@@ -21,7 +21,7 @@ use crate::scene::{Draw, Scalar};
 
 const NONE: u16 = u16::MAX;
 
-/// What of the discretization stays in memory.
+/// The part of the discretization that stays in memory.
 pub struct EquilibrationForest<R> {
     order: Vec<u16>,
     parent: Vec<u16>,

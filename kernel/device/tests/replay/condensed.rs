@@ -22,7 +22,7 @@ use crate::strip::Strip;
 /// The constant among them.
 const INPUTS: usize = 3;
 
-/// What a model borrows.
+/// Arrays that a model borrows.
 struct Model<R> {
     strip: Strip<R>,
     load: Vec<R>,

@@ -1,4 +1,4 @@
-//! What a stage computed, in lines: short things in full, arrays as a digest of their digits.
+//! Results of a stage, in lines: short things in full, arrays as a digest of their digits.
 //!
 //! Rust prints the shortest digits that give a float back, so equal text is equal bits.
 

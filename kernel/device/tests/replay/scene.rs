@@ -26,7 +26,7 @@ pub enum Cells {
     Mixed,
 }
 
-/// What lies on a side.
+/// The condition on a side.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Side {
     Given,
@@ -155,7 +155,7 @@ impl Scene {
         (vertices, triangles, quads)
     }
 
-    /// What lies on a boundary edge.
+    /// The condition on a boundary edge.
     pub fn side(&self, ends: [u16; 2]) -> Side {
         let width = self.columns + 1;
         let [p, q] = ends.map(|end| [usize::from(end) % width, usize::from(end) / width]);

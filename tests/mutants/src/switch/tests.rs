@@ -1,4 +1,4 @@
-//! What the rewritten text looks like.
+//! The look of the rewritten text.
 
 use std::ops::Range;
 

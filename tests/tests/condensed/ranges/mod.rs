@@ -166,7 +166,7 @@ impl Pair {
         kept.zip(&reduced.model.opening).map(|(at, own)| whole.opening[at] / own).collect()
     }
 
-    /// What mending costs is taken at the largest √s, for edges down to the smallest.
+    /// The cost of mending is taken at the largest √s, for edges down to the smallest.
     fn worth_of_mending(&self) -> f64 {
         let scales = self.scales();
         let most = scales.iter().fold(0.0, |most: f64, s| most.max(*s));

@@ -49,7 +49,7 @@ impl<R: Scalar> Tick<R> {
         Self { x: pair.reduced.expand(&p, &own), p, own, outputs, report }
     }
 
-    /// What holds of every tick, cut off or not.
+    /// Requirements of every tick, cut off or not.
     fn check(&self, pair: &Pair, solution: &[f64]) {
         let Pair { what, whole, reduced, .. } = pair;
         for (x, limits) in self.own.iter().zip(&reduced.model.limits) {

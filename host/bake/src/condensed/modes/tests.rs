@@ -42,7 +42,7 @@ output.inside = { kind = "probe", at = [0.1, 0.4] }
 output.mean = { kind = "mean", of = "right" }
 "#;
 
-/// The same, where contact pushes no harder than so much.
+/// [`AIR`], where contact pushes no harder than so much.
 fn limited() -> String {
     let text = AIR.replace("gap = \"-0.3", "limit = \"0.4\", gap = \"-0.3");
     text + "[output.saturated]\nkind = \"saturated\"\n"

@@ -60,7 +60,7 @@ fn anisotropy() -> Result<(Scene, Problem)> {
     catalogue("t-h-tri.toml", &[["\"10.0\", \"3.0\", \"1.0\"", "\"9000.001\", \"3000\", \"1000\""]])
 }
 
-/// What the host's own direct solver says for this lift.
+/// The answer of the host's own direct solver for this lift.
 fn reference(problem: &Problem, lift: f64) -> Result<Solution> {
     let problem = problem.with_inputs(&[lift])?;
     solve(&problem, &Options { solver: SolverKind::Direct, ..Options::default() })

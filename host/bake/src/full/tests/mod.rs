@@ -55,7 +55,7 @@ fn standard(name: &str) -> Result<(Scene, Problem)> {
     Ok((scene, problem))
 }
 
-/// As far down as rounding lets the algebraic part go.
+/// Limits as far down as rounding lets the algebraic part go.
 fn to_the_end<R: Scalar>() -> Limits<R> {
     Limits { error: R::ZERO, share: R::narrow(1e-9), sweeps: 200_000 }
 }

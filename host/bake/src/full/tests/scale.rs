@@ -19,7 +19,7 @@ use signorini_solve::{Scaled, choose_for_inputs};
 
 /// Inputs at which some of the contact is active.
 const INPUTS: [f64; 6] = [0.6, 0.2, 0.1, -0.2, 0.3, 0.4];
-/// Those of BENT.
+/// The inputs of BENT.
 const NEAR: Units = Units { u: 1.0, conductivity: 1.0 };
 
 fn powers(u: i32, conductivity: i32) -> Units {

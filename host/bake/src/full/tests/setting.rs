@@ -26,7 +26,7 @@ pub(super) fn scene(text: &str, cells: Cells, setting: Setting) -> Result<Proble
 /// u, τ and report.
 type Told<R> = (Vec<R>, Vec<R>, Report<R>);
 
-/// Those of ticks with these lifts of the gap.
+/// Answers of ticks with these lifts of the gap.
 fn ticks<R: Scalar>(setting: Setting, lifts: &[f64]) -> Result<Vec<Told<R>>> {
     let problem = scene(unbounded(), Cells::Quads, setting)?;
     let baked = Baked::<R>::new(&problem)?;

@@ -14,7 +14,7 @@ use signorini_scene::mesh::gmsh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
 
-/// What a module with a log prints: the bits of the outputs, the sweeps and the end of each tick.
+/// A program whose module prints, for a log, the bits of the outputs, the sweeps and the end of each tick.
 fn main(ticks: &[Vec<f32>]) -> String {
     let log: Vec<_> = ticks.iter().map(|inputs| format!("{inputs:?}")).collect();
     format!(

@@ -1,4 +1,4 @@
-//! What is proved of models whose matrix follows a transfer coefficient, against solutions of drawn inputs.
+//! Proofs about models whose matrix follows a transfer coefficient, against solutions of drawn inputs.
 
 use super::super::enclosure::Enclosure;
 use super::super::follow::FollowedRanges;

@@ -44,7 +44,7 @@ fn model(entries: Vec<f64>, n: usize, ranges: [[f64; 2]; 3], seed: u64) -> Conde
     }
 }
 
-/// What outputs reach at the corners of the box and at 200 points of it.
+/// The range of outputs at the corners of the box and at 200 points of it.
 fn reached(model: &CondensedModel, seed: u64) -> Vec<Interval> {
     let mut random = scatter(seed);
     let corners = (0..8_usize).map(|bits| {

@@ -1,4 +1,4 @@
-//! What is told of rounding, against twice as many digits: always enough, and never much more.
+//! Allowances for rounding, against twice as many digits: always enough, and never much more.
 
 use super::super::enclosure::LoadBox;
 use super::super::reduction::least;

@@ -59,7 +59,7 @@ fn each_side_is_told_with_its_limits() {
     assert!((4e-5..6e-5).contains(&limits[1][1]), "{limits:?}");
 }
 
-/// What rounding of the target's scalar may reach is not told.
+/// A side that rounding of the target's scalar may reach is not told.
 #[test]
 fn openings_that_may_be_rounding_may_change() {
     for (opening, side) in [(9e-7, EdgeSide::MayChange), (1.2e-6, EdgeSide::Open)] {
@@ -140,7 +140,7 @@ fn affine_maps_are_those_of_elimination() {
     assert_eq!(reduced.model.outputs[1], length);
 }
 
-/// What a solve leaves of r_O, and the skew part that it leaves in S′, are counted.
+/// The rest of r_O after a solve and the skew part in S′ are counted.
 #[test]
 fn rounding_of_an_elimination_is_counted() {
     let affine = |factors: &[f64], noise: &[f64]| Affine {
