@@ -18,16 +18,16 @@ pub struct ErrorBound {
     /// The bound where f, g and q have no oscillation.
     #[serde(rename = "gap")]
     pub duality_gap: f64,
-    /// What more sweeps would remove, at most the total.
+    /// The part that more sweeps would remove, at most the total.
     pub algebraic: f64,
-    /// What f, g and q leave out.
+    /// Oscillation: the part of f, g and q that their means leave out.
     pub oscillation: f64,
-    /// What rounding can have hidden.
+    /// The part that rounding can have hidden.
     pub rounding: f64,
 }
 
 impl ErrorBound {
-    /// The same in other units.
+    /// This bound in units in which `unit` stands for 1.
     #[must_use]
     pub fn times(self, unit: f64) -> Self {
         let Self { total, of_u, duality_gap: gap, algebraic, oscillation, rounding } = self;

@@ -43,7 +43,7 @@ enum Refusal {
     NotAsked,
 }
 
-/// What was certified, in f64.
+/// The admissible pair of a certificate, in f64.
 #[derive(Debug, Clone, Default)]
 pub struct CertifiedFields {
     /// s at the vertices.
@@ -147,7 +147,7 @@ impl<R: Scalar> Certifier<R> {
         data.no_bound().cloned().or(refused)
     }
 
-    /// What the last certificate was about.
+    /// The fields of the last certificate.
     pub fn answer(&self) -> CertifiedFields {
         let wide = |numbers: &[R]| numbers.iter().map(|x| x.wide()).collect();
         CertifiedFields {
@@ -159,7 +159,7 @@ impl<R: Scalar> Certifier<R> {
         }
     }
 
-    /// What a tick stands on, where surplus can leave whatever the iterate.
+    /// The discretization that a tick certifies on, whose surplus can leave every cell whatever the iterate.
     ///
     /// # Errors
     /// Never for a problem that was assembled.

@@ -13,7 +13,7 @@ pub struct Conductivity<'s> {
 }
 
 impl<'s> Conductivity<'s> {
-    /// That of cell `cell`, triangles first.
+    /// The tensor of cell `cell`, triangles first.
     pub fn of(problem: &'s Problem, cell: usize) -> Self {
         let entries =
             &problem.scene.materials[problem.binding.materials[cell] as usize].conductivity;

@@ -13,7 +13,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;
 
-/// What the certificate needs of the data beyond [`Assembled`], in the scalar `R`.
+/// Data of the certificate beyond [`Assembled`], in the scalar `R`.
 #[derive(Debug, Clone)]
 pub struct Data<R> {
     gap: Vec<[R; 2]>,
@@ -24,7 +24,7 @@ pub struct Data<R> {
     no_bound: Option<NoBound>,
 }
 
-/// The same data in f64, as the expressions have them: what may be narrowed, or added up over inputs.
+/// Data of the certificate in f64, as the expressions have them: they may be narrowed, or added up over inputs.
 #[derive(Debug, Clone)]
 pub struct Evaluated {
     /// ψ and u_D at the ends of edges.
@@ -48,7 +48,7 @@ impl Evaluated {
         Self::with(problem, Ends::moved)
     }
 
-    /// The same of a term of a sum: what the sum has to meet, it may break. Where u_D is on a side of ψ that there is not, whoever
+    /// Data of one term of a sum. A term may break what the sum has to meet: where u_D is on a side of ψ that does not exist, the caller that
     /// adds up the terms has to count it.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl<R: Scalar> Data<R> {
         self.no_bound.is_none()
     }
 
-    /// What f, g, q, ψ and u_D leave out.
+    /// Oscillation: the part of f, g, q, ψ and u_D that their means leave out.
     pub fn oscillation(&self) -> R {
         self.oscillation
     }

@@ -11,8 +11,8 @@ use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
-/// What follows the data of an edge into its cell is left out where its energy is below this part of that of the
-/// largest data; by how much in all is said ([`Deviations::dropped`]).
+/// Least energy, as a part of that of the largest data, of data that a cell follows. Data of an edge below it are
+/// left out; by how much in all is said ([`Deviations::dropped`]).
 const ROUNDING: f64 = 1e-14;
 
 /// Deviations above this part of the largest boundary datum are kept without weighing them.
@@ -76,13 +76,13 @@ impl<'s> Deviations<'s> {
         Ok(Self { found: weighed.into_iter().map(|(deviation, _)| deviation).collect(), dropped })
     }
 
-    /// That of an edge.
+    /// The deviation of an edge.
     pub fn on(&self, edge: usize) -> Option<&Deviation<'s>> {
         let at = self.found.binary_search_by_key(&edge, |deviation| deviation.edge).ok()?;
         Some(&self.found[at])
     }
 
-    /// Those of the sides of cell `at`, triangles first.
+    /// Deviations of the sides of cell `at`, triangles first.
     pub fn of_cell(&self, problem: &Problem, at: usize) -> Vec<Option<&Deviation<'s>>> {
         let topology = &problem.topology;
         let edges: &[u32] = match topology.of_triangles.get(at) {
@@ -132,7 +132,7 @@ impl Deviation<'_> {
         [0, 1].map(|k| a[k] + t * (b[k] - a[k]))
     }
 
-    /// What rounding may leave of w: that of the data, of the place where they are evaluated, and of what cancels inside
+    /// Rounding that may be in w: of the data, of the place where they are evaluated, and of terms that cancel inside
     /// their expression.
     pub fn rounding(&self) -> f64 {
         let of_place = |point: &[f64; 2]| {
@@ -178,7 +178,7 @@ impl Deviation<'_> {
 pub struct Lift<'d, 's>(Vec<Option<&'d Deviation<'s>>>);
 
 impl<'d, 's> Lift<'d, 's> {
-    /// That of cell `at`, triangles first.
+    /// Deviations on cell `at`, triangles first.
     pub fn on_cell(problem: &Problem, at: usize, deviations: &'d Deviations<'s>) -> Self {
         Self(deviations.of_cell(problem, at))
     }

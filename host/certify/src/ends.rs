@@ -7,7 +7,7 @@ use signorini_problem::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
-/// What rounding may leave between two expressions for the same value, relative to the largest.
+/// Difference that rounding may leave between two expressions for the same value, relative to the largest.
 const CONTINUOUS: f64 = 1e-9;
 
 /// Boundary data at the two ends of each edge, in the direction of the edge; the unit is that of u.
@@ -72,7 +72,7 @@ impl Ends {
         of_spread(problem, values)
     }
 
-    /// The same of the first kind alone: one term of a sum may have u_D on any side of ψ.
+    /// Largest move of the first kind alone: one term of a sum may have u_D on any side of ψ.
     pub fn moved_on_dirichlet(&self, problem: &Problem) -> f64 {
         of_spread(problem, self.values(problem))
     }

@@ -24,7 +24,7 @@ pub struct CellEnergy<'s> {
 }
 
 impl<'s> CellEnergy<'s> {
-    /// That of cell `at`, triangles first.
+    /// The energy of cell `at`, triangles first.
     pub fn of(problem: &'s Problem, at: usize) -> Self {
         Self { cell: Cell::of(problem, at), conductivity: Conductivity::of(problem, at) }
     }

@@ -37,9 +37,9 @@ const PANELS: u32 = 8;
 /// Distances of S and τ to the exact solution, in the unit of ‖A^½∇u‖.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
-    /// What the bound is for: bound ≥ combined.
+    /// The error that the bound is for: bound ≥ combined.
     pub combined: f64,
-    /// What the bound is, up to quadrature: bound = identity.
+    /// The number that the bound equals up to quadrature: bound = identity.
     pub identity: f64,
     /// How far the squares of both may be off, since data and exact solution are evaluated in f64.
     pub rounding: f64,
@@ -54,7 +54,7 @@ pub fn distance(exact: &Exact, problem: &Problem, admissible: &Admissible) -> Re
     distance_on(1, exact, problem, admissible)
 }
 
-/// The same with `panels`×`panels` times the points, where kinks and layers of the exact solution lie inside cells.
+/// Distance with `panels`×`panels` times the points, where kinks and layers of the exact solution lie inside cells.
 ///
 /// # Errors
 /// As for [`distance`].
@@ -69,7 +69,7 @@ pub fn distance_on(
     Integrands { exact, problem, admissible, deviations, u, lift, panels }.distance()
 }
 
-/// What a distance is integrated from.
+/// Fields that a distance is integrated from.
 pub struct Integrands<'a, U, L> {
     /// The exact solution.
     pub exact: &'a Exact,
@@ -77,17 +77,17 @@ pub struct Integrands<'a, U, L> {
     pub problem: &'a Problem,
     /// The s and τ whose distance is sought.
     pub admissible: &'a Admissible<'a>,
-    /// Those that S follows: [`curved::followed`].
+    /// Deviations that S follows: [`curved::followed`].
     pub deviations: &'a Deviations<'a>,
     /// `exact` inside the cells.
     pub u: &'a U,
-    /// What S follows inside the cells where any of `deviations` are; elsewhere it follows nothing.
+    /// The function that S follows inside the cells where any of `deviations` are; elsewhere it follows nothing.
     pub lift: &'a L,
     /// Parts of a cell in each direction, each with a rule of its own.
     pub panels: u32,
 }
 
-/// What is known at a point of a cell.
+/// Values at a point of a cell.
 struct CellPoint {
     x: [f64; 2],
     /// An element of area.
@@ -98,11 +98,11 @@ struct CellPoint {
     s: f64,
     /// |A^½(∇u − ∇S)|² + |A^{−½}(σ − τ)|²
     square: f64,
-    /// What the rounding of that is a part of.
+    /// The size that its rounding is a part of.
     size: f64,
 }
 
-/// What is known at a point of a boundary edge.
+/// Values at a point of a boundary edge.
 struct EdgePoint {
     x: [f64; 2],
     /// An element of length.

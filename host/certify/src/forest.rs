@@ -78,7 +78,7 @@ impl<R: Scalar> EquilibrationForest<R> {
         Ok(())
     }
 
-    /// What it takes to bring 1 from the farthest cell to its root.
+    /// Energy that it takes to bring 1 from the farthest cell to its root.
     pub fn stability(&self) -> R {
         self.stability.largest
     }

@@ -107,7 +107,7 @@ impl Spot {
 }
 
 impl NoBound {
-    /// What [`NoBound::of_data`] may find, for whoever has not kept it.
+    /// Reasons that [`NoBound::of_data`] may find, for callers that have not kept it.
     pub const OF_DATA: &str = "u_D jumps between two edges, u_D or ψ jumps inside one, a transfer coefficient nearly vanishes, the range of a contact flux does, or inputs change one that varies along an edge";
 
     /// Why these data allow for no bound, whatever the iterate.

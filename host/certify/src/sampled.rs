@@ -51,7 +51,7 @@ impl Sampled for Solution<'_> {
 pub struct Lifted<'a> {
     /// The problem on its mesh.
     pub problem: &'a Problem,
-    /// What the data deviate from their interpolants.
+    /// Deviations of the data from their interpolants.
     pub deviations: &'a Deviations<'a>,
 }
 
@@ -73,7 +73,7 @@ impl Sampled for Lifted<'_> {
 pub struct Table(Vec<Vec<Jet>>);
 
 impl Table {
-    /// Those of `function` on the mesh of `problem`.
+    /// Samples of `function` on the mesh of `problem`.
     pub fn of(function: &impl Sampled, problem: &Problem) -> Result<Self> {
         let (rule, cells) = (gauss(POINTS), problem.cells());
         let starts: Vec<usize> = (0..cells).step_by(PORTION).collect();

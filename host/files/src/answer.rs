@@ -20,7 +20,7 @@ use signorini_solve::{FreeLevel, Solution, SolverKind, free_levels};
 /// A solution, and what follows from it.
 #[derive(Debug, Clone)]
 pub struct Answer {
-    /// What was solved.
+    /// The problem that was solved.
     pub problem: Problem,
     /// Its solution.
     pub solution: Solution,
@@ -57,7 +57,7 @@ impl Answer {
         Ok(Self { problem, solution, energy_norm, asked, errors, outputs, intervals })
     }
 
-    /// What `summary.json` has.
+    /// The contents of `summary.json`.
     pub fn summary(&self) -> Summary {
         let Self { problem, solution, energy_norm, asked, errors, outputs, intervals } = self;
         Summary::new(problem, *asked, solution, *errors, *energy_norm, outputs.clone(), intervals)

@@ -1,4 +1,4 @@
-//! What is known of contact edges: where u is, and how far from the gap.
+//! States of contact edges: where u is, and how far from the gap.
 
 use signorini_kernel::law::EdgeLaw;
 

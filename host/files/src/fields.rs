@@ -8,7 +8,7 @@ use signorini_scene::error::Result;
 use signorini_solve::Solution;
 use signorini_solve::adaptive::indicators;
 
-/// What is drawn.
+/// Fields to draw.
 pub struct Drawn<'a> {
     /// Mean of u_h over each edge.
     u: &'a [f64],
@@ -16,7 +16,7 @@ pub struct Drawn<'a> {
     flux: &'a [f64],
     /// The continuous s at each vertex.
     vertices: &'a [f64],
-    /// What each cell has of the error bound; nothing where there is no bound.
+    /// Share of each cell in the error bound; empty where there is no bound.
     indicators: Vec<f64>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Drawn<'a> {
         fields.map(|field| (field.mean(), field.middle_flux())).unzip()
     }
 
-    /// What each cell has of the bound.
+    /// Share of each cell in the bound.
     pub fn indicators(&self) -> &[f64] {
         &self.indicators
     }

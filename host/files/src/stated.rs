@@ -21,7 +21,7 @@ pub struct Stated<'a> {
 }
 
 impl<'a> Stated<'a> {
-    /// That of an output among these values and intervals.
+    /// The statement of an output among these values and intervals.
     pub fn of(
         output: &'a Output,
         values: &BTreeMap<String, Option<f64>>,
@@ -36,7 +36,7 @@ impl<'a> Stated<'a> {
         format!("{} {}", self.output.name.value, self.words())
     }
 
-    /// The same without the name.
+    /// Its value and interval in words, without the name.
     pub fn words(&self) -> String {
         let unit = self.unit();
         let value = self.value.map_or("no value".to_owned(), |value| rounded(value, UNKNOWN, 0.0));
@@ -68,7 +68,7 @@ impl<'a> Stated<'a> {
     }
 }
 
-/// What an engineer would say of a scene: the first force or flux, what it is off by, and over which length, where both are outputs.
+/// A sentence on a scene for engineers: the first force or flux, its error, and over which length, where both are outputs.
 pub fn sentence(all: &[Stated]) -> Option<String> {
     let is_flux = |of: &&Stated| matches!(of.output.quantity, Quantity::Force | Quantity::Flux);
     let flux = all.iter().find(|of| is_flux(of) && matches!(of.interval, Some(Ok(_))))?;

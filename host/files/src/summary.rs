@@ -16,22 +16,22 @@ use signorini_solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, 
 pub struct Summary {
     title: String,
     scalar: ScalarKind,
-    /// What was asked for.
+    /// The solver that was asked for.
     solver: SolverKind,
-    /// What solved it in the end.
+    /// The solver that found the solution in the end.
     solver_used: Ran,
     status: &'static str,
     /// Edges not on the Dirichlet boundary.
     unknowns: usize,
     contact_edges: usize,
     contact_active: usize,
-    /// Those that a factor followed are not in the answer.
+    /// Sweeps; those that a factor followed are not in the answer.
     sweeps: u32,
     /// Of these, iterations of conjugate gradients: projected SOR alone would not have ended.
     conjugate_iterations: u32,
-    /// What the factor did, where one solved it; else null.
+    /// Work of the factor, where one solved it; else null.
     factor: Option<Factored>,
-    /// What 1 stood for in the solve: powers of two, 1 and 1 unless numbers were far from that.
+    /// Units of the solve, each a power of two: 1 and 1 unless numbers were far from that.
     scales: Units,
     relaxation: f64,
     converged: bool,
@@ -57,7 +57,7 @@ pub struct Summary {
     output_bounds: BTreeMap<String, Option<OutputBound>>,
     /// Why there is none.
     output_bounds_reasons: BTreeMap<String, String>,
-    /// What may not be meant: a sentence each.
+    /// Warnings on input that may not be meant: a sentence each.
     warnings: Vec<String>,
     seconds: Seconds,
 }

@@ -16,7 +16,7 @@ const VTK_LINE: u8 = 3;
 const VTK_TRIANGLE: u8 = 5;
 const VTK_QUAD: u8 = 9;
 
-/// What the file shows. Cells are numbered triangles first, then quads.
+/// Contents of the file. Cells are numbered triangles first, then quads.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {
     /// Vertex coordinates, as in the mesh file.
@@ -29,7 +29,7 @@ pub struct Field<'a> {
     pub cell_u: &'a [f64],
     /// The flux σ = A∇u at the centre of each cell.
     pub cell_flux: &'a [[f64; 2]],
-    /// What each cell has of the error bound: the root of its part of the bound's square.
+    /// Share of each cell in the error bound: the root of its part of the bound's square.
     pub indicator: &'a [f64],
     /// A at the centre of each cell: xx, xy, yy.
     pub conductivity: &'a [[f64; 3]],

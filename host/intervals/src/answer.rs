@@ -1,4 +1,4 @@
-//! What intervals are worked out from.
+//! Answers that intervals are worked out from.
 
 use signorini_certify::{CertifiedFields, ErrorBound};
 use signorini_solve::{ScalarKind, Solution};
@@ -10,7 +10,7 @@ pub struct Answered<'a> {
     pub certified: &'a CertifiedFields,
     /// How wrong they may be.
     pub bound: Option<ErrorBound>,
-    /// What they were worked out in.
+    /// The scalar that they were worked out in.
     pub scalar: ScalarKind,
 }
 

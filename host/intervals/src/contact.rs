@@ -1,4 +1,4 @@
-//! What is known of u and σ on contact edges, and what z and ζ have to keep to there.
+//! Bounds of u and σ on contact edges, and the conditions that z and ζ have to keep there.
 //!
 //! With z′ = z − its given value and ζ′ = ζ·n − its given density the weights leave
 //! ```text
@@ -24,7 +24,7 @@ const ROUNDINGS: f64 = 64.0;
 /// How far u_D may be below ψ, as a part of the largest datum: what a scene is refused for begins there.
 const CORNERS: f64 = 1e-9;
 
-/// What is known on one contact edge.
+/// Bounds on one contact edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactEdge {
     pub edge: usize,
@@ -36,7 +36,7 @@ pub(super) struct ContactEdge {
     pub left: [f64; 2],
     /// Signs that u − ψ may have, or that σ·n − τ·n may have where `clear` is not 0.
     pub may: [bool; 2],
-    /// What is taken for 0: |s − ψ|, and ∫|τ·n − its end|.
+    /// Numbers taken for 0: |s − ψ|, and ∫|τ·n − its end|.
     pub dropped: [f64; 2],
 }
 
@@ -96,7 +96,7 @@ impl Above {
         self.ends == [0.0; 2] && self.bubble == 0.0 && self.peak == 0.0
     }
 
-    /// What `sign`·(s − ψ) is above at both ends and between; nothing where a bubble leaves no more than rounding of it.
+    /// Lower bounds of `sign`·(s − ψ) at both ends and between; 0 where a bubble leaves no more than rounding of it.
     fn clear(&self, sign: f64, epsilon: f64) -> [f64; 2] {
         let ends = self.ends.map(|end| (sign * end).max(0.0));
         let roots = ends[0].sqrt() + ends[1].sqrt();
@@ -138,7 +138,7 @@ impl ContactEdge {
         }
     }
 
-    /// The same where z keeps its value, like s where it touches ψ, or does not.
+    /// This edge where z keeps its value, like s where it touches ψ, or does not.
     pub fn held(self, is_held: bool) -> Self {
         Self { room: if is_held { 1.0 } else { 0.0 }, ..self }
     }

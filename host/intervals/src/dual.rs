@@ -30,7 +30,7 @@ pub(super) struct Dual {
 }
 
 impl Dual {
-    /// That of `goal` on the mesh, A and transfer coefficients of `problem`.
+    /// The dual problem of `goal` on the mesh, A and transfer coefficients of `problem`.
     ///
     /// # Errors
     /// Data that are not finite.

@@ -17,7 +17,7 @@ use signorini_scene::scene::{Exact, Output, Quantity};
 const PANELS: u32 = 8;
 const POINTS: usize = 8;
 
-/// That of a force, a flux, a mean, or of the mean over the cell of a probe, and by how much its quadrature is in doubt.
+/// Exact value of a force, a flux, a mean, or of the mean over the cell of a probe, and by how much its quadrature is in doubt.
 ///
 /// # Errors
 /// An exact solution that is not finite in the middle of a cell.

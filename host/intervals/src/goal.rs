@@ -1,4 +1,4 @@
-//! What an output is of u and σ, and the data of the linear problem that weighs their errors in it.
+//! Outputs as functionals of u and σ, and the data of the linear problem that weighs their errors.
 //!
 //! ```text
 //!   J(u) = J(s) + {…}      the mean of u over a part P of the boundary, or over a cell
@@ -39,14 +39,14 @@ pub(super) struct Goal {
     pub beside: f64,
     /// Where the conditions keep J(σ), whatever the solution is.
     pub law: [f64; 2],
-    /// What it is the value of.
+    /// Words for the quantity.
     pub of: String,
 }
 
 /// A goal, or why there is none.
 pub(super) type Posed = std::result::Result<Goal, String>;
 
-/// What an output is the value of, in a few words.
+/// Describes the quantity of an output in a few words.
 pub fn described(output: &Output) -> String {
     let of = output.of.as_ref().map_or("all contact edges", |of| of.value.as_str());
     match output.quantity {
@@ -102,7 +102,7 @@ fn beside(problem: &Problem, at: usize) -> f64 {
 }
 
 impl Goal {
-    /// That of an output, where it is linear.
+    /// The goal of an output, where it is linear.
     ///
     /// # Errors
     /// Data that are not finite, a probe outside the mesh.

@@ -34,7 +34,7 @@ pub(super) const UNBOUNDED: &str = "nothing bounds it from both sides: its bound
 pub(super) const UNSOLVED: &str =
     "the linear problem that weighs its error has no solution, or says nothing of it";
 
-/// What is known of the solution.
+/// Facts on the solution that all intervals share.
 pub(super) struct Known<'p> {
     pub factor: &'p SharedFactor,
     pub problem: &'p Problem,
@@ -144,7 +144,7 @@ impl Known<'_> {
         }
     }
 
-    /// What sums round, next to their terms.
+    /// Rounding of sums, relative to their terms.
     fn rounding(&self) -> f64 {
         ROUNDINGS * self.answer.scalar.epsilon()
     }

@@ -7,12 +7,12 @@ use super::dual::Weights;
 use super::goal::Goal;
 use signorini_problem::{EdgeKind, Problem};
 
-/// What the contact edges add to {…}.
+/// Terms that the contact edges add to {…}.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Left {
     /// The least c on either side: below 0 and above.
     pub part: [f64; 2],
-    /// What is bounded without one.
+    /// Terms that are bounded without one.
     pub loose: [f64; 2],
 }
 
@@ -56,7 +56,7 @@ pub(super) fn keep(
     differ
 }
 
-/// What is left of the weights on C.
+/// Weights that are left on C.
 pub(super) fn left(
     problem: &Problem,
     goal: &Goal,

@@ -51,7 +51,7 @@ use signorini_solve::{SharedFactor, Solution, times};
 /// Beyond so many unknowns no intervals are worked out: each takes some solutions of a linear problem.
 pub const MOST_UNKNOWNS: usize = 200_000;
 
-/// That of every output of a solution, with those that a scene without any has.
+/// Intervals of every output of a solution, with those that a scene without any has.
 pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Found> {
     let Some(scaled) = &solution.scaled else { return of_answer(problem, &solution.into()) };
     // Squares of the scene's numbers may overflow or vanish; those of the solve's do not.
@@ -66,7 +66,7 @@ pub fn of_outputs(problem: &Problem, solution: &Solution) -> BTreeMap<String, Fo
     all
 }
 
-/// The same of any answer, whose numbers are near 1.
+/// Intervals of any answer whose numbers are near 1.
 pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found> {
     let is_small = problem.topology.counts.unknowns() <= MOST_UNKNOWNS;
     let mut lasting = Lasting::default();
@@ -77,12 +77,12 @@ pub fn of_answer(problem: &Problem, answer: &Answered) -> BTreeMap<String, Found
     of_next(problem, answer, &lasting)
 }
 
-/// What stays from answer to answer of one scene on one mesh.
+/// Data that stay from answer to answer of one scene on one mesh.
 #[derive(Default)]
 pub struct Lasting {
     /// The factor of its matrix.
     factor: Option<SharedFactor>,
-    /// What is in doubt of the integrals of f.
+    /// Doubt in the integrals of f.
     source: Option<f64>,
 }
 
@@ -105,7 +105,7 @@ impl Lasting {
     }
 }
 
-/// The same with what stays from answer to answer. An answer stays one where data have no value at a point that is looked at here alone:
+/// Intervals with the data that stay from answer to answer. An answer stays one where data have no value at a point that is looked at here alone:
 /// that is the reason then.
 pub fn of_next(problem: &Problem, answer: &Answered, lasting: &Lasting) -> BTreeMap<String, Found> {
     let all = wanted(&problem.scene);

@@ -9,7 +9,7 @@ pub struct OutputBound {
     pub center: f64,
     /// Half of its width: the exact value is not farther from the middle.
     pub plus_minus: f64,
-    /// What it is the value of.
+    /// Words for the quantity.
     pub of: String,
     /// How far its value on this mesh is from that on the mesh refined once; no guarantee. None for large meshes.
     pub estimate: Option<f64>,

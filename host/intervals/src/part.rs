@@ -39,7 +39,7 @@ impl<'p> Part<'p> {
         self.edges().map(|edge| self.problem.lengths[edge]).sum()
     }
 
-    /// What holds on it; none where it has no edge.
+    /// Condition that holds on it; `None` where it has no edge.
     pub fn kind(&self) -> Option<EdgeKind> {
         self.edges().next().map(|edge| self.problem.kinds[edge])
     }

@@ -116,7 +116,7 @@ fn points(cell: &Cell, conductivity: &Conductivity) -> usize {
 }
 
 impl<'p> Residual<'p> {
-    /// That of a solution.
+    /// Products of a solution.
     ///
     /// # Errors
     /// Data that are not finite.

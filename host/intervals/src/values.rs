@@ -17,7 +17,7 @@ use signorini_problem::{EdgeKind, Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Condition, Field, Output};
 
-/// What the quadrature of smooth data may miss, next to their size.
+/// Part of their size that the quadrature of smooth data may miss.
 pub(super) const INTEGRATED: f64 = 2e-9;
 
 /// Cells up to which f is integrated on their quarters too, and on thin parts along their sides where it may have kinks.
@@ -59,7 +59,7 @@ fn integral(problem: &Problem, edge: usize, data: &Sum) -> Result<[f64; 2]> {
     Ok([length * data.finite(mean, segment[0])?, length * (size + doubt / INTEGRATED)])
 }
 
-/// What is in doubt of the integrals of given fluxes, and of the ends of fluxes on C.
+/// Doubt in the integrals of given fluxes, and of the ends of fluxes on C.
 ///
 /// # Errors
 /// Data that are not finite.
@@ -78,7 +78,7 @@ pub(super) fn doubt_on_edges(problem: &Problem) -> Result<f64> {
     Ok(sum)
 }
 
-/// What τ leaves of the loads of cells and of the fluxes through N, added up: rounding.
+/// Sum of the loads of cells and of the fluxes through N that τ leaves: rounding.
 pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     let tau = &answer.certified.tau;
     let surplus =
@@ -90,7 +90,7 @@ pub(super) fn imbalance(problem: &Problem, answer: &Answered) -> f64 {
     cells + on_neumann.map(|edge| (tau[edge] - given[edge]).abs()).sum::<f64>()
 }
 
-/// What is in doubt of the integrals of f.
+/// Doubt in the integrals of f.
 ///
 /// # Errors
 /// Data that are not finite.

@@ -1,4 +1,4 @@
-//! What the error bound of any answer weighs in an output: the few numbers that a controller has.
+//! Weights of an answer's error bound in an output: the few numbers that a controller has.
 //!
 //! ```text
 //!   |J(σ) − J(τ)| ≤ ‖A∇z‖ · total       a flux or a force, z = ±1 on its boundary and 0 on the rest of C and D
@@ -35,7 +35,7 @@ use signorini_solve::{ScalarKind, SharedFactor};
 const PARTS: i32 = 10;
 const STEP: f64 = 2.0;
 
-/// What data of nothing have above their chords.
+/// Deviations of zero data from their chords: none.
 const NOTHING: Deviations<'static> = Deviations { found: Vec::new(), dropped: 0.0 };
 
 /// By how much the parts of a bound may move an output, in the unit of the output over that of the bound.
@@ -51,10 +51,10 @@ pub struct Weights {
     pub of_u: f64,
 }
 
-/// Those of an output, or why there are none.
+/// Weights of an output, or the reason why there are none.
 pub type Weighed = std::result::Result<Weights, String>;
 
-/// What is known of a controller's answers.
+/// Facts on all answers of a controller.
 #[derive(Debug, Clone, Copy)]
 pub struct Answers<'a> {
     /// How far s is above ψ at least at the ends of the contact edges that are open in all answers, in the order of the edges and in
@@ -66,7 +66,7 @@ pub struct Answers<'a> {
     pub are_balanced: bool,
 }
 
-/// Those of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
+/// Weights of every output, in their order. Where data have no value at a point that is looked at here alone, that is the reason.
 pub fn weights(problem: &Problem, answers: &Answers) -> Vec<Weighed> {
     let outputs = wanted(&problem.scene);
     let found = weighed(problem, answers, &outputs);

@@ -85,7 +85,7 @@ pub fn minimise(
     minimise_between(matrix, floating, load, &[])
 }
 
-/// The same where Sx − b may be at most `spans`, as in [`Problem`]: x of any sign then.
+/// Minimises where Sx − b may be at most `spans`, as in [`Problem`]: x of any sign then.
 ///
 /// # Errors
 /// As for [`minimise`].

@@ -51,7 +51,7 @@ impl Factor {
         self.solve_between(load, lower, &[], guess)
     }
 
-    /// The same with the most that λ may be, `spans` as in [`super::Problem`].
+    /// Solves with the most that λ may be, `spans` as in [`super::Problem`].
     pub fn solve_between(
         &self,
         load: &[f64],

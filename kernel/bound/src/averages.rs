@@ -1,4 +1,4 @@
-//! What the cells say of u at each vertex and of the flux through each edge, and the means of it.
+//! Means over the cells around a vertex of their u, and over the cells of an edge of their flux.
 //!
 //! ```text
 //!   s(v) = Σ α u_h|_T(v) / Σ α      τ_E = Σ ±F/α / Σ 1/α        over the cells around; F by formula (15)

@@ -183,7 +183,7 @@ fn missing<R: Real>(mean: R, [a, b]: [R; 2]) -> R {
     (R::ONE + R::HALF) * (mean - R::HALF * (a + b))
 }
 
-/// The same for an excess that must stay ≥ 0; `opening` is 0 on active edges. Nothing where s crosses the gap.
+/// Lifts an excess that must stay ≥ 0; `opening` is 0 on active edges. No lift where s crosses the gap.
 fn lift<R: Real>(opening: R, excess: [R; 2]) -> R {
     let crosses = features::LIMITED && !(excess[0] >= R::ZERO && excess[1] >= R::ZERO);
     if !(opening > R::ZERO) || crosses {

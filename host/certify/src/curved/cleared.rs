@@ -20,7 +20,7 @@ use signorini_scene::error::Result;
 /// Peaks are rounded up by this part, for scalars that are narrower.
 const ROOM: f64 = 1e-6;
 
-/// Those edges among `edges` that are the only ones of a triangle, and on C: S may have no extension there.
+/// Selects those `edges` that are the only ones of a triangle, and on C: S may have no extension there.
 pub fn may_be_cleared(problem: &Problem, edges: impl Iterator<Item = usize> + Clone) -> Vec<bool> {
     let cell = |edge: usize| problem.topology.first_side(edge).0;
     let mut of_cells = BTreeMap::new();
@@ -62,7 +62,7 @@ pub fn peak(deviation: &Deviation) -> Result<f64> {
     peak_on(deviation, &Panels::along(deviation)?)
 }
 
-/// The same with the panels that its data need.
+/// Largest rise on an edge, with the panels that its data need.
 pub(super) fn peak_on(deviation: &Deviation, panels: &Panels) -> Result<f64> {
     if panels.rough.is_some() {
         return Ok(f64::INFINITY);

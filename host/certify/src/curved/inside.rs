@@ -27,7 +27,7 @@ pub fn points(
     Ok(placed(&cell, found))
 }
 
-/// The same for products of what sides carry inside: on triangles the points of smooth data lie along rays from the apices of their
+/// Points for products of what sides carry inside: on triangles those of smooth data lie along rays from the apices of their
 /// sides, where these functions are polynomials.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What the points of the panels miss of w: the energy of v − ṽ, ṽ made from the polynomials through those points.
+//! The part of w that the points of the panels miss: the energy of v − ṽ, ṽ made from the polynomials through those points.
 //!
 //! The rule of 8 points is exact for squares of polynomials of degree 7, so the records are those of ṽ, and
 //! ```text

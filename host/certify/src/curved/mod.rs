@@ -78,7 +78,7 @@ pub struct CurvedEdges {
     pub left_out: f64,
 }
 
-/// The same with what is left out.
+/// Curved edges together with the data that are left out.
 ///
 /// # Errors
 /// As for [`curved`].
@@ -123,7 +123,7 @@ struct Extension<'d, 's> {
     cell: Cell,
     conductivity: Conductivity<'s>,
     panels: Panels,
-    /// What is added to w and w′ at all points.
+    /// Corrections added to w and w′ at all points.
     mended: [f64; 2],
 }
 
@@ -231,7 +231,7 @@ impl<'d, 's> Extension<'d, 's> {
     }
 }
 
-/// What makes samples of w and w′ those of one function but for rounding: ∫w′ = 0, for w is 0 at both ends, and
+/// Corrections that make samples of w and w′ those of one function but for rounding: ∫w′ = 0, for w is 0 at both ends, and
 /// ∫w = −∫t w′. Both are small differences of data, each rounded on its own, and their products with the fluxes of s and τ
 /// nearly cancel. Nothing where more than rounding is amiss.
 fn mended(deviation: &Deviation, panels: &Panels) -> Result<[f64; 2]> {

@@ -19,7 +19,7 @@ pub const PANELS: u32 = 4;
 const LEVELS: u32 = 24;
 /// Most panels: data that are rough everywhere are integrated by as many, and no finer.
 const MOST: usize = 128;
-/// What may be missing of a rise.
+/// Largest part of a rise that may be missing.
 const MISSING: f64 = 1e-9;
 
 /// A subdivision of \[0, 1\] along an edge.
@@ -40,7 +40,7 @@ impl Panels {
         Self { ends, rough: None, beyond: 0.0 }
     }
 
-    /// As fine as w needs.
+    /// Panels as fine as w needs.
     ///
     /// # Errors
     /// Data that are not finite.
@@ -95,7 +95,7 @@ impl Panels {
         panels.flat_map(points).collect()
     }
 
-    /// The same from the edge's other end.
+    /// These panels seen from the edge's other end.
     pub(super) fn reversed(&self) -> Self {
         Self { ends: self.ends.iter().rev().map(|end| 1.0 - end).collect(), ..*self }
     }
@@ -127,7 +127,7 @@ fn halves(panel @ [a, b]: &[f64; 2]) -> [[f64; 2]; 2] {
     [[*a, middle(panel)], [middle(panel), *b]]
 }
 
-/// What the points of a panel find of the rise of w.
+/// The rise of w as the points of a panel find it.
 struct Rise<'a, 's> {
     deviation: &'a Deviation<'s>,
     rule: Vec<[f64; 2]>,
@@ -153,7 +153,7 @@ impl Rise<'_, '_> {
         Ok(true)
     }
 
-    /// Whether what is missing on a panel would need more than the energy found by `rule` on all of them.
+    /// Tells whether the rise missing on a panel would need more than the energy found by `rule` on all of them.
     fn jumps(&self, panels: &[[f64; 2]], rule: &[[f64; 2]]) -> Result<Option<f64>> {
         let mut energy = 0.0;
         for &[t, weight] in rule {

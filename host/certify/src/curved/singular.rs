@@ -5,7 +5,7 @@ use crate::deviation::Deviation;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::error::Result;
 
-/// What forbids a function of finite energy to follow w, and the place along the edge.
+/// Reason why no function of finite energy follows w, and the place along the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rough {
     /// w jumps.

@@ -1,4 +1,4 @@
-//! What the bound charges a contact edge whose flux has two ends, lo and hi.
+//! Charge of the bound on a contact edge whose flux has two ends, lo and hi.
 
 use super::{EdgePoint, Integrands};
 use crate::sampled::Sampled;

@@ -38,7 +38,7 @@ pub struct Cell<R, I, const SIDES: usize, const ENTRIES: usize> {
     pub compliance: R,
     /// Of triangles: the same times Σ|K|.
     pub uncertainty: R,
-    /// What the side before the last takes of the surplus: ½ or 0.
+    /// Part of the surplus that leaves by the side before the last: ½ or 0.
     pub spread: R,
     /// The edges of its sides.
     pub edges: [I; SIDES],
@@ -114,7 +114,7 @@ impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SID
         Some(out)
     }
 
-    /// What belongs to the sides, in the order of the mesh.
+    /// Values of the sides, in the order of the mesh.
     pub(crate) fn sides_in_mesh(&self, mut packed: [R; SIDES]) -> [R; SIDES] {
         if self.mirrored {
             packed.swap(0, 1);
@@ -122,7 +122,7 @@ impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SID
         self.turned_back(packed)
     }
 
-    /// What belongs to the vertices, in the order of the mesh.
+    /// Values of the vertices, in the order of the mesh.
     pub(crate) fn vertices_in_mesh(&self, mut packed: [R; SIDES]) -> [R; SIDES] {
         if self.mirrored {
             packed.swap(0, 2);
@@ -137,7 +137,7 @@ impl<R: Real, I: Index, const SIDES: usize, const ENTRIES: usize> Cell<R, I, SID
 }
 
 impl<R: Real, I: Index> Quad<R, I> {
-    /// What belongs to the vertices, as [`pack`] turned them: quads are not mirrored.
+    /// Values of the vertices, as [`pack`] turned them: quads are not mirrored.
     pub(crate) fn packed(&self, mut in_mesh: [R; 4]) -> [R; 4] {
         in_mesh.rotate_left((usize::from(self.parent) + 1) % 4);
         in_mesh

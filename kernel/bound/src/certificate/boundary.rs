@@ -1,4 +1,4 @@
-//! What the boundary adds to the bound: contact, transfer laws, curved data.
+//! Terms of the boundary in the bound: contact, transfer laws, curved data.
 
 use super::extension::{Curved, extension, is_clear, jump, of_means, of_s};
 use super::parts::Parts;
@@ -99,7 +99,7 @@ fn charge<R: Real>(range: FluxRange<R>, contact: Law<R>, tau: R, [above, below]:
     (sum, size)
 }
 
-/// What the contact term changes by on an edge where s has no extension, so that s − ψ is less by w, and the size of its terms;
+/// Change of the contact term on an edge where s has no extension, so that s − ψ is less by w, and the size of its terms;
 /// nothing where s has one.
 fn cleared<R: Real, I: Index>(
     discretization: &Discretization<R, I>,
@@ -165,7 +165,7 @@ impl<R: Real> Transfer<R> {
         e * e / h
     }
 
-    /// The same from H and u_ext at the 8 Gauss points.
+    /// The term from H and u_ext at the 8 Gauss points.
     fn at_points(&self, points: &[[R; 2]; 8]) -> R {
         let [a, b] = self.s;
         let rule = R::GAUSS[7].iter().zip(points);

@@ -1,4 +1,4 @@
-//! What s carries into a boundary cell where ψ or u_D leaves its chord, and its part of the bound.
+//! Extension of s into a boundary cell where ψ or u_D leaves its chord, and its part of the bound.
 
 use super::parts::Parts;
 use super::{Continuous, Discretization, LoadCase};
@@ -128,7 +128,7 @@ pub(super) fn extension<R: Real, I: Index>(
     (R::TWO * (product - flux) + curved.energy, size)
 }
 
-/// The same for ‖A^½∇(s + v − u_h)‖², added to its sums.
+/// Adds the terms of ‖A^½∇(s + v − u_h)‖² to its sums.
 pub(super) fn jump<R: Real, I: Index>(
     s: &InCell<R>,
     u: Option<&InCell<R>>,

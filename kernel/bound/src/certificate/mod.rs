@@ -67,7 +67,7 @@ use signorini_kernel::mesh::boundary::Boundary;
 use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
 
-/// What surplus in the cells costs. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
+/// Cost of surplus in the cells. With w_T = ‖A^{−½}·‖ of the flux that brings 1 from cell T along the forest to its
 /// root, surplus ρ_T in every cell takes Σ w_T |ρ_T| at most: no more than either of
 /// ```text
 ///   largest · Σ|ρ_T|        weighed · Σ √d_T |ρ_T|,     d_T the factor of a flux's square in the uncertainty, about 1/A.
@@ -87,7 +87,7 @@ pub struct Stability<R> {
     pub oblique: R,
 }
 
-/// What stays from one certificate to the next: mesh, A and the ways out (borrowed).
+/// Data that stay from one certificate to the next: mesh, A and the ways out (borrowed).
 #[derive(Debug, Clone, Copy)]
 pub struct Discretization<'a, R, I> {
     /// The mesh; of its coordinates nothing is read.
@@ -100,7 +100,7 @@ pub struct Discretization<'a, R, I> {
     pub cells: Cells<'a, R, I>,
     /// A in reference coordinates where it varies inside a cell, and the distortions of quads.
     pub metric: Metric<'a, R>,
-    /// What rounding can do at most: [`stability`].
+    /// Largest effect of rounding: [`stability`].
     pub stability: Stability<R>,
 }
 
@@ -118,7 +118,7 @@ pub struct LoadCase<'a, R, I> {
     /// Of each transfer law ∫h and u_ext at the 8 Gauss points of its edge, or nothing where both are
     /// constant along every edge.
     pub transfer: &'a [[[R; 2]; 8]],
-    /// What f, g and q leave out: √Σ_T (osc_T + Σ_{E⊂∂T} osc_E)².
+    /// Part of f, g and q that their means leave out: √Σ_T (osc_T + Σ_{E⊂∂T} osc_E)².
     pub oscillation: R,
 }
 

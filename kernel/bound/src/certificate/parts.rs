@@ -15,7 +15,7 @@ pub(super) struct CellTerms<R> {
     pub nonconforming: R,
     /// The quadratic form of `gap` with all terms of A∇s − τ added up instead of cancelling.
     pub uncertainty: R,
-    /// The same of `nonconforming`.
+    /// The uncertainty of `nonconforming`.
     pub uncertainty_of_u: R,
     /// (∫f)² + Στ², the terms of the balance.
     pub terms: R,
@@ -33,9 +33,9 @@ pub(super) struct Parts<R> {
     pub uncertainty_of_u: R,
     /// The square of what storing the data has done.
     pub perturbation: R,
-    /// What rounding can have done to `gap` itself.
+    /// Rounding in `gap` itself.
     pub direct: R,
-    /// The same of `nonconforming`.
+    /// Rounding in `nonconforming`.
     pub direct_of_u: R,
     pub terms: R,
 }

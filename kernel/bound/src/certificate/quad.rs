@@ -96,7 +96,7 @@ pub(super) fn energy<R: Real, I: Index>(
     }
 }
 
-/// What a square of the balance counts in the uncertainty, at least: about 1/A.
+/// Least weight of a square of the balance in the uncertainty: about 1/A.
 pub(super) fn softness<R: Real, I: Index>(
     cell: &Quad<R, I>,
     points: Option<&[Tensor<R>; POINTS * POINTS]>,
@@ -187,7 +187,7 @@ fn squares<R: Real>([t0, t1, t2, t3]: [R; 4], load: R) -> R {
     t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + load * load
 }
 
-/// What an error of `condition` · ε in B, relative to B, adds to the uncertainty about a form of this size.
+/// Uncertainty that an error of `condition` · ε in B, relative to B, adds about a form of this size.
 fn moved<R: Real>(condition: R, size: R) -> R {
     R::HALF * R::QUARTER * condition * condition * size
 }
@@ -198,7 +198,7 @@ fn sensitivity<R: Real>(b: Tensor<R>) -> R {
     R::TWO * (straight + oblique) / (straight - oblique)
 }
 
-/// The same by quadrature; everything in the order of the mesh, `difference` = τ − σ_h.
+/// Share of a cell by quadrature; everything in the order of the mesh, `difference` = τ − σ_h.
 #[inline(never)]
 pub(super) fn share_at_points<R: Real>(
     points: &[Tensor<R>; POINTS * POINTS],

@@ -1,4 +1,4 @@
-//! What rounding can do to a bound at most, for a mesh and its A: how much energy it takes to bring a surplus from a cell to
+//! Largest effect of rounding on a bound, for a mesh and its A: how much energy it takes to bring a surplus from a cell to
 //! its root, and how much of itself a rounded element matrix can hide.
 //!
 //! What leaves through a transfer edge counts there too: 1 through an edge with ∫h = H adds ∫(1/|E|)²/h, 1/H where h is

@@ -92,7 +92,7 @@ pub(super) fn energy<R: Real, I: Index>(
     }
 }
 
-/// What a square of the balance counts in the uncertainty: about 1/A.
+/// Weight of a square of the balance in the uncertainty: about 1/A.
 pub(super) fn softness<R: Real, I: Index>(
     cell: &Triangle<R, I>,
     points: Option<&[Tensor<R>; POINTS * POINTS]>,

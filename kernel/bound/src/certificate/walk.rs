@@ -47,7 +47,7 @@ pub(super) fn over_cells<R: Real, I: Index>(
     parts
 }
 
-/// The same for triangles with constant A alone, without indicators: the loop of a control loop. A
+/// Walks over triangles with constant A alone, without indicators: the loop of a control loop. A
 /// function of its own, with few slices, keeps its pointers in registers.
 #[inline(never)]
 fn over_triangles<R: Real, I: Index>(
