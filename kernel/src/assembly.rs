@@ -111,7 +111,7 @@ pub fn load<R: Real, I: Index>(
     Ok(())
 }
 
-/// The same for a mesh of triangles, without any code for quads.
+/// Fills the load of a mesh of triangles, without any code for quads.
 ///
 /// # Errors
 /// Slices of the wrong length.
@@ -134,7 +134,7 @@ pub fn load_of_triangles<R: Real, I: Index>(
     Ok(())
 }
 
-/// What the cell of a boundary edge adds to the load there.
+/// Share of the load that the cell of a boundary edge adds there.
 pub fn share_of_cell<R: Real, I: Index>(edges: &Edges<I>, cells: CellLoads<R>, edge: usize) -> R {
     let half = read(edges.half_edges(), edge)[0];
     R::ZERO

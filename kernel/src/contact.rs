@@ -1,4 +1,4 @@
-//! What a controller reads off the contact boundary: force, length, active edges.
+//! Force, length and active edges of the contact boundary.
 //!
 //! The flux (15) keeps the law of contact only as far as the solver has converged. Forces are those of the
 //! flux τ that keeps it at any stop:
@@ -33,7 +33,7 @@ pub fn force<R: Real, I: Index>(
     })
 }
 
-/// The same from the fluxes of the cells, as filled by [`crate::flux::of_triangles`] and
+/// Force from the fluxes of the cells, as filled by [`crate::flux::of_triangles`] and
 /// [`crate::flux::of_quads`]: a contact edge has one cell.
 pub fn force_of_cells<R: Real, I: Index>(
     edges: &Edges<I>,

@@ -2,12 +2,12 @@
 
 use core::fmt;
 
-/// What an input was refused for.
+/// Reason why an input was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Error {
     /// The index type or a fixed capacity is too small.
     Capacity {
-        /// What there is too much of.
+        /// The array that is too long.
         of: Array,
         /// How many there are.
         needed: usize,
@@ -212,7 +212,7 @@ pub fn same_length(of: Array, found: usize, expected: usize) -> Result<(), Error
     if found == expected { Ok(()) } else { Err(Error::Length { of, found, expected }) }
 }
 
-/// The same for an array that may be left out.
+/// Checks the length of an array that may be left out.
 pub fn same_length_or_empty(of: Array, found: usize, expected: usize) -> Result<(), Error> {
     if found == 0 { Ok(()) } else { same_length(of, found, expected) }
 }

@@ -1,4 +1,4 @@
-//! What this build of the kernel can do: one constant for each Cargo feature.
+//! Features of this build of the kernel: one constant for each Cargo feature.
 //!
 //! Code for what a scene does not have is left out where its constant is false, and what would need it
 //! is refused by the constructors: a mesh of quads by [`crate::mesh::edges::Edges::new`], say.

@@ -78,7 +78,7 @@ fn on_sides<R: Real, I: Index>(&[a, b, c]: &[I; 3], u: &[R]) -> Option<[R; 3]> {
     Some([*u.get(a.at())?, *u.get(b.at())?, *u.get(c.at())?])
 }
 
-/// The same for every quad. Not inlined, so that symbols tell whether it is there.
+/// Fills the fluxes of every quad. Not inlined, so that symbols tell whether it is there.
 ///
 /// # Errors
 /// Slices of the wrong length.
@@ -101,7 +101,7 @@ pub fn of_quads<R: Real, I: Index>(
     Ok(())
 }
 
-/// What [`recover`] found.
+/// Findings of [`recover`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Recovered<R> {
     /// max over interior edges of |F from one side + F from the other|: 0 for the exact solution,

@@ -1,4 +1,4 @@
-//! What the flux through a contact edge may be: from one end to another, either of which may be infinite.
+//! Range of the flux through a contact edge: from one end to another, either of which may be infinite.
 //!
 //! ```text
 //!   ∫lo ≤ ∫_E A∇u·n ≤ ∫hi        base = ∫lo,  span = ∫(hi − lo), 0 at least or ∞      [base, base + span]

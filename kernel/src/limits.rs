@@ -11,7 +11,7 @@ use crate::verdict::Certificate;
 pub struct Limits<R> {
     /// The certified error that is small enough; 0 leaves it to the others.
     pub error: R,
-    /// What the algebraic part may be of the whole: below a tenth, more sweeps buy nothing. Where the mesh
+    /// Part of the bound that its algebraic part may be: below a tenth, more sweeps buy nothing. Where the mesh
     /// holds the solution exactly, all of the error is algebraic, and it ends where rounding hides it. 0
     /// leaves it to the others.
     pub share: R,

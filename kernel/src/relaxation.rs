@@ -41,7 +41,7 @@ impl<R: Real> Relaxation<R> {
     }
 }
 
-/// What the search is doing.
+/// Phase of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {
     Rising,
@@ -102,7 +102,7 @@ impl<R: Real> Search<R> {
         sweeps
     }
 
-    /// The same, for an ω that may start there: inside (0, 2), an adaptive one in [1, 2).
+    /// Checks that ω may start there: inside (0, 2), an adaptive one in [1, 2).
     pub fn checked(relaxation: Relaxation<R>) -> Result<Self, Error> {
         let valid = match relaxation {
             Relaxation::Fixed(omega) => omega > R::ZERO && omega < R::TWO,

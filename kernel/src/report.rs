@@ -1,4 +1,4 @@
-//! What a controller says after a tick, whatever model of a scene it solves.
+//! Report of a tick to a controller, whatever model of a scene it solves.
 //!
 //! ```text
 //!   condensed::Condensed::tick ──► Report
@@ -9,7 +9,7 @@
 use crate::real::Real;
 use crate::verdict::{Certificate, Verdict};
 
-/// What ended a tick.
+/// Reason for the end of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
     /// The solution of the discrete problem, but for rounding: by exchanges, by a factor, or since nothing is in contact.
@@ -31,7 +31,7 @@ pub enum Ended {
 /// An answer's report: the iterate is feasible in every case but [`Ended::NotFinite`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report<R> {
-    /// What ended the tick.
+    /// Reason for its end.
     pub ended: Ended,
     /// Edges that changed sides, one by one, on the way to the exact solution; 0 where there are sweeps alone.
     pub exchanges: u32,

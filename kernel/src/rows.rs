@@ -110,7 +110,7 @@ impl<'a, R: Real, I: Index, const WIDTH: usize> Rows<'a, R, I, WIDTH> {
         Self::lay_out(edges.counts(), rows, neighbours)
     }
 
-    /// The same for any matrix with a row for each of the unknowns.
+    /// Packed rows of any matrix with a row for each of the unknowns.
     ///
     /// # Errors
     /// As for [`Rows::new`], and columns that are no edges.

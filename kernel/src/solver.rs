@@ -30,7 +30,7 @@ pub enum Status {
     NotFinite,
 }
 
-/// What to do, fixed during a solve.
+/// Settings of a solve, fixed while it runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings<R> {
     /// How ω is chosen.
@@ -78,7 +78,7 @@ impl<R: Real> Settings<R> {
     }
 }
 
-/// What came of it.
+/// Outcome of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome<R> {
     /// How it ended.

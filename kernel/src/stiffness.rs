@@ -28,7 +28,7 @@ impl<R: Real> Coefficient<'_, R> {
         }
     }
 
-    /// That of a cell, of a quad at its first point; `triangles` come first.
+    /// Tensor of a cell, of a quad at its first point; `triangles` come first.
     pub fn of_cell(&self, cell: usize, triangles: usize, points: usize) -> Tensor<R> {
         let of_quad = cell.checked_sub(triangles).map(|quad| triangles + quad * points * points);
         self.at(cell, of_quad.unwrap_or(cell))
@@ -85,7 +85,7 @@ pub fn fill<R: Real, I: Index>(
     fill_with(QuadElement::Parametric, mesh, coefficient, points, triangles, quads)
 }
 
-/// The same with a choice of the element on quads. With the nonparametric one 2 points a direction are
+/// Fills the matrices with a choice of the element on quads. With the nonparametric one 2 points per direction are
 /// exact on every quad with constant A.
 ///
 /// # Errors

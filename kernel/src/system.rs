@@ -25,7 +25,7 @@ pub struct Shifts<'a, R, I> {
     pub part: &'a [I],
     /// How many parts there are.
     pub parts: usize,
-    /// What K has on its diagonal beyond the element matrices.
+    /// Terms on the diagonal of K beyond the element matrices.
     pub diagonal: DiagonalTerms<'a, R, I>,
 }
 
@@ -58,7 +58,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         Ok(Self { matrix, load, law, counts, shifts: None })
     }
 
-    /// The same problem, with the solver allowed to shift whole parts ([`crate::shift`]).
+    /// This problem with the solver allowed to shift whole parts ([`crate::shift`]).
     ///
     /// # Errors
     /// Parts of another length than the unknowns (or empty).
@@ -69,7 +69,7 @@ impl<'a, R: Real, I: Index> System<'a, R, I> {
         Ok(Self { shifts: Some(shifts), ..self })
     }
 
-    /// The same matrix and shifts with another load and another gap.
+    /// This matrix and its shifts with another load and another gap.
     ///
     /// # Errors
     /// As for [`System::new`].
@@ -172,7 +172,7 @@ pub struct Residual<R> {
     pub range: R,
     /// max |b_i|/K_ii
     pub load: R,
-    /// What rounding alone can make of `largest`: ε max (|b_i| + Σ|K_ij u_j|)/K_ii, on contact edges
+    /// Residual that rounding alone can make of `largest`: ε max (|b_i| + Σ|K_ij u_j|)/K_ii, on contact edges
     /// ε (|u_i| + |ψ_i|) where the opening decides.
     pub rounding: R,
     /// Number of active contact edges, u_E = ψ_E.

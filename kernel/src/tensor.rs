@@ -29,7 +29,7 @@ impl<R: Real> Tensor<R> {
         scale > R::ZERO && scale.finite() && xx > R::ZERO && xx * yy > xy * xy
     }
 
-    /// As a nalgebra matrix.
+    /// The tensor as a nalgebra matrix.
     pub fn matrix(&self) -> Matrix2<R> {
         Matrix2::new(self.xx, self.xy, self.xy, self.yy)
     }

@@ -1,4 +1,4 @@
-//! What can be said of how wrong an answer is, whatever model of a scene gave it.
+//! Verdict on how wrong an answer is, whatever model of a scene gave it.
 //!
 //! `signorini_bound::certificate` finds it on a mesh, [`signorini_contact`] in a problem of contact edges alone.
 
@@ -13,9 +13,9 @@ pub struct Certificate<R> {
     /// would remove. Early in a solve it may be more than the total: reports of ticks call that the total
     /// ([`Certificate::as_parts`]).
     pub algebraic: R,
-    /// What was given as oscillation.
+    /// Oscillation that was given.
     pub oscillation: R,
-    /// What rounding can have hidden.
+    /// Part that rounding can have hidden.
     pub rounding: R,
     /// oscillation + √(gap² + oscillation²) + rounding: never less than the error of s and τ.
     pub total: R,
@@ -25,14 +25,14 @@ pub struct Certificate<R> {
 }
 
 impl<R: Real> Certificate<R> {
-    /// The same with an algebraic part that is no more than the total it is a part of.
+    /// This certificate with an algebraic part that is no more than the total it is a part of.
     #[must_use]
     pub fn as_parts(self) -> Self {
         if self.algebraic > self.total { Self { algebraic: self.total, ..self } } else { self }
     }
 }
 
-/// What can be said of an iterate.
+/// Verdict on an iterate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict<R> {
     /// Its error is at most the total of this.
@@ -56,7 +56,7 @@ pub enum Verdict<R> {
 }
 
 impl<R: Real> Verdict<R> {
-    /// The same with [`Certificate::as_parts`].
+    /// This verdict with [`Certificate::as_parts`].
     #[must_use]
     pub fn as_parts(self) -> Self {
         match self {

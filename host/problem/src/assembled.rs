@@ -194,7 +194,7 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.loads.boundary(&self.edges)
     }
 
-    /// What the matrix has on its diagonal beyond the element matrices.
+    /// Terms on the diagonal of the matrix beyond the element matrices.
     ///
     /// # Errors
     /// As for [`Assembled::boundary`].

@@ -147,7 +147,7 @@ pub(super) fn place(mesh: &Mesh, ends: [u32; 2]) -> String {
     format!("({}, {})–({}, {})", a[0], a[1], b[0], b[1])
 }
 
-/// What is to be added for `name` in the tables of this kind.
+/// The lines to add for `name` in the tables of this kind.
 fn to_add(kind: &str, name: &str) -> String {
     match name {
         DEFAULT => format!("add [{kind}.default] for all that is left"),

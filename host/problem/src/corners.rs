@@ -6,7 +6,7 @@ use super::{Problem, Sum};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Field;
 
-/// What rounding may leave of u_D = ψ, relative to the range of the boundary data: cos(1.5π) in an
+/// Difference that rounding may leave of u_D = ψ, relative to the range of the boundary data: cos(1.5π) in an
 /// expression is −1.8e−16.
 const ROUNDING: f64 = 1e-9;
 

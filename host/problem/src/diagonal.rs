@@ -10,7 +10,7 @@ use super::Problem;
 use super::element_matrices::ElementMatrices;
 
 impl Problem {
-    /// What K has on its diagonal beyond the element matrices, in f64.
+    /// Terms on the diagonal of K beyond the element matrices, in f64.
     ///
     /// # Errors
     /// Records of the boundary that are not admissible.
@@ -53,7 +53,7 @@ impl Problem {
 
 /// Where the entries of a row stand in an element matrix, but for the diagonal one.
 const TRIANGLE: [[usize; 2]; 3] = [[0, 2], [0, 1], [2, 1]];
-/// The same of a quad.
+/// Positions of the entries of a row in the matrix of a quad, but for the diagonal one.
 const QUAD: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 4], [1, 3, 5], [2, 4, 5]];
 
 /// Rows add up to 0.

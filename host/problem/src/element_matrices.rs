@@ -46,7 +46,7 @@ impl<R: Scalar> ElementMatrices<R> {
         })
     }
 
-    /// As the kernel takes them.
+    /// The matrices in the form that the kernel takes.
     pub fn stiffness(&self) -> Stiffness<'_, R> {
         Stiffness { triangles: &self.triangles, quads: &self.quads }
     }
@@ -91,7 +91,7 @@ fn of_triangle([a, b, c]: [f64; 3]) -> f64 {
     (ab.abs() + bc.abs() + ca.abs()) / (ab + bc + ca).max(0.0)
 }
 
-/// The same in a quad whose opposite sides' midpoints p and q join: G_pp G_qq over det G, G being A in their
+/// Stiffest entry of a quad whose opposite sides' midpoints p and q join: G_pp G_qq over det G, G being A in their
 /// coordinates.
 fn of_quad([a, b, c, d]: [[f64; 2]; 4], tensor: Tensor<f64>) -> f64 {
     let p: [f64; 2] = std::array::from_fn(|i| b[i] + c[i] - a[i] - d[i]);

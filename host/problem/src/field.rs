@@ -10,7 +10,7 @@ use crate::Problem;
 pub enum CellField {
     /// Corners, means of u_h over the sides, outward fluxes through the sides.
     Triangle([[f64; 2]; 3], [f64; 3], [f64; 3]),
-    /// The same for a quad, and what u_h is made of there.
+    /// Corners of a quad, means of u_h over the sides, outward fluxes through the sides, and its element.
     Quad([[f64; 2]; 4], [f64; 4], [f64; 4], QuadElement),
 }
 

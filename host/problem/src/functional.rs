@@ -8,7 +8,7 @@ use crate::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::{Located, Output, Quantity, Scene};
 
-/// What an output is made of; edges are counted as [`Problem`] has them.
+/// Parts of an output; edges are counted as [`Problem`] has them.
 #[derive(Debug, Clone)]
 pub enum Functional {
     /// ∫τ·n over edges: within the law of contact where they are in contact, elsewhere the flux (15).
@@ -41,7 +41,7 @@ pub fn wanted(scene: &Scene) -> Cow<'_, [Output]> {
     Cow::Owned(defaults.into())
 }
 
-/// Those of [`wanted`], in its order.
+/// Functionals of the outputs [`wanted`], in that order.
 ///
 /// # Errors
 /// A probe outside the mesh.
@@ -50,7 +50,7 @@ pub fn functionals(problem: &Problem) -> Result<Vec<Functional>> {
 }
 
 impl Functional {
-    /// That of one output.
+    /// The functional of one output.
     ///
     /// # Errors
     /// A probe outside the mesh.

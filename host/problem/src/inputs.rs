@@ -10,14 +10,14 @@ const CORNERS: usize = 8;
 /// Where values of an input are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputSpace {
-    /// What the first tick has.
+    /// Value in the first tick.
     pub default: f64,
     /// The least and the largest value; infinite where the scene declares none.
     pub range: [f64; 2],
 }
 
 impl InputSpace {
-    /// Those of a scene, in its order.
+    /// The inputs of a scene, in its order.
     pub fn of(scene: &Scene) -> Vec<Self> {
         let space = |input: &Input| Self { default: input.default, range: input.interval() };
         scene.inputs.iter().map(space).collect()

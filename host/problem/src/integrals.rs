@@ -17,14 +17,14 @@ pub struct Coefficients {
     pub triangles: Vec<Tensor<f64>>,
     /// Constant quads have one tensor, others the 8×8 quadrature points of theirs.
     pub quads: Vec<QuadCoefficient>,
-    /// What they make of the cells, once somebody asks.
+    /// Element matrices that follow, once somebody asks.
     pub(super) matrices: OnceLock<std::result::Result<Integrated, KernelError>>,
 }
 
 /// A on one quad.
 #[derive(Debug, Clone)]
 pub enum QuadCoefficient {
-    /// The same everywhere.
+    /// One tensor everywhere.
     Constant(Tensor<f64>),
     /// At the 8×8 Gauss points, x̂ running fastest.
     AtPoints(Vec<Tensor<f64>>),

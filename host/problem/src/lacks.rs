@@ -1,4 +1,4 @@
-//! What each approach to a problem cannot treat, and in which words it says so.
+//! Limits of each approach to a problem, and the words in which it refuses.
 //!
 //! ```text
 //!   Property (found in the problem) × Approach (asked by whoever takes it) ─► Lack, or nothing
@@ -17,12 +17,12 @@ use signorini_scene::error::{Error, InputError, Result};
 use signorini_scene::scene::Field;
 use signorini_scene::scene::term::first_in_time;
 
-/// What is done with a problem.
+/// Ways to treat a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Approach {
     /// The elimination of all but the contact edges.
     Condensation,
-    /// The same for every value of one transfer coefficient.
+    /// The elimination for every value of one transfer coefficient.
     Modes,
     /// The kernel's tick on the mesh.
     Tick,
@@ -30,7 +30,7 @@ pub enum Approach {
     FullModel,
     /// The kernel's sparse factor, in a solve.
     Factor,
-    /// The same in the ticks of a full model, one factor for all of them.
+    /// A factor in the ticks of a full model, one for all of them.
     FactoredTicks,
     /// Data for tests of the kernel's stages.
     Export,
@@ -41,7 +41,7 @@ pub enum Approach {
 /// A property of a problem that an approach cannot treat; its text is the reason without the file.
 #[derive(Debug)]
 pub struct Lack {
-    /// What the problem has.
+    /// Property of the problem that is in the way.
     pub property: Property,
     refusal: InputError,
 }
@@ -69,7 +69,7 @@ impl Approach {
         Ok(self.lack_with(problem, parts))
     }
 
-    /// The same for who has examined the `parts` of `problem`.
+    /// The lack of `problem`, whose `parts` have been examined.
     pub fn lack_with(self, problem: &Problem, parts: PartCounts) -> Option<Lack> {
         Property::ALL.into_iter().find_map(|property| self.lack_of(property, problem, parts))
     }

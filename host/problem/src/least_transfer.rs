@@ -13,7 +13,7 @@ use signorini_scene::scene::{Boundary, Field, Input, Scene};
 const CANCELLED: f64 = 1e-6;
 
 impl Problem {
-    /// The same with the least ∫h on every transfer edge; other loads stay.
+    /// This problem with the least ∫h on every transfer edge; other loads stay.
     ///
     /// # Errors
     /// Data that are not finite.

@@ -71,7 +71,7 @@ use topology::wrong_mesh;
 /// Everything that defines one discrete contact problem.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// What states it, its inputs at the values of the loads.
+    /// The scene that states it, its inputs at the values of the loads.
     pub scene: Arc<Scene>,
     /// The mesh as read.
     pub mesh: Arc<Mesh>,
@@ -81,9 +81,9 @@ pub struct Problem {
     pub ends: Arc<[[u32; 2]]>,
     /// |E|
     pub lengths: Arc<[f64]>,
-    /// What lies on each edge.
+    /// Kind of each edge.
     pub kinds: Arc<[EdgeKind]>,
-    /// What u_h is made of on quads.
+    /// Element of u_h on quads.
     pub element: QuadElement,
     /// Which names mean which cells and edges.
     pub binding: Arc<Binding>,
@@ -93,7 +93,7 @@ pub struct Problem {
     pub loads: Loads,
     /// The time t of the loads and of the exact solution.
     pub time: f64,
-    /// What was found and is no error, but may not be meant: a sentence each.
+    /// Findings that are no errors, but may not be meant: a sentence each.
     pub warnings: Vec<String>,
 }
 

@@ -17,7 +17,7 @@ use signorini_scene::scene::Field;
 /// Gauss points a panel, and panels on an edge, at which the least and the largest span are looked for.
 const POINTS: usize = 8;
 const PANELS: u32 = 4;
-/// What rounding leaves of a difference that is constant, as a part of it.
+/// Part of a constant difference that rounding may leave.
 const CONSTANT: f64 = 1e-12;
 
 /// Terms that an end counts for where rounding is told from an empty range: an expression has many, and so has a mean.
@@ -51,7 +51,7 @@ pub struct Spread {
     pub least: f64,
 }
 
-/// That of a contact edge; nothing where both ends are finite on no side, or hi − lo is constant along the edge.
+/// Spread of a contact edge; `None` where both ends are finite on no side, or hi − lo is constant along the edge.
 pub fn spread(problem: &Problem, edge: usize, time: f64) -> Option<Spread> {
     let least = Sum::on_edge(problem, edge, Field::Flux, time)?;
     let most = Sum::on_edge(problem, edge, Field::Limit, time)?;

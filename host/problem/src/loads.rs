@@ -37,7 +37,7 @@ pub struct Loads<R = f64> {
 }
 
 impl<R: Scalar> Loads<R> {
-    /// What ∫_E A∇u·n may be on a contact edge, counted from the first one.
+    /// Range of ∫_E A∇u·n on a contact edge, counted from the first one.
     pub fn flux_range(&self, contact: usize) -> FluxRange<R> {
         let span = self.spans.get(contact).map_or(Span::UNLIMITED, |&span| Span::new(span));
         FluxRange::new(self.contact_flux[contact], span)
@@ -94,7 +94,7 @@ impl Loads {
         Ok(loads)
     }
 
-    /// The same in another scalar.
+    /// These loads in another scalar.
     pub fn narrowed<R: Scalar>(&self) -> Loads<R> {
         let all = |numbers: &[f64]| numbers.iter().map(|&x| R::narrow(x)).collect();
         let neumann = self.neumann.iter();

@@ -38,7 +38,7 @@ pub fn exact_at(
     Ok((value(&exact.u)?, [value(along_x)?, value(along_y)?]))
 }
 
-/// The same at many points of cells.
+/// Values of the exact solution at many points of cells.
 ///
 /// # Errors
 /// A value that is not finite.

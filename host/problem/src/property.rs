@@ -1,4 +1,4 @@
-//! What a problem may have that not every approach can treat.
+//! Properties of a problem that not every approach can treat.
 
 use std::fmt;
 

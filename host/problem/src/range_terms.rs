@@ -10,7 +10,7 @@ use super::{Problem, limits};
 use signorini_scene::error::Result;
 use signorini_scene::scene::term::Term;
 
-/// What one term of the loads adds to the ranges, with an entry for each contact edge.
+/// Contribution of one term of the loads to the ranges, with an entry for each contact edge.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RangeTerm {
     /// To the base: ∫lo, or ∫hi where lo = −∞.
@@ -22,7 +22,7 @@ pub struct RangeTerm {
 }
 
 impl Problem {
-    /// That of one unit of `term`, which is 0 for what the scene states.
+    /// Contribution of one unit of `term`, which is 0 for what the scene states.
     ///
     /// # Errors
     /// Data that are not finite.

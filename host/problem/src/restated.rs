@@ -1,4 +1,4 @@
-//! The same mesh with other data: at another time, for other inputs, of another scene, in other units.
+//! One mesh with other data: at another time, for other inputs, of another scene, in other units.
 //!
 //! Nothing here numbers an edge or looks at the shape of a cell again: [`Problem::new`] has done so.
 
@@ -35,7 +35,7 @@ impl Problem {
         self.set_time(time)
     }
 
-    /// The same with the inputs at these values, in the order of the scene; those without one keep theirs.
+    /// This problem with the inputs at these values, in the order of the scene; those without one keep theirs.
     ///
     /// # Errors
     /// As for [`Problem::set_time`].
@@ -47,7 +47,7 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The same with the loads of `scene`, which has the same boundaries and A.
+    /// This problem with the loads of `scene`, which has the same boundaries and A.
     ///
     /// # Errors
     /// As for [`Problem::set_time`].
@@ -68,19 +68,19 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The same loads, stated by `scene`: it differs in nothing that they are made of.
+    /// These loads stated by `scene`: it differs in nothing that they are made of.
     #[must_use]
     pub fn restated(&self, scene: Scene) -> Self {
         Self { scene: Arc::new(scene), ..self.clone() }
     }
 
-    /// The same in another setting; the mesh is that of the old one.
+    /// This problem in another setting; the mesh is that of the old one.
     #[must_use]
     pub fn with_setting(&self, setting: Option<Setting>) -> Self {
         self.restated(Scene { setting, ..Scene::clone(&self.scene) })
     }
 
-    /// The same in `units`.
+    /// This problem in `units`.
     ///
     /// # Errors
     /// Data that are not finite in these units.

@@ -53,7 +53,7 @@ impl<'p> Search<'p> {
         near.iter().find_map(|&cell| self.within(cell, point)).or_else(|| self.nearest(near, point))
     }
 
-    /// The same for one of many points that follow each other: `last` is where the one before lies.
+    /// Finds one of many points that follow each other: `last` is where the one before lies.
     pub fn find_near(&self, last: Option<LocatedPoint>, point: [f64; 2]) -> Option<LocatedPoint> {
         last.and_then(|last| self.within(last.cell, point)).or_else(|| self.find(point))
     }

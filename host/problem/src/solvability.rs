@@ -32,7 +32,7 @@ impl Parts {
         Ok(Self { counts, cells, triangles })
     }
 
-    /// The same where every transfer coefficient is the least that inputs make it, and loads are such that each part has a
+    /// Parts where every transfer coefficient is the least that inputs make it, and loads are such that each part has a
     /// solution: what holds the parts whatever the inputs. Without such inputs, those of `problem` as it stands.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl Parts {
         (0..self.cells.len()).filter(|&cell| self.of_cell(cell) == cell)
     }
 
-    /// What holds a part.
+    /// Support of a part.
     pub fn support(&self, part: usize) -> Support {
         self.cells[part].support
     }

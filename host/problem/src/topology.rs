@@ -1,4 +1,4 @@
-//! What joins cells: edges by number, and what lies on each.
+//! Edges by number: the cells that they join, and the kind of each.
 
 use signorini_kernel::Error as KernelError;
 use signorini_kernel::error::CellId;
@@ -11,7 +11,7 @@ use signorini_scene::error::{InputError, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::{Condition, Scene};
 
-/// What lies on an edge.
+/// Kind of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EdgeKind {
     /// Between two cells.

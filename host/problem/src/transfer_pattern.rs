@@ -1,4 +1,4 @@
-//! What one unit of an input adds to a transfer coefficient, and with it to the load: integrals over products of patterns.
+//! Contribution of one unit of an input to a transfer coefficient, and with it to the load: integrals over products of patterns.
 //!
 //! ```text
 //!   ∫h u_ext = ∫(h_0 + Σ_c p_c π_c)(u_0 + Σ_a p_a w_a)
@@ -25,7 +25,7 @@ pub struct TransferPattern {
 }
 
 impl Problem {
-    /// That of the input at this place in the scene, which adds to a coefficient.
+    /// Pattern of the input at this place in the scene, which adds to a coefficient.
     ///
     /// # Errors
     /// Data that are not finite.
@@ -59,7 +59,7 @@ impl Problem {
         Ok(values)
     }
 
-    /// What makes u_ext on the boundary of an input: the base, and every input that adds to it.
+    /// Terms of u_ext on the boundary of an input: the base, and every input that adds to it.
     fn ambient_terms<'s>(
         &'s self,
         of: &'s Input,

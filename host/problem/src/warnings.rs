@@ -1,4 +1,4 @@
-//! What a scene does on its mesh that may not be meant, though it is no error.
+//! Warnings on a scene and its mesh: what may not be meant, though it is no error.
 
 use super::solvability::floating;
 use super::{EdgeKind, Problem};

@@ -11,6 +11,6 @@ pub struct Candidate<'a, R> {
     pub x: &'a [R],
     /// Sx − b, less what the load of its side has beyond b.
     pub residual: &'a [R],
-    /// What r may be.
+    /// Ranges of r.
     pub ranges: Ranges<'a, R>,
 }

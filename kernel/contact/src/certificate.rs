@@ -123,7 +123,7 @@ impl<R: Real> Form<'_, R> {
         self.certify_with(answer, z, sum, |norm, _, _| Ok(norm))
     }
 
-    /// The same with what `whole` makes of ‖F (p, x, d)‖, given z and scratch: that of all forms there are.
+    /// Certifies with the value that `whole` makes of ‖F (p, x, d)‖, given z and scratch: that of all forms there are.
     pub(super) fn certify_with(
         &self,
         answer: &Candidate<R>,
@@ -215,7 +215,7 @@ impl<R: Real> Form<'_, R> {
         }
     }
 
-    /// What the rounding of e = E x + d can do to the norm of a form.
+    /// Largest effect of the rounding of e = E x + d on the norm of a form.
     fn nudged(&self, factor: &Factor<R>, x: &[R]) -> R {
         let first = factor.norms.len().saturating_sub(self.vertices.len());
         let columns = factor.norms.iter().skip(first).zip(self.vertices);

@@ -71,7 +71,7 @@ pub struct Condensed<'a, R> {
     pub spans: SpanColumns<'a, R>,
     /// The outputs.
     pub outputs: &'a [Measure<'a, R>],
-    /// What bounds the error; absent where there is no bound, or nobody asks for it.
+    /// Form that bounds the error; absent where there is no bound, or nobody asks for it.
     pub certificate: Option<Form<'a, R>>,
     /// Whether the data allow for a bound: where they do and it is absent, nobody asks for it.
     pub has_bound: bool,

@@ -20,10 +20,10 @@ use signorini_kernel::limits::Deadline;
 use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::verdict::Verdict;
 
-/// What a solve did.
+/// Summary of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SolveSummary {
-    /// What ended it.
+    /// Reason for its end.
     pub ended: Ended,
     /// Exchanges.
     pub pivots: u32,
@@ -32,7 +32,7 @@ pub struct SolveSummary {
 }
 
 impl SolveSummary {
-    /// What a tick reports of it.
+    /// Report of a tick on it.
     pub(super) fn report<R: Real>(self, x: &[R], verdict: Verdict<R>) -> Report<R> {
         let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
         let Self { ended, pivots, sweeps } = self;
@@ -155,7 +155,7 @@ pub struct Pivots<'a, R> {
     pub start: InitialTableau<'a, R>,
     /// Most exchanges of a solve.
     pub most: u32,
-    /// What follows where they do not suffice.
+    /// Sweeps that follow where exchanges do not suffice.
     pub sweeps: Sweeps<R>,
 }
 

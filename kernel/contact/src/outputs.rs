@@ -1,4 +1,4 @@
-//! What a controller reads off a condensed model.
+//! Outputs of a condensed model: forces, fluxes, lengths, probes.
 //!
 //! On a contact edge τ·n − q is its r where it touches and r > 0, and 0 elsewhere, wherever the solver was
 //! stopped: forces are never negative. Where its flux has a limit, it is the nearest flux within the range, and the end of its
@@ -32,14 +32,14 @@ pub enum Measure<'a, R> {
     },
     /// The length of the edges that touch, x = 0.
     Length {
-        /// That of edges which touch whatever the inputs are, and have no x.
+        /// Sum over edges that touch whatever the inputs are, and have no x.
         always: R,
         /// |E|, or 0 of an edge that does not count.
         of_contact: &'a [R],
     },
     /// The length of the edges at their upper end, x < 0.
     Saturated {
-        /// That of edges which are there whatever the inputs are, and have no x.
+        /// Sum over edges that are there whatever the inputs are, and have no x.
         always: R,
         /// |E|, or 0 of an edge that does not count.
         of_contact: &'a [R],

@@ -11,7 +11,7 @@ pub struct Sides<'a, R> {
     baked: Option<Baked<'a, R>>,
 }
 
-/// What the host has worked out for it.
+/// Numbers that the host has worked out for it.
 #[derive(Debug, Clone, Copy)]
 pub struct Baked<'a, R> {
     /// For both ends of every contact edge its number among the vertices; from there on that of a corner; or [`ON_GAP`].

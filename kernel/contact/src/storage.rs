@@ -24,7 +24,7 @@ pub struct Storage<Numbers, Flags, Columns, Spans> {
     has_begun: bool,
 }
 
-/// The same in arrays: P padded contact edges, C columns, S spans.
+/// [`Storage`] in arrays: P padded contact edges, C columns, S spans.
 pub type ArrayStorage<R, const P: usize, const C: usize, const S: usize = 0> =
     Storage<[R; P], [bool; P], [R; C], [R; S]>;
 
@@ -102,7 +102,7 @@ impl<Numbers, Flags, Columns, Spans> Storage<Numbers, Flags, Columns, Spans> {
         self.open.as_ref()
     }
 
-    /// What the certificate of the last tick multiplied the columns of its factor by.
+    /// Factors by which the certificate of the last tick multiplied the columns of its factor.
     pub fn combination<R>(&self) -> &[R]
     where
         Columns: AsRef<[R]>,
@@ -126,7 +126,7 @@ pub struct TableauStorage<Blocks, Flags, Column> {
     is_built: bool,
 }
 
-/// The same in arrays: P padded contact edges, B blocks.
+/// [`TableauStorage`] in arrays: P padded contact edges, B blocks.
 pub type ArrayTableauStorage<R, const P: usize, const B: usize> =
     TableauStorage<[Block<R>; B], [bool; P], [R; P]>;
 

@@ -95,7 +95,7 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
         Ok(Self { neumann, robin, contact_flux, spans: Spans::UNLIMITED })
     }
 
-    /// The same with other ranges than "from ∫q on": `contact_flux` holds their bases then.
+    /// This boundary with other ranges than "from ∫q on": `contact_flux` holds their bases then.
     ///
     /// # Errors
     /// Another number of spans than there are contact edges.
@@ -114,7 +114,7 @@ impl<'a, R: Real, I: Index> Boundary<'a, R, I> {
         self.robin
     }
 
-    /// What ∫_E A∇u·n may be on a contact edge, counted from the first contact edge.
+    /// Range of ∫_E A∇u·n on a contact edge, counted from the first contact edge.
     #[inline(always)]
     pub fn contact_flux(&self, contact: usize) -> FluxRange<R> {
         FluxRange::new(read(self.contact_flux, contact), self.spans.on(contact))

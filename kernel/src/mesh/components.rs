@@ -15,7 +15,7 @@ use crate::mesh::diagonal::DiagonalTerms;
 use crate::mesh::edges::{Block, Edges};
 use crate::real::Real;
 
-/// What holds a connected part.
+/// Support of a connected part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum Support {
     /// Nothing: the solution is determined up to a constant.
@@ -32,7 +32,7 @@ pub enum Support {
 pub struct Part<R, I> {
     /// A cell of the same part; after [`examine`] the same one for the whole part.
     pub root: I,
-    /// What holds the part (valid at its root).
+    /// Support of the part (valid at its root).
     pub support: Support,
     balance: R,
     magnitude: R,

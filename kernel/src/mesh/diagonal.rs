@@ -1,4 +1,4 @@
-//! What the diagonal of K has beyond the element matrices.
+//! Terms on the diagonal of K beyond the element matrices.
 //!
 //! ```text
 //!   K_ii = Σ_T K^T_ii + c_i,     c_i = ∫h on a Robin edge, 0 elsewhere
@@ -20,7 +20,7 @@ pub struct DiagonalTerms<'a, R, I> {
 }
 
 impl<'a, R: Real, I: Index> DiagonalTerms<'a, R, I> {
-    /// Those of the conditions on the boundary.
+    /// Terms of the conditions on the boundary.
     pub fn new(boundary: &Boundary<'a, R, I>) -> Self {
         Self { robin: boundary.robin() }
     }

@@ -1,4 +1,4 @@
-//! What numbers can do: the traits of nalgebra where there are meshes, those of the language elsewhere.
+//! Arithmetic of numbers: the traits of nalgebra where there are meshes, those of the language elsewhere.
 
 /// A field with an order: `f32` or `f64`, and nothing else.
 #[cfg(feature = "mesh")]

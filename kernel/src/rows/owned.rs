@@ -58,7 +58,7 @@ impl<R: Real, I: Index, const WIDTH: usize, const UNKNOWNS: usize>
         Ok(Rows { rows: &mut self.rows, counts, omega: R::ONE })
     }
 
-    /// The same where there is room for more rows than `edges` has unknowns.
+    /// Rows where there is room for more of them than `edges` has unknowns.
     ///
     /// # Errors
     /// As for [`Rows::new`]; too little room.

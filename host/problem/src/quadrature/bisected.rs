@@ -31,7 +31,7 @@ pub fn mean_on_edge(segment: [[f64; 2]; 2], f: Function) -> f64 {
     mean_and_doubt(segment, f)[0]
 }
 
-/// The same, and by how much rules still differ on parts that are cut no further.
+/// Mean over a segment, and by how much rules still differ on parts that are cut no further.
 pub fn mean_and_doubt(segment: [[f64; 2]; 2], f: Function) -> [f64; 2] {
     let rules = |&[a, b]: &[[f64; 2]; 2]| {
         let at = |t: f64| [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
@@ -75,7 +75,7 @@ pub fn over_triangle(corners: [[f64; 2]; 3], f: Function) -> f64 {
     triangle_and_doubt(corners, f)[0]
 }
 
-/// The same, and by how much rules still differ on parts that are cut no further.
+/// Integral over a triangle, and by how much rules still differ on parts that are cut no further.
 pub fn triangle_and_doubt(corners: [[f64; 2]; 3], f: Function) -> [f64; 2] {
     let rules = |corners: &[[f64; 2]; 3]| {
         [TRIANGLE_POINTS, TRIANGLE_POINTS - FEWER]
@@ -95,7 +95,7 @@ pub fn over_quad(corners: [[f64; 2]; 4], f: Function) -> f64 {
     quad_and_doubt(corners, f)[0]
 }
 
-/// The same, and by how much rules still differ on parts that are cut no further.
+/// Integral over a quad, and by how much rules still differ on parts that are cut no further.
 pub fn quad_and_doubt(corners: [[f64; 2]; 4], f: Function) -> [f64; 2] {
     let rules = |corners: &[[f64; 2]; 4]| {
         [DATA_POINTS, DATA_POINTS - FEWER]

@@ -1,4 +1,4 @@
-//! What the bound of a condensed answer charges where s is on a side of ψ that the flux does not belong to.
+//! Charge of the bound of a condensed answer where s is on a side of ψ that the flux does not belong to.
 //!
 //! ```text
 //!   2∫_C (s − ψ)⁺ (τ·n − lo) + (ψ − s)⁺ (hi − τ·n)
@@ -65,7 +65,7 @@ impl<R: Real> Form<'_, R> {
         terms.fold(R::TWO * used, |sum, (&span, p)| sum + span * p.magnitude())
     }
 
-    /// As [`Form::mend`], into the ranges of r: a surplus leaves through the touching edge with most room.
+    /// Mends like [`Form::mend`], into the ranges of r: a surplus leaves through the touching edge with most room.
     pub(super) fn mend_within(&self, answer: &Candidate<R>, uncertainty: R) -> Option<Mended<R>> {
         let Candidate { x, residual, ranges, .. } = *answer;
         let amount = |at: usize| {
@@ -140,7 +140,7 @@ impl<R: Real> Form<'_, R> {
     }
 }
 
-/// What a contact edge adds; nothing where s is on a side that there is not by more than rounding.
+/// Charge of a contact edge; `None` where s is on a side that does not exist by more than rounding.
 fn price_of<R: Real>(
     sides: &Baked<R>,
     edge: usize,

@@ -137,7 +137,7 @@ pub(super) fn groups<T>(vector: &[T]) -> &[[T; SIDE]] {
     vector.as_chunks().0
 }
 
-/// The same, to be written.
+/// Groups of a vector, to be written.
 #[inline(always)]
 pub(super) fn groups_mut<T>(vector: &mut [T]) -> &mut [[T; SIDE]] {
     vector.as_chunks_mut().0

@@ -31,7 +31,7 @@ pub(super) fn subtract_two<R: Real>(
     }
 }
 
-/// What of a group is no padding. Where registers hold one number each it is all of it: eight rows, and the
+/// Entries of a group that are no padding. Where registers hold one number each it is all of it: eight rows, and the
 /// compiler knows it, stay in registers, which gains more than padding takes. Where they hold several, a number
 /// of rows that it does not know keeps the compiler from taking rows together, and turning their numbers about.
 #[inline(always)]

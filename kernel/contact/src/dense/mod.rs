@@ -33,7 +33,7 @@ pub struct Iterate<'a, R> {
 }
 
 impl<R> Iterate<'_, R> {
-    /// The same arrays, for a while.
+    /// Borrows these arrays again.
     pub(crate) fn reborrow(&mut self) -> Iterate<'_, R> {
         Iterate { x: self.x, residual: self.residual, scratch: self.scratch, open: self.open }
     }

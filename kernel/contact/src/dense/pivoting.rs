@@ -21,16 +21,16 @@ use signorini_kernel::error::Error;
 use signorini_kernel::features;
 use signorini_kernel::index::read;
 
-/// What rounding may leave unbalanced, in ε of the first answer, without a correction.
+/// Largest imbalance that rounding may leave without a correction, in ε of the first answer.
 const LIMIT: u32 = 48;
 
-/// The same after one, in ε of the larger of the first and the last answer: 32 times as much.
+/// Largest imbalance after a correction, in ε of the larger of the first and the last answer: 32 times as much.
 const FLOOR: u32 = 1536;
 
 /// Thresholds are drawn anew where the answer has shrunk by more than this since they were.
 const SHRUNK: u32 = 64;
 
-/// What is unbalanced in a solution is less than the load by this factor at least, whatever rounding allows.
+/// Least factor by which the imbalance of a solution is below the load, whatever rounding allows.
 const SANE: u32 = 16;
 
 /// How a search ended.

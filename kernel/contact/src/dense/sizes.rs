@@ -43,7 +43,7 @@ pub(crate) fn unbalanced<R: Real>(residual: &[R], x: &[R]) -> R {
     root(sum, residual.len().min(x.len()), &entry)
 }
 
-/// The same of `count` numbers.
+/// Norm of `count` numbers.
 pub(super) fn norm_of<R: Real>(count: usize, entry: &dyn Fn(usize) -> R) -> R {
     let squares = (0..count).fold(R::ZERO, |sum, at| sum + entry(at) * entry(at));
     root(squares, count, entry)

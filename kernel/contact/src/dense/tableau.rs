@@ -83,7 +83,7 @@ impl<'a, R: Real> Tableau<'a, R> {
         self.exchanged
     }
 
-    /// What `view` makes of each entry of an answer and of whether it is exchanged, in scratch; and which are.
+    /// Writes `view` of each entry of an answer, given whether it is exchanged, into scratch; returns that and the flags.
     pub(super) fn viewed(
         &mut self,
         z: &[R],

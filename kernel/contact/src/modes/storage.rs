@@ -8,7 +8,7 @@ use crate::dense::tableau::InitialTableau;
 use signorini_kernel::Real;
 use signorini_kernel::error::Error;
 
-/// What its model has, with S(t) in [`crate::dense::blocks::count`] blocks, and inputs that p and y have room in.
+/// Storage of the model, with S(t) in [`crate::dense::blocks::count`] blocks, and inputs that p and y have room in.
 #[derive(Debug)]
 pub struct ModalStorage<Numbers, Flags, Columns, Spans, Matrix, Inputs, R> {
     shared: Storage<Numbers, Flags, Columns, Spans>,
@@ -18,7 +18,7 @@ pub struct ModalStorage<Numbers, Flags, Columns, Spans, Matrix, Inputs, R> {
     t: Option<R>,
 }
 
-/// The same in arrays: P padded contact edges, C columns, B blocks, I inputs and modes, S spans.
+/// [`ModalStorage`] in arrays: P padded contact edges, C columns, B blocks, I inputs and modes, S spans.
 pub type ArrayModalStorage<
     R,
     const P: usize,
@@ -28,10 +28,10 @@ pub type ArrayModalStorage<
     const S: usize = 0,
 > = ModalStorage<[R; P], [bool; P], [R; C], [R; S], [Block<R>; B], [R; I], R>;
 
-/// What a tick works on (borrowed), once its inputs are set.
+/// Memory of a tick (borrowed), once its inputs are set.
 #[derive(Debug)]
 pub struct ModalMemory<'a, R> {
-    /// That of the model; its load is B(t) p.
+    /// Memory of the model; its load is B(t) p.
     pub shared: Memory<'a, R>,
     /// p and, after the tick, y: the inputs of the model where t = 0, and of its outputs.
     pub inputs: &'a mut [R],
@@ -110,12 +110,12 @@ impl<Numbers, Flags, Columns, Spans, Matrix, Inputs, R: Real>
         (Condensed { matrix, start, ..modal.model }, memory)
     }
 
-    /// That of the model.
+    /// Storage of the model.
     pub fn shared(&self) -> &Storage<Numbers, Flags, Columns, Spans> {
         &self.shared
     }
 
-    /// The same, to be written.
+    /// Storage of the model, to be written.
     pub fn shared_mut(&mut self) -> &mut Storage<Numbers, Flags, Columns, Spans> {
         &mut self.shared
     }
