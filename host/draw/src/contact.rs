@@ -1,18 +1,17 @@
 //! What happens along the contact boundary C: the multiplier λ against the exact one, and below it,
-//! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0; below the gap λ is at
-//! its limit.
+//! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0; below the gap
+//! λ is at its limit.
 
+use super::axes::{Axes, with_zero};
 use super::scale::{Scale, extent};
-use super::strip::{across, frame, heading, vertical};
-use super::svg::{Path, Svg};
+use super::svg::Svg;
 use super::{ContactEdge, ContactState, ScenePanel};
 
-const LEFT: f64 = 58.0;
-const RIGHT: f64 = 538.0;
+const SIDES: [f64; 2] = [58.0, 538.0];
 const WIDTH: f64 = 642.0;
-/// Top and bottom of the two diagrams.
-const MULTIPLIER: [f64; 2] = [24.0, 164.0];
-const OPENING: [f64; 2] = [196.0, 250.0];
+/// Bottom and top of the two diagrams.
+const MULTIPLIER: [f64; 2] = [164.0, 24.0];
+const OPENING: [f64; 2] = [250.0, 196.0];
 const HEIGHT: f64 = 290.0;
 /// An exact λ may be infinite at a corner; the axis ends at this multiple of the discrete one.
 const TALLEST: f64 = 1.6;
@@ -26,32 +25,52 @@ pub fn contact(panel: &ScenePanel) -> Option<String> {
     edges.retain(|edge| edge.arc_length.iter().all(|s| s.is_finite()));
     edges.sort_by(|a, b| a.arc_length[0].total_cmp(&b.arc_length[0]));
     let length = extent(edges.iter().flat_map(|edge| edge.arc_length))?;
-    let along = Scale::linear(length, [LEFT, RIGHT]);
+    let across = Scale::linear(length, SIDES);
     let mut svg = Svg::new(WIDTH, HEIGHT, &format!("{}: λ and u − ψ along C", panel.title));
 
-    for [top, bottom] in [MULTIPLIER, OPENING] {
-        for (state, zone) in ZONES {
-            for [from, to] in runs(&edges, state) {
-                svg.rectangle(zone, [along.at(from), top], [along.at(to), bottom]);
-            }
+    let up = with_zero(multiplier_range(&edges), MULTIPLIER);
+    let mut axes = Axes { svg: &mut svg, across, up };
+    diagram(&mut axes, &edges, "multiplier", "λ = σ·n − q", |edge| edge.multiplier);
+    axes.line("exact", points(&edges, exact_points));
+
+    let range = extent(edges.iter().map(|edge| edge.opening)).unwrap_or_default();
+    let mut axes = Axes { svg: &mut svg, across, up: with_zero(range, OPENING) };
+    diagram(&mut axes, &edges, "opening", "u − ψ", |edge| edge.opening);
+    axes.feet(6, "arc length along C");
+    Some(svg.finish())
+}
+
+/// Draws a value that is constant on each edge: the area down to 0, and its upper end as a line.
+fn diagram(
+    axes: &mut Axes,
+    edges: &[&ContactEdge],
+    class: &str,
+    quantity: &str,
+    value: impl Fn(&ContactEdge) -> f64,
+) {
+    let [bottom, top] = axes.up.pixels();
+    for (state, zone) in ZONES {
+        for run in runs(edges, state) {
+            let [from, to] = run.map(|s| axes.across.at(s));
+            axes.svg.rectangle(zone, [from, top], [to, bottom]);
         }
     }
-    let multiplier = |edge: &ContactEdge| edge.multiplier;
-    let up = vertical(multiplier_range(&edges), MULTIPLIER);
-    frame(&mut svg, &up, 4, [LEFT, RIGHT], MULTIPLIER);
-    heading(&mut svg, LEFT, MULTIPLIER[0], "λ = σ·n − q");
-    steps(&mut svg, ["multiplier-area", "multiplier"], &edges, &along, &up, multiplier);
-    svg.path("exact", &exact(&edges, &along, &up));
+    axes.levels(if bottom - top > 100.0 { 4 } else { 2 }, |_, label| label);
+    axes.heading(quantity);
+    let steps = points(edges, |edge| edge.arc_length.map(|s| [s, value(edge)]).to_vec());
+    let area = steps.iter().map(|step| step.map(|[s, value]| (s, [0.0, value])));
+    axes.ribbon(&format!("{class}-area"), area);
+    axes.line(class, steps);
+}
 
-    let opening = |edge: &ContactEdge| edge.opening;
-    let range = extent(edges.iter().map(|edge| edge.opening)).unwrap_or_default();
-    let up = vertical(range, OPENING);
-    frame(&mut svg, &up, 2, [LEFT, RIGHT], OPENING);
-    heading(&mut svg, LEFT, OPENING[0], "u − ψ");
-    steps(&mut svg, ["opening-area", "opening"], &edges, &along, &up, opening);
-
-    across(&mut svg, &along, [RIGHT, OPENING[1]], "arc length along C");
-    Some(svg.finish())
+/// The points on all edges, one missing where the boundary is interrupted.
+fn points(
+    edges: &[&ContactEdge],
+    of: impl Fn(&ContactEdge) -> Vec<[f64; 2]>,
+) -> Vec<Option<[f64; 2]>> {
+    let runs = edges.chunk_by(|a, b| touches(a.arc_length[1], b));
+    let run = |run: &[&ContactEdge]| run.iter().flat_map(|edge| of(edge)).collect::<Vec<_>>();
+    runs.flat_map(|edges| run(edges).into_iter().map(Some).chain([None])).collect()
 }
 
 /// The arc lengths between which edges are in this state, neighbouring edges joined.
@@ -80,46 +99,6 @@ fn multiplier_range(edges: &[&ContactEdge]) -> [f64; 2] {
     let room = TALLEST * low.abs().max(high.abs());
     let [exact_low, exact_high] = exact.unwrap_or([low, high]);
     [low.min(exact_low.max(-room)), high.max(exact_high.min(room))]
-}
-
-/// A value that is constant on each edge: the area down to 0, and its upper end as a line.
-fn steps(
-    svg: &mut Svg,
-    [area_class, line_class]: [&str; 2],
-    edges: &[&ContactEdge],
-    along: &Scale,
-    up: &Scale,
-    value: impl Fn(&ContactEdge) -> f64,
-) {
-    let (mut area, mut line) = (Path::default(), Path::default());
-    for run in edges.chunk_by(|a, b| touches(a.arc_length[1], b)) {
-        let run = run.iter().filter(|edge| value(edge).is_finite());
-        let corners: Vec<[f64; 2]> = run
-            .flat_map(|edge| edge.arc_length.map(|s| [along.at(s), up.at(value(edge))]))
-            .collect();
-        line.line(&corners);
-        if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
-            let ground = up.at(0.0);
-            area.polygon(&[&[[first[0], ground]], &corners[..], &[[last[0], ground]]].concat());
-        }
-    }
-    svg.path(area_class, &area);
-    svg.path(line_class, &line);
-}
-
-/// The exact λ, interrupted where it leaves the diagram.
-fn exact(edges: &[&ContactEdge], along: &Scale, up: &Scale) -> Path {
-    let visible = |y: f64| (MULTIPLIER[0] - 1.0..=MULTIPLIER[1] + 1.0).contains(&y);
-    let mut path = Path::default();
-    for run in edges.chunk_by(|a, b| touches(a.arc_length[1], b)) {
-        let points: Vec<[f64; 2]> = run.iter().flat_map(|edge| exact_points(edge)).collect();
-        let points: Vec<[f64; 2]> =
-            points.into_iter().map(|[s, value]| [along.at(s), up.at(value)]).collect();
-        for piece in points.split(|point| !visible(point[1])) {
-            path.line(piece);
-        }
-    }
-    path
 }
 
 /// Arc length and exact λ at the sample points of an edge.

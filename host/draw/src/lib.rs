@@ -6,30 +6,29 @@
 //!                        │          ├─► mosaic   where the error comes from, cell by cell    ─┘
 //!                        │          ├─► contact  λ and the opening along C
 //!                        │          └─► bound    how wrong it can be, and why, in words
-//!                        ├─► figures ─┬─► convergence  error over mesh width                ─┬─► loglog
-//!                        │            └─► sweeps       error bound over sweeps              ─┘
+//!                        ├─► figure       a chart of two logarithmic axes, with a legend
 //!                        ├─► tradeoff     settings: what they cost, how wrong they are ─► pareto
 //!                        └─► extremes     numbers pushed until something gives ─► outcome_map
-//! History ─► history (SVG)              what changes from tick to tick, a diagram each ◄ strip
+//! Chart ─► chart_file (SVG)             what changes from tick to tick, a diagram each
+//! axes   a diagram's scales, grid, lines and areas ◄ chart, figure, contact, pareto
 //! ```
 //! No two curves of a plot have the same colour and marker (`look`). What enumerates is a list (`prose`).
 //! All pictures are SVG inside the page (`svg`, `scale`); no script, no font, no other file.
-//! Nothing here knows a solver or a scene: everything is plain data, filled by whoever ran one. Values that are
+//! Nothing here knows a solver or a scene: everything is plain data, filled by the program that ran one. Values that are
 //! not finite are never written: what they belong to is left out or shown as "–".
 
 mod arrows;
+mod axes;
 mod bound;
+mod chart;
 mod colormap;
 mod contact;
-mod convergence;
 mod extremes;
 mod field;
-mod figures;
+mod figure;
 mod frame;
-mod history;
 mod isobands;
 mod lettering;
-mod loglog;
 mod look;
 mod mosaic;
 mod outcome_map;
@@ -42,18 +41,16 @@ mod prose;
 mod scale;
 mod section;
 mod simplify;
-mod strip;
 mod svg;
-mod sweeps;
 mod table;
 #[cfg(test)]
 mod tests;
 mod tradeoff;
 mod view;
 
-pub use convergence::measured_rate;
+pub use chart::{Band, Chart, Curve, Strip, chart_file};
 pub use extremes::{Extremes, ExtremesStudy, extremes_page};
-pub use history::history;
+pub use figure::measured_rate;
 pub use outcome_map::{OutcomeMap, Square};
 pub use page::html;
 pub use pareto::{ParetoPlot, ParetoPoint, pareto_file};
@@ -74,11 +71,11 @@ pub struct Report {
     /// Claims that were tested beside the rows of the table.
     pub checks: Vec<Check>,
     /// Error over mesh width, a picture each.
-    pub convergence: Vec<ConvergencePlot>,
+    pub convergence: Vec<Chart>,
     /// What the error bound says of solves that were cut off.
     pub cut_off: Table,
     /// The bound over sweeps, a picture each.
-    pub sweeps: Vec<SweepPlot>,
+    pub sweeps: Vec<Chart>,
     /// What settings cost and how wrong they are.
     pub tradeoff: Option<Tradeoff>,
     /// What became of scenes whose numbers were pushed.
@@ -112,39 +109,6 @@ pub struct Check {
     pub found: String,
     /// Whether it holds.
     pub passed: bool,
-}
-
-/// Several errors over the mesh width in one log-log picture.
-#[derive(Debug, Clone)]
-pub struct ConvergencePlot {
-    /// The heading.
-    pub title: String,
-    /// The curves.
-    pub series: Vec<ConvergenceSeries>,
-}
-
-/// One error over the mesh width.
-#[derive(Debug, Clone)]
-pub struct ConvergenceSeries {
-    /// Which error of which scene.
-    pub label: String,
-    /// The mesh widths, from coarse to fine.
-    pub h: Vec<f64>,
-    /// The error on each mesh.
-    pub error: Vec<f64>,
-    /// The exponent p that theory gives in error ~ h^p.
-    pub expected_rate: f64,
-}
-
-/// Several bounds and errors of one scene over the sweeps of a solve, in one log-log picture.
-#[derive(Debug, Clone)]
-pub struct SweepPlot {
-    /// The heading.
-    pub title: String,
-    /// The sweeps after which it was stopped.
-    pub sweeps: Vec<f64>,
-    /// What is drawn: its name and its value at each stop.
-    pub curves: Vec<(String, Vec<f64>)>,
 }
 
 /// One solved scene.
@@ -201,48 +165,6 @@ pub struct BoundTerms {
     pub oscillation: f64,
     /// What rounding adds.
     pub rounding: f64,
-}
-
-/// What changed over time: diagrams on top of each other.
-#[derive(Debug, Clone, Default)]
-pub struct History {
-    /// The heading.
-    pub title: String,
-    /// The time of each tick, increasing.
-    pub time: Vec<f64>,
-    /// The diagrams.
-    pub strips: Vec<Strip>,
-}
-
-/// One diagram over time.
-#[derive(Debug, Clone, Default)]
-pub struct Strip {
-    /// What it shows.
-    pub curves: Vec<Curve>,
-    /// Whether its axis is logarithmic.
-    pub logarithmic: bool,
-    /// A value that should not be exceeded, and what to call it.
-    pub limit: Option<(String, f64)>,
-    /// Where the exact value of the first curve is known to lie, and what to call that.
-    pub band: Option<Band>,
-}
-
-/// An interval at each tick.
-#[derive(Debug, Clone, Default)]
-pub struct Band {
-    /// Its name.
-    pub label: String,
-    /// The least and the largest value, where they are known.
-    pub ends: Vec<Option<[f64; 2]>>,
-}
-
-/// One quantity over time.
-#[derive(Debug, Clone, Default)]
-pub struct Curve {
-    /// Its name.
-    pub label: String,
-    /// Its value at each tick, if it has one there.
-    pub values: Vec<Option<f64>>,
 }
 
 /// An edge of the contact boundary.

@@ -56,9 +56,9 @@ impl Look {
     }
 
     /// Draws a marker at each of the pixels.
-    pub fn markers(self, svg: &mut Svg, pixels: &[[f64; 2]]) {
+    pub fn markers(self, svg: &mut Svg, pixels: impl IntoIterator<Item = [f64; 2]>) {
         let mut path = Path::default();
-        pixels.iter().for_each(|&pixel| path.polygon(&self.marker(pixel, MARKER)));
+        pixels.into_iter().for_each(|pixel| path.polygon(&self.marker(pixel, MARKER)));
         svg.path(&self.class("marker"), &path);
     }
 
@@ -66,7 +66,7 @@ impl Look {
     pub fn key(self) -> String {
         let mut svg = Svg::new(26.0, 12.0, "");
         svg.line(&self.class("curve"), [1.0, 6.0], [25.0, 6.0]);
-        self.markers(&mut svg, &[[13.0, 6.0]]);
+        self.markers(&mut svg, [[13.0, 6.0]]);
         svg.finish()
     }
 }
@@ -89,11 +89,8 @@ fn cross() -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::figures::{convergence_figure, sweeps_figure};
-    use super::super::{
-        ConvergencePlot, ConvergenceSeries, Curve, History, ParetoPlot, ParetoPoint, Strip,
-        SweepPlot, history, pareto_file,
-    };
+    use super::super::figure::figure;
+    use super::super::{Chart, Curve, ParetoPlot, ParetoPoint, Strip, chart_file, pareto_file};
     use super::*;
 
     const CURVES: usize = 16;
@@ -152,27 +149,25 @@ mod tests {
         1.0 + at as f64
     }
 
-    #[test]
-    fn sixteen_rates_look_different() {
-        let series = |at| ConvergenceSeries {
-            label: name(at),
-            h: vec![0.2, 0.1],
-            error: vec![2.0 * value(at), value(at)],
-            expected_rate: 1.0,
+    /// A chart of sixteen curves.
+    fn chart(at: Vec<f64>, expected_rate: Option<f64>) -> Chart {
+        let curve = |number| Curve {
+            label: name(number),
+            values: at.iter().map(|x| Some(value(number) + x)).collect(),
+            expected_rate,
+            ..Curve::default()
         };
-        let series = (0..CURVES).map(series).collect();
-        let plot = ConvergencePlot { title: String::new(), series };
-        let looks = looks(&convergence_figure(&plot).unwrap());
-        assert_told_apart(&looks[..CURVES], &looks[CURVES..]);
+        let curves = (0..CURVES).map(curve).collect();
+        let strips = vec![Strip { curves, ..Strip::default() }];
+        Chart { at, strips, ..Chart::default() }
     }
 
     #[test]
-    fn sixteen_bounds_over_sweeps_look_different() {
-        let curve = |at| (name(at), vec![2.0 * value(at), value(at)]);
-        let curves = (0..CURVES).map(curve).collect();
-        let plot = SweepPlot { title: String::new(), sweeps: vec![1.0, 5.0], curves };
-        let looks = looks(&sweeps_figure(&plot).unwrap());
-        assert_told_apart(&looks[..CURVES], &looks[CURVES..]);
+    fn sixteen_rates_and_bounds_look_different() {
+        for expected in [None, Some(1.0)] {
+            let looks = looks(&figure(&chart(vec![5.0, 1.0], expected)).unwrap());
+            assert_told_apart(&looks[..CURVES], &looks[CURVES..]);
+        }
     }
 
     #[test]
@@ -188,19 +183,11 @@ mod tests {
         assert_told_apart(&looks[CURVES..], &looks[..CURVES]);
     }
 
-    /// A diagram of sixteen curves over `ticks` ticks, drawn.
-    fn over_time(ticks: usize) -> String {
-        let values = |at| (0..ticks).map(|tick| Some(value(at) + tick as f64)).collect();
-        let curves = (0..CURVES).map(|at| Curve { label: name(at), values: values(at) });
-        let strip = Strip { curves: curves.collect(), ..Strip::default() };
-        let time = (0..ticks).map(|tick| tick as f64).collect();
-        history(&History { title: String::new(), time, strips: vec![strip] })
-    }
-
     #[test]
     fn sixteen_curves_over_time_look_different_and_unlike_limits() {
         for ticks in [3, 1000] {
-            let looks = looks(&over_time(ticks));
+            let at = (0..ticks).map(f64::from).collect();
+            let looks = looks(&chart_file(&chart(at, None)));
             assert_told_apart(&looks[..CURVES], &looks[CURVES..]);
             assert!(looks.iter().all(|look| look.0 != format!("series-{OF_LIMITS}")));
         }

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use super::extremes::extremes;
-use super::figures::{convergence_figure, sweeps_figure};
+use super::figure::figure;
 use super::frame::{frame, mark};
 use super::panel::panel;
 use super::prose::list;
@@ -82,7 +82,7 @@ fn further_checks(checks: &[Check]) -> Option<Section> {
 }
 
 fn rates(report: &Report) -> Option<Section> {
-    let plots: Vec<String> = report.convergence.iter().filter_map(convergence_figure).collect();
+    let plots: Vec<String> = report.convergence.iter().filter_map(figure).collect();
     let extent = counted(plots.len(), "plot");
     let body = format!("<div class=\"plots\">\n{}</div>\n", plots.concat());
     let heading = "Convergence";
@@ -92,7 +92,7 @@ fn rates(report: &Report) -> Option<Section> {
 fn cut_off(report: &Report) -> Option<Section> {
     let count = report.cut_off.rows.len();
     let table = checked(&report.cut_off, &report.scenes);
-    let plots: String = report.sweeps.iter().filter_map(sweeps_figure).collect();
+    let plots: String = report.sweeps.iter().filter_map(figure).collect();
     let body = format!(
         "<p class=\"lead\">A control loop stops the solver when its time is up, and the bound says how \
          wrong the answer is then.</p>\n{}{table}<div class=\"plots\">\n{plots}</div>\n",

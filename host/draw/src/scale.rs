@@ -17,6 +17,11 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
+/// Whether a value has a place on a logarithmic axis.
+pub fn has_logarithm(value: f64) -> bool {
+    value.is_normal() && value > 0.0
+}
+
 impl Scale {
     /// An axis that shows `low` to `high` from the first pixel to the second. A single value is
     /// given some room on both sides.
@@ -27,10 +32,15 @@ impl Scale {
         Self { low, high, pixels, logarithmic: false }
     }
 
-    /// The same for positive values in decades: both ends are moved out by a tenth of a decade.
+    /// A scale of positive values in decades, with both ends moved out by a tenth of a decade.
     pub fn logarithmic([low, high]: [f64; 2], pixels: [f64; 2]) -> Self {
         let [low, high] = [low.log10() - 0.1, high.log10() + 0.1];
         Self { low, high, pixels, logarithmic: true }
+    }
+
+    /// The pixels between which it lies.
+    pub fn pixels(&self) -> [f64; 2] {
+        self.pixels
     }
 
     /// Where a value lies; not finite for values the axis cannot show.

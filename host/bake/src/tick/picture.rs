@@ -1,14 +1,15 @@
 //! The ticks as the report draws them: one diagram a quantity, all over the same time.
 
 use super::TickRecord;
-use signorini_draw::{Band, Curve, History, Strip};
+use signorini_draw::{Band, Chart, Curve, Strip};
 use signorini_scene::scene::{Quantity, Scene};
 
 /// Collects the picture of `ticks`, with the budget of sweeps where there was one.
-pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> History {
+pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Chart {
     let curve = |label: &str, pick: &dyn Fn(&TickRecord) -> Option<f64>| Curve {
         label: label.to_owned(),
         values: ticks.iter().map(pick).collect(),
+        ..Curve::default()
     };
     let strip = |curve: Curve| Strip { curves: vec![curve], ..Strip::default() };
     let mut strips = vec![
@@ -21,7 +22,7 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Hist
         let values = curve(&label, &|tick| tick.outputs.get(at).copied().flatten());
         let interval = |tick: &TickRecord| Some(*tick.intervals.get(at)?.as_ref().ok()?);
         let ends: Vec<_> = ticks.iter().map(interval).collect();
-        // That of a probe is around another number than the curve: the mean over its cell.
+        // The interval of a probe is around another number than the curve: the mean over its cell.
         let is_drawn =
             !matches!(output.quantity, Quantity::Probe { .. }) && ends.iter().any(Option::is_some);
         let label = "the exact value lies within".to_owned();
@@ -34,9 +35,10 @@ pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Hist
     let sweeps = curve("sweeps a tick", &|tick| Some(f64::from(tick.sweeps)));
     let limit = budget.map(|sweeps| (format!("budget: {sweeps} sweeps"), f64::from(sweeps)));
     strips.push(Strip { curves: vec![sweeps], limit, ..Strip::default() });
-    History {
+    Chart {
         title: scene.title.clone(),
-        time: ticks.iter().map(|tick| tick.time).collect(),
+        across: "t".to_owned(),
+        at: ticks.iter().map(|tick| tick.time).collect(),
         strips,
     }
 }

@@ -57,7 +57,7 @@ impl Key<'_> {
     fn draw(&self, svg: &mut Svg, [x, y]: [f64; 2]) {
         let mut path = Path::default();
         match *self {
-            Self::Series(at, _) => Look::of(at).markers(svg, &[[x + 10.0, y]]),
+            Self::Series(at, _) => Look::of(at).markers(svg, [[x + 10.0, y]]),
             Self::Front => {
                 path.line(&[
                     [x, y - 4.0],

@@ -4,10 +4,10 @@
 mod key;
 mod layout;
 
+use super::axes::Axes;
 use super::frame::STYLE;
-use super::loglog::{has_logarithm, upright};
 use super::look::{Look, MARKER};
-use super::scale::Scale;
+use super::scale::{Scale, has_logarithm};
 use super::svg::{Anchor, Path, Svg, circle};
 use layout::Layout;
 
@@ -112,30 +112,28 @@ fn drawn_bound(point: &ParetoPoint) -> Option<f64> {
     point.bound.filter(|&bound| (point.front || point.recommended) && has_logarithm(bound))
 }
 
-/// Cost along the bottom; the error in percent at the left and as it is at the right.
+/// Draws cost along the bottom, the error in percent at the left and as it is at the right.
 fn axes(svg: &mut Svg, plot: &ParetoPlot, layout: &Layout) {
-    let (top, bottom) = (layout.top, layout.bottom);
-    svg.rectangle("frame", [LEFT, top], [RIGHT, bottom]);
-    upright(svg, &layout.across, [top, bottom]);
-    svg.text("quantity", [RIGHT, bottom + 38.0], Anchor::End, &plot.cost);
     let percent = layout.range.map(|error| 100.0 * error / plot.size);
     let relative = percent.iter().copied().all(has_logarithm);
-    let main = if relative { Scale::logarithmic(percent, [bottom, top]) } else { layout.up };
-    for (value, label) in main.ticks(5) {
-        let label = if relative { format!("{} %", decimals(value, label)) } else { label };
-        let y = main.at(value);
-        svg.line("grid", [LEFT, y], [RIGHT, y]);
-        svg.text("tick", [LEFT - 8.0, y + 4.0], Anchor::End, &label);
-    }
-    let of = if relative { ", of the solution’s" } else { "" };
-    svg.text("quantity", [LEFT, top - 10.0], Anchor::Start, &format!("{ERROR}{of}"));
+    let up = if relative { Scale::logarithmic(percent, layout.up.pixels()) } else { layout.up };
+    let mut axes = Axes { svg, across: layout.across, up };
+    axes.frame();
+    axes.columns(5);
+    axes.levels(5, |value, label| match relative {
+        true => format!("{} %", decimals(value, label)),
+        false => label,
+    });
+    axes.feet(5, &plot.cost);
+    axes.heading(&format!("{ERROR}{}", if relative { ", of the solution’s" } else { "" }));
     if relative {
         for (value, label) in layout.up.ticks(5) {
             let y = layout.up.at(value);
             svg.line("axis", [RIGHT, y], [RIGHT + 4.0, y]);
             svg.text("tick", [RIGHT + 8.0, y + 4.0], Anchor::Start, &label);
         }
-        svg.text("quantity", [WIDTH - 12.0, top - 10.0], Anchor::End, "in units of the scene");
+        let place = [WIDTH - 12.0, layout.top - 8.0];
+        svg.text("quantity", place, Anchor::End, "in units of the scene");
     }
 }
 

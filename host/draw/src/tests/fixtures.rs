@@ -91,11 +91,23 @@ pub fn full(panel: ScenePanel) -> Report {
         cells: cells.iter().map(|&cell| cell.to_owned()).collect(),
         passed,
     };
-    let series = |expected_rate: f64| ConvergenceSeries {
+    let series = |expected_rate: f64| Curve {
         label: format!("rate {expected_rate}"),
-        h: vec![0.25, 0.125],
-        error: vec![0.25_f64.powf(expected_rate), 0.125_f64.powf(expected_rate)],
-        expected_rate,
+        values: [0.25_f64, 0.125].map(|h| Some(h.powf(expected_rate))).to_vec(),
+        expected_rate: Some(expected_rate),
+        ..Curve::default()
+    };
+    let chart = |title: &str, at: [f64; 2], curves| Chart {
+        title: title.to_owned(),
+        at: at.to_vec(),
+        strips: vec![Strip { curves, ..Strip::default() }],
+        ..Chart::default()
+    };
+    let bound = Curve {
+        label: "bound".to_owned(),
+        values: vec![Some(2.0), Some(1.0)],
+        wide: true,
+        ..Curve::default()
     };
     Report {
         title: "Signorini <script>".to_owned(),
@@ -105,19 +117,12 @@ pub fn full(panel: ScenePanel) -> Report {
             rows: vec![row(&["half-disc", "1e-3"], true), row(&["other", "–"], false)],
         },
         checks: vec![Check { claim: "a < b".to_owned(), found: "1 < 2".to_owned(), passed: true }],
-        convergence: vec![ConvergencePlot {
-            title: "L2".to_owned(),
-            series: vec![series(1.0), series(2.0)],
-        }],
+        convergence: vec![chart("L2", [0.25, 0.125], vec![series(1.0), series(2.0)])],
         cut_off: Table {
             header: vec!["scene".to_owned(), "1".to_owned()],
             rows: vec![row(&["half-disc", "5.3"], true)],
         },
-        sweeps: vec![SweepPlot {
-            title: "half-disc".to_owned(),
-            sweeps: vec![1.0, 5.0],
-            curves: vec![("bound".to_owned(), vec![2.0, 1.0])],
-        }],
+        sweeps: vec![chart("half-disc", [1.0, 5.0], vec![bound])],
         tradeoff: Some(tradeoff()),
         extremes: Some(Extremes::default()),
         scenes: vec![panel],

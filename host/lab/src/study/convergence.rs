@@ -7,9 +7,9 @@ use serde::Serialize;
 use signorini_kernel::element::QuadElement;
 
 use super::checks::Check;
-use signorini_draw::{ConvergencePlot, ConvergenceSeries, measured_rate};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
+use signorini_draw::{Chart, Curve, Strip, measured_rate};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};
@@ -178,7 +178,7 @@ impl ConvergencePlan {
         }
         let rate = |at: usize| {
             let series = QUANTITIES[at].series(&name, *grid, &found);
-            measured_rate(&series).unwrap_or(f64::NAN)
+            measured_rate(&widths(), &series.values).unwrap_or(f64::NAN)
         };
         let rates = [0, 1, 2].map(rate);
         let checks = grid.checks(&name, rates);
@@ -204,23 +204,33 @@ const QUANTITIES: [Quantity; 3] = [
 ];
 
 impl Quantity {
-    fn series(&self, name: &str, grid: Grid, errors: &[Errors]) -> ConvergenceSeries {
-        ConvergenceSeries {
+    fn series(&self, name: &str, grid: Grid, errors: &[Errors]) -> Curve {
+        Curve {
             label: name.to_owned(),
-            h: LEVELS.iter().map(|&n| 1.0 / f64::from(n)).collect(),
-            error: errors.iter().map(self.pick).collect(),
-            expected_rate: grid.expected()[self.place],
+            values: errors.iter().map(|errors| Some((self.pick)(errors))).collect(),
+            expected_rate: Some(grid.expected()[self.place]),
+            ..Curve::default()
         }
     }
 }
 
-/// The pictures: one an error on squares, one on trapezoids, a curve a study.
-pub fn plots(studies: &[ConvergenceStudy]) -> Vec<ConvergencePlot> {
+/// The mesh widths, from coarse to fine.
+fn widths() -> Vec<f64> {
+    LEVELS.iter().map(|&n| 1.0 / f64::from(n)).collect()
+}
+
+/// The pictures: one per error on squares, one on trapezoids, with a curve per study.
+pub fn plots(studies: &[ConvergenceStudy]) -> Vec<Chart> {
     let plot = |quantity: &Quantity, bent: bool| {
         let on = studies.iter().filter(|study| bent == matches!(study.grid, Grid::Trapezoids(..)));
         let series = on.map(|study| quantity.series(&study.name, study.grid, &study.errors));
         let place = if bent { ", on trapezoids" } else { "" };
-        ConvergencePlot { title: format!("{}{place}", quantity.title), series: series.collect() }
+        Chart {
+            title: format!("{}{place}", quantity.title),
+            across: "mesh width h".to_owned(),
+            at: widths(),
+            strips: vec![Strip { curves: series.collect(), ..Strip::default() }],
+        }
     };
     let both = [false, true].into_iter();
     both.flat_map(|bent| QUANTITIES.iter().map(move |quantity| (quantity, bent)))

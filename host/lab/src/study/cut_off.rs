@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::bound::Certified;
 use super::checks::Check;
-use signorini_draw::{self as report, SweepPlot, TableRow};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
+use signorini_draw::{self as report, Chart, Curve, Strip, TableRow};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::mesh_of_scene;
@@ -89,25 +89,31 @@ pub fn table(studies: &[CutOff]) -> report::Table {
 }
 
 /// The pictures: the bound, the truth and what more sweeps would remove.
-pub fn plots(studies: &[CutOff]) -> Vec<SweepPlot> {
+pub fn plots(studies: &[CutOff]) -> Vec<Chart> {
     let drawn = DRAWN.iter().filter_map(|name| studies.iter().find(|study| study.name == *name));
     drawn.map(plot).collect()
 }
 
-fn plot(study: &CutOff) -> SweepPlot {
-    let curve = |label: &str, pick: fn(&Certified) -> Option<f64>| {
-        let values = study.stops.iter().map(|stop| pick(stop).unwrap_or(f64::NAN));
-        (label.to_owned(), values.collect())
+/// Smaller values, as parts of the largest, are out of sight: all that matters is above.
+const DEPTH: f64 = 1e-4;
+
+fn plot(study: &CutOff) -> Chart {
+    let curve = |label: &str, pick: fn(&Certified) -> Option<f64>| Curve {
+        label: label.to_owned(),
+        values: study.stops.iter().map(pick).collect(),
+        ..Curve::default()
     };
-    SweepPlot {
+    let bound =
+        curve("guaranteed bound on the error of s, τ", |stop| stop.bound.map(|bound| bound.total));
+    let curves = vec![
+        Curve { wide: true, ..bound },
+        curve("true error of s, τ (energy norms, weighed by A and A⁻¹)", Certified::error),
+        curve("algebraic part of the bound", |stop| stop.bound.map(|bound| bound.algebraic)),
+    ];
+    Chart {
         title: format!("{}, stopped after some sweeps", study.name),
-        sweeps: study.stops.iter().map(|stop| f64::from(stop.sweeps)).collect(),
-        curves: vec![
-            curve("guaranteed bound on the error of s, τ", |stop| {
-                stop.bound.map(|bound| bound.total)
-            }),
-            curve("true error of s, τ (energy norms, weighed by A and A⁻¹)", Certified::error),
-            curve("algebraic part of the bound", |stop| stop.bound.map(|bound| bound.algebraic)),
-        ],
+        across: "sweeps".to_owned(),
+        at: study.stops.iter().map(|stop| f64::from(stop.sweeps)).collect(),
+        strips: vec![Strip { curves, depth: Some(DEPTH), ..Strip::default() }],
     }
 }
