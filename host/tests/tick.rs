@@ -7,7 +7,7 @@ use std::path::Path;
 
 use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_problem::Problem;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
@@ -220,7 +220,7 @@ fn other_units_change_no_digit() {
         ("scenes/membrane.toml", ScalarKind::F64),
     ] {
         let scene = standard(name);
-        let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+        let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
         let played = |units: Units| {
             let scene = units.inverse().scene(&scene);
             let problem = Problem::new(&scene, mesh.clone()).expect("a problem");
@@ -340,7 +340,7 @@ fn a_limit_may_change_from_tick_to_tick() {
     tick(&scene, &folder, &["--log", &log]).succeeds();
     let table = Table::read(folder.path("out/ticks.csv"));
     let posed = Scene::read(Path::new(&scene)).expect("a scene");
-    let mesh = gmsh::read(&posed.mesh.value).expect("a mesh");
+    let mesh = mesh::read(&posed.mesh.value).expect("a mesh");
     let posed = Problem::new(&posed, mesh).expect("a problem");
     for (at, &supply) in supply.iter().enumerate() {
         let now = posed.with_inputs(&[supply]).expect("loads");

@@ -15,7 +15,7 @@ use signorini_device::tick::Limits;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::{Input, Quantity, Scene};
 use signorini_scene::setting::Setting;
 use signorini_solve::outputs::outputs;
@@ -31,7 +31,7 @@ const SCENES: [&str; 5] = ["levee", "slab", "strip", "membrane", "pit"];
 fn of_name(name: &str) -> (Scene, Problem) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
     let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
-    let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+    let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
     let problem = Problem::new(&scene, mesh).expect("a problem");
     (scene, problem)
 }

@@ -8,7 +8,7 @@ use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
-use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::mesh::{self, adapted};
 use signorini_scene::scene::Scene;
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
@@ -17,7 +17,7 @@ use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 const TRIED: usize = 12;
 
 fn on_mesh(scene: &Scene, refine: u32) -> Result<Problem> {
-    Problem::new(scene, adapted::adapted(gmsh::read(&scene.mesh.value)?, None, refine)?)
+    Problem::new(scene, adapted::adapted(mesh::read(&scene.mesh.value)?, None, refine)?)
 }
 
 /// The outputs on a finer mesh.

@@ -6,8 +6,8 @@ use std::time::Duration;
 use criterion::{BatchSize, Bencher, BenchmarkId, Criterion, Throughput};
 use signorini_condense::condense;
 use signorini_problem::Problem;
+use signorini_scene::mesh;
 use signorini_scene::mesh::adaptive::Hierarchy;
-use signorini_scene::mesh::gmsh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_solve::{Options, SolverKind, solve};
@@ -53,11 +53,11 @@ pub fn files(criterion: &mut Criterion) {
     for name in SCENES {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes").join(name);
         let scene = Scene::read(&path).expect("a standard scene");
-        let mesh = gmsh::read(&scene.mesh.value).expect("a mesh of the project");
+        let mesh = mesh::read(&scene.mesh.value).expect("a mesh of the project");
         let problem = Problem::new(&scene, mesh).expect("the scene fits the mesh");
         group.throughput(Throughput::Elements(problem.topology.counts.unknowns() as u64));
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
-            bencher.iter(|| gmsh::read(&scene.mesh.value));
+            bencher.iter(|| mesh::read(&scene.mesh.value));
         });
     }
 }

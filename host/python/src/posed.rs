@@ -120,7 +120,7 @@ impl PosedScene {
     pub fn own_mesh(&self) -> Result<Mesh> {
         match &self.mesh {
             Some(mesh) => Ok(mesh.clone()),
-            None => signorini_scene::mesh::gmsh::read(&self.scene.mesh.value),
+            None => signorini_scene::mesh::read(&self.scene.mesh.value),
         }
     }
 

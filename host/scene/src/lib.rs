@@ -3,7 +3,7 @@
 //! ```text
 //!   scene.toml ─► scene ─┬─► expression   values as text, with derivatives
 //!                        ├─► setting      which solver, how far
-//!                        └─► mesh         Gmsh, VTU, or made here: vertices, cells, named curves
+//!                        └─► mesh         Gmsh, or made here: vertices, cells, named curves
 //! ```
 //! Nothing here solves anything. The first crate of the host: it knows the kernel and none of the others.
 

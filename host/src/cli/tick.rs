@@ -17,7 +17,7 @@ use signorini_problem::Problem;
 use signorini_problem::progress::{say, steps, warn};
 use signorini_draw::chart_file;
 use signorini_scene::error::{Error, Result};
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene};
 use signorini_solve::ScalarKind;
 
@@ -94,7 +94,7 @@ impl Arguments {
             None => schedule::moments(&scene, self.ticks)?,
         };
         let problem = problem_of(&scene)?;
-        let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, gmsh::read(mesh)?));
+        let coarse = self.coarse.as_ref().map(|mesh| Problem::new(&scene, mesh::read(mesh)?));
         let coarse = coarse.transpose()?;
         warn(&problem.warnings);
         if let Some(coarse) = &coarse {

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::mesh::shape::{self, Orientation};
-use signorini_scene::mesh::{Mesh, check, cut, gmsh, pairing, refine};
+use signorini_scene::mesh::{self, Mesh, check, cut, gmsh, pairing, refine};
 use signorini_scene::scene::Scene;
 
 use super::{bytes, solved};
 
 /// The bytes of a Gmsh file.
 pub fn mesh(data: &[u8]) {
-    match gmsh::parse(data) {
+    match mesh::parse(data) {
         Err(error) => {
             let length = error.message().len();
             assert!(0 < length && length < 400 + data.len(), "{}", error.message());
@@ -86,7 +86,7 @@ fn refined_in_part(mesh: &Mesh) {
         oriented(fine);
         assert_eq!(carried.cells.len(), fine.cells());
         assert!(carried.cells.iter().all(|&cell| (cell as usize) < cells));
-        assert_eq!(gmsh::parse(gmsh::write::text(fine).as_bytes()).as_ref().ok(), Some(fine));
+        assert_eq!(mesh::parse(gmsh::write::text(fine).as_bytes()).as_ref().ok(), Some(fine));
     }
 }
 

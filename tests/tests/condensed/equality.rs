@@ -17,7 +17,7 @@ use signorini_condense::{CondensedModel, Measure};
 use signorini_kernel::report::Ended;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::{Input, Scene};
 use signorini_tests::random::Random;
 use signorini_tolerances::Tolerance;
@@ -177,7 +177,7 @@ fn the_standard_scenes_have_the_outputs_of_the_full_model() {
         [("levee", 0.2), ("slab", 2.0), ("strip", 0.1), ("membrane", 0.0), ("pit", 0.0)]
     {
         let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
-        let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+        let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
         let problem = Problem::new(&scene, mesh).expect("a problem");
         let model = Model::new(name.to_owned(), scene, problem).expect("a model");
         check::<f64>(&model, CONDENSED, amount, 1);

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::*;
 use crate::{Measure, condense};
 use signorini_problem::fixtures::distorted;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 
 /// Both at some inputs of size `amount` around the defaults; bounds are the business of other tests.
@@ -113,7 +113,7 @@ fn the_standard_scenes() -> Result<()> {
         [("levee", 0.4), ("slab", 5.0), ("strip", 0.2), ("membrane", 0.0), ("pit", 0.0)]
     {
         let scene = Scene::read(&folder.join(format!("{name}.toml")))?;
-        let mesh = gmsh::read(&scene.mesh.value)?;
+        let mesh = mesh::read(&scene.mesh.value)?;
         let problem = Problem::new(&scene, mesh)?;
         compare(&problem, amount, 2)?;
     }

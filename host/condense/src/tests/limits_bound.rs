@@ -11,7 +11,7 @@ use signorini_certify::exact::distance;
 use signorini_problem::fixtures::distorted;
 use signorini_problem::fixtures::limited::{three_states, two_transitions};
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{Mesh, gmsh};
+use signorini_scene::mesh::{self, Mesh};
 
 /// The subject of the bound of (p, x), and its distance from the exact solution.
 struct Certified {
@@ -93,7 +93,7 @@ fn the_bound_is_near_that_of_the_mesh() -> Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/limits");
     for name in ["l-tri", "l-quad"] {
         let scene = Scene::read(&folder.join(format!("{name}.toml")))?;
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+        let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
         let (model, recovery) = recoverable(&problem)?;
         compare(&problem, 0.0, 1)?;
         let certified = Certified { problem, model, recovery };

@@ -12,7 +12,7 @@ use signorini_problem::fixtures::on_grid;
 use signorini_problem::functional::Functional;
 use signorini_problem::quadrature::gauss;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{adapted, gmsh};
+use signorini_scene::mesh::{self, adapted};
 use signorini_scene::scene::{Output, Scene};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, SolverKind, solve};
@@ -28,7 +28,7 @@ fn scene(name: &str) -> Result<Scene> {
 
 /// On the scene's mesh, refined so many times.
 fn solved(scene: &Scene, times: u32) -> Result<(Problem, Solution)> {
-    let mesh = adapted::adapted(gmsh::read(&scene.mesh.value)?, None, times)?;
+    let mesh = adapted::adapted(mesh::read(&scene.mesh.value)?, None, times)?;
     let problem = Problem::new(scene, mesh)?;
     let solution = solve(&problem, &options())?;
     Ok((problem, solution))

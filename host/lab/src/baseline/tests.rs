@@ -12,7 +12,7 @@ use super::sizes::{Sizes, size};
 use super::table;
 use signorini_condense::condense;
 use signorini_problem::{Parts, Problem};
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 
 fn read(file: &str) -> Scene {
@@ -55,7 +55,7 @@ fn all_solvers_agree_on_small_grids() {
 fn contact_moves() {
     for file in ["catalogue/h-tri.toml", "scenes/benbelgacem.toml"] {
         let scene = read(file);
-        let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+        let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
         let parts = Parts::examine(&problem).unwrap();
         let moments = LoadCase::drawn(&problem, 20);
         let (full, _) = quadratic(&problem, &parts, &moments).unwrap();
@@ -73,7 +73,7 @@ fn contact_moves() {
 #[test]
 fn condensed_as_baked() {
     let scene = read("scenes/slab.toml");
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
     let parts = Parts::examine(&problem).unwrap();
     let (full, factor) = quadratic(&problem, &parts, &LoadCase::drawn(&problem, 2)).unwrap();
     let (ours, model) = condensed(&problem, &full, &factor).unwrap();
@@ -92,7 +92,7 @@ fn condensed_as_baked() {
 #[test]
 fn a_scene_with_every_solver_but_osqp() {
     let scene = read("scenes/strip.toml");
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value).unwrap()).unwrap();
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value).unwrap()).unwrap();
     let found = super::benchmark::Benchmark {
         problem: &problem,
         moments: &LoadCase::drawn(&problem, 2),

@@ -165,7 +165,7 @@ pub fn msh(mesh: &Mesh) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use signorini_scene::mesh::gmsh;
+    use signorini_scene::mesh;
     use signorini_scene::mesh::shape::{Defect, orientation};
     use signorini_tolerances::lab::ASPECT;
 
@@ -184,7 +184,7 @@ mod tests {
             let mesh = Grid { n: 3, cells, shape: Shape::Graded { aspect: 1e5 } }.mesh();
             let path = folder.path().join("grid.msh");
             std::fs::write(&path, msh(&mesh)).unwrap();
-            let read = gmsh::read(&path).unwrap();
+            let read = mesh::read(&path).unwrap();
             assert_eq!(read.vertices, mesh.vertices);
             assert_eq!(
                 (read.triangles.len(), read.quads.len()),

@@ -6,7 +6,7 @@ use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::goal::Goal;
 use signorini_scene::mesh::adapted::adapted;
-use signorini_scene::mesh::{Mesh, gmsh};
+use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{CellKind, Setting};
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Promised, Refining, promised_mesh};
@@ -36,7 +36,7 @@ pub(super) struct Meshes {
 
 impl Meshes {
     pub fn new(scene: &Scene) -> Result<Self> {
-        let own = gmsh::read(&scene.mesh.value)?;
+        let own = mesh::read(&scene.mesh.value)?;
         Ok(Self { scene: scene.clone(), own, made: HashMap::new(), for_error: None })
     }
 

@@ -3,7 +3,7 @@
 use super::cut::cut;
 use super::pairing::paired;
 use super::refine::{MOST_CELLS, refined};
-use super::{Mesh, gmsh};
+use super::{Mesh, read};
 use crate::error::{InputError, Result};
 use crate::scene::Scene;
 use crate::setting::CellKind;
@@ -14,7 +14,7 @@ use crate::setting::CellKind;
 /// A file that is no mesh, or a refinement too fine.
 pub fn of_scene(scene: &Scene) -> Result<Mesh> {
     let setting = scene.setting.unwrap_or_default();
-    adapted(gmsh::read(&scene.mesh.value)?, setting.cells, setting.refine)
+    adapted(read(&scene.mesh.value)?, setting.cells, setting.refine)
 }
 
 /// `mesh` with cells of this kind, then refined so many times.

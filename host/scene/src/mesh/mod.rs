@@ -3,17 +3,22 @@
 pub mod adapted;
 pub mod adaptive;
 pub mod arrays;
+mod assemble;
 pub mod check;
 pub mod coincident;
 pub mod cut;
+mod foreign;
 pub mod gmsh;
 mod matching;
 pub mod pairing;
+mod read;
 pub mod refine;
 pub mod shape;
 pub mod structured;
 #[cfg(test)]
 mod tests;
+
+pub use read::{parse, read};
 
 /// Cells and named groups, before any scene gives the names a meaning.
 ///

@@ -5,7 +5,7 @@ use crate::norms;
 use crate::{SolverKind, solve};
 use signorini_problem::fixtures::limited::two_transitions;
 use signorini_problem::fixtures::{SMOOTH, distorted, scene, with_four_sides};
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::refine::refined;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Surface};
@@ -132,7 +132,7 @@ fn where_u_is_smooth_it_costs_what_refining_everywhere_does() {
 fn a_curved_gap_is_followed_where_it_touches_alone() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/scenes/strip.toml");
     let scene = Scene::read(file.as_ref()).expect("a scene");
-    let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+    let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
     let finer = refined(&mesh).expect("finer");
     let problem = Problem::new(&scene, finer).expect("a problem");
     let uniform = solve(&problem, &wanted(Goal::Part(1.0)).options).expect("a solution");

@@ -18,7 +18,7 @@ use signorini_kernel::solver::{Settings, Status};
 use super::{Mixed, Options, SolverKind, Trials, mixed, solve, tuned_omega};
 use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
 
@@ -34,7 +34,7 @@ fn standard_scenes() -> impl Iterator<Item = PathBuf> {
 
 fn read(path: &Path) -> Result<(Scene, Problem)> {
     let scene = Scene::read(path)?;
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     Ok((scene, problem))
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use signorini_condense::ranges::sides::{EdgeSide, Sides};
 use signorini_condense::{CondensedModel, condense};
 use signorini_problem::Problem;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 use signorini_tests::random::Random;
 
@@ -17,7 +17,7 @@ const TICKS: usize = 10_000;
 pub fn standard(name: &str) -> CondensedModel {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../meshes/scenes");
     let scene = Scene::read(&folder.join(format!("{name}.toml"))).expect("a scene");
-    let mesh = gmsh::read(&scene.mesh.value).expect("a mesh");
+    let mesh = mesh::read(&scene.mesh.value).expect("a mesh");
     condense(&Problem::new(&scene, mesh).expect("a problem")).expect("a condensed model")
 }
 

@@ -9,7 +9,7 @@ use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, distorted, on_grid, scatter, scene};
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting};
@@ -306,7 +306,7 @@ fn what_modes_cannot_do_takes_the_full_model() -> Result<()> {
 fn a_slab_in_moving_air() -> Result<()> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/firmware/scenes");
     let scene = Scene::read(&scenes.join("slab-air.toml"))?;
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     let choice = Choice::<f32>::new(&problem, Wanted { is_compared: true, ..Wanted::default() })?;
     let said = explanation(&problem, &choice);
     for expected in

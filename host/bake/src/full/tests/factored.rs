@@ -17,7 +17,7 @@ use crate::full::sizes;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::{Scene, Target};
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
@@ -46,7 +46,7 @@ fn catalogue(name: &str, changes: &[[&str; 2]]) -> Result<(Scene, Problem)> {
     }
     let mut scene = Scene::parse(&text, &path)?;
     scene.setting = Some(factor());
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     Ok((scene, problem))
 }
 

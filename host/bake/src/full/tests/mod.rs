@@ -20,7 +20,7 @@ use signorini_problem::fixtures;
 use signorini_problem::functional::wanted;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_solve::outputs::outputs;
@@ -51,7 +51,7 @@ output.bound = { kind = "bound" }
 fn standard(name: &str) -> Result<(Scene, Problem)> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
     let scene = Scene::read(&path)?;
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     Ok((scene, problem))
 }
 

@@ -10,7 +10,7 @@ use crate::tick::ScheduledTick;
 use crate::{condensed, full};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::{Method, ModelKind, Setting, Start};
 
@@ -55,7 +55,7 @@ fn word(ended: &str) -> String {
 fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/scenes").join(name);
     let scene = Scene { setting, ..Scene::read(&path)? };
-    let problem = Problem::new(&scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(&scene, mesh::read(&scene.mesh.value)?)?;
     let moments = log(scene.inputs.len());
     let (model, ticks) = replay(&problem, &moments, None, |_, _| Ok(()))?;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use signorini_problem::{Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 use signorini_solve::{Options, SolverKind, solve};
 use signorini_tolerances::lab::{CLARABEL_LIMITED, PIVOTING_LIMITED};
@@ -22,7 +22,7 @@ use super::super::timed_solver::{InitialGuess, TimedSolver};
 fn problem(name: &str) -> Result<Problem> {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes"));
     let scene = Scene::read(&root.join(format!("{name}.toml")))?;
-    Problem::new(&scene, gmsh::read(&scene.mesh.value)?)
+    Problem::new(&scene, mesh::read(&scene.mesh.value)?)
 }
 
 /// The unknowns one by one, relative to the largest.

@@ -5,11 +5,11 @@ use std::path::Path;
 use super::{FunctionCost, of_scene};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_scene::mesh::gmsh;
+use signorini_scene::mesh;
 use signorini_scene::scene::Scene;
 
 fn rows(scene: &Scene) -> Result<Vec<FunctionCost>> {
-    let problem = Problem::new(scene, gmsh::read(&scene.mesh.value)?)?;
+    let problem = Problem::new(scene, mesh::read(&scene.mesh.value)?)?;
     of_scene(&problem)
 }
 

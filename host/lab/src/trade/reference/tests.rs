@@ -18,7 +18,7 @@ use signorini_problem::Problem;
 use signorini_problem::fixtures::{SMOOTH, on_grid, with_four_sides};
 use signorini_problem::pointwise::exact_at;
 use signorini_scene::mesh::structured::{Cells, grid};
-use signorini_scene::mesh::{Mesh, gmsh};
+use signorini_scene::mesh::{self, Mesh};
 use signorini_scene::scene::Scene;
 use signorini_solve::norms::of_solution;
 use signorini_solve::{Options, Solution, SolverKind, solve};
@@ -211,7 +211,7 @@ fn a_worse_answer_is_farther_away() {
 fn every_scene_can_be_its_own_reference() {
     for name in ["benbelgacem", "levee", "membrane", "pit", "slab", "strip"] {
         let scene = read(&format!("scenes/{name}.toml"));
-        let mesh = gmsh::read(&scene.mesh.value).unwrap();
+        let mesh = mesh::read(&scene.mesh.value).unwrap();
         let truth = reference(&scene, &mesh);
         let (problem, solution) = solved(&scene, mesh);
         let found = truth.errors(&problem, &Approximation::from(&solution)).unwrap();

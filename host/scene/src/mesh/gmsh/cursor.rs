@@ -6,9 +6,7 @@
 //! own line.
 
 use crate::error::InputError;
-
-/// The result of a parsing step; the file's name is added at the end.
-pub(super) type Parsed<T> = Result<T, Box<InputError>>;
+use crate::mesh::assemble::draft::Parsed;
 
 /// How the numbers inside a section are written.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -9,8 +9,9 @@
 //! `type how-many how-many-tags` with records `tag tags… nodes…`. The first tag is the physical
 //! group, 0 for none; an element in several groups is written once for each.
 
-use super::cursor::{Cursor, Encoding, Parsed};
-use super::raw::{Element, Kind, Node, point};
+use super::cursor::{Cursor, Encoding};
+use super::raw::{self, kind, point};
+use crate::mesh::assemble::draft::{Element, Node, Parsed};
 
 /// Reads `$Nodes`.
 pub(super) fn nodes(cursor: &mut Cursor) -> Parsed<Vec<Node>> {
@@ -66,12 +67,12 @@ fn block(cursor: &mut Cursor, elements: &mut Vec<Element>, count: usize) -> Pars
 
 /// Reads the tags and nodes of an element.
 fn element(cursor: &mut Cursor, at: u32, tag: u64, code: i32, labels: u64) -> Parsed<Element> {
-    let kind = Kind::of(code, tag, at, cursor)?;
+    let kind = kind(code, tag, at, cursor)?;
     let mut label = 0;
     for k in 0..labels {
         let next = cursor.int("a tag of the element")?;
         label = if k == 0 { next } else { label };
     }
-    let nodes = Element::nodes(cursor, kind, Cursor::natural)?;
+    let nodes = raw::nodes(cursor, kind, Cursor::natural)?;
     Ok(Element { tag, nodes, label, at, kind })
 }

@@ -10,18 +10,19 @@
 //! of nodes and elements have 64 bits, all other integers 32. A parametric node has one more
 //! number for each dimension of its entity.
 
-use super::cursor::{Cursor, Parsed};
-use super::raw::{Element, Entities, Kind, Node, point};
+use super::cursor::Cursor;
+use super::raw::{self, point};
+use crate::mesh::assemble::draft::{Element, Groups, Node, Parsed};
 
 /// Reads `$Entities`. A negative physical tag is the group of an entity turned round.
-pub(super) fn entities(cursor: &mut Cursor) -> Parsed<Entities> {
+pub(super) fn entities(cursor: &mut Cursor) -> Parsed<Groups> {
     cursor.begin();
     let mut counts = [0; 4];
     for count in &mut counts {
         *count = cursor.count("the number of entities", 1)?;
     }
     cursor.end()?;
-    let mut entities = Entities::new();
+    let mut entities = Groups::new();
     for (dimension, count) in (0..).zip(counts) {
         for _ in 0..count {
             cursor.begin();
@@ -108,13 +109,13 @@ pub(super) fn elements(cursor: &mut Cursor) -> Parsed<Vec<Element>> {
             cursor.begin();
             let at = cursor.at();
             let tag = cursor.size("an element tag")?;
-            let kind = Kind::of(code, tag, at, cursor)?;
+            let kind = raw::kind(code, tag, at, cursor)?;
             if i32::from(kind.dimension()) != dimension {
                 let message = format!("element {tag}, a {}, in an entity", kind.name());
                 let message = format!("{message} of dimension {dimension}");
                 return Err(cursor.error(at, message).into());
             }
-            let nodes = Element::nodes(cursor, kind, Cursor::size)?;
+            let nodes = raw::nodes(cursor, kind, Cursor::size)?;
             elements.push(Element { tag, nodes, label, at, kind });
         }
     }

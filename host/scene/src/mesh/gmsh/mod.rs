@@ -1,69 +1,29 @@
 //! Gmsh meshes: MSH 2.2 and 4.1, ASCII and binary in either byte order.
 //!
 //! ```text
-//! bytes ─► cursor ─► sections (format22, format41, names) ─► raw ─► build, cells, groups ─► Mesh
+//! bytes ─► cursor ─► sections (format22, format41, names) ─► raw ─► [assemble](super::assemble) ─► Mesh
 //! ```
 //! The sections may come in any order after `$MeshFormat`; those of no interest are passed over.
-//! Points are ignored, lines matter in a physical curve only, vertices without a cell are dropped,
-//! clockwise cells are turned round. A cell listed once for each of its physical surfaces is one
-//! cell; listed twice for the same one it is an error. [`mod@write`] makes a file of a mesh.
+//! [`mod@write`] makes a file of a mesh.
 
-mod build;
-mod cells;
 mod cursor;
-mod foreign;
 mod format22;
 mod format41;
-mod groups;
-mod index;
 mod names;
 mod raw;
 #[cfg(test)]
 mod tests;
 pub mod write;
 
-use std::io::Read;
-use std::path::Path;
-
-use self::cursor::{Cursor, Encoding, Parsed};
+use self::cursor::{Cursor, Encoding};
 use self::raw::Raw;
 use super::Mesh;
-use crate::error::{InputError, Result};
-
-/// The largest file that is read: 2 GiB.
-const SIZE_LIMIT: u64 = 1 << 31;
-
-/// Reads a mesh; every error names the file and, as the file numbers them, what is wrong in it.
-pub fn read(path: &Path) -> Result<Mesh> {
-    let bytes = load(path).map_err(|error| error.file(path))?;
-    Ok(parse(&bytes).map_err(|error| error.file(path))?)
-}
-
-fn load(path: &Path) -> Parsed<Vec<u8>> {
-    let unreadable = |error: std::io::Error| {
-        Box::new(InputError::new(format!("the mesh cannot be read: {error}")))
-    };
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
-    if !metadata.is_file() {
-        return Err(InputError::new("expected a mesh, found something that is no file").into());
-    }
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    file.take(SIZE_LIMIT).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 == SIZE_LIMIT {
-        return Err(InputError::new("the mesh has 2 GiB or more, expected less").into());
-    }
-    Ok(bytes)
-}
+use super::assemble::assemble;
+use super::assemble::draft::Parsed;
+use crate::error::InputError;
 
 /// The mesh in the bytes of a file.
-///
-/// # Errors
-/// As for [`read`], without the name of a file.
-pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
-    if let Some(error) = foreign::refused(bytes) {
-        return Err(error.into());
-    }
+pub(super) fn parse(bytes: &[u8]) -> Parsed<Mesh> {
     let mut cursor = Cursor::new(bytes);
     let mut raw = Raw::default();
     let mut format = None;
@@ -85,7 +45,8 @@ pub fn parse(bytes: &[u8]) -> std::result::Result<Mesh, Box<InputError>> {
         let error = InputError::new("expected a Gmsh mesh, found no `$MeshFormat`");
         return Err(error.hint("save as MSH 2.2 or 4.1").into());
     }
-    build::build(&cursor, &raw)
+    let error = |at, message| cursor.error(at, message);
+    assemble(&raw.draft(&cursor, &error)?)
 }
 
 /// The formats that are read.

@@ -1,14 +1,14 @@
 //! `$PhysicalNames`: `dimension tag "name"`, a line each, text in every encoding.
 
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::cursor::{Cursor, Parsed};
+use super::cursor::Cursor;
+use crate::mesh::assemble::draft::{Names, Parsed};
 
 /// Reads the names, by dimension and physical tag.
-pub(super) fn names(cursor: &mut Cursor) -> Parsed<HashMap<(u8, i32), String>> {
+pub(super) fn names(cursor: &mut Cursor) -> Parsed<Names> {
     let count = cursor.count_line("the number of physical names", 2)?;
-    let mut names = HashMap::new();
+    let mut names = Names::new();
     for _ in 0..count {
         cursor.skip_blank_lines();
         let at = cursor.at();

@@ -1,114 +1,87 @@
-//! The sections of a file as they stand in it: tags unresolved, nothing checked against the rest.
+//! The sections of a file as they stand in it, the same for both formats.
 
-use std::collections::HashMap;
+use super::cursor::Cursor;
+use crate::error::InputError;
+use crate::mesh::assemble::draft::{Draft, Element, Groups, Kind, Names, Node, Parsed};
 
-use super::cursor::{Cursor, Parsed};
-
-/// What the file holds, the same for both formats.
+/// The sections that were found.
 #[derive(Default)]
 pub(super) struct Raw {
-    pub(super) names: Option<HashMap<(u8, i32), String>>,
-    pub(super) entities: Option<Entities>,
+    pub(super) names: Option<Names>,
+    /// The physical tags of each geometrical entity.
+    pub(super) entities: Option<Groups>,
     /// Whether labels of elements are physical tags (format 2.2), not entities.
     pub(super) labels_are_physical: bool,
     pub(super) nodes: Option<Vec<Node>>,
     pub(super) elements: Option<Vec<Element>>,
 }
 
-/// The physical tags of each geometrical entity, by dimension and tag.
-pub(super) type Entities = HashMap<(u8, i32), Vec<i32>>;
-
-/// A node under its tag.
-pub(super) struct Node {
-    pub(super) tag: u64,
-    pub(super) at: u32,
-    pub(super) point: [f64; 3],
-}
-
-/// An element under its tag; `nodes` beyond those of its kind are 0.
-pub(super) struct Element {
-    pub(super) tag: u64,
-    pub(super) nodes: [u64; 4],
-    /// The physical tag in format 2.2, the geometrical entity in 4.1.
-    pub(super) label: i32,
-    pub(super) at: u32,
-    pub(super) kind: Kind,
-}
-
-/// The elements that a plane mesh of first order is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    Point,
-    Line,
-    Triangle,
-    Quad,
-}
-
-impl Kind {
-    /// The kind of Gmsh's number, or an error that names the element.
-    pub(super) fn of(code: i32, tag: u64, at: u32, cursor: &Cursor) -> Parsed<Self> {
-        match code {
-            1 => Ok(Self::Line),
-            2 => Ok(Self::Triangle),
-            3 => Ok(Self::Quad),
-            15 => Ok(Self::Point),
-            _ => {
-                let (name, hint) = foreign(code);
-                let message = format!(
-                    "element {tag} is {name} (type {code}), expected a 3-node triangle, \
-                     a 4-node quad, a 2-node line or a point"
-                );
-                Err(cursor.error(at, message).hint(hint).into())
+impl Raw {
+    /// The lists of a mesh, with errors at places of `cursor`.
+    pub(super) fn draft<'a>(
+        self,
+        cursor: &Cursor,
+        error: &'a dyn Fn(u32, String) -> InputError,
+    ) -> Parsed<Draft<'a>> {
+        let nodes = self.nodes.ok_or_else(|| missing("$Nodes"))?;
+        let elements = self.elements.ok_or_else(|| missing("$Elements"))?;
+        let is_complete = self.entities.is_some();
+        let mut groups = self.entities.unwrap_or_default();
+        for element in elements.iter().filter(|element| element.kind != Kind::Point) {
+            let (dimension, label) = (element.kind.dimension(), element.label);
+            if !groups.contains_key(&(dimension, label)) {
+                if is_complete {
+                    let title = element.title();
+                    let message = format!(
+                        "{title} is in entity {label} of dimension {dimension}, which is not listed"
+                    );
+                    return Err(cursor.error(element.at, message).into());
+                }
+                // Format 2.2, where 0 is none, or 4.1 without entities and so without groups.
+                let is_group = self.labels_are_physical && label != 0;
+                groups.insert((dimension, label), is_group.then_some(label).into_iter().collect());
             }
         }
+        let names = self.names.unwrap_or_default();
+        Ok(Draft { nodes, elements, groups, names, length: cursor.length(), error })
     }
+}
 
-    pub(super) fn dimension(self) -> u8 {
-        match self {
-            Self::Point => 0,
-            Self::Line => 1,
-            Self::Triangle | Self::Quad => 2,
-        }
-    }
+fn missing(section: &str) -> Box<InputError> {
+    let error = InputError::new(format!("expected a section {section}, found none"));
+    error.hint("save as MSH 4.1, or as 2.2 without parametric coordinates").into()
+}
 
-    pub(super) fn corners(self) -> usize {
-        match self {
-            Self::Point => 1,
-            Self::Line => 2,
-            Self::Triangle => 3,
-            Self::Quad => 4,
-        }
-    }
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Line => "line",
-            Self::Triangle => "triangle",
-            Self::Quad => "quad",
+/// The kind of Gmsh's number, or an error that names the element.
+pub(super) fn kind(code: i32, tag: u64, at: u32, cursor: &Cursor) -> Parsed<Kind> {
+    match code {
+        1 => Ok(Kind::Line),
+        2 => Ok(Kind::Triangle),
+        3 => Ok(Kind::Quad),
+        15 => Ok(Kind::Point),
+        _ => {
+            let (name, hint) = foreign(code);
+            let message = format!(
+                "element {tag} is {name} (type {code}), expected a 3-node triangle, \
+                 a 4-node quad, a 2-node line or a point"
+            );
+            Err(cursor.error(at, message).hint(hint).into())
         }
     }
 }
 
-impl Element {
-    /// Reads the nodes that end the record, by the way their tags are written.
-    pub(super) fn nodes<'a>(
-        cursor: &mut Cursor<'a>,
-        kind: Kind,
-        tag: fn(&mut Cursor<'a>, &str) -> Parsed<u64>,
-    ) -> Parsed<[u64; 4]> {
-        let mut nodes = [0; 4];
-        for node in &mut nodes[..kind.corners()] {
-            *node = tag(cursor, "a node tag")?;
-        }
-        cursor.end()?;
-        Ok(nodes)
+/// Reads the nodes that end the record of an element, by the way their tags are written.
+pub(super) fn nodes<'a>(
+    cursor: &mut Cursor<'a>,
+    kind: Kind,
+    tag: fn(&mut Cursor<'a>, &str) -> Parsed<u64>,
+) -> Parsed<[u64; 4]> {
+    let mut nodes = [0; 4];
+    for node in &mut nodes[..kind.corners()] {
+        *node = tag(cursor, "a node tag")?;
     }
-
-    /// The element as a person would look it up.
-    pub(super) fn title(&self) -> String {
-        format!("{} {}", self.kind.name(), self.tag)
-    }
+    cursor.end()?;
+    Ok(nodes)
 }
 
 /// Reads the three coordinates of a node.

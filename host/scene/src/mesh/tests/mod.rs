@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::check::edges;
-use super::gmsh::read;
+use super::read;
 use super::shape::{Orientation, orientation};
 use super::{Curve, Mesh, Surface};
 

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use super::super::parse;
 use super::encode::{CODINGS, Coding};
 use super::valid::model;
 use super::{error, says_what_is_missing};
+use crate::mesh::parse;
 
 fn files() -> Vec<Vec<u8>> {
     CODINGS.iter().flat_map(|&coding| [model().v22(coding), model().v41(coding)]).collect()

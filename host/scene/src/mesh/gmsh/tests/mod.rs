@@ -8,8 +8,7 @@ mod rejected;
 mod valid;
 mod written;
 
-use super::parse;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, parse};
 
 /// The error of a file that must be refused: what a user reads, without the name of the file.
 fn error(bytes: &[u8]) -> String {

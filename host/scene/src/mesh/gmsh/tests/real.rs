@@ -3,9 +3,8 @@
 use signorini_tolerances::scene::{DIGITS, MEASURE};
 use std::path::Path;
 
-use super::super::read;
 use super::says_what_is_missing;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, read};
 
 const KINDS: [&str; 2] = ["triangles", "mixed"];
 const VARIANTS: [&str; 4] = ["2.2-ascii", "2.2-binary", "4.1-ascii", "4.1-binary"];

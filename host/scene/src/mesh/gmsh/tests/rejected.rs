@@ -196,7 +196,7 @@ fn a_mesh_of_lines_only() {
 fn what_is_no_file() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     for path in [folder.to_owned(), folder.join("absent.msh")] {
-        let refused = super::super::read(&path).unwrap_err();
+        let refused = crate::mesh::read(&path).unwrap_err();
         assert_eq!(refused.exit_status(), 2);
         assert!(refused.to_string().starts_with(&path.display().to_string()));
     }
@@ -232,5 +232,5 @@ fn other_files_are_named_as_what_they_are() {
     // A comment of Gmsh's may speak of anything.
     let text = String::from_utf8(model().v22(Coding::Ascii)).unwrap();
     let comment = format!("$Comments\nPoint(1) = {{}};\n$EndComments\n{text}");
-    assert!(super::super::parse(comment.as_bytes()).is_ok());
+    assert!(crate::mesh::parse(comment.as_bytes()).is_ok());
 }

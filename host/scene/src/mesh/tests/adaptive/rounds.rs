@@ -2,7 +2,8 @@
 
 use super::bases::{all, corner};
 use super::*;
-use crate::mesh::gmsh::{parse, write};
+use crate::mesh::gmsh::write;
+use crate::mesh::parse;
 use crate::mesh::refine::{MOST_CELLS, refined};
 use crate::mesh::structured::{Cells, grid};
 

@@ -1,7 +1,6 @@
 //! From the tag of a node to its place in the file.
 
-use super::cursor::{Cursor, Parsed};
-use super::raw::{Element, Node};
+use super::draft::{Draft, Element, Parsed};
 
 /// Nodes by tag, ascending. Tags may be sparse; where they are consecutive, as Gmsh writes them,
 /// the place is known without a search.
@@ -11,15 +10,15 @@ pub(super) struct NodeIndex {
 
 impl NodeIndex {
     /// Sorts the nodes; a tag that comes twice is an error.
-    pub(super) fn new(cursor: &Cursor, nodes: &[Node]) -> Parsed<Self> {
-        let mut sorted: Vec<_> = nodes.iter().map(|node| node.tag).zip(0..).collect();
+    pub(super) fn new(draft: &Draft) -> Parsed<Self> {
+        let mut sorted: Vec<_> = draft.nodes.iter().map(|node| node.tag).zip(0..).collect();
         sorted.sort_unstable();
         match sorted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             None => Ok(Self { sorted }),
             Some(pair) => {
                 let (tag, again) = pair[1];
-                let at = nodes[again as usize].at;
-                Err(cursor.error(at, format!("node {tag} is listed twice")).into())
+                let at = draft.nodes[again as usize].at;
+                Err(draft.error(at, format!("node {tag} is listed twice")).into())
             }
         }
     }
@@ -35,7 +34,7 @@ impl NodeIndex {
     }
 
     /// The places of the element's nodes, which must all be there and differ.
-    pub(super) fn resolve(&self, cursor: &Cursor, element: &Element) -> Parsed<[u32; 4]> {
+    pub(super) fn resolve(&self, draft: &Draft, element: &Element) -> Parsed<[u32; 4]> {
         let mut places = [0; 4];
         let tags = &element.nodes[..element.kind.corners()];
         for (k, &tag) in tags.iter().enumerate() {
@@ -48,7 +47,7 @@ impl NodeIndex {
                 }
             };
             let message = format!("{} has the corner node {tag}, {problem}", element.title());
-            return Err(cursor.error(element.at, message).into());
+            return Err(draft.error(element.at, message).into());
         }
         Ok(places)
     }

@@ -1,8 +1,7 @@
 //! The cells among the elements: corners resolved, counterclockwise, each cell once.
 
-use super::cursor::{Cursor, Parsed};
+use super::draft::{Draft, Element, Parsed};
 use super::index::NodeIndex;
-use super::raw::{Element, Node};
 use crate::mesh::shape::{self, Orientation};
 
 /// An element with the places of its nodes in the file.
@@ -12,8 +11,8 @@ pub(super) struct Resolved<'a> {
 }
 
 impl<'a> Resolved<'a> {
-    pub(super) fn new(cursor: &Cursor, index: &NodeIndex, element: &'a Element) -> Parsed<Self> {
-        Ok(Self { element, corners: index.resolve(cursor, element)? })
+    pub(super) fn new(draft: &Draft, index: &NodeIndex, element: &'a Element) -> Parsed<Self> {
+        Ok(Self { element, corners: index.resolve(draft, element)? })
     }
 
     pub(super) fn corners(&self) -> &[u32] {
@@ -29,11 +28,11 @@ impl<'a> Resolved<'a> {
     }
 
     /// Turns a clockwise cell round; an error if it is not strictly convex.
-    pub(super) fn orient(&mut self, cursor: &Cursor, nodes: &[Node]) -> Parsed<()> {
+    pub(super) fn orient(&mut self, draft: &Draft) -> Parsed<()> {
         let count = self.element.kind.corners();
         let mut points = [[0.0; 2]; 4];
         for (point, &corner) in points.iter_mut().zip(self.corners()) {
-            let [x, y, _] = nodes[corner as usize].point;
+            let [x, y, _] = draft.nodes[corner as usize].point;
             *point = [x, y];
         }
         match shape::orientation(&points[..count]) {
@@ -46,7 +45,7 @@ impl<'a> Resolved<'a> {
                 let node = |corner| format!(" at node {}", self.element.nodes[corner]);
                 let place = defect.corner().map(node).unwrap_or_default();
                 let message = format!("{} {defect}{place}", self.element.title());
-                Err(cursor.error(self.element.at, message).into())
+                Err(draft.error(self.element.at, message).into())
             }
         }
     }

@@ -1,48 +1,24 @@
-//! Physical groups: which elements are in them, and what they are called.
+//! Physical groups: their members in order, and what they are called.
 
-use super::cursor::{Cursor, Parsed};
-use super::raw::{Element, Raw};
+use super::draft::{Draft, Element, Parsed};
 use crate::error::InputError;
-
-/// The physical tags of an element: none, one, or several in format 4.1.
-pub(super) fn tags<'a>(cursor: &Cursor, raw: &'a Raw, element: &'a Element) -> Parsed<&'a [i32]> {
-    match &raw.entities {
-        // Format 2.2, where 0 is none, or 4.1 without entities and so without groups.
-        None if raw.labels_are_physical && element.label != 0 => {
-            Ok(std::slice::from_ref(&element.label))
-        }
-        None => Ok(&[]),
-        Some(entities) => {
-            let dimension = element.kind.dimension();
-            entities.get(&(dimension, element.label)).map(Vec::as_slice).ok_or_else(|| {
-                let message = format!(
-                    "{} is in entity {} of dimension {dimension}, which is not listed",
-                    element.title(),
-                    element.label
-                );
-                cursor.error(element.at, message).into()
-            })
-        }
-    }
-}
 
 /// Refuses elements that are in more groups together than the file has bytes: a few lines may put many elements
 /// into many groups, and memory shall stay bounded by the file.
 pub(super) fn check_room<'a>(
-    cursor: &Cursor,
-    raw: &'a Raw,
+    draft: &Draft,
     elements: impl Iterator<Item = &'a Element>,
 ) -> Parsed<()> {
-    let (mut total, room) = (0, cursor.length());
+    let (mut total, room) = (0, draft.length);
     for element in elements {
-        total += tags(cursor, raw, element)?.len();
+        total += draft.tags(element).len();
         if total > room {
             let message = format!(
                 "up to {} the elements are listed in more than {room} physical groups together",
                 element.title()
             );
             let hint = "give an entity one physical group, or a few";
-            return Err(cursor.error(element.at, message).hint(hint).into());
+            return Err(draft.error(element.at, message).hint(hint).into());
         }
     }
     Ok(())
@@ -50,14 +26,14 @@ pub(super) fn check_room<'a>(
 
 /// The items of each group under its name, by ascending physical tag; items ascend and come once.
 pub(super) fn collect<T: Ord + Copy>(
-    raw: &Raw,
+    draft: &Draft,
     dimension: u8,
     mut members: Vec<(i32, T)>,
 ) -> Parsed<Vec<(String, Vec<T>)>> {
     members.sort_unstable();
     members.dedup();
     let of_group = |members: &[(i32, T)]| {
-        (name(raw, dimension, members[0].0), members.iter().map(|member| member.1).collect())
+        (name(draft, dimension, members[0].0), members.iter().map(|member| member.1).collect())
     };
     let groups: Vec<_> = members.chunk_by(|a, b| a.0 == b.0).map(of_group).collect();
     unambiguous(&groups, dimension)?;
@@ -65,9 +41,8 @@ pub(super) fn collect<T: Ord + Copy>(
 }
 
 /// The name of a group, or its tag in decimal.
-fn name(raw: &Raw, dimension: u8, group: i32) -> String {
-    let names = raw.names.as_ref();
-    let name = names.and_then(|names| names.get(&(dimension, group)));
+fn name(draft: &Draft, dimension: u8, group: i32) -> String {
+    let name = draft.names.get(&(dimension, group));
     name.filter(|name| !name.is_empty()).cloned().unwrap_or_else(|| group.to_string())
 }
 
