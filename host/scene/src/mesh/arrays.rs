@@ -3,10 +3,7 @@
 //! Clockwise cells are turned round and vertices without a cell dropped, as in a file that is read. Errors call cells and vertices by
 //! their positions in the arrays.
 
-use std::collections::HashSet;
-
-use super::check::edges as edges_of;
-use super::shape::{Orientation, orientation};
+use super::assemble::sound::{Cells, Sound};
 use super::{Curve, Mesh, Surface};
 use crate::error::{InputError, Result};
 
@@ -31,22 +28,21 @@ impl Arrays {
     /// # Errors
     /// Coordinates that are no numbers, positions outside of an array, cells that are not convex or meet as no plane mesh does, edges
     /// that no cell has.
-    pub fn mesh(mut self) -> Result<(Mesh, Vec<u32>)> {
+    pub fn mesh(self) -> Result<(Mesh, Vec<u32>)> {
         self.check()?;
-        let mut triangles = (0..).zip(&mut self.triangles);
-        triangles.try_for_each(|(at, cell)| turned(&self.points, "triangle", at, cell))?;
-        let mut quads = (0..).zip(&mut self.quads);
-        quads.try_for_each(|(at, cell)| turned(&self.points, "quad", at, cell))?;
-        let origins = self.drop_lonely();
-        let mesh = Mesh {
-            vertices: self.points,
-            triangles: self.triangles,
-            quads: self.quads,
-            surfaces: self.surfaces.into_iter().map(surface).collect(),
-            curves: self.curves.into_iter().map(curve).collect(),
+        let triangles = self.triangles.len();
+        let Self { points, triangles: of_three, quads, curves, surfaces } = self;
+        let cells = Cells {
+            points: &points,
+            triangles: of_three,
+            quads,
+            cell: &|cell| cell_name(triangles, cell),
+            point: &|at| format!("vertex {at}"),
         };
-        connected(&mesh, &origins)?;
-        Ok((mesh, origins))
+        let sound = cells.sound().map_err(|(_, message)| InputError::new(message))?;
+        let curves = curves.into_iter().map(|part| curve(part, &sound)).collect::<Result<_>>()?;
+        let surfaces = surfaces.into_iter().map(surface).collect();
+        Ok((Mesh { surfaces, curves, ..sound.mesh }, sound.origins))
     }
 
     fn check(&self) -> Result<()> {
@@ -62,129 +58,68 @@ impl Arrays {
             ))
             .into());
         }
-        let outside =
-            |vertices: &[u32]| vertices.iter().find(|&&at| at as usize >= points).copied();
-        let cells =
-            self.triangles.iter().map(|of| &of[..]).chain(self.quads.iter().map(|of| &of[..]));
-        for (at, cell) in cells.enumerate() {
-            if let Some(vertex) = outside(cell) {
-                let name = self.cell_name(at as u32);
+        let outside = |of: &str, vertices: &[u32]| {
+            let vertex = vertices.iter().find(|&&at| at as usize >= points);
+            vertex.map_or(Ok(()), |vertex| {
                 let message =
-                    format!("{name} has the vertex {vertex}, and there are {points} points");
-                return Err(InputError::new(message).hint("vertices count from 0").into());
-            }
+                    format!("{of} has the vertex {vertex}, and there are {points} points");
+                Err(InputError::new(message).hint("vertices count from 0"))
+            })
+        };
+        let cells = self.triangles.iter().map(|of| &of[..]);
+        let cells = (0..).zip(cells.chain(self.quads.iter().map(|of| &of[..])));
+        for (at, cell) in cells {
+            outside(&cell_name(self.triangles.len(), at), cell)?;
         }
         let lacking = self.curves.iter().map(|(name, of)| ("curve", name, "edge", of.is_empty()));
         let of_surfaces =
             self.surfaces.iter().map(|(name, of)| ("surface", name, "cell", of.is_empty()));
         if let Some((kind, name, part, _)) = lacking.chain(of_surfaces).find(|of| of.3) {
-            let message = format!("{kind} `{name}` has no {part}");
-            return Err(InputError::new(message)
-                .hint("leave it out, or name what is in it")
-                .into());
+            let error = InputError::new(format!("{kind} `{name}` has no {part}"));
+            return Err(error.hint("leave it out, or name what is in it").into());
         }
         for (name, edges) in &self.curves {
-            if let Some(vertex) = edges.iter().find_map(|edge| outside(edge)) {
-                let message = format!(
-                    "curve `{name}` has the vertex {vertex}, and there are {points} points"
-                );
-                return Err(InputError::new(message).hint("vertices count from 0").into());
-            }
+            outside(&format!("curve `{name}`"), edges.as_flattened())?;
         }
         let cells = (self.triangles.len() + self.quads.len()) as u32;
         for (name, inside) in &self.surfaces {
             if let Some(cell) = inside.iter().find(|&&cell| cell >= cells) {
                 let message =
                     format!("surface `{name}` has the cell {cell}, and there are {cells} cells");
-                return Err(InputError::new(message)
-                    .hint("cells count from 0, triangles first")
-                    .into());
+                let error = InputError::new(message);
+                return Err(error.hint("cells count from 0, triangles first").into());
             }
         }
         Ok(())
     }
+}
 
-    fn cell_name(&self, cell: u32) -> String {
-        match (cell as usize).checked_sub(self.triangles.len()) {
-            None => format!("triangle {cell}"),
-            Some(quad) => format!("quad {quad}"),
-        }
-    }
-
-    /// Drops vertices without a cell; where the others were.
-    fn drop_lonely(&mut self) -> Vec<u32> {
-        let mut number = vec![u32::MAX; self.points.len()];
-        let cells = self.triangles.as_flattened().iter().chain(self.quads.as_flattened());
-        cells.for_each(|&vertex| number[vertex as usize] = 0);
-        let kept: Vec<u32> =
-            (0..).zip(&number).filter(|(_, at)| **at == 0).map(|(at, _)| at).collect();
-        (0..).zip(&kept).for_each(|(new, &old)| number[old as usize] = new);
-        let renumber = |vertex: &mut u32| *vertex = number[*vertex as usize];
-        self.triangles.as_flattened_mut().iter_mut().for_each(renumber);
-        self.quads.as_flattened_mut().iter_mut().for_each(renumber);
-        self.curves
-            .iter_mut()
-            .for_each(|(_, edges)| edges.as_flattened_mut().iter_mut().for_each(renumber));
-        self.points = kept.iter().map(|&old| self.points[old as usize]).collect();
-        kept
+fn cell_name(triangles: usize, cell: u32) -> String {
+    match (cell as usize).checked_sub(triangles) {
+        None => format!("triangle {cell}"),
+        Some(quad) => format!("quad {quad}"),
     }
 }
 
-/// Turns a clockwise cell round.
-fn turned<const N: usize>(
-    points: &[[f64; 2]],
-    kind: &str,
-    at: usize,
-    cell: &mut [u32; N],
-) -> Result<()> {
-    let corners = cell.map(|vertex| points[vertex as usize]);
-    match orientation(&corners) {
-        Ok(Orientation::Counterclockwise) => Ok(()),
-        Ok(Orientation::Clockwise) => {
-            cell[1..].reverse();
-            Ok(())
-        }
-        Err(defect) => {
-            let corner = defect
-                .corner()
-                .map_or_else(String::new, |corner| format!(" at vertex {}", cell[corner]));
-            Err(InputError::new(format!("{kind} {at} {defect}{corner}")).into())
-        }
-    }
-}
-
-fn curve((name, edges): (String, Vec<[u32; 2]>)) -> Curve {
-    let mut edges: Vec<_> = edges.into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+/// The curve of these edges, each of which must be one of a cell's.
+fn curve((name, edges): (String, Vec<[u32; 2]>), sound: &Sound) -> Result<Curve> {
+    let edge = |&[a, b]: &[u32; 2]| {
+        sound.edge([a, b]).ok_or_else(|| {
+            let ends = format!("from vertex {a} to vertex {b}");
+            let error = InputError::new(format!("curve `{name}`: no cell has the edge {ends}"));
+            error.hint("an edge is a pair of vertices of one cell side")
+        })
+    };
+    let mut edges = edges.iter().map(edge).collect::<std::result::Result<Vec<_>, _>>()?;
     edges.sort_unstable();
     edges.dedup();
-    Curve { name, edges }
+    Ok(Curve { name, edges })
 }
 
 fn surface((name, mut cells): (String, Vec<u32>)) -> Surface {
     cells.sort_unstable();
     cells.dedup();
     Surface { name, cells }
-}
-
-/// `Ok` where cells meet as they may, and each edge of a curve is one of a cell's.
-fn connected(mesh: &Mesh, origins: &[u32]) -> Result<()> {
-    let vertex = |at: u32| format!("vertex {}", origins.get(at as usize).unwrap_or(&at));
-    let name = |cell: u32| match (cell as usize).checked_sub(mesh.triangles.len()) {
-        None => format!("triangle {cell}"),
-        Some(quad) => format!("quad {quad}"),
-    };
-    let edges = edges_of(mesh).map_err(|fault| InputError::new(fault.describe(name, vertex)))?;
-    let known: HashSet<[u32; 2]> = edges.into_iter().collect();
-    for Curve { name, edges } in &mesh.curves {
-        if let Some(&[a, b]) = edges.iter().find(|edge| !known.contains(*edge)) {
-            let message =
-                format!("curve `{name}`: no cell has the edge from {} to {}", vertex(a), vertex(b));
-            return Err(InputError::new(message)
-                .hint("an edge is a pair of vertices of one cell side")
-                .into());
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
-//! The cells among the elements: corners resolved, counterclockwise, each cell once.
+//! The cells among the elements: corners resolved, each cell once.
 
 use super::draft::{Draft, Element, Parsed};
 use super::index::NodeIndex;
-use crate::mesh::shape::{self, Orientation};
 
 /// An element with the places of its nodes in the file.
 pub(super) struct Resolved<'a> {
@@ -25,29 +24,6 @@ impl<'a> Resolved<'a> {
         key[..self.corners().len()].copy_from_slice(self.corners());
         key.sort_unstable();
         key
-    }
-
-    /// Turns a clockwise cell round; an error if it is not strictly convex.
-    pub(super) fn orient(&mut self, draft: &Draft) -> Parsed<()> {
-        let count = self.element.kind.corners();
-        let mut points = [[0.0; 2]; 4];
-        for (point, &corner) in points.iter_mut().zip(self.corners()) {
-            let [x, y, _] = draft.nodes[corner as usize].point;
-            *point = [x, y];
-        }
-        match shape::orientation(&points[..count]) {
-            Ok(Orientation::Counterclockwise) => Ok(()),
-            Ok(Orientation::Clockwise) => {
-                self.corners[1..count].reverse();
-                Ok(())
-            }
-            Err(defect) => {
-                let node = |corner| format!(" at node {}", self.element.nodes[corner]);
-                let place = defect.corner().map(node).unwrap_or_default();
-                let message = format!("{} {defect}{place}", self.element.title());
-                Err(draft.error(self.element.at, message).into())
-            }
-        }
     }
 }
 

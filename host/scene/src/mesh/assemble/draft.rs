@@ -55,30 +55,26 @@ pub(in crate::mesh) enum Kind {
 }
 
 impl Kind {
-    pub(in crate::mesh) fn dimension(self) -> u8 {
+    /// Dimension, number of corners, name.
+    fn facts(self) -> (u8, usize, &'static str) {
         match self {
-            Self::Point => 0,
-            Self::Line => 1,
-            Self::Triangle | Self::Quad => 2,
+            Self::Point => (0, 1, "point"),
+            Self::Line => (1, 2, "line"),
+            Self::Triangle => (2, 3, "triangle"),
+            Self::Quad => (2, 4, "quad"),
         }
+    }
+
+    pub(in crate::mesh) fn dimension(self) -> u8 {
+        self.facts().0
     }
 
     pub(in crate::mesh) fn corners(self) -> usize {
-        match self {
-            Self::Point => 1,
-            Self::Line => 2,
-            Self::Triangle => 3,
-            Self::Quad => 4,
-        }
+        self.facts().1
     }
 
     pub(in crate::mesh) fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Line => "line",
-            Self::Triangle => "triangle",
-            Self::Quad => "quad",
-        }
+        self.facts().2
     }
 }
 

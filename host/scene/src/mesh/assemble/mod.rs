@@ -1,7 +1,8 @@
 //! From the lists of a file to a mesh that keeps its contract, whatever the format.
 //!
 //! ```text
-//! Draft: nodes, elements, groups ─► index ─► cells ─► groups ─► Mesh
+//! Draft: nodes, elements, groups ─► index ─► cells ─► sound ─► groups ─► Mesh
+//!                                        Arrays ──┘
 //! ```
 //! Points are ignored, lines matter in a physical curve only, vertices without a cell are dropped,
 //! clockwise cells are turned round. A cell listed once for each of its physical surfaces is one
@@ -11,12 +12,13 @@ mod cells;
 pub(super) mod draft;
 mod groups;
 mod index;
+pub(super) mod sound;
 
 use self::cells::Resolved;
 use self::draft::{Draft, Kind, Node, Parsed};
 use self::index::NodeIndex;
+use self::sound::{Cells, Sound};
 use crate::error::InputError;
-use crate::mesh::check::{self, Fault};
 use crate::mesh::{Curve, Mesh, Surface};
 
 /// How far from their plane vertices may lie, as part of the size of the mesh: what rotations and
@@ -26,12 +28,7 @@ const PLANE_TOLERANCE: f64 = 1e-9;
 /// Puts the lists together, with everything checked.
 pub(super) fn assemble(draft: &Draft) -> Parsed<Mesh> {
     let index = NodeIndex::new(draft)?;
-    let resolve = |dimension| {
-        let chosen = draft.elements.iter().filter(move |line| line.kind.dimension() == dimension);
-        let resolved = chosen.map(|element| Resolved::new(draft, &index, element));
-        resolved.collect::<Parsed<Vec<_>>>()
-    };
-    let (lines, mut cells) = (resolve(1)?, resolve(2)?);
+    let (lines, mut cells) = (resolved(draft, &index, 1)?, resolved(draft, &index, 2)?);
     if cells.is_empty() {
         let error = InputError::new("the mesh has no triangle and no quad");
         return Err(error.hint("mesh in two dimensions; put the surfaces in a group").into());
@@ -40,56 +37,34 @@ pub(super) fn assemble(draft: &Draft) -> Parsed<Mesh> {
     // As the mesh numbers them: triangles before quads, each kind in the order of the file.
     cells.sort_by_key(|cell| cell.element.kind == Kind::Quad);
 
-    let vertices = Vertices::of(&cells, draft.nodes.len());
-    let nodes: Vec<&Node> = vertices.nodes.iter().map(|&n| &draft.nodes[n as usize]).collect();
-    check_plane(draft, &nodes)?;
-    cells.iter_mut().try_for_each(|cell| cell.orient(draft))?;
+    check_plane(draft, &cells)?;
     let (distinct, number) = cells::distinct(&cells);
-    let mesh = Mesh {
-        vertices: nodes.iter().map(|node| [node.point[0], node.point[1]]).collect(),
-        triangles: distinct.iter().filter_map(|cell| vertices.corners(cell)).collect(),
-        quads: distinct.iter().filter_map(|cell| vertices.corners(cell)).collect(),
-        surfaces: surfaces(draft, &cells, &number)?,
-        curves: Vec::new(),
+    let points: Vec<_> = draft.nodes.iter().map(|node| [node.point[0], node.point[1]]).collect();
+    let element = |cell: u32| distinct[cell as usize].element;
+    let plane = Cells {
+        points: &points,
+        triangles: distinct.iter().filter_map(|cell| cell.corners().try_into().ok()).collect(),
+        quads: distinct.iter().filter_map(|cell| cell.corners().try_into().ok()).collect(),
+        cell: &|cell| element(cell).title(),
+        point: &|at| format!("node {}", draft.nodes[at as usize].tag),
     };
-    let edges = check::edges(&mesh)
-        .map_err(|fault| describe(draft, &distinct, fault, |vertex| nodes[vertex as usize].tag))?;
-    let curves = curves(draft, &lines, &vertices, &edges)?;
-    Ok(Mesh { curves, ..mesh })
+    let sound = plane.sound().map_err(|(cell, message)| draft.error(element(cell).at, message))?;
+    let surfaces = surfaces(draft, &cells, &number)?;
+    let curves = curves(draft, &lines, &sound)?;
+    Ok(Mesh { surfaces, curves, ..sound.mesh })
 }
 
-/// The nodes that are corners of cells, numbered from 0 in the order of the file.
-struct Vertices {
-    /// The node of each vertex.
-    nodes: Vec<u32>,
-    /// The vertex at each node.
-    numbers: Vec<Option<u32>>,
-}
-
-impl Vertices {
-    fn of(cells: &[Resolved], nodes: usize) -> Self {
-        let mut used = vec![false; nodes];
-        for &corner in cells.iter().flat_map(Resolved::corners) {
-            used[corner as usize] = true;
-        }
-        let nodes: Vec<_> = (0..).zip(&used).filter(|node| *node.1).map(|node| node.0).collect();
-        let mut numbers = vec![None; used.len()];
-        for (&node, vertex) in nodes.iter().zip(0..) {
-            numbers[node as usize] = Some(vertex);
-        }
-        Self { nodes, numbers }
-    }
-
-    /// The corners of a cell or line as vertices, if it has `N` corners and all are vertices.
-    fn corners<const N: usize>(&self, cell: &Resolved) -> Option<[u32; N]> {
-        let corners: [u32; N] = cell.corners().try_into().ok()?;
-        let vertices = corners.map(|node| self.numbers[node as usize]);
-        vertices.iter().all(Option::is_some).then(|| vertices.map(Option::unwrap_or_default))
-    }
+fn resolved<'a>(draft: &'a Draft, index: &NodeIndex, dimension: u8) -> Parsed<Vec<Resolved<'a>>> {
+    let chosen = draft.elements.iter().filter(|element| element.kind.dimension() == dimension);
+    chosen.map(|element| Resolved::new(draft, index, element)).collect()
 }
 
 /// All vertices have the same z, up to a part of the extent in x or y.
-fn check_plane(draft: &Draft, nodes: &[&Node]) -> Parsed<()> {
+fn check_plane(draft: &Draft, cells: &[Resolved]) -> Parsed<()> {
+    let mut used: Vec<u32> = cells.iter().flat_map(Resolved::corners).copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let nodes: Vec<&Node> = used.iter().map(|&node| &draft.nodes[node as usize]).collect();
     let extent = |axis: usize| {
         let range = |(low, high): (f64, f64), node: &&Node| {
             (low.min(node.point[axis]), high.max(node.point[axis]))
@@ -135,17 +110,12 @@ fn surfaces(draft: &Draft, cells: &[Resolved], number: &[u32]) -> Parsed<Vec<Sur
 }
 
 /// The physical curves; their lines must be edges of cells.
-fn curves(
-    draft: &Draft,
-    lines: &[Resolved],
-    vertices: &Vertices,
-    edges: &[[u32; 2]],
-) -> Parsed<Vec<Curve>> {
+fn curves(draft: &Draft, lines: &[Resolved], sound: &Sound) -> Parsed<Vec<Curve>> {
     let mut members = Vec::new();
     for line in lines {
         let tags = draft.tags(line.element);
-        let edge = vertices.corners(line).map(|[a, b]: [u32; 2]| [a.min(b), a.max(b)]);
-        match edge.filter(|edge| edges.binary_search(edge).is_ok()) {
+        let ends = line.corners().try_into().ok();
+        match ends.and_then(|ends: [u32; 2]| sound.edge(ends)) {
             Some(edge) => members.extend(tags.iter().map(|&tag| (tag, edge))),
             None if tags.is_empty() => {}
             None => {
@@ -159,17 +129,4 @@ fn curves(
     }
     let groups = groups::collect(draft, 1, members)?;
     Ok(groups.into_iter().map(|(name, edges)| Curve { name, edges }).collect())
-}
-
-/// A fault of the mesh in the words of the file.
-fn describe(
-    draft: &Draft,
-    distinct: &[&Resolved],
-    fault: Fault,
-    node: impl Fn(u32) -> u64,
-) -> Box<InputError> {
-    let element = |cell: u32| distinct[cell as usize].element;
-    let message =
-        fault.describe(|cell| element(cell).title(), |vertex| format!("node {}", node(vertex)));
-    draft.error(element(fault.cell()).at, message).into()
 }
