@@ -51,10 +51,8 @@ fn sample_point(origin: [f64; 2], at: [i32; 2]) -> [f64; 2] {
 
 /// The flux at each grid point inside a cell, by column and row.
 fn samples(panel: &ScenePanel, view: &View, origin: [f64; 2]) -> BTreeMap<[i32; 2], [f64; 2]> {
-    let cells = panel.triangles.iter().map(|cell| cell.as_slice());
-    let cells = cells.chain(panel.quads.iter().map(|cell| cell.as_slice()));
     let mut samples = BTreeMap::new();
-    for (cell, &flux) in cells.zip(&panel.cell_flux) {
+    for (cell, &flux) in panel.cells().zip(&panel.cell_flux) {
         let corners: Option<Vec<[f64; 2]>> =
             cell.iter().map(|&v| panel.vertices.get(v as usize).map(|&p| view.at(p))).collect();
         let corners = corners.unwrap_or_default();

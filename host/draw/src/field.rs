@@ -22,19 +22,16 @@ pub struct Field {
 /// The picture of a scene; `None` when its vertices span no area.
 pub fn field(panel: &ScenePanel) -> Option<Field> {
     let mut plane = Plane::new(panel, "the solution u over the plane")?;
-    let surface = Surface::new(panel, &plane.view);
+    let surface = Surface::new(panel, &plane.view, panel.vertex_u.iter().copied());
     if let Some([low, high]) = extent(surface.values()) {
         let visible = high - low > ROUNDING * low.abs().max(high.abs());
         let range = if visible { [low, high] } else { [low, low] };
         plane.bands(range, BANDS, "u", |level| surface.above(level));
     }
-    plane.mesh(panel);
-    plane.boundary(panel);
-    plane.axes();
     let mut notes: Vec<String> = plane.view.note().into_iter().collect();
     if let Some((path, full)) = arrows(panel, &plane.view) {
-        plane.svg.path("arrows", &path);
+        plane.arrows = path;
         notes.insert(0, format!("arrows σ = A∇u, the longest |σ| ≥ {}", plain(full)));
     }
-    Some(Field { svg: plane.svg.finish(), notes })
+    Some(Field { svg: plane.finish(panel), notes })
 }

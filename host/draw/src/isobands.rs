@@ -17,46 +17,52 @@ use super::ScenePanel;
 use super::outline::{Node, Segments, crossing, rim};
 use super::view::View;
 
-/// u as a piecewise linear function of the pixel.
+/// The cells of a scene as triangles in pixels, with values at their corners.
 #[derive(Debug, Default)]
 pub struct Surface {
     points: Vec<[f64; 2]>,
     values: Vec<f64>,
-    /// All of the same orientation.
-    triangles: Vec<[usize; 3]>,
-    /// The edges with a triangle on one side only, directed as in their triangle.
+    triangles: Vec<Triangle>,
+    /// The sides of one triangle alone.
     rim: Vec<[usize; 2]>,
 }
 
+/// A triangle, and the cell that it is part of.
+#[derive(Debug)]
+struct Triangle {
+    /// All triangles have the same orientation.
+    corners: [usize; 3],
+    cell: usize,
+}
+
 impl Surface {
-    /// Leaves out cells at which something is not finite or missing.
-    pub fn new(panel: &ScenePanel, view: &View) -> Self {
-        let count = panel.vertices.len().min(panel.vertex_u.len());
-        let mut surface = Self {
-            points: panel.vertices[..count].iter().map(|&vertex| view.at(vertex)).collect(),
-            values: panel.vertex_u[..count].to_vec(),
-            ..Self::default()
-        };
-        for triangle in &panel.triangles {
-            surface.push(triangle.map(|vertex| vertex as usize));
+    /// The cells with a value at each vertex; those at which something is not finite or missing are left out.
+    pub fn new(panel: &ScenePanel, view: &View, values: impl Iterator<Item = f64>) -> Self {
+        let (points, values) = panel.vertices.iter().map(|&at| view.at(at)).zip(values).unzip();
+        let mut surface = Self { points, values, ..Self::default() };
+        let count = surface.points.len();
+        for (number, cell) in panel.cells().enumerate() {
+            let corners: Vec<usize> = cell.iter().map(|&vertex| vertex as usize).collect();
+            match corners[..] {
+                _ if corners.iter().any(|&vertex| vertex >= count) => {}
+                [a, b, c] => surface.push([a, b, c], number),
+                _ => surface.push_around_centre(&corners, number),
+            }
         }
-        for quad in &panel.quads {
-            surface.push_quad(quad.map(|vertex| vertex as usize));
-        }
-        surface.rim = rim(surface.triangles.iter().map(|cell| cell.as_slice()));
+        surface.rim = rim(surface.triangles.iter().map(|triangle| triangle.corners));
         surface
     }
 
     /// The values at the corners of all triangles.
     pub fn values(&self) -> impl Iterator<Item = f64> {
-        self.triangles.iter().flatten().map(|&vertex| self.values[vertex])
+        self.triangles.iter().flat_map(|triangle| triangle.corners.map(|at| self.values[at]))
     }
 
     /// The outlines of {u ≥ level}, holes the other way round.
     pub fn above(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let inside = |vertex: usize| self.values[vertex] >= level;
         let mut segments = Segments::default();
-        for &[a, b, c] in &self.triangles {
+        for &Triangle { corners: [a, b, c], .. } in &self.triangles {
             let edges = [[a, b], [b, c], [c, a]];
             let leaves = edges.into_iter().find(|&[p, q]| inside(p) && !inside(q));
             let enters = edges.into_iter().find(|&[p, q]| !inside(p) && inside(q));
@@ -75,6 +81,16 @@ impl Surface {
         segments.outlines(|node| self.point(node, level))
     }
 
+    /// The outlines of the cells that are `chosen` by number.
+    pub fn around(&self, chosen: impl Fn(usize) -> bool) -> Vec<Vec<[f64; 2]>> {
+        let inside = self.triangles.iter().filter(|triangle| chosen(triangle.cell));
+        let mut segments = Segments::default();
+        for [a, b] in rim(inside.map(|triangle| triangle.corners)) {
+            segments.add([a, a], [b, b]);
+        }
+        segments.outlines(|[vertex, _]| self.points[vertex])
+    }
+
     fn point(&self, [a, b]: Node, level: f64) -> [f64; 2] {
         let (p, q) = (self.points[a], self.points[b]);
         if a == b {
@@ -84,34 +100,25 @@ impl Surface {
         [p[0] + along * (q[0] - p[0]), p[1] + along * (q[1] - p[1])]
     }
 
-    fn push(&mut self, triangle: [usize; 3]) {
-        let known = |&vertex: &usize| {
-            let (Some(point), Some(value)) = (self.points.get(vertex), self.values.get(vertex))
-            else {
-                return false;
-            };
-            value.is_finite() && point.iter().all(|part| part.is_finite())
-        };
-        if triangle.iter().all(known) {
-            let [a, b, c] = triangle;
-            let [p, q, r] = triangle.map(|vertex| self.points[vertex]);
+    fn push(&mut self, [a, b, c]: [usize; 3], cell: usize) {
+        let [p, q, r] = [a, b, c].map(|vertex| self.points[vertex]);
+        let values = [a, b, c].map(|vertex| self.values[vertex]);
+        if [p, q, r].as_flattened().iter().chain(&values).all(|number| number.is_finite()) {
             let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-            self.triangles.push(if area < 0.0 { [a, b, c] } else { [a, c, b] });
+            let corners = if area < 0.0 { [a, b, c] } else { [a, c, b] };
+            self.triangles.push(Triangle { corners, cell });
         }
     }
 
-    fn push_quad(&mut self, quad: [usize; 4]) {
-        let count = self.points.len();
-        if quad.iter().any(|&vertex| vertex >= count) {
-            return;
-        }
-        let mean = |part: &dyn Fn(usize) -> f64| quad.iter().map(|&v| 0.25 * part(v)).sum::<f64>();
-        let centre = [mean(&|v| self.points[v][0]), mean(&|v| self.points[v][1])];
+    fn push_around_centre(&mut self, corners: &[usize], cell: usize) {
+        let (centre, share) = (self.points.len(), 1.0 / corners.len() as f64);
+        let mean = |part: &dyn Fn(usize) -> f64| corners.iter().map(|&v| share * part(v)).sum();
+        let [x, y] = [0, 1].map(|axis| mean(&|v| self.points[v][axis]));
         let value = mean(&|v| self.values[v]);
-        self.points.push(centre);
+        self.points.push([x, y]);
         self.values.push(value);
-        for side in 0..4 {
-            self.push([quad[side], quad[(side + 1) % 4], count]);
+        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            self.push([a, b, centre], cell);
         }
     }
 }
@@ -143,7 +150,7 @@ mod tests {
         let vertex_u = vertices.iter().map(|&[x, y]| u(x, y)).collect();
         let panel = ScenePanel { vertices, quads, vertex_u, ..ScenePanel::default() };
         let view = View::new(&panel.vertices, [0.0, 0.0]).unwrap();
-        Surface::new(&panel, &view)
+        Surface::new(&panel, &view, panel.vertex_u.iter().copied())
     }
 
     #[test]

@@ -150,6 +150,14 @@ pub struct ScenePanel {
     pub facts: Vec<(String, String)>,
 }
 
+impl ScenePanel {
+    /// The vertices of each cell, triangles first.
+    fn cells(&self) -> impl Iterator<Item = &[u32]> {
+        let triangles = self.triangles.iter().map(|cell| cell.as_slice());
+        triangles.chain(self.quads.iter().map(|cell| cell.as_slice()))
+    }
+}
+
 /// How wrong u and σ can be, and the parts of that: energy norms.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct BoundTerms {

@@ -12,12 +12,12 @@ pub fn crossing([a, b]: [usize; 2]) -> Node {
     [a.min(b), a.max(b)]
 }
 
-/// The sides that only one of the cells has, directed as in their cell; all of the same orientation.
-pub fn rim<'c>(cells: impl IntoIterator<Item = &'c [usize]>) -> Vec<[usize; 2]> {
+/// The sides that only one of the triangles has, directed as in it; all of the same orientation.
+pub fn rim(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<[usize; 2]> {
     let mut sides: BTreeMap<Node, (usize, [usize; 2])> = BTreeMap::new();
-    for cell in cells {
-        for (&a, &b) in cell.iter().zip(cell.iter().cycle().skip(1)) {
-            sides.entry(crossing([a, b])).or_insert((0, [a, b])).0 += 1;
+    for [a, b, c] in triangles {
+        for side in [[a, b], [b, c], [c, a]] {
+            sides.entry(crossing(side)).or_insert((0, side)).0 += 1;
         }
     }
     sides.into_values().filter(|&(count, _)| count == 1).map(|(_, side)| side).collect()

@@ -20,8 +20,9 @@ const BAR_LABELS: f64 = 70.0;
 pub struct Plane {
     /// Where the domain lies in it.
     pub view: View,
-    /// What is drawn so far.
-    pub svg: Svg,
+    /// Arrows to lie above everything else.
+    pub arrows: Path,
+    svg: Svg,
 }
 
 impl Plane {
@@ -31,7 +32,8 @@ impl Plane {
         let [width, height] = view.size();
         let total = MARGIN + width + BAR_GAP + BAR + BAR_LABELS;
         let label = format!("{}: {what}", panel.title);
-        Some(Self { view, svg: Svg::new(total, TOP + height + BOTTOM, &label) })
+        let svg = Svg::new(total, TOP + height + BOTTOM, &label);
+        Some(Self { view, arrows: Path::default(), svg })
     }
 
     /// Fills the outlines `above` each of equally spaced levels from `low` on, each over the one before,
@@ -75,15 +77,19 @@ impl Plane {
         svg.text("quantity", [left, bottom + 21.0], Anchor::Start, quantity);
     }
 
-    /// Draws the edges of the cells, unless they are too many.
-    pub fn mesh(&mut self, panel: &ScenePanel) {
-        if panel.triangles.len() + panel.quads.len() <= MOST_CELLS_WITH_LINES {
+    /// Draws the mesh (unless its cells are too many), boundary, axes and arrows, and ends the picture.
+    pub fn finish(mut self, panel: &ScenePanel) -> String {
+        if panel.cells().count() <= MOST_CELLS_WITH_LINES {
             self.svg.path("mesh", &mesh_lines(panel, &self.view));
         }
+        self.boundary(panel);
+        self.axes();
+        self.svg.path("arrows", &self.arrows);
+        self.svg.finish()
     }
 
     /// Draws the rest of the boundary first, so that the contact zone lies on top.
-    pub fn boundary(&mut self, panel: &ScenePanel) {
+    fn boundary(&mut self, panel: &ScenePanel) {
         let draw = |ends: &mut dyn Iterator<Item = [[f64; 2]; 2]>| {
             let mut path = Path::default();
             ends.for_each(|ends| path.line(&ends.map(|end| self.view.at(end))));
@@ -101,7 +107,7 @@ impl Plane {
     }
 
     /// Draws the coordinates around the domain.
-    pub fn axes(&mut self) {
+    fn axes(&mut self) {
         let (svg, [x_range, y_range]) = (&mut self.svg, self.view.ranges());
         let [width, height] = self.view.size();
         let (bottom, right) = (TOP + height, MARGIN + width);
@@ -123,9 +129,8 @@ fn band_color(band: u32, count: u32) -> String {
 }
 
 fn mesh_lines(panel: &ScenePanel, view: &View) -> Path {
-    let cells = panel.triangles.iter().map(|cell| cell.as_slice());
-    let cells = cells.chain(panel.quads.iter().map(|cell| cell.as_slice()));
-    let mut edges: Vec<[u32; 2]> = cells
+    let mut edges: Vec<[u32; 2]> = panel
+        .cells()
         .flat_map(|cell| cell.iter().zip(cell.iter().cycle().skip(1)))
         .map(|(&a, &b)| [a.min(b), a.max(b)])
         .collect();
