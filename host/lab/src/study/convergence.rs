@@ -7,9 +7,9 @@ use serde::Serialize;
 use signorini_kernel::element::QuadElement;
 
 use super::checks::Check;
+use signorini_draw::{Chart, Curve, Strip, measured_rate};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
-use signorini_draw::{Chart, Curve, Strip, measured_rate};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::structured::{Cells, Trapezoids, grid, trapezoids};

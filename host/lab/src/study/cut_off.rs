@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::bound::Certified;
 use super::checks::Check;
+use signorini_draw::{self as report, Chart, Curve, Strip, TableRow};
 use signorini_problem::Problem;
 use signorini_problem::threads::on_two_threads;
-use signorini_draw::{self as report, Chart, Curve, Strip, TableRow};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Scene;
 use signorini_solve::adaptive::mesh_of_scene;

@@ -15,6 +15,11 @@ pub fn grouped(value: u64) -> String {
     text
 }
 
+/// A cost rounded to a whole number, with its digits in threes.
+pub fn whole(value: f64) -> String {
+    grouped(value.round_ties_even() as u64)
+}
+
 /// A cost with three significant digits: 0.123, 12.3, 1 230 000.
 pub fn cost(value: f64) -> String {
     if !value.is_finite() || value.abs() < 1000.0 || value >= 1e15 {

@@ -1,5 +1,6 @@
 //! The Pareto front, and the setting to take.
 
+use super::digits::whole;
 use super::picture::cost_unit;
 use super::record::{Point, Recommendation, Trade};
 use super::reference::EXACT;
@@ -99,7 +100,7 @@ pub fn sentence(trade: &Trade, point: &Point) -> String {
     };
     format!(
         "For {} {} a tick take {name}: energy error {}{certified}{force}.{by}",
-        thousands(point.cost()),
+        whole(point.cost()),
         cost_unit(&trade.target),
         part(error.energy, trade.energy)
     )
@@ -119,10 +120,10 @@ fn nothing(trade: &Trade, wish: &Wish) -> String {
     };
     let asked = match (wish.budget, wish.error) {
         (Some(budget), Some(_)) => {
-            format!("accurate enough within {} {}", thousands(budget), cost_unit(&trade.target))
+            format!("accurate enough within {} {}", whole(budget), cost_unit(&trade.target))
         }
         (Some(budget), None) => {
-            format!("within {} {}", thousands(budget), cost_unit(&trade.target))
+            format!("within {} {}", whole(budget), cost_unit(&trade.target))
         }
         _ => "accurate enough".to_owned(),
     };
@@ -130,24 +131,11 @@ fn nothing(trade: &Trade, wish: &Wish) -> String {
         "No setting measured is {asked}: the cheapest, {}, takes {} {} with an error of {:.3e}; the most accurate, {}, \
          takes {} with {:.3e}.",
         cheapest.name,
-        thousands(cheapest.cost()),
+        whole(cheapest.cost()),
         cost_unit(&trade.target),
         cheapest.error.energy,
         best.name,
-        thousands(best.cost()),
+        whole(best.cost()),
         best.error.energy
     )
-}
-
-/// A whole number, its thousands apart.
-pub fn thousands(number: f64) -> String {
-    let digits = format!("{number:.0}");
-    let mut text = String::new();
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 && digits.as_bytes()[at - 1] != b'-' {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -76,6 +76,27 @@ impl Journal {
         T::deserialize(self.known.get(key)?).ok()
     }
 
+    /// Gives what is known of the case `key`, or what `work` finds, where it is this process's to find.
+    ///
+    /// # Errors
+    /// The failure of `work`; what it finds cannot be kept.
+    pub fn once<T: Serialize + DeserializeOwned + PartialEq>(
+        &mut self,
+        key: &str,
+        mine: bool,
+        work: impl FnOnce() -> Result<T>,
+    ) -> Result<Option<T>> {
+        if let Some(known) = self.known(key) {
+            return Ok(Some(known));
+        }
+        if !mine {
+            return Ok(None);
+        }
+        let found = work()?;
+        self.add(key, &found)?;
+        Ok(Some(found))
+    }
+
     /// Keeps what was found for the case `key`; it is on the disk when this returns.
     ///
     /// # Errors

@@ -1,11 +1,9 @@
 //! What a journal keeps of a study: its cases, and what is known of the truth.
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::journal::Journal;
 use super::record::Point;
-use signorini_scene::error::{Error, InputError, Result};
+use signorini_scene::error::{Error, InputError};
 use signorini_scene::scene::Scene;
 
 /// A setting measured, or why it could not be.
@@ -33,24 +31,6 @@ impl MeasuredSetting {
     }
 }
 
-/// What the journal knows under `key`, or what `work` finds, where it is this process's to find.
-pub(super) fn once<T: Serialize + DeserializeOwned + PartialEq>(
-    journal: &mut Journal,
-    key: &str,
-    mine: bool,
-    work: impl FnOnce() -> Result<T>,
-) -> Result<Option<T>> {
-    if let Some(known) = journal.known(key) {
-        return Ok(Some(known));
-    }
-    if !mine {
-        return Ok(None);
-    }
-    let found = work()?;
-    journal.add(key, &found)?;
-    Ok(Some(found))
-}
-
 pub(super) fn overflow(scene: &Scene) -> Error {
     InputError::new("the energy or the contact force of the solution overflows")
         .file(&scene.path)
@@ -58,7 +38,7 @@ pub(super) fn overflow(scene: &Scene) -> Error {
         .into()
 }
 
-/// This very program: another build measures anew.
+/// A mark of this very program: another build measures anew.
 pub(crate) fn program() -> String {
     let bytes = std::env::current_exe().and_then(std::fs::read);
     let digest = |bytes: Vec<u8>| format!("{:016x}", digest(&bytes));

@@ -28,6 +28,7 @@ pub mod promised;
 pub mod record;
 pub mod records;
 pub mod reference;
+mod run;
 pub mod section;
 pub mod shard;
 pub mod study;

@@ -1,4 +1,4 @@
-//! What of the full product of knobs makes sense, is in reach, and is measured.
+//! Combinations of the full product of knobs that make sense, are in reach, and are measured.
 
 use super::{Combination, Factor, LARGEST_ON_BOARD, SceneFacts, Stop, TOO_LARGE};
 use crate::trade::target::Target;
@@ -21,92 +21,76 @@ impl Combination {
         })
     }
 
-    /// What means nothing.
+    /// Why it means nothing.
     fn senseless(&self, ground: &SceneFacts) -> Option<&'static str> {
         let condensed = self.model == ModelKind::Condensed;
-        if condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)) {
-            return Some("shares and other sweeps than 12 are for full models");
-        }
-        if !condensed && self.stop == Stop::Sweeps(12) {
-            return Some("12 sweeps are for condensed models");
-        }
         let exact = self.stop == Stop::Exact;
-        if exact && !condensed && (self.omega != Factor::Auto || self.math != MathKind::Libm) {
-            return Some("a factor has no ω");
-        }
-        if condensed && self.omega != Factor::Auto {
-            return Some("a condensed model has its best ω from the host");
-        }
-        if matches!(self.stop, Stop::Sweeps(10 | 40)) && self.level > 0 {
-            return Some(
+        let has_omega = self.omega != Factor::Auto;
+        let fast = self.math == MathKind::Micromath;
+        first(&[
+            (
+                condensed && !matches!(self.stop, Stop::Exact | Stop::Sweeps(12)),
+                "shares and other sweeps than 12 are for full models",
+            ),
+            (!condensed && self.stop == Stop::Sweeps(12), "12 sweeps are for condensed models"),
+            (exact && !condensed && (has_omega || fast), "a factor has no ω"),
+            (condensed && has_omega, "a condensed model has its best ω from the host"),
+            (
+                matches!(self.stop, Stop::Sweeps(10 | 40)) && self.level > 0,
                 "so few sweeps of a refined mesh never paid: a coarser mesh has the same error for less",
-            );
-        }
-        if self.math == MathKind::Micromath && self.scalar != Precision::F32 {
-            return Some("micromath is for f32");
-        }
-        if self.math == MathKind::Micromath && (self.omega != Factor::Auto || condensed) {
-            return Some("micromath serves the search for ω alone");
-        }
-        if matches!(self.stop, Stop::Share(_)) && !self.certificate {
-            return Some("a share of the bound needs the bound");
-        }
-        if self.start == Start::Warm && !ground.has_inputs {
-            return Some("no inputs: nothing changes between ticks");
-        }
-        None
+            ),
+            (fast && self.scalar != Precision::F32, "micromath is for f32"),
+            (fast && (has_omega || condensed), "micromath serves the search for ω alone"),
+            (
+                matches!(self.stop, Stop::Share(_)) && !self.certificate,
+                "a share of the bound needs the bound",
+            ),
+            (
+                self.start == Start::Warm && !ground.has_inputs,
+                "no inputs: nothing changes between ticks",
+            ),
+        ])
     }
 
-    /// What there is no code for, or no room.
+    /// Why there is no code for it, or no room.
     fn out_of_reach(&self, ground: &SceneFacts) -> Option<&'static str> {
         let condensed = self.model == ModelKind::Condensed;
-        if ground.uses_time && ground.target != Target::Host {
-            return Some("the data change with t, which firmware does not know");
-        }
-        if condensed && !ground.has_inputs {
-            return Some("no inputs: a condensed answer is a constant");
-        }
-        if condensed && self.start == Start::Cold {
-            return Some("a condensed model starts at its default inputs");
-        }
-        if self.scalar == Precision::Mixed && self.start == Start::Warm {
-            return Some("f32+f64 is for single solves on the host");
-        }
-        if condensed && self.scalar == Precision::Mixed {
-            return Some("f32+f64 is for the full model on the host");
-        }
-        if self.scalar == Precision::Mixed && self.stop == Stop::Exact {
-            return Some("f32+f64 is for sweeps");
-        }
-        if !condensed && ground.is_loose {
-            if self.stop == Stop::Exact {
-                return Some("contact alone holds the domain: no factor");
-            }
-            if ground.target != Target::Host {
-                return Some("contact alone holds the domain: the full model needs shifts");
-            }
-            if self.start == Start::Warm || self.scalar == Precision::Mixed {
-                return Some("contact alone holds the domain: every full solve starts cold");
-            }
-            if matches!(self.stop, Stop::Share(share) if share != 0.01) {
-                return Some("contact alone holds the domain: no share of the bound to stop at");
-            }
-            if self.math == MathKind::Micromath {
-                return Some("contact alone holds the domain: solved with libm");
-            }
-        }
-        if ground.target != Target::Host {
-            if self.scalar == Precision::Mixed {
-                return Some("f32+f64 is for the host");
-            }
-            if self.scalar == Precision::F64 && ground.target == Target::M4f {
-                return Some("an M4F computes f64 in software: 45 times the instructions");
-            }
-            if !condensed && ground.unknowns << (2 * self.level) > LARGEST_ON_BOARD {
-                return Some(TOO_LARGE);
-            }
-        }
-        None
+        let mixed = self.scalar == Precision::Mixed;
+        let exact = self.stop == Stop::Exact;
+        let warm = self.start == Start::Warm;
+        let loose = !condensed && ground.is_loose;
+        let on_board = ground.target != Target::Host;
+        first(&[
+            (ground.uses_time && on_board, "the data change with t, which firmware does not know"),
+            (condensed && !ground.has_inputs, "no inputs: a condensed answer is a constant"),
+            (condensed && !warm, "a condensed model starts at its default inputs"),
+            (mixed && warm, "f32+f64 is for single solves on the host"),
+            (condensed && mixed, "f32+f64 is for the full model on the host"),
+            (mixed && exact, "f32+f64 is for sweeps"),
+            (loose && exact, "contact alone holds the domain: no factor"),
+            (loose && on_board, "contact alone holds the domain: the full model needs shifts"),
+            (
+                loose && (warm || mixed),
+                "contact alone holds the domain: every full solve starts cold",
+            ),
+            (
+                loose && matches!(self.stop, Stop::Share(share) if share != 0.01),
+                "contact alone holds the domain: no share of the bound to stop at",
+            ),
+            (
+                loose && self.math == MathKind::Micromath,
+                "contact alone holds the domain: solved with libm",
+            ),
+            (on_board && mixed, "f32+f64 is for the host"),
+            (
+                self.scalar == Precision::F64 && ground.target == Target::M4f,
+                "an M4F computes f64 in software: 45 times the instructions",
+            ),
+            (
+                on_board && !condensed && ground.unknowns << (2 * self.level) > LARGEST_ON_BOARD,
+                TOO_LARGE,
+            ),
+        ])
     }
 
     /// With the solution and its bound at the end of a usual tick.
@@ -210,7 +194,12 @@ impl Combination {
     }
 }
 
-/// What most points start from.
+/// The first reason that holds.
+fn first(reasons: &[(bool, &'static str)]) -> Option<&'static str> {
+    reasons.iter().find(|(holds, _)| *holds).map(|&(_, reason)| reason)
+}
+
+/// The start of most points.
 fn main_start(ground: &SceneFacts) -> Start {
     if ground.has_inputs && !ground.is_loose { Start::Warm } else { Start::Cold }
 }

@@ -29,7 +29,8 @@ impl Reference {
     /// The norms over the domain; force and length are left 0.
     pub(super) fn errors(&self, problem: &Problem, answer: &Approximation) -> Result<PointError> {
         let inside = self.points.iter().map(|point| point.x);
-        let places = self.places.of(problem, inside, self.robin.iter().map(|point| point.x))?;
+        let robin = self.robin.iter().map(|point| point.x);
+        let places = self.places.on(&problem.mesh, || Places::find(problem, inside, robin))?;
         let combined = |of| self.combined(problem, &places, of);
         let combined = answer.certified.as_ref().map(combined).transpose()?;
         Ok(PointError { combined, ..self.broken(problem, &places, answer) })

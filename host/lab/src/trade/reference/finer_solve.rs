@@ -9,9 +9,11 @@
 //! Of u itself the mean of u_h and s is taken, nearer to it than u_h by a third or more.
 
 use super::exact::Contact;
-use super::places::Known;
+use super::kept::Kept;
+use super::places::Places;
 use super::points::{Inside, points};
 use super::recovery;
+use crate::trade::digits::grouped;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::cell::Cell;
 use signorini_certify::conductivity::{Conductivity, apply, inverse, product};
@@ -32,7 +34,7 @@ const ON_EDGES: usize = 3;
 pub(super) struct Reference {
     pub(super) points: Vec<Inside>,
     pub(super) robin: Vec<OnRobin>,
-    pub(super) places: Known,
+    pub(super) places: Kept<Places>,
     pub(super) contact: Contact,
     unknowns: usize,
     /// What its own error is at most, in the energy norm.
@@ -65,7 +67,7 @@ impl Reference {
         Ok(Self {
             points,
             robin,
-            places: Known::default(),
+            places: Kept::new(usize::MAX),
             contact: Contact { force, length },
             unknowns: problem.topology.counts.unknowns(),
             certified: bound.map(|bound| certified(bound.total)),
@@ -83,7 +85,7 @@ impl Reference {
             Some(error) => format!("its own certified error is at most {error:.1e}"),
             None => "its own error has no certified bound".to_owned(),
         };
-        let unknowns = grouped(self.unknowns);
+        let unknowns = grouped(self.unknowns as u64);
         format!(
             "the faer reference on {unknowns} unknowns, two refinements finer than the finest mesh; {own}"
         )
@@ -150,17 +152,4 @@ impl Sampler<'_> {
         }
         Ok(())
     }
-}
-
-/// 103424 as 103 424.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut grouped = String::new();
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            grouped.push(' ');
-        }
-        grouped.push(digit);
-    }
-    grouped
 }

@@ -10,6 +10,7 @@
 mod distance;
 mod exact;
 mod finer_solve;
+mod kept;
 mod places;
 mod points;
 mod recovery;
@@ -19,7 +20,8 @@ mod tests;
 
 use self::exact::Contact;
 use self::finer_solve::Reference;
-use self::tables::Recent;
+use self::kept::Kept;
+use self::tables::{KEPT, Tables};
 use crate::baseline::record::PointError;
 use signorini_certify::admissible::Admissible;
 use signorini_certify::curved::followed;
@@ -47,11 +49,11 @@ pub struct ReferenceSolution {
 
 #[derive(Debug)]
 enum Source {
-    Exact(Box<Exact>, Recent),
+    Exact(Box<Exact>, Kept<Tables>),
     Reference(Reference),
 }
 
-/// What somebody found for a scene, on a mesh of its own.
+/// An answer for a scene, on a mesh of its own.
 #[derive(Debug, Clone, Copy)]
 pub struct Approximation<'a> {
     /// Mean of u_h over each edge.
@@ -94,9 +96,9 @@ impl ReferenceSolution {
             return Self::by_reference(scene, refined(mesh, finest + FINER)?);
         };
         let problem = Problem::new(scene, mesh.clone())?;
-        let recent = Recent::default();
+        let recent = Kept::new(KEPT);
         let deviations = Deviations::at_time(&problem, problem.time)?;
-        let tables = recent.of(exact, &problem, &deviations)?;
+        let tables = recent.on(&problem.mesh, || Tables::new(exact, &problem, &deviations))?;
         Ok(Self {
             source: Source::Exact(Box::new(exact.clone()), recent),
             energy: exact::energy(&tables.u, &problem)?,
@@ -114,7 +116,7 @@ impl ReferenceSolution {
         })
     }
 
-    /// What it is, in words.
+    /// Says in words how it was found.
     pub fn words(&self) -> String {
         match &self.source {
             Source::Exact(..) => EXACT.to_owned(),
@@ -158,12 +160,12 @@ impl ReferenceSolution {
 /// The norms over the domain, against an exact solution.
 fn exactly(
     exact: &Exact,
-    recent: &Recent,
+    recent: &Kept<Tables>,
     problem: &Problem,
     answer: &Approximation,
 ) -> Result<PointError> {
     let deviations = &Deviations::at_time(problem, problem.time)?;
-    let tables = recent.of(exact, problem, deviations)?;
+    let tables = recent.on(&problem.mesh, || Tables::new(exact, problem, deviations))?;
     let (u, lift) = (&tables.u, &tables.lift);
     let errors = norms::of_fields(problem, u, answer.u, answer.flux)?;
     let combined = |admissible| {

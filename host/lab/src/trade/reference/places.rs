@@ -1,13 +1,8 @@
-//! Where the points of a reference lie in the mesh of an answer; found once for each mesh.
-
-use std::collections::HashMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::{Arc, Mutex, PoisonError};
+//! Where the points of a reference lie in the mesh of an answer.
 
 use signorini_problem::search::{LocatedPoint, Search};
 use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::{InputError, Result};
-use signorini_scene::mesh::Mesh;
 
 /// The places of all points of a reference in one mesh.
 #[derive(Debug, Default)]
@@ -27,31 +22,9 @@ pub(super) struct OnEdge {
     pub(super) t: f64,
 }
 
-/// The places in every mesh seen so far.
-#[derive(Debug, Default)]
-pub(super) struct Known(Mutex<HashMap<u64, Arc<Places>>>);
-
-impl Known {
-    /// Those in the mesh of `problem`, for points inside and points on the Robin boundary.
-    pub(super) fn of(
-        &self,
-        problem: &Problem,
-        inside: impl Iterator<Item = [f64; 2]>,
-        robin: impl Iterator<Item = [f64; 2]>,
-    ) -> Result<Arc<Places>> {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = fingerprint(&problem.mesh);
-        if let Some(places) = known.get(&key) {
-            return Ok(places.clone());
-        }
-        let places = Arc::new(Places::find(problem, inside, robin)?);
-        known.insert(key, places.clone());
-        Ok(places)
-    }
-}
-
 impl Places {
-    fn find(
+    /// Finds points inside and points on the Robin boundary in the mesh of `problem`.
+    pub(super) fn find(
         problem: &Problem,
         inside: impl Iterator<Item = [f64; 2]>,
         robin: impl Iterator<Item = [f64; 2]>,
@@ -89,14 +62,4 @@ fn nearest(problem: &Problem, edges: &[usize], x: [f64; 2]) -> Option<OnEdge> {
 fn elsewhere() -> InputError {
     InputError::new("the reference and an answer have different domains")
         .hint("an answer's mesh must be one of the scene's own mesh, refined or paired")
-}
-
-/// A number that two meshes hardly share.
-pub(super) fn fingerprint(mesh: &Mesh) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    for x in mesh.vertices.as_flattened() {
-        x.to_bits().hash(&mut hasher);
-    }
-    (&mesh.triangles, &mesh.quads).hash(&mut hasher);
-    hasher.finish()
 }

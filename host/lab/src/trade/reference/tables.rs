@@ -2,9 +2,6 @@
 //!
 //! Its expressions cost microseconds a point, with 256 points a cell and up to 60 answers on a mesh.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
-use super::places::fingerprint;
 use signorini_certify::deviation::Deviations;
 use signorini_certify::sampled::{Lifted, Solution, Table};
 use signorini_problem::Problem;
@@ -13,7 +10,7 @@ use signorini_scene::scene::Exact;
 
 /// Meshes whose tables are kept, of some 60 MB each at 10 000 cells. A study finishes with a mesh before
 /// the next, but for the scene's own.
-const KEPT: usize = 2;
+pub(super) const KEPT: usize = 2;
 
 /// What does not depend on the answer.
 #[derive(Debug)]
@@ -24,36 +21,9 @@ pub(super) struct Tables {
     pub(super) lift: Table,
 }
 
-/// The tables of the meshes that were used last.
-#[derive(Debug, Default)]
-pub(super) struct Recent(Mutex<Vec<(u64, Arc<Tables>)>>);
-
-impl Recent {
-    /// Those on the mesh of `problem`.
-    pub(super) fn of(
-        &self,
-        exact: &Exact,
-        problem: &Problem,
-        deviations: &Deviations,
-    ) -> Result<Arc<Tables>> {
-        let mut recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = fingerprint(&problem.mesh);
-        let known = recent.iter().position(|(other, _)| *other == key);
-        if known.is_none() {
-            // First, so that there is never one more than is kept.
-            recent.truncate(KEPT - 1);
-        }
-        let tables = match known {
-            Some(at) => recent.remove(at).1,
-            None => Arc::new(Tables::new(exact, problem, deviations)?),
-        };
-        recent.insert(0, (key, tables.clone()));
-        Ok(tables)
-    }
-}
-
 impl Tables {
-    fn new(exact: &Exact, problem: &Problem, deviations: &Deviations) -> Result<Self> {
+    /// Fills the tables on the mesh of `problem`.
+    pub(super) fn new(exact: &Exact, problem: &Problem, deviations: &Deviations) -> Result<Self> {
         let solution = Solution { exact, problem };
         Ok(Self {
             u: Table::of(&solution, problem)?,
@@ -64,24 +34,27 @@ impl Tables {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::super::kept::Kept;
     use super::*;
     use signorini_problem::fixtures::{SMOOTH, on_grid};
     use signorini_scene::mesh::structured::{Cells, grid};
 
     #[test]
     fn tables_of_the_last_two_meshes_are_kept() {
-        let recent = Recent::default();
+        let recent = Kept::new(KEPT);
         let on = |n| {
             let (scene, problem) = on_grid(SMOOTH, grid(n, Cells::Quads)).unwrap();
             let deviations = Deviations::at_time(&problem, 0.0).unwrap();
             let exact = scene.exact.as_ref().unwrap();
-            recent.of(exact, &problem, &deviations).unwrap()
+            recent.on(&problem.mesh, || Tables::new(exact, &problem, &deviations)).unwrap()
         };
         let [two, three] = [2, 3].map(on);
         assert!(Arc::ptr_eq(&two, &on(2)) && Arc::ptr_eq(&three, &on(3)));
         on(2);
         on(4);
         assert!(Arc::ptr_eq(&two, &on(2)) && !Arc::ptr_eq(&three, &on(3)));
-        assert_eq!(recent.0.lock().unwrap().len(), KEPT);
+        assert_eq!(recent.count(), KEPT);
     }
 }

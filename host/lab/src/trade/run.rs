@@ -1,0 +1,230 @@
+//! A study being run: what no journal knows is measured, and everything is put together.
+
+use super::board::{self, Measured};
+use super::front::{Wish, mark, recommend};
+use super::journal::Journal;
+use super::measured_setting::{Facts, MeasuredSetting, overflow};
+use super::meshes::{Meshes, finest};
+use super::plan::{LARGEST_ON_BOARD, Plan, SceneFacts, TOO_LARGE};
+use super::record::{FunctionCost, Recommendation, Skipped, Trade};
+use super::reference::ReferenceSolution;
+use super::shard::Shard;
+use super::study::{Study, StudyState};
+use super::target::Target;
+use super::{math, measure};
+use crate::baseline;
+use crate::baseline::record::Baseline;
+use crate::cycles::{NARROW, REGISTERS};
+use signorini_problem::{Approach, Problem};
+use signorini_scene::error::{Error, Result};
+use signorini_scene::mesh::Mesh;
+use signorini_scene::mesh::adapted::adapted;
+use signorini_scene::setting::{ModelKind, Precision, Setting};
+use signorini_solve::tuned_omega;
+
+/// What a tuned ω brings the algebraic error down to, from a cold start.
+const GOAL: f64 = 1e-3;
+
+/// A study with what its process knows.
+pub(super) struct Run<'s> {
+    study: &'s Study,
+    shard: Shard,
+    /// Whether cases are shared by scene: then all of this one are this process's.
+    by_scene: bool,
+    meshes: Meshes,
+    journal: Journal,
+    truth: Option<ReferenceSolution>,
+}
+
+impl<'s> Run<'s> {
+    /// Opens the journal of a study.
+    pub fn open(study: &'s Study, shard: Shard, by_scene: bool) -> Result<Self> {
+        let mut meshes = Meshes::new(&study.scene)?;
+        let journal = study.journal(shard, &mut meshes)?;
+        Ok(Self { study, shard, by_scene, meshes, journal, truth: None })
+    }
+
+    /// Measures this process's cases, and puts the record together where it is the only one. `done` hears of every
+    /// case: how many there are, and what it was.
+    pub fn finish(mut self, wish: &Wish, done: &mut dyn FnMut(usize, &str)) -> Result<StudyState> {
+        let Plan { settings, skipped } = self.plan()?;
+        let has_extras = !self.study.is_alone() && self.study.with_peers;
+        let all = settings.len() + if has_extras { 2 } else { 0 };
+        let mut cases = Vec::new();
+        for (at, setting) in settings.iter().enumerate() {
+            let case = self.case(setting, self.is_mine(at))?;
+            done(all, case.as_ref().map_or("", MeasuredSetting::name));
+            cases.extend(case);
+        }
+        let (mut baselines, mut functions) = (Some((Vec::new(), Vec::new())), Some(Vec::new()));
+        if has_extras {
+            let [solvers, math] = [all - 2, all - 1].map(|at| self.is_mine(at));
+            let (journal, problem) = (&mut self.journal, self.meshes.problem(None, 0)?);
+            baselines = journal.once("baselines", solvers, || baseline::of_scene(problem))?;
+            done(all, "other solvers");
+            functions = journal.once("math", math, || math::of_scene(problem))?;
+            done(all, "micromath");
+        }
+        if settings.is_empty() && self.shard.is_whole() {
+            self.find_truth()?;
+        }
+        let facts = self.journal.known::<Facts>("truth");
+        let whole = self.shard.is_whole() && cases.len() == settings.len();
+        let (true, Some(facts), Some(baselines), Some(functions)) =
+            (whole, facts, baselines, functions)
+        else {
+            return Ok(StudyState::Part);
+        };
+        let mut trade = self.together(skipped, facts, cases, baselines, functions);
+        trade.recommendation = recommend(&trade, wish);
+        super::files::write(&self.study.folder, &self.study.scene, &trade)?;
+        Ok(StudyState::Whole(Box::new(trade)))
+    }
+
+    fn is_mine(&self, case: usize) -> bool {
+        self.by_scene || self.shard.takes(case)
+    }
+
+    fn plan(&mut self) -> Result<Plan> {
+        let study = self.study;
+        if let Some(setting) = study.scene.setting {
+            return Ok(Plan { settings: vec![setting], skipped: Vec::new() });
+        }
+        let other_cells = self.meshes.other_cells()?;
+        let problem = self.meshes.problem(None, 0)?;
+        let is_loose = Approach::Tick.lack(problem)?.is_some();
+        let tuned = || match is_loose {
+            true => Ok(None),
+            false => tuned_omega(problem, Precision::F64, GOAL).map(Some),
+        };
+        let tuned: Option<f64> = self.journal.once("tuned", true, tuned)?.flatten();
+        Ok(Plan::new(&SceneFacts {
+            target: study.target,
+            other_cells,
+            finest: finest(problem),
+            has_inputs: !study.scene.inputs.is_empty(),
+            uses_time: study.at_rest.is_some(),
+            is_loose,
+            unknowns: problem.topology.counts.unknowns(),
+            tuned,
+        }))
+    }
+
+    /// Finds what is known of a setting, measured now where it is this process's; `None`: another has it.
+    fn case(&mut self, setting: &Setting, mine: bool) -> Result<Option<MeasuredSetting>> {
+        let key = serde_json::to_string(setting).unwrap_or_default();
+        if let Some(known) = self.journal.known(&key) {
+            return Ok(Some(known));
+        }
+        if !mine {
+            return Ok(None);
+        }
+        self.find_truth()?;
+        let case = match self.measured(setting) {
+            Ok(case) => case,
+            // What one setting does not allow for is no reason to leave the others.
+            Err(Error::Input(error)) if !self.study.is_alone() => {
+                Some(MeasuredSetting::Left(error.message().to_owned()))
+            }
+            Err(error) => return Err(error),
+        };
+        let Some(case) = case else { return Ok(None) };
+        if self.journal.add(&key, &case).is_ok() {
+            return Ok(Some(case));
+        }
+        let case = MeasuredSetting::Left("the numbers found overflow".to_owned());
+        self.journal.add(&key, &case)?;
+        Ok(Some(case))
+    }
+
+    /// Works out the truth, where that is not yet done, and keeps what the record says of it.
+    fn find_truth(&mut self) -> Result<()> {
+        if self.truth.is_some() {
+            return Ok(());
+        }
+        let (scene, own) = (&self.study.scene, &self.meshes.own);
+        let level = finest(&Problem::new(scene, own.clone())?);
+        let refined = |mesh: &Mesh, times| adapted(mesh.clone(), None, times);
+        let found = ReferenceSolution::new(scene, own, level, refined)?;
+        let facts = Facts {
+            words: found.words(),
+            energy: found.energy(),
+            force: found.force(),
+            length: found.length(),
+        };
+        self.journal.add("truth", &facts).map_err(|_| overflow(scene))?;
+        self.truth = Some(found);
+        Ok(())
+    }
+
+    /// Measures a setting, once the truth is known.
+    fn measured(&mut self, setting: &Setting) -> Result<Option<MeasuredSetting>> {
+        let Some(truth) = &self.truth else { return Ok(None) };
+        let problem = self.meshes.of_setting(setting)?;
+        if is_too_large(self.study, setting, &problem) {
+            return Ok(Some(MeasuredSetting::Left(TOO_LARGE.to_owned())));
+        }
+        let mut point = measure::measure(&problem, truth)?;
+        if let Some(board) = self.study.target.board() {
+            match board::measure(&problem, &board, &self.study.module(&point.name))? {
+                Measured::Runs(firmware) => {
+                    point.instructions = Some(firmware.instructions_per_tick.median);
+                    point.ram_bytes = Some(firmware.ram_bytes);
+                    point.flash_bytes = Some(firmware.flash_bytes);
+                }
+                Measured::Impossible(reason) => return Ok(Some(MeasuredSetting::Left(reason))),
+            }
+        }
+        Ok(Some(MeasuredSetting::Point(Box::new(point))))
+    }
+
+    /// Puts everything but the recommendation together.
+    fn together(
+        &self,
+        mut skipped: Vec<Skipped>,
+        facts: Facts,
+        cases: Vec<MeasuredSetting>,
+        (baselines, mut notes): (Vec<Baseline>, Vec<String>),
+        math: Vec<FunctionCost>,
+    ) -> Trade {
+        let mut points = Vec::new();
+        for case in cases {
+            match case {
+                MeasuredSetting::Point(point) => points.push(*point),
+                MeasuredSetting::Left(reason) => {
+                    match skipped.iter_mut().find(|known| known.reason == reason) {
+                        Some(known) => known.count += 1,
+                        None => skipped.push(Skipped { reason, count: 1 }),
+                    }
+                }
+            }
+        }
+        mark(&mut points);
+        let Study { name, scene, target, .. } = self.study;
+        notes.extend(NARROW.filter(|_| *target == Target::Host).map(str::to_owned));
+        Trade {
+            scene: name.clone(),
+            title: scene.title.clone(),
+            target: target.to_string(),
+            registers: REGISTERS.to_owned(),
+            truth: facts.words,
+            energy: facts.energy,
+            force: facts.force,
+            length: facts.length,
+            points,
+            skipped: skipped.iter().map(|skipped| skipped.count).sum(),
+            skipped_reasons: skipped,
+            baselines,
+            notes,
+            math,
+            recommendation: Recommendation { text: String::new(), point: None },
+        }
+    }
+}
+
+/// Whether a mesh refined for an error, whose size only now is known, is too large for a board.
+fn is_too_large(study: &Study, setting: &Setting, problem: &Problem) -> bool {
+    let on_board = study.target != Target::Host && !study.is_alone();
+    let full = setting.error.is_some() && setting.model == Some(ModelKind::Full);
+    on_board && full && problem.topology.counts.unknowns() > LARGEST_ON_BOARD
+}
