@@ -27,7 +27,7 @@ pub fn bound(panel: &ScenePanel) -> String {
     html + "</dl>\n" + &list("notes", &beside(panel, bound.total))
 }
 
-/// What is guaranteed.
+/// The guarantees of the bounds.
 const TOTAL: &str =
     "guaranteed: the continuous s and the flux τ, in the energy norm, are no further off than this";
 const OF_U: &str = "guaranteed: the means over the edges, in the energy norm, cell by cell, are no further off than this";

@@ -7,7 +7,7 @@ use super::look::Look;
 use super::scale::{Scale, extent};
 use super::svg::{Anchor, Svg};
 
-/// What changes over one quantity: time, the width of a mesh, sweeps.
+/// Curves over one quantity: time, the width of a mesh, sweeps.
 #[derive(Debug, Clone, Default)]
 pub struct Chart {
     /// The heading.

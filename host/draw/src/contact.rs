@@ -1,4 +1,4 @@
-//! What happens along the contact boundary C: the multiplier λ against the exact one, and below it,
+//! The contact boundary C as a picture: the multiplier λ against the exact one, and below it,
 //! over the same arc length, the opening u − ψ. Where one of them is positive the other should be 0; below the gap
 //! λ is at its limit.
 

@@ -9,7 +9,7 @@ use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::listing;
 
-/// What became of scenes whose numbers were pushed.
+/// Outcomes of scenes whose numbers were pushed.
 #[derive(Debug, Clone, Default)]
 pub struct Extremes {
     /// How many cases, how they ended.
@@ -25,9 +25,9 @@ pub struct Extremes {
 /// One axis, or one pair.
 #[derive(Debug, Clone, Default)]
 pub struct ExtremesStudy {
-    /// What was pushed.
+    /// Names of the numbers that were pushed.
     pub heading: String,
-    /// What to know about it; may be empty.
+    /// A remark; may be empty.
     pub remark: String,
     /// Its maps, each with a heading that may be empty.
     pub maps: Vec<(String, OutcomeMap)>,

@@ -1,4 +1,4 @@
-//! What every page has: its frame, and the marks of checks.
+//! The frame of every page, and the marks of checks.
 
 use super::svg::escape;
 

@@ -72,13 +72,13 @@ pub struct Report {
     pub checks: Vec<Check>,
     /// Error over mesh width, a picture each.
     pub convergence: Vec<Chart>,
-    /// What the error bound says of solves that were cut off.
+    /// The error bound of solves that were cut off.
     pub cut_off: Table,
     /// The bound over sweeps, a picture each.
     pub sweeps: Vec<Chart>,
-    /// What settings cost and how wrong they are.
+    /// Cost and error of settings.
     pub tradeoff: Option<Tradeoff>,
-    /// What became of scenes whose numbers were pushed.
+    /// Outcomes of scenes whose numbers were pushed.
     pub extremes: Option<Extremes>,
 }
 
@@ -103,9 +103,9 @@ pub struct TableRow {
 /// A claim that was tested.
 #[derive(Debug, Clone)]
 pub struct Check {
-    /// What should hold.
+    /// The claim.
     pub claim: String,
-    /// What was found.
+    /// The finding.
     pub found: String,
     /// Whether it holds.
     pub passed: bool,
@@ -118,7 +118,7 @@ pub struct ScenePanel {
     pub name: String,
     /// The title.
     pub title: String,
-    /// What an engineer would say of it, if there is something.
+    /// A sentence that an engineer would say of it, if there is one.
     pub sentence: Option<String>,
     /// Whether every check on the scene holds.
     pub passed: bool,
@@ -165,13 +165,13 @@ pub struct BoundTerms {
     pub total: f64,
     /// Never less than the error of the edge means.
     pub of_u: f64,
-    /// What mesh and solver make of the total.
+    /// The part of the total due to mesh and solver.
     pub gap: f64,
-    /// What more sweeps would remove.
+    /// The part that more sweeps would remove.
     pub algebraic: f64,
-    /// What data that vary inside cells add.
+    /// The part due to data that vary inside cells.
     pub oscillation: f64,
-    /// What rounding adds.
+    /// The part due to rounding.
     pub rounding: f64,
 }
 
@@ -206,7 +206,7 @@ pub enum ContactState {
 }
 
 impl ContactState {
-    /// All of them, in the order in which they are drawn.
+    /// Every state, in the order in which they are drawn.
     pub const ALL: [Self; 3] = [Self::Open, Self::Saturated, Self::Touching];
 
     /// The class of its line.
@@ -218,7 +218,7 @@ impl ContactState {
         }
     }
 
-    /// What a legend says.
+    /// The words of a legend.
     fn label(self) -> &'static str {
         match self {
             Self::Open => "open",
@@ -233,11 +233,11 @@ impl ContactState {
 pub struct BoundaryEdge {
     /// Its ends.
     pub ends: [[f64; 2]; 2],
-    /// What is prescribed.
+    /// The datum that is prescribed.
     pub kind: BoundaryKind,
 }
 
-/// What is prescribed on an edge outside C.
+/// The datum that is prescribed on an edge outside C.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryKind {
     /// u itself.

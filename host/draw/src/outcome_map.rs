@@ -8,13 +8,13 @@ use super::svg::{Anchor, Path, Svg};
 /// Outcomes over columns and rows, the first row at the bottom.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OutcomeMap {
-    /// What is shown, for those who cannot see it.
+    /// A description for readers who cannot see the map.
     pub label: String,
-    /// What changes from left to right.
+    /// The quantity that changes from left to right.
     pub across: String,
     /// The places there.
     pub columns: Vec<String>,
-    /// What changes from bottom to top; may be empty.
+    /// The quantity that changes from bottom to top; may be empty.
     pub up: String,
     /// The places there.
     pub rows: Vec<String>,
@@ -29,9 +29,9 @@ pub struct Square {
     pub at: [usize; 2],
     /// `correct`, `certified-poor`, `typed-error`, `wrong`.
     pub outcome: String,
-    /// What stands in it.
+    /// Text in the square.
     pub text: String,
-    /// What it says when it is pointed at.
+    /// Text shown when the square is pointed at.
     pub words: String,
 }
 

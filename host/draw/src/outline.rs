@@ -23,7 +23,7 @@ pub fn rim(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<[usize; 2]> {
     sides.into_values().filter(|&(count, _)| count == 1).map(|(_, side)| side).collect()
 }
 
-/// What is to be joined.
+/// Directed pieces of outlines, to be joined.
 #[derive(Debug, Default)]
 pub struct Segments {
     next: BTreeMap<Node, Vec<Node>>,

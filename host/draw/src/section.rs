@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 /// A part of the page with a heading.
 pub struct Section {
-    /// What links to it name.
+    /// The name in links to it.
     pub id: &'static str,
     /// Its heading.
     pub heading: &'static str,

@@ -2,7 +2,7 @@
 //! one farthest from the straight line between its ends stays if that is visible, and both halves
 //! are looked at again.
 
-/// What the eye does not see, in pixels.
+/// Distance that the eye does not see, in pixels.
 const TOLERANCE: f64 = 0.12;
 
 /// The points that are needed; the first and the last are.

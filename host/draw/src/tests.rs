@@ -72,7 +72,7 @@ fn several_solutions_have_links_at_their_top() {
     assert!(assert_clean(&report).contains("<li><a href=\"#scene-1\">a &lt; b</a></li>"));
 }
 
-/// What stands between each `start` and the next quote.
+/// The texts between each `start` and the next quote.
 fn between<'p>(page: &'p str, start: &str) -> Vec<&'p str> {
     page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
 }

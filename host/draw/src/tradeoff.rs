@@ -7,16 +7,16 @@ use super::prose::{list, unrolled};
 use super::svg::escape;
 use super::table::listing;
 
-/// What the settings of scenes cost, and how wrong their answers are.
+/// Cost and error of the settings of scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Tradeoff {
     /// A row a scene.
     pub summary: Listing,
-    /// What follows for all of them, a sentence each.
+    /// Findings over all scenes, a sentence each.
     pub findings: Vec<String>,
     /// A study of problem sizes, as a table in text; empty where there is none.
     pub sizes: String,
-    /// What follows from it, a sentence each.
+    /// Findings of that study, a sentence each.
     pub of_sizes: Vec<String>,
     /// The scenes; the section says what to do where there are none.
     pub scenes: Vec<TradePanel>,
@@ -40,7 +40,7 @@ pub struct TradePanel {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// What was measured, a target each.
+    /// The studies, one per target.
     pub studies: Vec<TradeStudy>,
 }
 
@@ -49,7 +49,7 @@ pub struct TradePanel {
 pub struct TradeStudy {
     /// Whose cost decides.
     pub heading: String,
-    /// What to take, a sentence.
+    /// The recommendation, a sentence.
     pub recommendation: String,
     /// Remarks: what errors are measured against, what was skipped.
     pub notes: Vec<String>,

@@ -62,7 +62,7 @@ impl View {
         std::array::from_fn(|axis| (self.high[axis] - self.low[axis]) * self.scale[axis])
     }
 
-    /// What to tell the reader when the picture is stretched.
+    /// A note to the reader where the picture is stretched.
     pub fn note(&self) -> Option<String> {
         let ratio = self.scale[1] / self.scale[0];
         let told = |axis: &str, ratio: f64| Some(format!("{axis} stretched {ratio:.0}×"));

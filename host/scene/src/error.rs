@@ -1,4 +1,4 @@
-//! What can go wrong on the host, with the exit status each kind ends in.
+//! Failures of the host, with the exit status each kind ends in.
 //!
 //! Wrong input is one message: `FILE:LINE: CULPRIT: what was found, what was expected`, a hint, and
 //! where the text is at hand the place underlined. Everything else is an I/O failure.
@@ -22,7 +22,7 @@ pub enum Error {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         cause: std::io::Error,
     },
     /// A check of the main job failed: exit status 1.
@@ -61,7 +61,7 @@ impl InputError {
         }
     }
 
-    /// What is wrong, without its place.
+    /// The message, without its place.
     pub fn message(&self) -> &str {
         &self.message
     }
@@ -71,7 +71,7 @@ impl InputError {
         (self.file.as_deref(), self.line)
     }
 
-    /// What to do about it.
+    /// The hint.
     pub fn said_hint(&self) -> Option<&str> {
         self.hint.as_deref()
     }
@@ -168,7 +168,7 @@ pub fn install_handler() {
 }
 
 impl Error {
-    /// What is wrong, without the file that it stands in.
+    /// The message, without the file that it stands in.
     pub fn reason(&self) -> String {
         match self {
             Self::Input(error) => error.message.clone(),

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// What the bound is to be at most.
+/// The greatest bound that is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Goal {
@@ -71,7 +71,7 @@ impl Goal {
         if bound == 0.0 && most == 0.0 && energy_norm.is_some() { 0.0 } else { bound / most }
     }
 
-    /// What the bound is to be at most where the solution has this energy norm.
+    /// The greatest bound that is wanted where the solution has this energy norm.
     pub fn most(self, energy_norm: Option<f64>) -> f64 {
         match self {
             Self::Energy(most) => most,

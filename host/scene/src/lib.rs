@@ -1,4 +1,4 @@
-//! What is to be solved: scene files, their expressions, meshes, settings, and what can be wrong with any of them.
+//! The input of the host: scene files, their expressions, meshes, settings, and what can be wrong with any of them.
 //!
 //! ```text
 //!   scene.toml ─► scene ─┬─► expression   values as text, with derivatives

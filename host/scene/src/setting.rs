@@ -30,13 +30,13 @@ use signorini_kernel::element::QuadElement;
 pub struct Setting {
     /// Uniform refinements of the scene's mesh.
     pub refine: u32,
-    /// What the error bound is to be at most: the mesh is refined where the bound says. Excludes `refine`.
+    /// The greatest error bound that is wanted: the mesh is refined where the bound says. Excludes `refine`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<Goal>,
     /// The cells that the mesh is brought to before it is refined; `None` leaves them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<CellKind>,
-    /// What u_h is made of on quads.
+    /// The element on quads.
     #[serde(with = "Element", skip_serializing_if = "is_usual")]
     pub element: QuadElement,
     /// Number format; `None` leaves it to the command.
@@ -47,10 +47,10 @@ pub struct Setting {
     /// Full or condensed; `None` leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelKind>,
-    /// What solves the model; `None`, in the file `auto`, leaves it to the command.
+    /// The solver of the model; `None`, in the file `auto`, leaves it to the command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<Method>,
-    /// What a tick starts from.
+    /// The start of a tick.
     pub start: Start,
     /// Relaxation factor.
     pub omega: Omega,
@@ -177,7 +177,7 @@ pub enum MathKind {
     Micromath,
 }
 
-/// What is solved.
+/// The model that is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ModelKind {
@@ -187,7 +187,7 @@ pub enum ModelKind {
     Condensed,
 }
 
-/// What solves a model.
+/// The solver of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
@@ -199,7 +199,7 @@ pub enum Method {
     Exact,
 }
 
-/// What a tick starts from.
+/// The start of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {

@@ -30,7 +30,7 @@ pub fn title(svg: &mut Svg, title: &str) {
     svg.abridged("title", [18.0, 26.0], Anchor::Start, &text, title);
 }
 
-/// What the picture has to explain.
+/// Entries that the legend of the picture needs.
 pub fn keys<'p>(plot: &'p ParetoPlot, shown: &[&ParetoPoint]) -> Vec<Key<'p>> {
     let used = |series: &usize| shown.iter().any(|point| point.series == *series);
     let entry = |(at, name): (usize, &'p String)| Key::Series(at, name.as_str());

@@ -23,7 +23,7 @@ const SLACK: f64 = 0.5;
 const LINE: f64 = 15.0;
 /// The most of the picture that is kept free for names at its left.
 const MOST_ROOM: f64 = 0.42 * (RIGHT - LEFT);
-/// What a logarithmic axis shows beyond its range, as a factor: a tenth of a decade.
+/// Factor by which a logarithmic axis goes beyond its range: a tenth of a decade.
 const MARGIN: f64 = 1.258_925_411_794_167_2;
 
 /// A name: its text, and the middle of its line where it ends.

@@ -16,11 +16,11 @@ use layout::Layout;
 pub struct ParetoPlot {
     /// The heading.
     pub title: String,
-    /// What the cost is, with its unit.
+    /// Name of the cost, with its unit.
     pub cost: String,
     /// The size of the solution, which makes percents of errors; 0 where there is none.
     pub size: f64,
-    /// What the points of a colour and marker have in common.
+    /// Name of each group of points, which share colour and marker.
     pub series: Vec<String>,
     /// The settings.
     pub points: Vec<ParetoPoint>,
@@ -33,7 +33,7 @@ pub struct ParetoPoint {
     pub name: String,
     /// Shown where it is pointed at.
     pub note: String,
-    /// What it costs.
+    /// Cost of a tick.
     pub cost: f64,
     /// How wrong it is.
     pub error: f64,
@@ -50,7 +50,7 @@ pub struct ParetoPoint {
 const WIDTH: f64 = 880.0;
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 810.0;
-/// What the error is, by what it weighs.
+/// Name of the error, with its weight.
 const ERROR: &str = "gradient error of u, weighed by A (energy norm ‖A^½∇(u − u_h)‖)";
 /// Size of the letters of names.
 const LETTERS: f64 = 11.5;

@@ -1,4 +1,4 @@
-//! What a setting costs on a microcontroller: its module is baked here, and its image built and run by the library for
+//! The cost of a setting on a microcontroller: its module is baked here, and its image built and run by the library for
 //! images.
 
 use std::path::Path;
@@ -17,7 +17,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::{Error, Result};
 use signorini_solve::ScalarKind;
 
-/// What came of a measurement.
+/// The outcome of a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Measured {
     /// The image ran, with the bits of this machine.

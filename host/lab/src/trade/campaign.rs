@@ -36,11 +36,11 @@ pub struct FinishedSetting<'a> {
     pub number: usize,
     /// How many there are, as far as planned.
     pub of: usize,
-    /// What it was.
+    /// Name of the case.
     pub name: &'a str,
 }
 
-/// What a campaign leaves.
+/// The outcome of a campaign.
 #[derive(Debug, Default)]
 pub struct Ended {
     /// The studies that are whole, each with its folder.
@@ -109,7 +109,7 @@ impl Campaign {
         Ok(Self { studies, sizes })
     }
 
-    /// What of its scenes may not be meant; where a scene is wrong, the run says so.
+    /// Warnings of data that may not be meant; where a scene is wrong, the run says so.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<_> = self.studies.iter().flat_map(Study::warnings).collect();
         // A scene is studied once for each target.

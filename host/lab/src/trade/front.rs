@@ -6,7 +6,7 @@ use super::record::{Point, Recommendation, Trade};
 use super::reference::EXACT;
 use signorini_scene::goal::Goal;
 
-/// What is asked for.
+/// The user's wish: a budget, an error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wish {
     /// Most cycles of a tick on the host, most instructions on a board.
@@ -16,7 +16,7 @@ pub struct Wish {
 }
 
 impl Point {
-    /// What a tick costs: cycles on the host, instructions on a board.
+    /// Cost of a tick: cycles on the host, instructions on a board.
     pub fn cost(&self) -> f64 {
         self.instructions.map_or(self.cycles, |instructions| instructions as f64)
     }
@@ -78,7 +78,7 @@ pub fn recommend(trade: &Trade, wish: &Wish) -> Recommendation {
     }
 }
 
-/// What `point` costs and brings, in words.
+/// Cost and use of `point`, in words.
 pub fn sentence(trade: &Trade, point: &Point) -> String {
     let Point { name, error, bound, .. } = point;
     let certified = match (bound, error.combined) {

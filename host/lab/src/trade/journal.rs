@@ -31,7 +31,7 @@ struct Line {
     value: Value,
 }
 
-/// What is known of a campaign, and the file that learns more.
+/// The known cases of a campaign, and the file that takes more.
 #[derive(Debug)]
 pub struct Journal {
     folder: PathBuf,
@@ -71,7 +71,7 @@ impl Journal {
         })
     }
 
-    /// What was found for the case `key`, by whichever shard; `None` where nothing was, or no `T`.
+    /// The finding for the case `key`, of any shard; `None` where there is none, or no `T`.
     pub fn known<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         T::deserialize(self.known.get(key)?).ok()
     }

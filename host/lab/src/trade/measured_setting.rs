@@ -1,4 +1,4 @@
-//! What a journal keeps of a study: its cases, and what is known of the truth.
+//! The entries of a study's journal: its cases, and facts of the truth.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub(super) enum MeasuredSetting {
     Left(String),
 }
 
-/// What is known of the truth.
+/// The facts of the truth that a record states.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Facts {
     pub words: String,

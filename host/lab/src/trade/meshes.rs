@@ -22,7 +22,7 @@ pub(super) fn finest(problem: &Problem) -> u32 {
     (0..=LEVELS).rev().find(|level| unknowns << (2 * level) <= FINEST).unwrap_or(0)
 }
 
-/// What a mesh was refined for, and the cells that it was brought to before.
+/// The goal of a refined mesh, and the cells that it was brought to before.
 type ErrorMesh = (Goal, Option<CellKind>);
 
 /// The meshes of a study, each made once.

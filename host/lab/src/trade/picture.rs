@@ -9,7 +9,7 @@ use signorini_draw::{ParetoPlot, ParetoPoint};
 /// Colours that the picture tells apart.
 const MOST_SERIES: usize = 6;
 
-/// What may give points their colour, the most telling first.
+/// The groups that may give points their colour, the most telling first.
 const GROUPS: [fn(&Point) -> String; 4] = [
     |point| format!("{}, {}", point.model, point.refinement()),
     Point::refinement,
@@ -17,7 +17,7 @@ const GROUPS: [fn(&Point) -> String; 4] = [
     |point| point.scalar.clone(),
 ];
 
-/// What a point costs on the target of its study; `None` where it was not measured there.
+/// The cost of a point on the target of its study; `None` where it was not measured there.
 pub fn cost(target: &str, point: &Point) -> Option<f64> {
     if target == "host" { Some(point.cycles) } else { point.instructions.map(|count| count as f64) }
 }

@@ -1,4 +1,4 @@
-//! What a trade study finds, as `trade.json` holds it.
+//! The record of a trade study, as `trade.json` holds it.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub struct Trade {
     /// The registers that this program was built for, where cycles were counted; empty in records that do not tell.
     #[serde(default)]
     pub registers: String,
-    /// What errors are measured against, in words.
+    /// The reference that errors are measured against, in words.
     pub truth: String,
     /// ‖A^½∇u‖ of the solution.
     pub energy: f64,
@@ -35,9 +35,9 @@ pub struct Trade {
     pub baselines: Vec<Baseline>,
     /// Remarks on these: who could not run and why.
     pub notes: Vec<String>,
-    /// What each function of micromath does to the solution.
+    /// The effect of each function of micromath on the solution.
     pub math: Vec<FunctionCost>,
-    /// What to take; without a point where nothing meets what was asked.
+    /// The setting to take; without a point where nothing meets what was asked.
     pub recommendation: Recommendation,
 }
 
@@ -117,7 +117,7 @@ pub struct Skipped {
     pub count: usize,
 }
 
-/// What to take.
+/// The setting to take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recommendation {
     /// A sentence.
@@ -126,7 +126,7 @@ pub struct Recommendation {
     pub point: Option<Point>,
 }
 
-/// What one function of micromath does where libm's is replaced by it. Changes are relative; none where the
+/// The effect of one function of micromath where it replaces libm's. Changes are relative; none where the
 /// solution is zero there, or where there is no solution with that function.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct FunctionCost {
@@ -147,6 +147,6 @@ pub struct FunctionCost {
     pub calls: u64,
     /// Instructions that one call saves on an M4F, from the record of counts.
     pub saved: f64,
-    /// What else is to be said, such as why there is no solution.
+    /// A remark, such as why there is no solution.
     pub note: Option<String>,
 }

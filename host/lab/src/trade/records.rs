@@ -20,7 +20,7 @@ pub const RECORD: &str = "host/benches/trade";
 /// The study of sizes, in that folder.
 pub const SIZES: &str = "sizes.json";
 
-/// What was found in it, by the names of the scenes.
+/// The studies in that folder, by the names of the scenes.
 #[derive(Debug, Clone, Default)]
 pub struct Records {
     /// Costs on the host.

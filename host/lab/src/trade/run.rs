@@ -22,7 +22,7 @@ use signorini_scene::mesh::adapted::adapted;
 use signorini_scene::setting::{ModelKind, Precision, Setting};
 use signorini_solve::tuned_omega;
 
-/// What a tuned ω brings the algebraic error down to, from a cold start.
+/// The algebraic error that a tuned ω reaches from a cold start.
 const GOAL: f64 = 1e-3;
 
 /// A study with what its process knows.

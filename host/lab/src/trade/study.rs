@@ -32,11 +32,11 @@ pub struct Study {
     pub folder: PathBuf,
     /// Whether other solvers and micromath are studied too.
     pub with_peers: bool,
-    /// What is left out where the scene depends on t.
+    /// A warning of what is left out where the scene depends on t.
     pub(super) at_rest: Option<String>,
 }
 
-/// What of a study is known.
+/// The part of a study that is known.
 #[derive(Debug)]
 pub enum StudyState {
     /// Everything.
@@ -69,7 +69,7 @@ impl Study {
         Ok(Self { scene, name, target, folder, with_peers, at_rest })
     }
 
-    /// What of the scene may not be meant; none where it is wrong.
+    /// Warnings of data that may not be meant; none where the scene is wrong.
     pub(super) fn warnings(&self) -> Vec<String> {
         let problem =
             Meshes::new(&self.scene).and_then(|meshes| Problem::new(&self.scene, meshes.own));

@@ -1,4 +1,4 @@
-//! What pays over all scenes: how often each value of a knob stands on a Pareto front.
+//! The knobs that pay over all scenes: how often each value of a knob stands on a Pareto front.
 //!
 //! A value is judged only where there was a choice: in studies that measured another value of the same
 //! knob as well. One that was measured so, and is on no front, never pays.
@@ -15,7 +15,7 @@ use signorini_draw::plain;
 /// A name and how to read it off a point.
 type Knob = (&'static str, fn(&Point) -> String);
 
-/// What can be turned. The certificate is no such knob: it adds to the cost and buys the bound, no
+/// The knobs that can be turned. The certificate is no such knob: it adds to the cost and buys the bound, no
 /// accuracy; [`certificate`] says how much.
 const KNOBS: [Knob; 8] = [
     ("scalar", |point| point.scalar.clone()),
@@ -106,7 +106,7 @@ fn sentence(values: &[KnobValue]) -> String {
     format!("On the {}, {knob}: {}", target_name(target), parts.join("; "))
 }
 
-/// What the certificate takes: the median of cycles with it over cycles without, of points that differ in
+/// The cost of the certificate: the median of cycles with it over cycles without, of points that differ in
 /// nothing else.
 pub fn certificate<'t>(trades: impl IntoIterator<Item = &'t Trade>) -> Option<String> {
     let mut ratios: Vec<f64> = trades.into_iter().flat_map(certificate_ratios).collect();

@@ -1,4 +1,4 @@
-//! What an expression is computed in: f64, or what a device without f64 makes of it.
+//! The arithmetic of expressions: f64, or the numbers of a device without f64.
 //!
 //! A controller whose loads move in time evaluates them itself, in f32, with the functions of libm or
 //! with those of micromath, which are shorter and wrong by up to some percent. [`Arithmetic`] says

@@ -28,7 +28,7 @@ pub enum Elementary {
 }
 
 impl Elementary {
-    /// All of them.
+    /// Every function.
     pub const ALL: [Self; 11] = [
         Self::Sqrt,
         Self::Sin,

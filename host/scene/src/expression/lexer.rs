@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::ParseError;
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
     Number(f64),

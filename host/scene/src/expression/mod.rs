@@ -54,7 +54,7 @@ pub enum Variables {
     SpaceTime,
 }
 
-/// What expressions are made of, for help texts.
+/// The parts of expressions, for help texts.
 pub fn vocabulary() -> String {
     let functions = operation::FUNCTIONS.map(|(name, _)| name).join(", ");
     format!(
@@ -68,11 +68,11 @@ pub fn vocabulary() -> String {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}")]
 pub struct ParseError {
-    /// What was found and what was expected.
+    /// The message: what was found and what was expected.
     pub message: String,
     /// The culprit: bytes of the text, on character boundaries; empty at the end of the text.
     pub span: Range<usize>,
-    /// What to write instead.
+    /// A hint: what to write instead.
     pub hint: Option<String>,
 }
 
@@ -90,7 +90,7 @@ impl Expression {
         Self { text: format!("{value:?}"), program, arithmetic: Arithmetic::default() }
     }
 
-    /// The same expression, evaluated with other numbers and functions.
+    /// This expression, evaluated with other numbers and functions.
     #[must_use]
     pub fn with_arithmetic(&self, arithmetic: Arithmetic) -> Self {
         Self { arithmetic, ..self.clone() }

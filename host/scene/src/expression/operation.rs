@@ -1,4 +1,4 @@
-//! What each operation is: its value, and its derivative with respect to each operand.
+//! Operations: their values, and their derivatives with respect to each operand.
 
 /// Operations on one operand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub(super) enum Binary {
     Max,
 }
 
-/// What a function name stands for; `Fold` joins two or more arguments pairwise.
+/// The operation behind a function name; `Fold` joins two or more arguments pairwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Function {
     One(Unary),

@@ -26,7 +26,7 @@ pub(super) enum Variable {
     T = 2,
 }
 
-/// What the machine computes with, such as numbers, or numbers with their gradient.
+/// Values that the machine computes with, such as numbers, or numbers with their gradient.
 pub(super) trait Numbers {
     type Number: Copy;
     fn constant(&self, value: f64) -> Self::Number;
@@ -75,7 +75,7 @@ impl Program {
         self.steps.contains(&Step::Variable(Variable::T))
     }
 
-    /// The same with t replaced by a number.
+    /// This program with t replaced by a number.
     pub fn at_time(&self, t: f64) -> Self {
         let mut builder = Builder::default();
         for &step in &self.steps {
@@ -95,7 +95,7 @@ impl Program {
         builder.finish()
     }
 
-    /// The same times a number: the stack has room, since one value is all that is left on it.
+    /// This program times a number: the stack has room, since one value is all that is left on it.
     pub fn times(&self, factor: f64) -> Self {
         match self.value() {
             Some(value) => Self::constant(value * factor),

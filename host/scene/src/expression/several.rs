@@ -9,7 +9,7 @@ use super::program::{Numbers, Program};
 /// Points at once.
 pub(super) const LANES: usize = 16;
 
-/// Those of `N`, side by side.
+/// Values of `N` places, side by side.
 pub(super) struct Several<'a, N>(pub &'a N);
 
 impl<N: Numbers> Numbers for Several<'_, N> {

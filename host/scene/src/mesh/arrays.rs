@@ -7,7 +7,7 @@ use super::assemble::sound::{Cells, Sound};
 use super::{Curve, Mesh, Surface};
 use crate::error::{InputError, Result};
 
-/// What a mesh is made of.
+/// The arrays that a mesh is made of.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Arrays {
     /// Coordinates of the vertices.

@@ -79,7 +79,7 @@ pub fn edges(mesh: &Mesh) -> std::result::Result<Vec<[u32; 2]>, Fault> {
     sides.chunk_by(|a, b| a.edge == b.edge).map(edge_of).collect()
 }
 
-/// The same for a mesh that no file names: cells and vertices go by number.
+/// The edges of a mesh that no file names: errors call cells and vertices by number.
 ///
 /// # Errors
 /// Cells that don't meet as they may.

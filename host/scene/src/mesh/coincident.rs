@@ -17,10 +17,10 @@ use std::f64::consts::PI;
 /// How far from the line of the longer segment the ends of the shorter one may lie, as part of its
 /// own length: what files with seven digits leave.
 pub const TOLERANCE: f64 = 1e-6;
-/// The same where both have their cell on the side of the other: then it is a cell's thickness unless rounding
+/// That distance where both have their cell on the side of the other: then it is a cell's thickness unless rounding
 /// made it.
 const THICKNESS: f64 = 1e-9;
-/// What two segments have in common at least, as part of the shorter one.
+/// The least that two segments have in common, as part of the shorter one.
 const OVERLAP: f64 = 1e-3;
 /// Classes of directions, each wider than twice `ANGLE`.
 const DIRECTIONS: u32 = 300_000;
@@ -60,7 +60,7 @@ struct Line {
     /// The largest power of two that is no longer.
     level: i32,
     cell: u32,
-    /// What rounding its coordinates leaves.
+    /// The error of its rounded coordinates.
     rounding: f64,
 }
 

@@ -15,7 +15,7 @@ const SURFACE: &str = "it holds triangles without physical groups: mesh the plan
 const OLD: &str = "save it anew: `gmsh FILE -save -format msh41 -o mesh.msh`";
 const SCENE: &str = "give the scene as the command's argument; its key `mesh` names the mesh";
 
-/// What a file begins with, blanks left out, what it is, and a hint.
+/// Beginnings of files, blanks left out, each with the file's kind and a hint.
 const BEGINNINGS: [(&[u8], &str, &str); 29] = [
     (b"$NOD\n", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
     (b"$NOD\r", "a Gmsh mesh of format 1 (`$NOD`, `$ELM`)", OLD),
@@ -48,7 +48,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 29] = [
     (b"-1\n", "an I-DEAS mesh (.unv)", CONVERT),
 ];
 
-/// What some line of a text begins with, what the text is, and a hint.
+/// Beginnings of a text's lines, each with the text's kind and a hint.
 const LINES: [(&str, &str, &str); 9] = [
     ("SetFactory(", "a Gmsh geometry (.geo)", MESH_IT),
     ("Point(", "a Gmsh geometry (.geo)", MESH_IT),

@@ -6,7 +6,7 @@
 
 use super::{Curve, Mesh, Surface};
 
-/// What becomes of a square.
+/// The cells that a square becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
     /// Two triangles.

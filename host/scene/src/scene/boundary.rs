@@ -80,7 +80,7 @@ fn check_range(table: &Table, ends: [&Located<Expression>; 2]) -> Result<()> {
     }
 }
 
-/// What a datum of a condition is.
+/// The role of a datum in a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// A load: an input may add to it.
@@ -90,7 +90,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// What it is measured in.
+    /// The unit of the datum.
     pub fn unit(self) -> Unit {
         match self {
             Self::Load(field) => field.unit(),
@@ -124,7 +124,7 @@ impl Condition {
         data_of!(self)
     }
 
-    /// The same, to be changed.
+    /// Its data, to be changed, each with what it is.
     pub fn data_mut(&mut self) -> Vec<(Role, &mut Located<Expression>)> {
         data_of!(self)
     }

@@ -1,4 +1,4 @@
-//! What the controller sets and reads: inputs and outputs.
+//! Inputs, which a controller sets, and outputs, which it reads.
 
 use super::entry::Entry;
 use super::range::InputRange;
@@ -48,7 +48,7 @@ pub(super) fn read_input(table: &Table, boundaries: &[Boundary]) -> Result<Input
     }
 }
 
-/// Whether what `of` names has the field: the source has f, a boundary what its kind has.
+/// Refuses a field that `of` lacks: the source has f, a boundary the fields of its kind.
 fn check_field(of: &Entry, field: &Entry, boundaries: &[Boundary]) -> Result<()> {
     let choice = field.choice(&FIELDS)?.value;
     let (found, fields) = match (choice, of.text()?.value.as_str()) {
@@ -208,7 +208,7 @@ impl Scene {
         self.inputs.iter().position(|input| input.name.value == name)
     }
 
-    /// The same of one that must be there.
+    /// The position of an input that must be there.
     ///
     /// # Errors
     /// No input of this name.

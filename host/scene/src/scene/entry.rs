@@ -121,7 +121,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The same, or "inf" or "-inf", with quotes or without.
+    /// An expression, or "inf" or "-inf", with quotes or without.
     pub fn end_of_range(&self, variables: Variables) -> Result<Located<Expression>> {
         let word = match self.at.value {
             DeValue::String(text) => text.trim(),

@@ -46,7 +46,7 @@ use crate::setting::Setting;
 /// Something read from the scene file, with its place in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Located<T> {
-    /// What was read.
+    /// The value that was read.
     pub value: T,
     /// The key with its tables: `boundary.river.value`.
     pub key: String,
@@ -61,7 +61,7 @@ pub struct Scene {
     pub path: PathBuf,
     /// Its text.
     pub text: Arc<str>,
-    /// What to call it; without a title, the name of the file.
+    /// Its title; without one, the name of the file.
     pub title: String,
     /// The mesh file, relative to where the program runs.
     pub mesh: Located<PathBuf>,
@@ -73,7 +73,7 @@ pub struct Scene {
     pub boundaries: Vec<Boundary>,
     /// Loads that change at run time.
     pub inputs: Vec<Input>,
-    /// What the controller reads; if empty, contact force and length.
+    /// The numbers that the controller reads; if empty, contact force and length.
     pub outputs: Vec<Output>,
     /// The budget of the device.
     pub target: Option<Target>,
@@ -92,7 +92,7 @@ pub struct Scene {
 pub struct Boundary {
     /// The curve; `default` covers the edges that no other boundary names.
     pub name: Located<String>,
-    /// What holds there.
+    /// The condition there.
     pub condition: Condition,
 }
 
@@ -113,7 +113,7 @@ pub enum Condition {
     Robin {
         /// The coefficient, ≥ 0; a constant one has been checked.
         coefficient: Located<Expression>,
-        /// What u relaxes to.
+        /// The value that u relaxes to.
         ambient: Located<Expression>,
     },
     /// flux ≤ σ·n ≤ limit; σ·n = flux where u > gap, σ·n = limit where u < gap.
@@ -127,7 +127,7 @@ pub enum Condition {
     },
 }
 
-/// What an input may add to: a load, or a coefficient.
+/// The datum that an input adds to: a load, or a coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     /// The flux of a Neumann or contact boundary.
@@ -155,17 +155,17 @@ pub struct Input {
     pub of: Located<String>,
     /// The field it acts on; the boundary has it.
     pub field: Located<Field>,
-    /// What its value multiplies, in x, y.
+    /// The pattern that its value multiplies, in x, y.
     pub pattern: Located<Expression>,
     /// Its value unless something else is set.
     pub default: f64,
-    /// What its value may be; anything, where the scene does not say.
+    /// The range of its value; anything, where the scene does not say.
     pub range: Option<Located<InputRange>>,
-    /// What it is told with.
+    /// The unit that its value is shown with.
     pub unit: Option<String>,
 }
 
-/// What an output measures.
+/// The quantity of an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     /// ∫ τ·n over a boundary: σ = A∇u, on contact edges within their law wherever the solver was stopped.
@@ -192,12 +192,12 @@ pub enum Quantity {
 pub struct Output {
     /// Its name.
     pub name: Located<String>,
-    /// What it measures.
+    /// The quantity that it measures.
     pub quantity: Quantity,
     /// The boundary: always there for a flux; for force and length a contact boundary or, where
     /// absent, all of them; otherwise absent.
     pub of: Option<Located<String>>,
-    /// What it is told with.
+    /// The unit that its value is shown with.
     pub unit: Option<String>,
 }
 

@@ -10,19 +10,19 @@
 use super::{Field, Located, Material, Quantity, Scene};
 use crate::expression::Expression;
 
-/// What a datum of the scene is measured in.
+/// The unit of a datum of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// That of u.
+    /// The unit of u.
     U,
-    /// That of A.
+    /// The unit of A.
     Conductivity,
-    /// That of A∇u, and of f.
+    /// The unit of A∇u, and of f.
     Flux,
 }
 
 impl Field {
-    /// What the field is measured in.
+    /// The unit of the field.
     pub fn unit(self) -> Unit {
         match self {
             Self::Value | Self::Gap | Self::Ambient => Unit::U,
@@ -32,7 +32,7 @@ impl Field {
     }
 }
 
-/// What 1 stands for, each a power of two.
+/// The values that 1 stands for, each a power of two.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Units {
     /// U

@@ -4,7 +4,7 @@ use signorini_kernel::{Error, flux};
 
 use signorini_problem::Assembled;
 
-/// What is compared of an answer.
+/// The part of an answer that is compared.
 pub(super) struct State {
     /// Mean of u_h over each edge.
     pub u: Vec<f64>,

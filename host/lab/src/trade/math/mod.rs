@@ -1,4 +1,4 @@
-//! What each function of micromath costs in the solution, where libm's is replaced by it.
+//! The change of the solution where a function of micromath replaces libm's.
 //!
 //! A function is used in two places: in the load data that a controller evaluates itself (`loads`), and,
 //! the square root alone, by the kernel (`roots`): in the search for ω and in the lengths of edges. Each

@@ -66,7 +66,7 @@ fn compared(
     Ok(if lengths.calls > 0 { vec![search, measured] } else { vec![search] })
 }
 
-/// What is to be said of solves that do not end well.
+/// A note on solves that do not end well.
 fn ends(exact: &Cold, fast: &Cold) -> Option<String> {
     let is_well = |cold: &Cold| matches!(cold.status, Status::Converged | Status::RoundingLimit);
     let name = signorini_solve::status_name;

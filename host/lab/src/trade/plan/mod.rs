@@ -62,7 +62,7 @@ const STOPS: [Stop; 10] = [
     Stop::Exact,
 ];
 
-/// What a scene allows for.
+/// The facts of a scene that decide its plan.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneFacts {
     /// Whose cost decides.

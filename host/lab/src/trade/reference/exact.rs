@@ -19,7 +19,7 @@ const PANELS: u32 = 32;
 /// length comes out too long by less than 10⁻³.
 const TOUCHING: f64 = 1e-10;
 
-/// What happens on C as a whole.
+/// Force and length of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contact {
     /// ∫_C (σ·n − q)
@@ -56,7 +56,7 @@ pub(super) fn contact(exact: &Exact, problem: &Problem) -> Result<Contact> {
     Ok(Contact { force: samples.force, length: touching.map(|[_, length]| length).sum() })
 }
 
-/// What the points of C tell.
+/// Sums and values over the points of C.
 #[derive(Default)]
 struct Samples {
     force: f64,

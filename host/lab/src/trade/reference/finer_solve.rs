@@ -37,7 +37,7 @@ pub(super) struct Reference {
     pub(super) places: Kept<Places>,
     pub(super) contact: Contact,
     unknowns: usize,
-    /// What its own error is at most, in the energy norm.
+    /// Bound on its own error in the energy norm.
     certified: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What was worked out on the meshes that were used last.
+//! Results on the meshes that were used last.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};

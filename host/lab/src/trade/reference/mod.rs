@@ -1,4 +1,4 @@
-//! What the errors of a trade study are measured against.
+//! The truth that the errors of a trade study are measured against.
 //!
 //! ```text
 //!   [exact] ─────────────────► exact ─► tables ────┐
@@ -36,7 +36,7 @@ use signorini_solve::norms;
 
 /// How many refinements the reference is finer than the finest mesh that is measured.
 pub const FINER: u32 = 2;
-/// What stands in a record whose scene has one.
+/// The words of a record whose scene has an exact solution.
 pub const EXACT: &str = "the exact solution";
 
 /// The solution of a scene as well as it is known.

@@ -12,12 +12,12 @@ use signorini_scene::scene::Exact;
 /// the next, but for the scene's own.
 pub(super) const KEPT: usize = 2;
 
-/// What does not depend on the answer.
+/// The tables that no answer changes.
 #[derive(Debug)]
 pub(super) struct Tables {
     /// u
     pub(super) u: Table,
-    /// What ψ and u_D add to S.
+    /// The part of S that ψ and u_D add.
     pub(super) lift: Table,
 }
 

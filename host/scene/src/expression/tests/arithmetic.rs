@@ -1,4 +1,4 @@
-//! What f32 and micromath make of an expression, in the sizes that their documentation promises.
+//! Expressions in f32 and micromath, off by the sizes that their documentation promises.
 
 use super::expression;
 use crate::expression::{Arithmetic, Elementary};

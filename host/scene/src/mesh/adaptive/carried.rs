@@ -21,7 +21,7 @@ pub struct Carried {
     /// For each triangle and each side, from corner k to corner k + 1, the old cell that holds the side's middle.
     /// Where several do it is one on this side of all edges, never one across a slit.
     pub triangle_sides: Vec<[u32; 3]>,
-    /// The same for each quad.
+    /// The carried values of each quad.
     pub quad_sides: Vec<[u32; 4]>,
     /// The boundary edges, ascending.
     pub boundary: Vec<CarriedEdge>,
@@ -32,7 +32,7 @@ pub struct Carried {
 pub struct CarriedEdge {
     /// Its vertices, the lower one first.
     pub edge: [u32; 2],
-    /// Those of the old boundary edge that it is, or is a half of.
+    /// Curves of the old boundary edge that it is, or is a half of.
     pub origin: [u32; 2],
 }
 

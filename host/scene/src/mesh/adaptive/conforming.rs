@@ -12,7 +12,7 @@ use crate::mesh::shape::{Orientation, orientation};
 pub(super) struct Places {
     /// Where the triangles of each begin, then where the last ones end.
     triangles: Vec<u32>,
-    /// The same for quads, all triangles counted before them.
+    /// The quads' pieces, all triangles counted before them.
     quads: Vec<u32>,
 }
 

@@ -56,7 +56,7 @@ impl Edges {
         self.halves(edge).map(|[half, _]| self.ends(half)[1])
     }
 
-    /// Those of `edges` that are whole, and the halves of the others.
+    /// The whole ones of `edges`, and the halves of the others.
     pub(super) fn halved(&self, edges: &[u32]) -> Vec<u32> {
         let mut parts = Vec::with_capacity(edges.len());
         for &edge in edges {

@@ -33,7 +33,7 @@ struct Spread<'a> {
     halved: Vec<bool>,
     /// Which cells are refined.
     refined: Vec<bool>,
-    /// Those of them whose sides are not halved yet.
+    /// The cells of them whose sides are not halved yet.
     waiting: Vec<u32>,
 }
 

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::mesh::check::{edge_number, numbered_edges};
 use crate::mesh::{Curve, Mesh};
 
-/// What a round begins with.
+/// The state that a round begins with.
 #[derive(Debug, Clone)]
 pub(super) struct Stage {
     pub(super) forest: Forest,
@@ -69,7 +69,7 @@ impl Stage {
         self.of_cells(&triangles.chain(quads).collect::<Vec<_>>())
     }
 
-    /// What is known of the forest's cells, for each cell of the mesh.
+    /// The forest's facts, for each cell of the mesh.
     fn of_cells(&self, known: &[u32]) -> Vec<u32> {
         let mut of_mesh = vec![0; self.mesh.cells()];
         for (cell, &known) in (0..).zip(known) {

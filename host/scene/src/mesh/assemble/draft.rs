@@ -1,4 +1,4 @@
-//! What a mesh file lists, whatever its format: nodes, elements and groups, under the file's own numbers.
+//! The lists of a mesh file, whatever its format: nodes, elements and groups, under the file's own numbers.
 
 use std::collections::HashMap;
 

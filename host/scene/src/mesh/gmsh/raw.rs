@@ -99,7 +99,7 @@ pub(super) fn point(cursor: &mut Cursor, tag: u64) -> Parsed<[f64; 3]> {
     }
 }
 
-/// What Gmsh calls the other element types, and how to avoid them.
+/// Names of Gmsh's other element types, and how to avoid them.
 fn foreign(code: i32) -> (&'static str, &'static str) {
     let first_order = "mesh with `Mesh.ElementOrder = 1` (command line: `-order 1`)";
     let plane = "mesh in two dimensions (command line: `-2`) and save only curves and surfaces";

@@ -153,7 +153,7 @@ fn folder(fragment: &str) -> tempfile::TempDir {
     folder
 }
 
-/// What reading the fragment says, with the folder left out.
+/// The message from reading the fragment, with the folder left out.
 fn message(folder: &Path) -> String {
     let error = Scene::read(&folder.join("fragment.toml")).expect_err("no scene");
     assert_eq!(error.exit_status(), 2);

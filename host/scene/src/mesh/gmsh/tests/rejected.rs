@@ -202,7 +202,7 @@ fn what_is_no_file() {
     }
 }
 
-/// What people take for a mesh, and a part of what they read.
+/// Files that are taken for a mesh, and a part of the message.
 #[rustfmt::skip]
 const OTHERS: &[(&[u8], &str)] = &[
     (b"$NOD\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$ENDNOD\n$ELM\n1\n1 2 0 1 3 1 2 3\n$ENDELM\n", "a Gmsh mesh of format 1"),

@@ -1,4 +1,4 @@
-//! What is written is read back as it was: groups that overlap, slits, every bit of a coordinate.
+//! Meshes that are written are read back as they were: groups that overlap, slits, every bit of a coordinate.
 
 use super::super::write::text;
 use super::encode::Coding;

@@ -22,7 +22,7 @@ impl Draw {
     }
 }
 
-/// All of them, by name.
+/// Every base mesh, by name.
 pub fn all() -> Vec<(String, Mesh)> {
     let mut all = meshes();
     for (cells, seed) in [(Cells::Triangles, 1), (Cells::Quads, 2), (Cells::Mixed, 3)] {

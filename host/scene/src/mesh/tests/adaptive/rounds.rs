@@ -101,7 +101,7 @@ fn equal_marks_give_equal_meshes_and_no_marks_change_nothing() {
     }
 }
 
-/// What is left of the marked cells.
+/// The rest of the marked cells.
 fn left(before: &Mesh, marks: &[bool], after: &Mesh) -> BTreeSet<Vec<u32>> {
     let known = |cell: &Vec<u32>| {
         let mut turned = cell.clone();
