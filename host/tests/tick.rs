@@ -5,12 +5,12 @@ use signorini_tolerances::command::{
 };
 use std::path::Path;
 
-use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_problem::Problem;
 use signorini_scene::mesh;
 use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::units::Units;
+use signorini_session::tick::{Budget, ScheduledTick, play};
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::outputs as outputs_of;
 use signorini_solve::{Options, ScalarKind, solve};

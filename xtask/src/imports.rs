@@ -11,7 +11,7 @@ use crate::steps::Steps;
 use signorini_image::cargo::root;
 
 /// The crates, each with those of this project that it may depend on.
-const CRATES: [(&str, &[&str]); 20] = [
+const CRATES: [(&str, &[&str]); 21] = [
     ("kernel", &[]),
     ("kernel/bound", &["kernel"]),
     ("kernel/contact", &["kernel"]),
@@ -31,7 +31,6 @@ const CRATES: [(&str, &[&str]); 20] = [
         &[
             "kernel",
             "scene",
-            "draw",
             "image",
             "reference",
             "problem",
@@ -39,6 +38,21 @@ const CRATES: [(&str, &[&str]); 20] = [
             "solve",
             "condense",
             "intervals",
+        ],
+    ),
+    (
+        "host/session",
+        &[
+            "kernel",
+            "bound",
+            "device",
+            "scene",
+            "problem",
+            "certify",
+            "solve",
+            "condense",
+            "intervals",
+            "bake",
         ],
     ),
     (
@@ -56,9 +70,16 @@ const CRATES: [(&str, &[&str]); 20] = [
             "intervals",
             "files",
             "bake",
+            "session",
         ],
     ),
-    ("host", &["scene", "draw", "image", "problem", "solve", "condense", "files", "bake", "lab"]),
+    (
+        "host",
+        &[
+            "scene", "draw", "image", "problem", "solve", "condense", "files", "bake", "session",
+            "lab",
+        ],
+    ),
     ("tests/tolerances", &[]),
     (
         "tests",
@@ -71,6 +92,7 @@ const CRATES: [(&str, &[&str]); 20] = [
             "condense",
             "files",
             "bake",
+            "session",
             "tolerances",
         ],
     ),

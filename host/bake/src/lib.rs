@@ -7,7 +7,6 @@
 //! Whatever the model, the module has one interface ([`module_api`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
 //! `Controller`.
 
-pub mod asked;
 pub mod budget;
 pub mod c;
 pub mod choice;
@@ -18,7 +17,6 @@ mod controller;
 pub mod costs;
 pub mod dense;
 pub mod emit;
-pub mod engine;
 pub mod explain;
 pub mod export;
 pub mod full;
@@ -33,6 +31,5 @@ pub mod setting;
 pub mod superposition;
 mod table;
 pub mod text;
-pub mod tick;
 pub mod trial;
 mod worst;

@@ -7,8 +7,6 @@ use std::path::Path;
 
 use signorini_bake::choice::{Choice, Wanted};
 use signorini_bake::condensed::{Baked, Controller, Work};
-use signorini_bake::tick::ScheduledTick;
-use signorini_bake::tick::baked::replay;
 use signorini_certify::ErrorBound;
 use signorini_certify::admissible::Following;
 use signorini_certify::curved::followed;
@@ -23,6 +21,7 @@ use signorini_scene::mesh::structured::{Cells, grid};
 use signorini_scene::mesh::{Curve, Mesh};
 use signorini_scene::scene::{Field, Scene};
 use signorini_scene::setting::ModelKind;
+use signorini_session::tick::{ScheduledTick, replay};
 use signorini_solve::energy_norm::nonconformity;
 use signorini_solve::fixtures::full_at;
 use signorini_solve::norms::errors;

@@ -18,7 +18,7 @@ fn declared_lengths_of_a_condensed_solve() -> Result<()> {
         let inputs: Vec<f64> = scene.inputs.iter().map(|input| input.default).collect();
         let p: Vec<f64> = std::iter::once(1.0).chain(inputs).collect();
         let (_, expected, _) = full_at(&problem, &p)?;
-        let solution = signorini_bake::engine::solve(&problem)?;
+        let solution = signorini_session::solve(&problem)?;
         let length = outputs(&problem, &solution)?["length"];
         assert!((0.1..1.9).contains(&expected.contact_length), "{}", expected.contact_length);
         LENGTH.check(scalar, expected.contact_length - solution.contact_length);

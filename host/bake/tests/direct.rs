@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use signorini_bake::full::{Baked, Controller};
-use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_certify::CertifiedFields;
 use signorini_certify::admissible::Following;
 use signorini_device::tick::{Limits, Report};
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 use signorini_tolerances::Tolerance;

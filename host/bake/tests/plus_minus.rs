@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use signorini_bake::engine::{Module, baked};
 use signorini_certify::ErrorBound;
 use signorini_problem::Problem;
 use signorini_problem::functional::wanted;
@@ -10,6 +9,7 @@ use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::mesh::{self, adapted};
 use signorini_scene::scene::Scene;
+use signorini_session::{Module, with_module};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, SolverKind, solve};
 
@@ -55,11 +55,11 @@ fn path(name: &str) -> PathBuf {
 fn checked(name: &str, scene: &Scene, scalar: ScalarKind) -> Result<usize> {
     let meshes = [on_mesh(scene, 0)?, on_mesh(scene, 1)?, on_mesh(scene, 2)?];
     let [own, once, twice] = &meshes;
-    baked(own, Some(scalar), |engine, module: &Module| {
+    with_module(own, Some(scalar), |session, module: &Module| {
         let mut counts = Vec::new();
         for inputs in drawn::<f64>(&InputSpace::of(scene), TRIED) {
-            engine.tick(&inputs)?;
-            let answer = engine.answer(&own.with_inputs(&inputs)?)?;
+            session.tick(&inputs)?;
+            let answer = session.answer(&own.with_inputs(&inputs)?)?;
             let plus_minus = module.plus_minus(answer.bound.as_ref());
             counts.push(holds(name, [once, twice], (&answer.outputs, &plus_minus), &inputs)?);
         }
@@ -96,7 +96,7 @@ fn defaults_at_which_a_flux_is_given_say_nothing_of_other_inputs() -> Result<()>
     let off = Scene::parse(&text, &path)?;
     let on = Scene::read(&path)?;
     let weights = |scene: &Scene| {
-        baked(&on_mesh(scene, 0)?, Some(ScalarKind::F64), |_, module: &Module| {
+        with_module(&on_mesh(scene, 0)?, Some(ScalarKind::F64), |_, module: &Module| {
             let bound = ErrorBound { total: 1.0, ..ErrorBound::default() };
             Ok(module.plus_minus(Some(&bound)))
         })

@@ -1,9 +1,9 @@
 //! Inputs that change from tick to tick where contact alone holds the domain, and every tick is a warm solve.
 
-use signorini_bake::tick::{Budget, ScheduledTick, play};
 use signorini_problem::fixtures::on_grid;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::structured::{Cells, grid};
+use signorini_session::tick::{Budget, ScheduledTick, play};
 use signorini_solve::{Options, ScalarKind, solve};
 
 const HELD_BY_CONTACT: &str = r#"mesh = "grid"

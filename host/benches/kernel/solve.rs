@@ -1,7 +1,6 @@
 //! Whole solves, to a residual that both scalars reach.
 
 use criterion::{BatchSize, Bencher};
-use signorini_bake::tick::coarse;
 use signorini_kernel::Error;
 use signorini_kernel::prolongation::prolong;
 use signorini_kernel::relaxation::Relaxation;
@@ -9,6 +8,7 @@ use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
 use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
 use signorini_problem::Assembled;
 use signorini_problem::scalar::Scalar;
+use signorini_session::coarse;
 
 use crate::strip::Strip;
 

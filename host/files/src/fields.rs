@@ -31,13 +31,13 @@ impl<'a> Drawn<'a> {
             None => Vec::new(),
         };
         let indicators = squares.into_iter().map(f64::sqrt).collect();
-        let Solution { u, flux, certified, .. } = solution;
-        Ok(Self { u, flux, vertices: &certified.vertices, indicators })
+        Ok(Self { indicators, ..Self::plain(solution) })
     }
 
-    /// Means of u over edges, fluxes through them and s at vertices, with no bound.
-    pub fn plain(u: &'a [f64], flux: &'a [f64], vertices: &'a [f64]) -> Self {
-        Self { u, flux, vertices, indicators: Vec::new() }
+    /// A solution, with no bound.
+    pub fn plain(solution: &'a Solution) -> Self {
+        let Solution { u, flux, certified, .. } = solution;
+        Self { u, flux, vertices: &certified.vertices, indicators: Vec::new() }
     }
 
     /// u_h and σ in the middle of each cell.

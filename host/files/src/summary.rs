@@ -9,7 +9,7 @@ use signorini_intervals::{Found, OutputBound};
 use signorini_problem::Problem;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::Errors;
-use signorini_solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind, status_name};
+use signorini_solve::{Factored, Ran, ScalarKind, Seconds, Solution, SolverKind};
 
 /// The object, keys in the order of the file.
 #[derive(Debug, Clone, Serialize)]
@@ -87,7 +87,7 @@ impl Summary {
             scalar: solution.scalar,
             solver,
             solver_used: solution.ran,
-            status: status_name(solution.status),
+            status: solution.status.name(),
             unknowns: counts.unknowns(),
             contact_edges: counts.contact,
             contact_active: solution.contact_active,

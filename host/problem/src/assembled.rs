@@ -86,6 +86,11 @@ impl<'p, R: Scalar> Assembled<'p, R> {
         self.parts = numbers.len();
     }
 
+    /// The problem that it was assembled from.
+    pub fn problem(&self) -> &'p Problem {
+        self.problem
+    }
+
     /// Takes the loads of another time; the matrix follows where a transfer coefficient is another one.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use std::thread;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use signorini_bake::engine::{Engine, Module, TickSolution, baked};
+use signorini_session::{Module, Session, with_module};
 use signorini_bake::setting;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::{Input, Scene};
@@ -138,9 +138,9 @@ fn started(problem: Problem, asked: Option<ScalarKind>, calls: Receiver<Call>) -
     let (send, receive) = channel();
     let run = move || {
         let begun = send.clone();
-        let lent = baked(&problem, asked, |engine, module| {
+        let lent = with_module(&problem, asked, |session, module| {
             let _ = begun.send(Ok(module.name.clone()));
-            serve(&problem, engine, module, &calls);
+            serve(&problem, session, module, &calls);
             Ok(())
         });
         if let Err(error) = lent {
@@ -153,14 +153,14 @@ fn started(problem: Problem, asked: Option<ScalarKind>, calls: Receiver<Call>) -
 }
 
 /// Answers calls until nobody can make another one.
-fn serve(problem: &Problem, engine: &mut dyn Engine, module: &Module, calls: &Receiver<Call>) {
+fn serve(problem: &Problem, session: &mut dyn Session, module: &Module, calls: &Receiver<Call>) {
     for call in calls {
         match call {
             Call::Tick(inputs, answer) => {
-                let _ = answer.send(told(problem, engine, module, &inputs));
+                let _ = answer.send(told(problem, session, module, &inputs));
             }
             Call::Reset(done) => {
-                engine.restart();
+                session.restart();
                 let _ = done.send(());
             }
         }
@@ -169,17 +169,17 @@ fn serve(problem: &Problem, engine: &mut dyn Engine, module: &Module, calls: &Re
 
 fn told(
     problem: &Problem,
-    engine: &mut dyn Engine,
+    session: &mut dyn Session,
     module: &Module,
     inputs: &[f64],
 ) -> Result<Told> {
-    engine.tick(inputs)?;
+    session.tick(inputs)?;
     let problem = problem.with_inputs(inputs)?;
-    let answer = engine.answer(&problem)?;
+    let answer = session.answer(&problem)?;
     let plus_minus = module.plus_minus(answer.bound.as_ref());
     let plus_minus = plus_minus.into_iter().map(|by| by.unwrap_or(f64::INFINITY)).collect();
-    let length = answer.length(&problem);
-    let TickSolution { ended, outputs, bound, sweeps, force, .. } = answer;
-    let bound = bound.map(|bound| [bound.total, bound.of_u]);
-    Ok((ended.to_owned(), outputs, plus_minus, bound, sweeps, [force, length]))
+    let bound = answer.bound.map(|bound| [bound.total, bound.of_u]);
+    let contact = [answer.contact_force, answer.contact_length];
+    let ended = answer.status.name().to_owned();
+    Ok((ended, answer.outputs, plus_minus, bound, answer.sweeps, contact))
 }

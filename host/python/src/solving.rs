@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use signorini_bake::asked::Asked;
+use signorini_session::request::SolveRequest;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted, refined_until};
@@ -69,11 +69,11 @@ pub fn solve<'py>(
 }
 
 impl How {
-    fn asked(&self) -> PyResult<Asked> {
+    fn asked(&self) -> PyResult<SolveRequest> {
         let scalar = words::scalar(self.scalar.as_deref())?;
         let solver = words::solver(self.solver.as_deref())?;
         let refined = self.max_error.is_some();
-        Ok(Asked {
+        Ok(SolveRequest {
             scalar,
             solver,
             tolerance: self.tolerance,
@@ -83,7 +83,7 @@ impl How {
     }
 }
 
-fn on_its_mesh(posed: &PosedScene, asked: &Asked) -> Result<Answer> {
+fn on_its_mesh(posed: &PosedScene, asked: &SolveRequest) -> Result<Answer> {
     let mut problem = posed.problem()?;
     problem.warnings.extend(at_rest_warning(&posed.scene));
     let solution = asked.solve(&problem)?;
@@ -94,7 +94,7 @@ fn on_its_mesh(posed: &PosedScene, asked: &Asked) -> Result<Answer> {
 fn refined(
     posed: &PosedScene,
     wanted: &Wanted,
-    asked: &Asked,
+    asked: &SolveRequest,
     given_up: &GivenUp,
 ) -> Result<Answer> {
     let go_on = |_: &_| Ok(!given_up.load(Ordering::Relaxed));

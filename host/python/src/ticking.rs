@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use signorini_bake::tick::baked::replay;
-use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, log, play, schedule};
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, log, play, replay, schedule};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
 
@@ -81,7 +80,7 @@ fn columns<'py>(
         records.iter().map(|tick| of(tick).unwrap_or(f64::NAN)).collect::<Vec<f64>>()
     };
     all.numbers("t", number(&|tick| Some(tick.time)))?;
-    all.set("status", records.iter().map(|tick| tick.status).collect::<Vec<_>>())?;
+    all.set("status", records.iter().map(|tick| tick.status.name()).collect::<Vec<_>>())?;
     all.numbers("sweeps", records.iter().map(|tick| tick.sweeps).collect::<Vec<u32>>())?;
     all.numbers("contact_force", number(&|tick| tick.contact_force))?;
     all.numbers("contact_length", number(&|tick| tick.contact_length))?;

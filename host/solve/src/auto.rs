@@ -19,8 +19,8 @@ use signorini_kernel::rows;
 use signorini_kernel::solver::Status;
 
 use super::{
-    Clock, Ldlt, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude, direct,
-    factored, started, unfit,
+    Clock, Ending, Ldlt, Options, Ran, Result, Solution, Solved, SolverKind, by_kernel, conclude,
+    direct, factored, started, unfit,
 };
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
@@ -56,7 +56,7 @@ pub(super) fn in_f64(
         }
         // Who has no answer leaves it to the kernel to say why.
         if let Ok(found) = direct::directly(problem, parts, options)
-            && found.status == Status::Converged
+            && found.status == Ending::Solve(Status::Converged)
         {
             return Ok(found);
         }

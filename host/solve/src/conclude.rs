@@ -5,13 +5,14 @@ use std::time::Instant;
 use signorini_kernel::solver::{Outcome, Status};
 use signorini_kernel::{Error as KernelError, Real, contact};
 
-use super::{Factored, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit};
+use super::{
+    Ending, Factored, Ran, ScalarKind, Seconds, Solution, centre_floating, overflow, unfit,
+};
 use signorini_certify::{Certified, Data};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
-use signorini_scene::scene::units::Units;
 
 /// An iterate, and the time up to its assembly.
 pub(super) struct Solved<R> {
@@ -41,46 +42,51 @@ pub(super) fn conclude<R: Scalar>(
     }
     let solve = clock.lap();
     stage("fluxes and error bound");
-    let Fluxes { flux, mismatch, force } = Fluxes::recover(assembled, &u, &low).map_err(&unfit)?;
-    let fluxes = clock.lap();
     let data = Data::new(problem)?;
     let certified = Certified::new(problem, parts, assembled, &data, &u).map_err(&unfit)?;
-    let seconds = Seconds { assembly, solve, flux: fluxes, certificate: clock.lap() };
-    let (active, free) = (active(problem, assembled, &u), problem.topology.counts.free);
+    let certificate = clock.lap();
+    let iterate = [&u[..], &low];
+    let read = read_off(problem, parts, assembled, &outcome, iterate, certified).map_err(&unfit)?;
+    let seconds = Seconds { assembly, solve, flux: clock.lap(), certificate };
+    Ok(Solution { scalar, ran, factored, seconds, ..read })
+}
+
+/// Everything that is read off the iterate `u` with the low part `low` (may be empty): fluxes, force, active edges.
+///
+/// # Errors
+/// Slices of the wrong length.
+pub fn read_off<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    assembled: &Assembled<R>,
+    outcome: &Outcome<R>,
+    [u, low]: [&[R]; 2],
+    certified: Certified,
+) -> std::result::Result<Solution, KernelError> {
+    let Fluxes { flux, mismatch, force } = Fluxes::recover(assembled, u, low)?;
+    let (counts, law) = (problem.topology.counts, assembled.law());
     let mut solution = Solution {
-        scalar,
-        status: outcome.status,
+        status: Ending::Solve(outcome.status),
         sweeps: outcome.sweeps,
         conjugate: outcome.conjugate,
-        ran,
-        factored,
-        units: Units::default(),
-        scaled: None,
         algebraic_residual: outcome.residual.scaled().wide(),
         omega: outcome.omega.wide(),
         u: u.iter().map(|x| x.wide()).collect(),
         flux: flux.iter().map(|x| x.wide()).collect(),
         mismatch,
         contact_force: force,
-        contact_length: active.iter().fold(0.0, |sum, at| sum + problem.lengths[free + at]),
-        contact_active: active.len(),
         parts: parts.counts,
         bound: certified.bound,
         no_bound: certified.no_bound,
         certified: certified.answer,
-        seconds,
-    };
+        ..Solution::default()
+    }
+    .with_active(problem, (0..counts.contact).map(|at| contact::is_active(counts, law, u, at)));
     if parts.counts.floating > 0 {
         let (u, vertices) = (&mut solution.u, &mut solution.certified.vertices);
         centre_floating(problem, parts, u, vertices);
     }
     Ok(solution)
-}
-
-/// The contact edges on which u = ψ.
-fn active<R: Scalar>(problem: &Problem, assembled: &Assembled<R>, u: &[R]) -> Vec<usize> {
-    let (counts, law) = (problem.topology.counts, assembled.law());
-    (0..counts.contact).filter(|&at| contact::is_active(counts, law, u, at)).collect()
 }
 
 struct Fluxes<R> {

@@ -11,6 +11,7 @@ pub mod adaptive;
 mod auto;
 mod conclude;
 mod direct;
+mod ending;
 pub mod energy_norm;
 mod factored;
 #[cfg(any(test, feature = "fixtures"))]
@@ -30,13 +31,14 @@ mod tuned;
 mod units;
 
 pub use auto::prefers_factor;
+pub use ending::{Ending, status_name};
 pub use factored::Factored;
 pub use level::{FreeLevel, free_levels};
 pub use mixed::{Corrected, Mixed, mixed};
 pub use options::{Options, ScalarKind, SolverKind};
 pub use ran::Ran;
 pub use shared::SharedFactor;
-pub use solution::{Seconds, Solution, ended_name, status_name};
+pub use solution::{Seconds, Solution};
 pub use tuned::{Trials, tuned_omega};
 pub use units::{Scaled, choose as choose_units, choose_for_inputs, times};
 
@@ -49,6 +51,7 @@ use signorini_kernel::solver::{Outcome, Settings, Status};
 use signorini_kernel::system::System;
 use signorini_kernel::{Error as KernelError, Libm};
 
+pub use conclude::read_off;
 use conclude::{Clock, Solved, conclude};
 pub use direct::Reduced;
 pub use ldlt::{Exchanges, Ldlt, exchanges};

@@ -8,10 +8,11 @@ use signorini_kernel::solver::Settings;
 use signorini_problem::scalar::Scalar;
 
 /// The scalar type of the kernel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ScalarKind {
     /// Double precision.
+    #[default]
     F64,
     /// Single precision, the microcontroller's.
     F32,

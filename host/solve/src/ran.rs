@@ -2,12 +2,13 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{Factored, ScalarKind, Solution, status_name};
+use super::{Factored, ScalarKind, Solution};
 
 /// Which method the answer comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Ran {
     /// The kernel's sweeps.
+    #[default]
     Sweeps,
     /// The kernel's factor, or that of a controller.
     Factor,
@@ -46,7 +47,7 @@ impl Ran {
 impl Solution {
     /// How the solve ended and what solved it, in a line.
     pub fn ending(&self) -> String {
-        let (status, residual) = (status_name(self.status), self.algebraic_residual);
+        let (status, residual) = (self.status.name(), self.algebraic_residual);
         let Factored { entries, exchanges, .. } =
             self.factored.unwrap_or(Factored { entries: 0, exchanges: 0, rounds: 0 });
         let how = match self.ran {

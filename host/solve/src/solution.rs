@@ -7,22 +7,20 @@ use serde::Serialize;
 use signorini_kernel::Real;
 use signorini_kernel::mesh::components::{PartCounts, Support};
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
-use signorini_kernel::report::Ended;
-use signorini_kernel::solver::Status;
 
-use super::{Factored, Ran, ScalarKind};
+use super::{Ending, Factored, Ran, ScalarKind};
 use signorini_certify::{CertifiedFields, ErrorBound, NoBound};
 use signorini_problem::field::CellField;
 use signorini_problem::{Parts, Problem};
 use signorini_scene::scene::units::Units;
 
-/// A solved problem; numbers of an f32 solve are held exactly in f64.
-#[derive(Debug, Clone)]
+/// The answer of a solve or of a tick; numbers of an f32 one are held exactly in f64.
+#[derive(Debug, Clone, Default)]
 pub struct Solution {
     /// Its scalar type.
     pub scalar: ScalarKind,
-    /// How the solve ended.
-    pub status: Status,
+    /// How it ended.
+    pub status: Ending,
     /// Sweeps; those before a factor took over are not in the answer.
     pub sweeps: u32,
     /// Iterations of conjugate gradients among them.
@@ -60,6 +58,8 @@ pub struct Solution {
     pub no_bound: Option<NoBound>,
     /// The continuous function and the flux that the bound is about.
     pub certified: CertifiedFields,
+    /// The outputs of a controller, in the order of the scene, with its bits; empty where no controller answered.
+    pub outputs: Vec<f64>,
     /// Wall-clock seconds.
     pub seconds: Seconds,
 }
@@ -80,7 +80,19 @@ pub struct Seconds {
 impl Solution {
     /// The solve reached its tolerance, or all that rounding allows.
     pub fn converged(&self) -> bool {
-        matches!(self.status, Status::Converged | Status::RoundingLimit)
+        self.status.is_success()
+    }
+
+    /// With these contact edges active, one flag each.
+    #[must_use]
+    pub fn with_active(mut self, problem: &Problem, active: impl Iterator<Item = bool>) -> Self {
+        let lengths = problem.lengths.iter().skip(problem.topology.counts.free);
+        (self.contact_active, self.contact_length) = (0, 0.0);
+        for (_, length) in active.zip(lengths).filter(|(active, _)| *active) {
+            self.contact_active += 1;
+            self.contact_length += length;
+        }
+        self
     }
 
     /// max |∫_E σ·n|, at least the smallest normal number.
@@ -156,28 +168,5 @@ pub fn centre_floating(problem: &Problem, parts: &Parts, u: &mut [f64], vertices
         if let Some(value) = vertices.get_mut(vertex as usize) {
             *value -= shift(parts.of_cell(cell));
         }
-    }
-}
-
-/// The word for the end of a tick in `ticks.csv`.
-pub fn ended_name(ended: Ended) -> &'static str {
-    match ended {
-        Ended::Exact => "exact",
-        Ended::Accurate => "accurate",
-        Ended::Settled => "settled",
-        Ended::OutOfSweeps => "out-of-sweeps",
-        Ended::OutOfTime => "out-of-time",
-        Ended::NotFinite => "not-finite",
-    }
-}
-
-/// The word for a status in `summary.json`.
-pub fn status_name(status: Status) -> &'static str {
-    match status {
-        Status::Converged => "converged",
-        Status::RoundingLimit => "rounding-limit",
-        Status::OutOfSweeps => "out-of-sweeps",
-        Status::Stalled => "stalled",
-        Status::NotFinite => "not-finite",
     }
 }

@@ -8,6 +8,7 @@ mod export;
 mod extremes;
 mod honoured;
 mod levels;
+mod picture;
 mod posed;
 mod scene_arguments;
 mod series;

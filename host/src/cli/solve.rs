@@ -8,7 +8,6 @@ use super::answer::Told;
 use super::levels;
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
-use signorini_bake::asked::Asked;
 use signorini_problem::progress::{say, waiting, warn};
 use signorini_scene::error::{InputError, Result};
 use signorini_scene::goal::Goal;
@@ -16,6 +15,7 @@ use signorini_scene::mesh::adapted;
 use signorini_scene::scene::Scene;
 use signorini_scene::scene::term::at_rest_warning;
 use signorini_scene::setting::Precision;
+use signorini_session::request::SolveRequest;
 use signorini_solve::adaptive::{MOST_UNKNOWNS, Wanted};
 use signorini_solve::energy_norm;
 use signorini_solve::{ScalarKind, SolverKind};
@@ -121,9 +121,9 @@ impl Arguments {
     }
 
     /// How the scene is to be solved.
-    fn asked(&self) -> Asked {
+    fn asked(&self) -> SolveRequest {
         let Self { scalar, solver, tolerance, max_sweeps, .. } = *self;
-        Asked { scalar, solver, tolerance, max_sweeps, refined: self.max_error.is_some() }
+        SolveRequest { scalar, solver, tolerance, max_sweeps, refined: self.max_error.is_some() }
     }
 
     /// Refuses what cannot be followed at the same time; warns of what the command line takes the place of.

@@ -5,12 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::honoured::Command;
+use super::picture::picture;
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
 use super::series::Series;
-use signorini_bake::tick::baked::replay;
-use signorini_bake::tick::columns::{bounds_csv, ticks_csv};
-use signorini_bake::tick::{Budget, TickFields, TickRecord, log, picture, play, schedule};
 use signorini_draw::chart_file;
 use signorini_files::atomic::write_atomically;
 use signorini_files::fields::{Drawn, picture as vtu};
@@ -19,7 +17,9 @@ use signorini_problem::progress::{say, steps, warn};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh;
 use signorini_scene::scene::{Output, Quantity, Scene};
-use signorini_solve::ScalarKind;
+use signorini_session::tick::columns::{bounds_csv, ticks_csv};
+use signorini_session::tick::{Budget, TickRecord, log, play, replay, schedule};
+use signorini_solve::{Ending, ScalarKind, Solution};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -110,17 +110,12 @@ impl Arguments {
         };
         let bar = steps(moments.len());
         let mut series = self.vtu.then(|| Series::new(&out, "ticks", 4));
-        let done = |tick: &TickRecord, fields: &TickFields| {
+        let done = |tick: &TickRecord, solution: Option<&Solution>| {
             bar.set_message(format!("t = {}", tick.time));
             bar.inc(1);
-            let TickFields { u, flux, vertices } = fields;
-            match &mut series {
-                // A tick that was refused has no fields.
-                Some(series) if !u.is_empty() => {
-                    series.add(tick.time, &vtu(&problem, &Drawn::plain(u, flux, vertices)))
-                }
-                _ => Ok(()),
-            }
+            // A tick that was refused has no fields.
+            let (Some(series), Some(solution)) = (&mut series, solution) else { return Ok(()) };
+            series.add(tick.time, &vtu(&problem, &Drawn::plain(solution)))
         };
         let ticks = match self.baked {
             true => replay(&problem, &moments, self.scalar, done),
@@ -187,13 +182,13 @@ fn without_interval(scene: &Scene, ticks: &[TickRecord]) -> Vec<String> {
 
 /// How many ticks ended in which way, in the order of their first.
 fn endings(ticks: &[TickRecord]) -> String {
-    let mut counts: Vec<(&str, usize)> = Vec::new();
+    let mut counts: Vec<(Ending, usize)> = Vec::new();
     for tick in ticks {
         match counts.iter_mut().find(|(status, _)| *status == tick.status) {
             Some((_, count)) => *count += 1,
             None => counts.push((tick.status, 1)),
         }
     }
-    let parts = counts.iter().map(|(status, count)| format!("{count} {status}"));
+    let parts = counts.iter().map(|(status, count)| format!("{count} {}", status.name()));
     parts.collect::<Vec<_>>().join(", ")
 }

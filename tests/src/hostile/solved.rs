@@ -1,6 +1,5 @@
 //! A scene on a mesh, answered in one of the ways that there are: an error, or numbers.
 
-use signorini_bake::tick::{Budget, TickRecord, play, schedule};
 use signorini_bake::{condensed, full};
 use signorini_condense::condense;
 use signorini_kernel::rows::{QUADS, TRIANGLES};
@@ -9,6 +8,7 @@ use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
+use signorini_session::tick::{Budget, TickRecord, play, schedule};
 use signorini_solve::outputs::outputs;
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 

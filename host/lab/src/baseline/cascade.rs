@@ -15,9 +15,9 @@ use super::failed;
 use super::full::Full;
 use super::psor::{TickLoads, solve};
 use super::timed_solver::{InitialGuess, Run, TimedSolver, counted};
-use signorini_bake::tick::coarse;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
+use signorini_session::coarse;
 
 /// One grid.
 struct Level<'a> {

@@ -6,24 +6,23 @@ use std::sync::Arc;
 
 use super::case::ExtremeCase;
 use super::grid::msh;
-use signorini_bake::engine;
-use signorini_bake::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_certify::{CertifiedFields, ErrorBound};
 use signorini_problem::Problem;
 use signorini_scene::error::{Error, Result};
 use signorini_scene::mesh::Mesh;
 use signorini_scene::scene::Scene;
 use signorini_scene::setting::Precision;
+use signorini_session::tick::{Budget, ScheduledTick, TickRecord, play};
 use signorini_solve::adaptive::mesh_of_scene;
-use signorini_solve::{Options, ScalarKind, solve, status_name};
+use signorini_solve::{Ending, Options, ScalarKind, solve};
 
 /// What the solver says.
 #[derive(Debug, Clone)]
 pub struct Attempt {
     /// The mesh as read.
     pub mesh: Arc<Mesh>,
-    /// How the solve ended, as `summary.json` says it.
-    pub status: &'static str,
+    /// How it ended.
+    pub status: Ending,
     /// Sweeps in all.
     pub sweeps: u32,
     /// Edges not on D.
@@ -38,13 +37,6 @@ pub struct Attempt {
     pub certified: CertifiedFields,
     /// The ticks, where ticks were asked for.
     pub ticks: Vec<TickRecord>,
-}
-
-impl Attempt {
-    /// The solver claims to have found the solution; of a tick, that more sweeps would not lower its bound much.
-    pub fn claims_success(&self) -> bool {
-        matches!(self.status, "converged" | "rounding-limit" | "accurate" | "settled")
-    }
 }
 
 /// Writes the files of the case into `folder` and solves what they say.
@@ -65,10 +57,10 @@ pub fn attempt(case: &ExtremeCase, folder: &Path) -> Result<Attempt> {
         Options { scalar: case.scalar, max_sweeps: case.most_sweeps(), ..Options::default() };
     let solution = match case.effort.omega {
         None => solve(&problem, &options)?,
-        Some(_) => engine::solve(&problem)?,
+        Some(_) => signorini_session::solve(&problem)?,
     };
     Ok(Attempt {
-        status: status_name(solution.status),
+        status: solution.status,
         sweeps: solution.sweeps,
         unknowns: problem.topology.counts.unknowns(),
         u: solution.u,
@@ -103,7 +95,7 @@ fn ticks(case: &ExtremeCase, _scene: &Scene, problem: Problem) -> Result<Attempt
     let ticks = play(&problem, None, &moments, &budget, |_, _| Ok(()))?;
     let worst = ticks.iter().find(|tick| tick.failed()).or(ticks.last());
     Ok(Attempt {
-        status: worst.map_or("stalled", |tick| tick.status),
+        status: worst.map_or_else(Ending::default, |tick| tick.status),
         sweeps: ticks.iter().map(|tick| tick.sweeps).max().unwrap_or(0),
         unknowns: problem.topology.counts.unknowns(),
         u: Vec::new(),

@@ -114,8 +114,8 @@ fn row(case: &ExtremeCase) -> Result<Row> {
     };
     let ended = match (&found, lost) {
         (Some(Ok((attempt, measured))), _) => Ended::Answered {
-            success: attempt.claims_success(),
-            status: attempt.status,
+            success: attempt.status.is_success(),
+            status: attempt.status.name(),
             measured: *measured,
         },
         (Some(Err(Error::Input(error))), _) if error.message().starts_with("not-finite") => {
@@ -163,7 +163,7 @@ fn described(case: &ExtremeCase, answer: Option<&(Attempt, Measured)>) -> Row {
         error_over_bound: error.zip(bound).map(|(e, b)| ratio(e, b)).and_then(finite),
         sweeps: attempt.map(|attempt| attempt.sweeps),
         unknowns: attempt.map(|attempt| attempt.unknowns),
-        status: attempt.map(|attempt| attempt.status.to_owned()),
+        status: attempt.map(|attempt| attempt.status.name().to_owned()),
         error,
         bound,
         reference_bound: reference.and_then(|reference| reference.bound).and_then(finite),

@@ -5,7 +5,7 @@ use signorini_kernel::Real;
 use signorini_kernel::law::EdgeLaw;
 
 use signorini_problem::Problem;
-use signorini_solve::{ScalarKind, Solution, status_name};
+use signorini_solve::{ScalarKind, Solution};
 
 /// A claim about one subject, and what was found.
 #[derive(Debug, Clone, Serialize)]
@@ -104,7 +104,7 @@ pub fn of(name: &str, problem: &Problem, solution: &Solution, reference: &Soluti
             &subject,
             "the solver converged",
             solution.converged(),
-            status_name(solution.status),
+            solution.status.name(),
         ),
         at_most("u agrees with the faer reference", apart, agreement(scalar)),
         rounding("fluxes agree from both sides of an edge", solution.mismatch * largest / terms),

@@ -3,14 +3,14 @@
 use super::record::Point;
 use super::reference::{Approximation, ReferenceSolution};
 use crate::baseline::record::PointError;
-use signorini_kernel::solver::Status;
 
 use crate::cycles;
-use signorini_bake::engine::{self, Engine, TickSolution};
 use signorini_problem::Problem;
 use signorini_problem::inputs::{InputSpace, drawn};
 use signorini_scene::error::Result;
 use signorini_scene::setting::{MathKind, Method, ModelKind, Omega, Precision, Setting, Start};
+use signorini_session::{Session, completed, with_session};
+use signorini_solve::Solution;
 
 /// Repeats of a cold solve; of those that take long, fewer.
 const REPEATS: usize = 5;
@@ -34,32 +34,32 @@ struct Timing {
 /// # Errors
 /// A setting that the scene does not allow for.
 pub fn measure(problem: &Problem, truth: &ReferenceSolution) -> Result<Point> {
-    let mut setting = engine::completed(&problem.scene);
+    let mut setting = completed(&problem.scene);
     // Where nothing changes from tick to tick, and where no tick goes, every solve begins anew.
     if problem.scene.inputs.is_empty() || setting.scalar == Some(Precision::Mixed) {
         setting.start = Start::Cold;
     }
     let spaces = InputSpace::of(&problem.scene);
     let defaults: Vec<f64> = spaces.iter().map(|space| space.default).collect();
-    let (timing, answer) = engine::with(problem, |engine| {
+    let (timing, answer) = with_session(problem, |session| {
         let timing = match setting.start {
-            Start::Cold => cold(engine, &defaults)?,
-            Start::Warm => warm(engine, &spaces)?,
+            Start::Cold => cold(session, &defaults)?,
+            Start::Warm => warm(session, &spaces)?,
         };
-        Ok((timing, engine.answer(problem)?))
+        Ok((timing, session.answer(problem)?))
     })?;
     let error = errors(problem, truth, &answer)?;
     Ok(point(problem, &setting, timing, &answer, error))
 }
 
 /// Ticks that each begin anew.
-fn cold(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
+fn cold(session: &mut dyn Session, defaults: &[f64]) -> Result<Timing> {
     let mut costs = Vec::new();
     let mut sweeps = 0;
     while costs.len() < REPEATS {
-        engine.restart();
+        session.restart();
         let start = cycles::now();
-        sweeps = engine.tick(defaults)?;
+        sweeps = session.tick(defaults)?;
         costs.push(cycles::now().saturating_sub(start));
         if costs.last().is_some_and(|&cost| cost > LONG) && costs.len() > 1 {
             break;
@@ -69,19 +69,19 @@ fn cold(engine: &mut dyn Engine, defaults: &[f64]) -> Result<Timing> {
 }
 
 /// Ticks with inputs drawn from their ranges, and a last one at the defaults, whose answer is kept.
-fn warm(engine: &mut dyn Engine, spaces: &[InputSpace]) -> Result<Timing> {
+fn warm(session: &mut dyn Session, spaces: &[InputSpace]) -> Result<Timing> {
     let defaults: Vec<f64> = spaces.iter().map(|space| space.default).collect();
     let defaults = &defaults;
     let mut medians = Vec::new();
     let mut sweeps = Vec::new();
     for _ in 0..RUNS {
-        engine.restart();
-        engine.tick(defaults)?;
+        session.restart();
+        session.tick(defaults)?;
         let (mut costs, mut all) = (Vec::new(), 0);
         sweeps.clear();
         for inputs in drawn::<f64>(spaces, TICKS).skip(1) {
             let start = cycles::now();
-            sweeps.push(u64::from(engine.tick(&inputs)?));
+            sweeps.push(u64::from(session.tick(&inputs)?));
             let cost = cycles::now().saturating_sub(start);
             costs.push(cost);
             all += cost;
@@ -91,7 +91,7 @@ fn warm(engine: &mut dyn Engine, spaces: &[InputSpace]) -> Result<Timing> {
             break;
         }
     }
-    engine.tick(defaults)?;
+    session.tick(defaults)?;
     let cycles = median(&mut medians);
     Ok(Timing { cycles, spread: spread(&medians), sweeps: median(&mut sweeps) as u32 })
 }
@@ -107,19 +107,15 @@ fn spread(sorted: &[u64]) -> f64 {
     (last - first) as f64 / (sorted[sorted.len() / 2] as f64).max(1.0)
 }
 
-fn errors(
-    problem: &Problem,
-    truth: &ReferenceSolution,
-    answer: &TickSolution,
-) -> Result<PointError> {
+fn errors(problem: &Problem, truth: &ReferenceSolution, answer: &Solution) -> Result<PointError> {
     let certified = answer.bound.is_some().then(|| answer.certified.admissible());
     truth.errors(
         problem,
         &Approximation {
             u: &answer.u,
             flux: &answer.flux,
-            force: answer.force,
-            length: answer.length(problem),
+            force: answer.contact_force,
+            length: answer.contact_length,
             certified,
         },
     )
@@ -129,7 +125,7 @@ fn point(
     problem: &Problem,
     setting: &Setting,
     timing: Timing,
-    answer: &TickSolution,
+    answer: &Solution,
     error: PointError,
 ) -> Point {
     let unknowns = problem.topology.counts.unknowns();
@@ -146,7 +142,7 @@ fn point(
     };
     let stop = match (setting.model, setting.sweeps, setting.share) {
         (_, Some(sweeps), _) => format!("{sweeps} sweeps"),
-        (Some(ModelKind::Condensed), None, _) if answer.status != Status::Converged => {
+        (Some(ModelKind::Condensed), None, _) if !answer.converged() => {
             "out of exchanges".to_owned()
         }
         (Some(ModelKind::Condensed), ..) if setting.solver == Some(Method::Sweeps) => {

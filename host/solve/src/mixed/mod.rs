@@ -23,7 +23,7 @@ use signorini_kernel::solver::{Outcome, Settings};
 use super::{Clock, Options, Ran, ScalarKind, Solution, Solved, conclude, unfit};
 use correction::Correction;
 use rounds::Rounds;
-use signorini_problem::{Assembled, Loads, Parts, Problem};
+use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 
 type Refused<T> = std::result::Result<T, KernelError>;
@@ -76,12 +76,9 @@ impl<'p> Mixed<'p> {
         &self.wide
     }
 
-    /// Takes the loads of another time; the matrix stays.
-    ///
-    /// # Errors
-    /// Loads that are not finite.
-    pub fn set_loads(&mut self, loads: &Loads) -> Refused<()> {
-        self.wide.set_loads(loads)
+    /// The problem in f64, for the loads of another time.
+    pub fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
+        &mut self.wide
     }
 
     /// Sweeps until `settings` are met, in f64. `u` (one entry an edge, u_D included) is start and answer.

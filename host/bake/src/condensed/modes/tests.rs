@@ -20,9 +20,9 @@ use signorini_tolerances::bake::{GUARANTEE, MODAL, MODAL_BEST, MODAL_BOUND, MODA
 use super::super::{Baked, Controller, Work, source};
 use crate::choice::{Choice, Model, Wanted};
 use crate::compiled::printed;
-use crate::engine;
 use crate::explain::explanation;
 use crate::module_api::ModuleApi;
+use signorini_session::with_module;
 
 /// Contact below, air on the right with a coefficient from 1 to 60.
 const AIR: &str = r#"
@@ -75,15 +75,15 @@ fn ticks(text: &str, setting: (Cells, Setting), scalar: ScalarKind, name: &str) 
     let allowed = if scalar == ScalarKind::F32 { MODAL_NARROW } else { MODAL };
     let problem = &with(text, setting.0, setting.1)?;
     let (modes, _) = modal(problem, 0.0)?;
-    engine::baked(problem, Some(scalar), |engine, found| {
+    with_module(problem, Some(scalar), |session, found| {
         assert_eq!(found.name, name);
         let (mut touching, mut open, mut last) = (0, 0, 0.0);
         for tick in 0..24 {
             let values = inputs(tick);
             let p: Vec<f64> = std::iter::once(1.0).chain(values.iter().copied()).collect();
             let (now, solution, expected) = full_at(problem, &p)?;
-            engine.tick(&values)?;
-            let answer = engine.answer(&now)?;
+            session.tick(&values)?;
+            let answer = session.answer(&now)?;
             let size = solution.largest_flux();
             for (found, expected) in answer.outputs.iter().zip(&expected) {
                 let expected = expected.expect("a value");
@@ -94,8 +94,8 @@ fn ticks(text: &str, setting: (Cells, Setting), scalar: ScalarKind, name: &str) 
             for (found, expected) in answer.u.iter().zip(&solution.u) {
                 allowed.check_over(format_args!("u of tick {tick}"), found - expected, largest);
             }
-            let active = answer.active.iter().filter(|active| **active).count();
-            (touching, open) = (touching + active, open + answer.active.len() - active);
+            let (active, contact) = (answer.contact_active, now.topology.counts.contact);
+            (touching, open) = (touching + active, open + contact - active);
             last += answer.outputs.last().copied().unwrap_or_default();
             if scalar == ScalarKind::F64 {
                 let fresh = condense(&stated(text, problem, &values)?)?;
@@ -159,12 +159,12 @@ fn bounds_are_above_the_error_for_every_coefficient() -> Result<()> {
         (Cells::Mixed, ScalarKind::F32),
     ] {
         let problem = with(&smooth(), cells, Setting::default())?;
-        engine::baked(&problem, Some(scalar), |engine, _| {
+        with_module(&problem, Some(scalar), |session, _| {
             for h in [0.0625_f64, 0.5, 1.0, 16.0, 64.0] {
                 let values = [h, 1.0 / h];
-                engine.tick(&values)?;
+                session.tick(&values)?;
                 let now = problem.with_inputs(&values)?;
-                let answer = engine.answer(&now)?;
+                let answer = session.answer(&now)?;
                 let exact = now.scene.exact.as_ref().expect("an exact solution");
                 let found = distance(exact, &now, &answer.certified.admissible())?;
                 let bound = answer.bound.expect("a bound").total;
@@ -318,11 +318,11 @@ fn a_slab_in_moving_air() -> Result<()> {
     let ticks: Vec<_> =
         (0..12).map(|tick| [5.0 * scatter(tick), 5.0 + 6.25 * ((7 * tick) % 13) as f64]).collect();
     for (scalar, allowed) in [(ScalarKind::F64, MODAL), (ScalarKind::F32, MODAL_NARROW)] {
-        engine::baked(&problem, Some(scalar), |engine, _| {
+        with_module(&problem, Some(scalar), |session, _| {
             for values in ticks.iter().map(|values| values.map(|x| f64::from(x as f32))) {
                 let (now, solution, expected) = full_at(&problem, &[1.0, values[0], values[1]])?;
-                engine.tick(&values)?;
-                let answer = engine.answer(&now)?;
+                session.tick(&values)?;
+                let answer = session.answer(&now)?;
                 assert!(answer.bound.is_some());
                 for (found, expected) in answer.outputs.iter().zip(&expected).take(3) {
                     let expected = expected.expect("a value");

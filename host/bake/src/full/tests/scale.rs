@@ -6,7 +6,6 @@ use signorini_tolerances::bake::WITHOUT_UNITS;
 
 use super::{BENT, Baked, Controller, fixtures, source, to_the_end};
 use crate::compiled::printed;
-use crate::engine;
 use crate::module_api::ModuleApi;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
@@ -153,7 +152,7 @@ fn fields_are_in_the_units_of_the_scene() -> Result<()> {
     let solved = |units| {
         let (_, problem) = bent(units)?;
         let setting = Setting { scalar: Some(Precision::F32), ..Setting::default() };
-        engine::solve(&problem.with_setting(Some(setting)))
+        signorini_session::solve(&problem.with_setting(Some(setting)))
     };
     let (near, units) = (solved(NEAR)?, powers(-60, -40));
     let far = solved(units)?;

@@ -3,42 +3,19 @@
 use std::path::Path;
 
 use super::case::{RandomCase, Way};
-use signorini_bake::engine;
-use signorini_certify::ErrorBound;
 use signorini_problem::{Approach, Problem};
 use signorini_scene::error::{Error, Result};
 use signorini_scene::scene::Scene;
-use signorini_scene::scene::units::Units;
 use signorini_scene::setting::ModelKind;
-use signorini_solve::{Options, Solution, SolverKind, solve, status_name};
-
-/// What a solver says, in the scene's units.
-#[derive(Debug, Clone)]
-pub struct SolverAnswer {
-    /// How it ended.
-    pub status: &'static str,
-    /// Whether it claims success.
-    pub success: bool,
-    /// Sweeps spent.
-    pub sweeps: u32,
-    /// Mean of u_h over each edge.
-    pub u: Vec<f64>,
-    /// ∫_E σ·n of each edge.
-    pub flux: Vec<f64>,
-    /// ∫_C (σ·n − q)
-    pub force: f64,
-    /// Its bound.
-    pub bound: Option<ErrorBound>,
-    /// What the bound is about.
-    pub certified: signorini_certify::CertifiedFields,
-}
+use signorini_session::with_session;
+use signorini_solve::{Ending, Options, Solution, SolverKind, solve};
 
 /// A case that was answered: its problem with the inputs of the answer, and the answer.
 pub struct Attempt {
     /// The scene on its mesh, its inputs at those of the answer.
     pub problem: Problem,
-    /// The answer.
-    pub answer: SolverAnswer,
+    /// The answer, in the scene's units.
+    pub answer: Solution,
 }
 
 /// Updates of unknowns that a solve may take.
@@ -54,7 +31,7 @@ pub fn attempt(case: &RandomCase) -> Result<Attempt> {
     match case.effort.way {
         Way::Sweeps | Way::Direct => {
             let options = options(case, &problem);
-            let answer = SolverAnswer::from(solve(&problem, &options)?);
+            let answer = solve(&problem, &options)?;
             Ok(Attempt { problem, answer })
         }
         Way::Full | Way::Condensed => ticks(case, problem),
@@ -75,78 +52,34 @@ fn options(case: &RandomCase, problem: &Problem) -> Options {
 fn ticks(case: &RandomCase, problem: Problem) -> Result<Attempt> {
     let has_tick = Approach::Tick.lack(&problem)?.is_none();
     let condensed = problem.scene.setting.and_then(|set| set.model) == Some(ModelKind::Condensed);
-    // There an engine answers for the scene's own inputs.
+    // There each tick is a solve for the inputs that were posed.
     let own = !condensed && !has_tick;
     let at = problem.with_inputs(if own { &[] } else { &case.effort.inputs })?;
     let inputs: Vec<f64> = at.scene.inputs.iter().map(|input| input.default).collect();
-    let answer = engine::with(&problem, |engine| {
+    let answer = with_session(&problem, |session| {
         for earlier in &case.effort.earlier {
             // What an extreme tick says is its own affair; what it leaves behind is not.
-            let _ = engine.tick(earlier);
+            let _ = session.tick(earlier);
         }
-        if let Err(error) = engine.tick(&inputs) {
-            engine.restart();
-            return match engine.tick(&inputs) {
+        if let Err(error) = session.tick(&inputs) {
+            session.restart();
+            return match session.tick(&inputs) {
                 Ok(_) => Err(Error::Check(format!("only a new controller answers: {error}"))),
                 Err(_) => Err(error),
             };
         }
-        engine.answer(&at)
+        session.answer(&at)
     })?;
-    Ok(Attempt { problem: at, answer: SolverAnswer::from(answer) })
+    let status = Ending::Solve(answer.status.of_solve());
+    Ok(Attempt { problem: at, answer: Solution { status, ..answer } })
 }
 
-impl From<Solution> for SolverAnswer {
-    fn from(solution: Solution) -> Self {
-        Self {
-            status: status_name(solution.status),
-            success: solution.converged(),
-            sweeps: solution.sweeps,
-            u: solution.u,
-            flux: solution.flux,
-            force: solution.contact_force,
-            bound: solution.bound,
-            certified: solution.certified,
-        }
-    }
-}
-
-impl From<engine::TickSolution> for SolverAnswer {
-    fn from(answer: engine::TickSolution) -> Self {
-        let status = status_name(answer.status);
-        Self {
-            status,
-            success: status == "converged",
-            sweeps: answer.sweeps,
-            u: answer.u,
-            flux: answer.flux,
-            force: answer.force,
-            bound: answer.bound,
-            certified: answer.certified,
-        }
-    }
-}
-
-impl SolverAnswer {
-    /// The same in other units.
-    #[must_use]
-    pub fn divided(mut self, units: &Units) -> Self {
-        let divide = |all: &mut [f64], unit: f64| all.iter_mut().for_each(|x| *x /= unit);
-        divide(&mut self.u, units.u);
-        divide(&mut self.flux, units.flux());
-        self.force /= units.flux();
-        self.bound = self.bound.map(|bound| bound.times(1.0 / units.energy()));
-        divide(&mut self.certified.vertices, units.u);
-        divide(&mut self.certified.bubbles, units.u);
-        divide(&mut self.certified.tau, units.flux());
-        self
-    }
-
+impl Attempt {
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
-        let certified = &self.certified;
-        let parts = [&self.u, &self.flux, &certified.vertices, &certified.bubbles, &certified.tau];
-        let bound = self.bound.is_none_or(|bound| bound.total.is_finite());
-        bound && self.force.is_finite() && parts.into_iter().flatten().all(|x| x.is_finite())
+        let Solution { u, flux, contact_force, bound, certified, .. } = &self.answer;
+        let parts = [u, flux, &certified.vertices, &certified.bubbles, &certified.tau];
+        let bound = bound.is_none_or(|bound| bound.total.is_finite());
+        bound && contact_force.is_finite() && parts.into_iter().flatten().all(|x| x.is_finite())
     }
 }

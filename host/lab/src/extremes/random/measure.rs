@@ -6,7 +6,7 @@
 //! ```
 //! whatever the exact solution is: an answer that breaks it, or a finer one, has a bound that is wrong.
 
-use super::attempt::{Attempt, SolverAnswer};
+use super::attempt::Attempt;
 use super::case::{RandomCase, Way, Yardstick};
 use super::nested::{Apart, MeshSolution, apart};
 use super::outputs::{Asked, Intervals};
@@ -21,7 +21,7 @@ use signorini_scene::mesh::refine::refined;
 use signorini_scene::scene::units::Units;
 use signorini_solve::norms::errors;
 use signorini_solve::outputs::Reading;
-use signorini_solve::{Options, Solution, SolverKind, choose_units, solve};
+use signorini_solve::{Options, Solution, SolverKind, choose_units, solve, times};
 
 /// An answer beside the truth, in units in which its numbers are near 1.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -79,7 +79,7 @@ const RESOLVED: f64 = 1e-4;
 /// A scene that cannot be stated in its own units.
 pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
     let units = choose_units(&attempt.problem)?;
-    let answer = attempt.answer.clone().divided(&units);
+    let answer = times(&units.inverse(), attempt.answer.clone());
     let problem = match units == Units::default() {
         true => attempt.problem.clone(),
         false => attempt.problem.in_units(&units)?,
@@ -101,13 +101,13 @@ pub fn measure(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>>
 struct Held<'a> {
     case: &'a RandomCase,
     problem: &'a Problem,
-    answer: &'a SolverAnswer,
+    answer: &'a Solution,
     bound: ErrorBound,
 }
 
 impl Held<'_> {
     fn asked(&self) -> Asked<'_> {
-        let SolverAnswer { u, flux, certified, .. } = self.answer;
+        let Solution { u, flux, certified, .. } = self.answer;
         let (scalar, bound) = (self.case.effort.scalar, Some(self.bound));
         let total = Some(self.bound.total);
         Asked {
@@ -120,7 +120,7 @@ impl Held<'_> {
     }
 
     fn side(&self) -> MeshSolution<'_> {
-        let SolverAnswer { u, certified, .. } = self.answer;
+        let Solution { u, certified, .. } = self.answer;
         MeshSolution { problem: self.problem, admissible: certified.admissible(), u }
     }
 

@@ -155,7 +155,7 @@ fn row(seed: u64, number: u32) -> Row {
 
 /// Nothing is measured where a number is not finite.
 fn measured(case: &RandomCase, attempt: &Attempt) -> Result<Option<Measured>> {
-    if !attempt.answer.is_finite() {
+    if !attempt.is_finite() {
         return Ok(None);
     }
     measure(case, attempt)

@@ -125,7 +125,7 @@ impl Row {
         };
         Self {
             unknowns: Some(attempt.problem.topology.counts.unknowns()),
-            status: Some(attempt.answer.status),
+            status: Some(attempt.answer.status.name()),
             sweeps: Some(attempt.answer.sweeps),
             error_over_bound: measured.and_then(|of| over(of.least()[0], total(of) + of.total)),
             of_u_over_bound: measured.and_then(|of| over(of.least()[1], of.of_u_bound + of.total)),

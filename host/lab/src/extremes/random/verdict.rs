@@ -9,9 +9,10 @@ use super::outputs::Intervals;
 use super::residual::{ends, residual};
 use crate::extremes::judge::{Ended, INTEGRATED};
 use crate::extremes::measure::{self, Reference};
+use signorini_kernel::solver::Status;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
-use signorini_solve::ScalarKind;
+use signorini_solve::{Ending, ScalarKind};
 
 /// The identity is asked for where the gap is above so many times its rounding.
 const ROUNDINGS: f64 = 100.0;
@@ -95,16 +96,17 @@ fn identity(case: &RandomCase, found: &Measured) -> Option<Broken> {
 /// Converged means converged.
 fn status(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
     let asked = matches!(case.effort.way, Way::Sweeps | Way::Direct);
-    if !asked || !attempt.answer.success || case.effort.scalar != ScalarKind::F64 {
+    if !asked || !attempt.answer.converged() || case.effort.scalar != ScalarKind::F64 {
         return None;
     }
     let found = residual(&attempt.problem, &attempt.answer.u).ok()?;
-    let by_tolerance = attempt.answer.status == "converged" && case.effort.way == Way::Sweeps;
+    let by_tolerance =
+        attempt.answer.status == Ending::Solve(Status::Converged) && case.effort.way == Way::Sweeps;
     let most = LIMIT * found.rounding + if by_tolerance { CONVERGED } else { 0.0 };
     if found.scaled <= most {
         return None;
     }
-    let (status, residual) = (attempt.answer.status, found.scaled);
+    let (status, residual) = (attempt.answer.status.name(), found.scaled);
     broken("status", format!("{status}, scaled residual {residual:.3e} above {most:.3e}"))
 }
 
@@ -156,23 +158,23 @@ fn forces(case: &RandomCase, attempt: &Attempt) -> Option<Broken> {
         return broken("force", format!("τ·n is {worst:.3e} beyond its ends on an edge"));
     }
     let least = -(FORCE * epsilon + JUMP) * terms;
-    if answer.force >= least {
+    if answer.contact_force >= least {
         return None;
     }
-    broken("force", format!("{:.6e} below {least:.3e}", answer.force))
+    broken("force", format!("{:.6e} below {least:.3e}", answer.contact_force))
 }
 
 /// The answer as the axes judge theirs.
 pub fn ended(attempt: &Attempt, measured: Option<&Measured>) -> Ended {
     let answer = &attempt.answer;
-    let finite = answer.is_finite();
+    let finite = attempt.is_finite();
     let measured = measured.filter(|_| finite);
     let beyond = |of: &Measured| (of.combined - of.total).max(0.0);
     let reference =
         |of: &Measured| Reference { bound: of.best, error: f64::NAN, energy: of.energy };
     Ended::Answered {
-        success: answer.success,
-        status: answer.status,
+        success: answer.converged(),
+        status: answer.status.name(),
         measured: measure::Measured {
             bound: measured.and_then(|of| of.bound).map(|bound| bound.total),
             error: measured.map_or(f64::NAN, beyond),

@@ -1,8 +1,8 @@
 //! The ticks as the report draws them: one diagram a quantity, all over the same time.
 
-use super::TickRecord;
 use signorini_draw::{Band, Chart, Curve, Strip};
 use signorini_scene::scene::{Quantity, Scene};
+use signorini_session::tick::TickRecord;
 
 /// Collects the picture of `ticks`, with the budget of sweeps where there was one.
 pub fn picture(scene: &Scene, ticks: &[TickRecord], budget: Option<u32>) -> Chart {

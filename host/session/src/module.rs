@@ -1,21 +1,24 @@
 //! The controller that `bake` would write, on this machine.
 
-use signorini_kernel::verdict::Certificate;
-
-use super::{Engine, condensed, full};
-use crate::choice::{Choice, Model, Wanted};
-use crate::intervals::{narrowed, of_choice};
-use crate::setting;
+use signorini_bake::choice::{Choice, Model, Wanted};
+use signorini_bake::intervals::{narrowed, of_choice};
+use signorini_bake::setting;
 use signorini_certify::ErrorBound;
+use signorini_kernel::verdict::Certificate;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
-use signorini_scene::error::Result;
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::setting::ModelKind;
 use signorini_solve::ScalarKind;
+
+use crate::Session;
+use crate::condensed::Condensed;
+use crate::full::with_full;
 
 /// How far each output may be off where answers have such a bound.
 type PlusMinus = Box<dyn Fn(&ErrorBound) -> Vec<f64>>;
 
-/// What is known of a module beside its answers.
+/// Facts about a module beside its answers.
 pub struct Module {
     /// Its model, solver and scalar in a few words.
     pub name: String,
@@ -41,28 +44,27 @@ impl Module {
     }
 }
 
-/// Lends the engine of the module that `bake` writes for `problem`, and what is known of the module: model, solver and scalar are
-/// chosen as there, `asked` being the scalar of the command line.
+/// Calls `then` with a session of the module that `bake` writes for `problem`, and what is known of the module: model, solver and
+/// scalar are chosen as there, `asked` being the scalar of the command line.
 ///
 /// # Errors
 /// Those of `bake`: no model that represents the scene or fits its target.
-pub fn baked<T>(
+pub fn with_module<T>(
     problem: &Problem,
     asked: Option<ScalarKind>,
-    then: impl FnOnce(&mut dyn Engine, &Module) -> Result<T>,
+    then: impl FnOnce(&mut dyn Session, &Module) -> Result<T>,
 ) -> Result<T> {
     match setting::scalar(&problem.scene, asked)? {
-        ScalarKind::F32 => baked_in::<f32, T>(problem, then),
-        ScalarKind::F64 => baked_in::<f64, T>(problem, then),
+        ScalarKind::F32 => in_scalar::<f32, T>(problem, then),
+        ScalarKind::F64 => in_scalar::<f64, T>(problem, then),
     }
 }
 
-fn baked_in<R: Scalar, T>(
+fn in_scalar<R: Scalar, T>(
     problem: &Problem,
-    then: impl FnOnce(&mut dyn Engine, &Module) -> Result<T>,
+    then: impl FnOnce(&mut dyn Session, &Module) -> Result<T>,
 ) -> Result<T> {
     let choice = Choice::<R>::new(problem, Wanted::default())?;
-    let candidate = choice.candidate();
     let weighed = of_choice(problem, &choice);
     let reasons = weighed.iter().map(|of| of.as_ref().err().cloned()).collect();
     let weights: Vec<_> = weighed.iter().map(narrowed::<R>).collect();
@@ -75,10 +77,34 @@ fn baked_in<R: Scalar, T>(
         };
         weights.iter().map(|of| of.within(&certificate).wide()).collect()
     };
-    let name = format!("{}, {}", candidate.name, R::NAME);
+    let name = format!("{}, {}", choice.candidate().name, R::NAME);
     let module = Module { name, plus_minus: Box::new(plus_minus), reasons };
-    match &candidate.model {
-        Model::Condensed(_) => condensed::lend(problem, &choice, |engine| then(engine, &module)),
-        Model::Full(baked) => full::lend(&problem.scene, baked, |engine| then(engine, &module)),
+    with_choice(problem, &choice, |session| then(session, &module))
+}
+
+/// Calls `then` with a session of the condensed model of `problem`.
+///
+/// # Errors
+/// What keeps that model from existing.
+pub(crate) fn with_condensed<R: Scalar, T>(
+    problem: &Problem,
+    then: impl FnOnce(&mut dyn Session) -> Result<T>,
+) -> Result<T> {
+    let choice = Choice::<R>::new(problem, Wanted::model(ModelKind::Condensed))?;
+    with_choice(problem, &choice, then)
+}
+
+fn with_choice<R: Scalar, T>(
+    problem: &Problem,
+    choice: &Choice<R>,
+    then: impl FnOnce(&mut dyn Session) -> Result<T>,
+) -> Result<T> {
+    if let Model::Full(baked) = &choice.candidate().model {
+        return with_full(&problem.scene, baked, then);
     }
+    let Some((baked, origin)) = choice.condensed() else {
+        let message = "setting.model: there is no condensed model of this scene";
+        return Err(InputError::new(message).file(&problem.scene.path).into());
+    };
+    then(&mut Condensed::new(problem, baked, origin))
 }

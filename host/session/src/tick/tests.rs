@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use super::replay;
-use crate::choice::{Choice, Model, Wanted};
-use crate::compiled::printed;
-use crate::module_api::ModuleApi;
-use crate::tick::ScheduledTick;
-use crate::{condensed, full};
+use super::{ScheduledTick, replay};
+use signorini_bake::choice::{Choice, Model, Wanted};
+use signorini_bake::compiled::printed;
+use signorini_bake::module_api::ModuleApi;
+use signorini_bake::{condensed, full};
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::mesh;
@@ -72,7 +71,7 @@ fn same_bits(name: &str, setting: Option<Setting>) -> Result<String> {
         let bits = tick.outputs.iter().map(|x| (x.expect("a number") as f32).to_bits());
         let (numbers, ended) = line.rsplit_once(' ').expect("an end");
         assert_eq!(numbers, format!("{:?} {}", bits.collect::<Vec<_>>(), tick.sweeps), "{name}");
-        assert_eq!(word(ended), tick.status, "{name}");
+        assert_eq!(word(ended), tick.status.name(), "{name}");
     }
     Ok(model)
 }

@@ -14,7 +14,8 @@ pub fn ticks_csv(scene: &Scene, ticks: &[TickRecord]) -> csv::Result<Vec<u8>> {
     let outputs = scene.outputs.iter().map(|output| output.name.value.as_str());
     writer.write_record(fixed.into_iter().chain(combined).chain(outputs))?;
     for tick in ticks {
-        let mut fields = vec![digits(tick.time), tick.status.to_owned(), tick.sweeps.to_string()];
+        let mut fields =
+            vec![digits(tick.time), tick.status.name().to_owned(), tick.sweeps.to_string()];
         let bound = tick.bound.map(|bound| bound.total);
         let combined = scene.exact.iter().map(|_| tick.combined);
         let numbers = [tick.contact_force, tick.contact_length, bound].into_iter().chain(combined);

@@ -1,17 +1,13 @@
-//! How a scene is to be solved: as its setting says, or as somebody asks instead.
+//! How a scene is to be solved: as its setting says, or as a request says instead.
 
-use crate::engine;
 use signorini_problem::Problem;
 use signorini_scene::error::Result;
 use signorini_scene::setting::{Precision, Setting};
 use signorini_solve::{Options, ScalarKind, Solution, SolverKind, solve};
 
-/// Sweeps without a number that somebody asks for.
-const SWEEPS: u32 = 1_000_000;
-
-/// What is asked for; the scene's setting, then a default, has the rest.
+/// Parts of how to solve that are given; the scene's setting, then a default, has the rest.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Asked {
+pub struct SolveRequest {
     /// The scalar type.
     pub scalar: Option<ScalarKind>,
     /// The solver.
@@ -24,14 +20,14 @@ pub struct Asked {
     pub refined: bool,
 }
 
-impl Asked {
+impl SolveRequest {
     /// Whether it leaves how to solve to the scene.
     pub fn follows_setting(&self) -> bool {
         let chosen = self.solver.is_some() || self.tolerance.is_some();
         !chosen && self.max_sweeps.is_none() && !self.refined
     }
 
-    /// Solves a problem, as its scene's setting says where it has one and nothing else is asked for.
+    /// Solves a problem, as its scene's setting says where it has one and the request follows it.
     ///
     /// # Errors
     /// Data or a setting that cannot be solved with.
@@ -47,12 +43,12 @@ impl Asked {
                 ScalarKind::F64 => Precision::F64,
             });
             let setting = Setting { scalar: scalar.or(own), ..setting };
-            return engine::solve(&problem.with_setting(Some(setting)));
+            return crate::solve(&problem.with_setting(Some(setting)));
         }
         solve(problem, &self.options(own))
     }
 
-    /// What is asked for; `own` is the scalar of the scene's setting.
+    /// The solver's options; `own` is the scalar of the scene's setting.
     pub fn options(&self, own: Option<Precision>) -> Options {
         let single = own == Some(Precision::F32);
         let scalar = self.scalar.unwrap_or(if single { ScalarKind::F32 } else { ScalarKind::F64 });
@@ -60,12 +56,12 @@ impl Asked {
             scalar,
             solver: self.solver(),
             tolerance: self.tolerance,
-            to_the_floor: false,
-            max_sweeps: self.max_sweeps.unwrap_or(SWEEPS),
+            max_sweeps: self.max_sweeps.unwrap_or(Options::default().max_sweeps),
+            ..Options::default()
         }
     }
 
-    /// A number of sweeps is for who sweeps.
+    /// The solver: `max_sweeps` implies the one that sweeps.
     fn solver(&self) -> SolverKind {
         match (self.solver, self.max_sweeps) {
             (None | Some(SolverKind::Auto), Some(_)) => SolverKind::Kernel,

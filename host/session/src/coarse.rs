@@ -1,13 +1,13 @@
 //! A start from a coarser mesh: solved there first, and brought to the fine one.
 
 use signorini_kernel::element::crouzeix_raviart;
-use signorini_kernel::prolongation::Origin;
+use signorini_kernel::prolongation::{Origin, prolong};
 
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::search::{LocatedPoint, Search};
 use signorini_scene::error::{InputError, Result};
-use signorini_solve::{Options, SolverKind, solve};
+use signorini_solve::{Options, SolverKind, prefers_factor, solve, unfit};
 
 /// Means of u over the edges of `coarse`.
 ///
@@ -16,6 +16,30 @@ use signorini_solve::{Options, SolverKind, solve};
 pub fn solved(coarse: &Problem) -> Result<Vec<f64>> {
     let options = Options { solver: SolverKind::Auto, ..Options::default() };
     Ok(solve(coarse, &options)?.u)
+}
+
+/// Sets `u`, one mean per edge of `problem`, to where a first tick starts: to the solution on `coarse`, the same problem on a
+/// coarser mesh, where there is one, else to `problem`'s own where `is_open` and a factor finds it sooner than cold sweeps,
+/// which on a large mesh would take longer than all ticks after them.
+///
+/// # Errors
+/// As for [`solve`]; numbers that the scalar cannot hold.
+pub(crate) fn start<R: Scalar>(
+    problem: &Problem,
+    coarse: Option<&Problem>,
+    is_open: bool,
+    u: &mut [R],
+) -> Result<()> {
+    if let Some(coarse) = coarse {
+        let means: Vec<R> = solved(coarse)?.into_iter().map(R::narrow).collect();
+        let origins = origins(problem, coarse)?;
+        return prolong(&origins, &means, u).map_err(unfit::<R>(&problem.scene));
+    }
+    if is_open && prefers_factor(problem) {
+        let means = solved(problem)?.into_iter().map(R::narrow);
+        u.iter_mut().zip(means).for_each(|(u, mean)| *u = mean);
+    }
+    Ok(())
 }
 
 /// For every edge of `fine` the sides of the coarse cell that its middle lies in.

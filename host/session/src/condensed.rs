@@ -1,0 +1,113 @@
+//! The controller of a condensed model, with the way back to fields on the mesh.
+
+use signorini_bake::choice::Origin;
+use signorini_bake::condensed::{Baked, Controller};
+use signorini_certify::{ErrorBound, NoBound};
+use signorini_condense::CondensedModel;
+use signorini_kernel::report::{Ended, Report};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Result;
+use signorini_solve::{Ending, Ran, Solution, unfit};
+
+use crate::Session;
+
+/// A session of a condensed model.
+pub(crate) struct Condensed<'b, R: Scalar> {
+    problem: &'b Problem,
+    origin: &'b Origin,
+    baked: &'b Baked<R>,
+    controller: Controller<'b, R>,
+    inputs: Vec<R>,
+    /// Outputs and report of the last tick.
+    last: Option<(Vec<R>, Report<R>)>,
+}
+
+impl<'b, R: Scalar> Condensed<'b, R> {
+    /// A session of `baked`, the model of `problem` that was made of `origin`.
+    pub fn new(problem: &'b Problem, baked: &'b Baked<R>, origin: &'b Origin) -> Self {
+        let controller = Controller::new(baked);
+        Self { problem, origin, baked, controller, inputs: Vec::new(), last: None }
+    }
+
+    fn ran(&self, ended: Ended) -> Ran {
+        match ended {
+            _ if self.baked.contact == 0 => Ran::CondensedLinear,
+            Ended::Exact => Ran::CondensedExact,
+            _ => Ran::CondensedSweeps,
+        }
+    }
+}
+
+impl<R: Scalar> Session for Condensed<'_, R> {
+    fn pose(&mut self, _: &Problem) -> Result<()> {
+        Ok(())
+    }
+
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
+        self.inputs.clear();
+        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
+        let last = self.controller.tick(&self.inputs).map_err(unfit::<R>(&self.problem.scene))?;
+        let sweeps = last.1.sweeps;
+        self.last = Some(last);
+        Ok(sweeps)
+    }
+
+    fn restart(&mut self) {
+        (self.controller, self.last) = (Controller::new(self.baked), None);
+    }
+
+    fn answer(&self, at: &Problem) -> Result<Solution> {
+        let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
+        let x: Vec<f64> = self.controller.x().iter().map(|x| x.wide()).collect();
+        let p: Vec<f64> =
+            std::iter::once(1.0).chain(self.inputs.iter().map(|p| p.wide())).collect();
+        let Origin { whole, recovery, .. } = self.origin;
+        let x = self.origin.expand(&p, x);
+        let p = self.origin.inputs(p, &x);
+        let (mut u, flux) = recovery.field(whole, &p, &x);
+        let active: Vec<_> = whole.by_edge(&x).into_iter().map(|x| x == 0.0).collect();
+        // A sum of columns meets the gap but for rounding; a reader that asks for contact compares the two.
+        let contact = u[at.topology.counts.free..].iter_mut().zip(&at.loads.gap).zip(&active);
+        for ((u, &gap), _) in contact.filter(|(_, active)| **active) {
+            *u = gap;
+        }
+        let certificate = report.certificate();
+        let data = || whole.certificate.as_ref().err().cloned().map(NoBound::Condensed);
+        let certified = recovery.admissible(whole, at, &p, &x).filter(|_| certificate.is_some());
+        let solution = Solution {
+            scalar: crate::scalar_kind::<R>(),
+            status: Ending::Tick(report.ended),
+            ran: self.ran(report.ended),
+            outputs: outputs.iter().map(|x| x.wide()).collect(),
+            sweeps: report.sweeps,
+            omega: self.baked.sweeps.omega.wide(),
+            algebraic_residual: largest_violation(whole, &p, &x),
+            contact_force: whole.force(&p, &x),
+            bound: certificate.map(ErrorBound::new),
+            no_bound: NoBound::of_verdict(&report.verdict, at, data),
+            certified: certified.unwrap_or_default(),
+            u,
+            flux,
+            ..Solution::default()
+        };
+        Ok(solution.with_active(at, active.into_iter()))
+    }
+}
+
+/// How far the law of contact fails, over the largest x or residual: max |min(x, r)| where no flux has a limit.
+fn largest_violation(whole: &CondensedModel, p: &[f64], x: &[f64]) -> f64 {
+    let (residual, spans) = (whole.residual(p, x), whole.span_of(p));
+    let size = x.iter().chain(&residual).fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let violations = residual.iter().zip(x).enumerate().map(|(at, (r, x))| {
+        let span = spans.get(at).copied().unwrap_or(f64::INFINITY);
+        // x > 0 goes with the least flux, x < 0 with the largest.
+        let (to_least, to_most) = (r - span.min(0.0), span.max(0.0) - r);
+        match *x {
+            x if x > 0.0 => to_least.min(x).abs(),
+            x if x < 0.0 => to_most.min(-x).abs(),
+            _ => (-to_least).max(-to_most).max(0.0),
+        }
+    });
+    violations.fold(0.0, f64::max) / size
+}

@@ -1,0 +1,92 @@
+//! The controller of a full model: the mesh, swept as a baked module does.
+
+use signorini_bake::full::{Baked, Controller};
+use signorini_certify::{CertifiedFields, Data, NoBound};
+use signorini_device::tick::Report;
+use signorini_kernel::rows::{QUADS, TRIANGLES};
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_solve::{Factored, Ran, Solution, unfit};
+
+use crate::Session;
+use crate::on_mesh::{Arrays, answer};
+
+struct Full<'b, R: Scalar, const WIDTH: usize> {
+    scene: &'b Scene,
+    baked: &'b Baked<R>,
+    controller: Controller<'b, R, WIDTH>,
+    inputs: Vec<R>,
+    /// Outputs and report of the last tick.
+    last: Option<(Vec<R>, Report<R>)>,
+}
+
+/// Calls `then` with a session of a baked model of `scene`.
+pub(crate) fn with_full<R: Scalar, T>(
+    scene: &Scene,
+    baked: &Baked<R>,
+    then: impl FnOnce(&mut dyn Session) -> Result<T>,
+) -> Result<T> {
+    match baked.has_quads() {
+        true => then(&mut Full::<R, QUADS>::new(scene, baked)),
+        false => then(&mut Full::<R, TRIANGLES>::new(scene, baked)),
+    }
+}
+
+impl<'b, R: Scalar, const WIDTH: usize> Full<'b, R, WIDTH> {
+    fn new(scene: &'b Scene, baked: &'b Baked<R>) -> Self {
+        let controller = Controller::new(baked);
+        Self { scene, baked, controller, inputs: Vec::new(), last: None }
+    }
+
+    fn factored(&self) -> Option<Factored> {
+        let (entries, solved) = self.baked.entries().zip(self.controller.solved())?;
+        Some(Factored { entries, exchanges: solved.pivots, rounds: solved.rounds })
+    }
+}
+
+impl<R: Scalar, const WIDTH: usize> Session for Full<'_, R, WIDTH> {
+    fn pose(&mut self, _: &Problem) -> Result<()> {
+        Ok(())
+    }
+
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32> {
+        self.inputs.clear();
+        self.inputs.extend(inputs.iter().map(|&x| R::narrow(x)));
+        let last = self.controller.tick(&self.inputs).map_err(unfit::<R>(self.scene))?;
+        let sweeps = last.1.sweeps;
+        self.last = Some(last);
+        Ok(sweeps)
+    }
+
+    fn restart(&mut self) {
+        (self.controller, self.last) = (Controller::new(self.baked), None);
+    }
+
+    fn answer(&self, at: &Problem) -> Result<Solution> {
+        let Some((outputs, report)) = &self.last else { return Ok(Solution::default()) };
+        let arrays = Arrays {
+            u: self.controller.u(),
+            tau: self.controller.tau(),
+            vertices: self.controller.vertices(),
+            bubbles: self.controller.bubbles(),
+        };
+        let found = answer(report, &arrays, &self.baked.units());
+        let data = Data::<f64>::new(at)?;
+        let factored = self.factored();
+        let active = arrays.u.iter().skip(at.topology.counts.free).zip(self.controller.lower());
+        let solution = Solution {
+            ran: if factored.is_some() { Ran::Factor } else { Ran::Sweeps },
+            factored,
+            outputs: outputs.iter().map(|x| x.wide()).collect(),
+            no_bound: NoBound::of_verdict(&report.verdict, at, || data.no_bound().cloned()),
+            certified: match found.bound {
+                Some(_) => found.certified,
+                None => CertifiedFields::default(),
+            },
+            ..found
+        };
+        Ok(solution.with_active(at, active.map(|(u, lower)| u == lower)))
+    }
+}

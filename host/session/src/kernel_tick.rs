@@ -1,0 +1,144 @@
+//! The kernel's tick on a scene whose parts D or R holds: the code of a device, on data that are integrated for each moment.
+
+use signorini_certify::Certifier;
+use signorini_device::tick::{
+    CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick,
+};
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::{Error as KernelError, Libm, contact};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
+use signorini_scene::error::Result;
+use signorini_scene::scene::units::Units;
+use signorini_solve::{Solution, unfit};
+
+use crate::Session;
+use crate::on_mesh::{self, Arrays};
+
+struct KernelTick<'p, R: Scalar, const WIDTH: usize> {
+    least: &'p Problem,
+    /// Matrix and forest of the least transfer coefficients: ways out lead where something passes in every tick.
+    fixed: Assembled<'p, R>,
+    certifier: Certifier<R>,
+    /// The matrix with the data of the present tick.
+    moving: Assembled<'p, R>,
+    data: signorini_certify::Data<R>,
+    limits: Limits<R>,
+    start: Vec<R>,
+    memory: Owned<R, WIDTH>,
+    /// `None` before the first tick.
+    last: Option<(Progress<R>, Report<R>)>,
+}
+
+/// A session of the kernel's ticks within `limits`, for a problem and the same at its least transfer coefficients. The first
+/// tick starts from the means that `start` leaves in its slice, one per edge.
+///
+/// # Errors
+/// Numbers that the scalar type cannot hold; what `start` fails with.
+pub(crate) fn session<'p, R: Scalar>(
+    problem: &Problem,
+    least: &'p Problem,
+    limits: Limits<R>,
+    start: impl FnOnce(&mut [R]) -> Result<()>,
+) -> Result<Box<dyn Session + 'p>> {
+    Ok(match problem.mesh.quads.is_empty() {
+        true => Box::new(KernelTick::<R, TRIANGLES>::new(problem, least, limits, start)?),
+        false => Box::new(KernelTick::<R, QUADS>::new(problem, least, limits, start)?),
+    })
+}
+
+/// Memory of a tick.
+struct Owned<R, const WIDTH: usize> {
+    rows: Vec<Row<R, u32, WIDTH>>,
+    load: Vec<R>,
+    active: Vec<bool>,
+    vertices: Vec<R>,
+    bubbles: Vec<R>,
+    tau: Vec<R>,
+    u: Vec<R>,
+}
+
+impl<R: Scalar, const WIDTH: usize> Owned<R, WIDTH> {
+    fn new(problem: &Problem, u: Vec<R>) -> Self {
+        let counts = problem.topology.counts;
+        let zeros = |length| vec![R::ZERO; length];
+        Self {
+            rows: vec![Row::EMPTY; counts.unknowns()],
+            load: zeros(counts.unknowns()),
+            active: vec![false; counts.contact],
+            vertices: zeros(problem.mesh.vertices.len()),
+            bubbles: zeros(counts.edges()),
+            tau: zeros(counts.edges()),
+            u,
+        }
+    }
+}
+
+impl<'p, R: Scalar, const WIDTH: usize> KernelTick<'p, R, WIDTH> {
+    fn new(
+        problem: &Problem,
+        least: &'p Problem,
+        limits: Limits<R>,
+        start: impl FnOnce(&mut [R]) -> Result<()>,
+    ) -> Result<Self> {
+        let unfit = unfit::<R>(&problem.scene);
+        let parts = Parts::whatever_inputs(problem)?;
+        let fixed = Assembled::<R>::new(least).map_err(&unfit)?;
+        let certifier = Certifier::new(least, &parts, &fixed).map_err(&unfit)?;
+        let mut u = fixed.start();
+        start(&mut u)?;
+        let data =
+            signorini_certify::Data::new(problem).map_err(|error| error.at_time(problem.time))?;
+        let (moving, memory) = (fixed.clone(), Owned::new(problem, u.clone()));
+        Ok(Self { least, fixed, certifier, moving, data, limits, start: u, memory, last: None })
+    }
+
+    fn advance(&mut self) -> std::result::Result<u32, KernelError> {
+        let discretization = self.certifier.discretization(&self.fixed)?;
+        let Owned { rows, load, active, vertices, bubbles, tau, u } = &mut self.memory;
+        let unknowns = load.len();
+        let rows = Rows::new(&discretization.edges, rows)?;
+        let memory = Memory { rows, load, active, vertices, bubbles, tau, u };
+        let mut tick = match self.last {
+            Some((progress, _)) => Tick::resume(discretization, memory, progress)?,
+            None => Tick::new(discretization, memory, Relaxation::for_unknowns(unknowns))?,
+        };
+        let given = self.data.given(&self.moving)?;
+        let (law, dirichlet) = (self.moving.law(), self.moving.dirichlet());
+        let mut running = tick.begin(Data { given, law, dirichlet })?;
+        let never = &mut Deadline::never();
+        let report = running.advance(CertifiedSweeps(Libm), self.limits, never)?;
+        self.last = Some((tick.progress(), report));
+        Ok(report.sweeps)
+    }
+}
+
+impl<R: Scalar, const WIDTH: usize> Session for KernelTick<'_, R, WIDTH> {
+    fn pose(&mut self, at: &Problem) -> Result<()> {
+        self.moving.set_loads(&at.loads).map_err(unfit::<R>(&at.scene))?;
+        self.data = signorini_certify::Data::new(at)?;
+        Ok(())
+    }
+
+    fn tick(&mut self, _: &[f64]) -> Result<u32> {
+        let scene = &self.least.scene;
+        self.advance().map_err(unfit::<R>(scene))
+    }
+
+    fn restart(&mut self) {
+        self.memory.u.copy_from_slice(&self.start);
+        self.last = None;
+    }
+
+    fn answer(&self, at: &Problem) -> Result<Solution> {
+        let Some((_, report)) = &self.last else { return Ok(Solution::default()) };
+        let Owned { u, tau, vertices, bubbles, .. } = &self.memory;
+        let found =
+            on_mesh::answer(report, &Arrays { u, tau, vertices, bubbles }, &Units::default());
+        let (counts, law) = (at.topology.counts, self.moving.law());
+        let active = (0..counts.contact).map(|at| contact::is_active(counts, law, u, at));
+        let bound = found.bound.filter(|_| self.data.has_bound());
+        Ok(Solution { bound, ..found }.with_active(at, active))
+    }
+}

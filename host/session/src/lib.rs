@@ -1,0 +1,71 @@
+//! A scene answered tick after tick, whatever answers.
+//!
+//! ```text
+//!                      ┌─ condensed, full   the controller that `bake` writes, on this machine
+//!   Problem ─► Session ┼─ kernel_tick       the kernel's tick, on data that are integrated anew for each moment
+//!                      └─ solves            one solve per tick, where the kernel's tick cannot go, and in f32+f64
+//!                              │
+//!                              └─► Solution, of a tick as of a solve
+//! ```
+//! A scene's setting chooses the session ([`with_session`]), or `bake` does ([`with_module`]). [`request`] solves a scene once,
+//! [`tick`] plays it over time.
+
+pub mod coarse;
+mod condensed;
+mod full;
+mod kernel_tick;
+mod module;
+mod on_mesh;
+pub mod request;
+mod setting;
+mod solves;
+pub mod tick;
+
+pub use module::{Module, with_module};
+pub use setting::{completed, solve, with_session};
+
+use signorini_problem::Problem;
+use signorini_problem::scalar::Scalar;
+use signorini_scene::error::Result;
+use signorini_solve::{ScalarKind, Solution};
+
+/// A scene that is answered tick after tick. The state that it carries is where the next tick starts.
+pub trait Session {
+    /// Takes over the data of `at`: the session's problem with other inputs, or at another time. Data of a controller are
+    /// baked, and follow its inputs alone.
+    ///
+    /// # Errors
+    /// Data without an answer, or beyond the session's scalar.
+    fn pose(&mut self, at: &Problem) -> Result<()>;
+
+    /// Answers for the data posed last and, of a controller, for these inputs in the order of the scene. Returns the
+    /// sweeps. A study times this.
+    ///
+    /// # Errors
+    /// Inputs without an answer: the answer and the state before stay.
+    fn tick(&mut self, inputs: &[f64]) -> Result<u32>;
+
+    /// Goes back to the state before the first tick.
+    fn restart(&mut self);
+
+    /// The answer of the last tick, whose inputs and data were those of `at`; empty before the first.
+    ///
+    /// # Errors
+    /// Numbers that do not fit.
+    fn answer(&self, at: &Problem) -> Result<Solution>;
+
+    /// Poses `at` and answers for its inputs.
+    ///
+    /// # Errors
+    /// As for [`Session::pose`] and [`Session::tick`].
+    fn play(&mut self, at: &Problem) -> Result<u32> {
+        self.pose(at)?;
+        let inputs: Vec<f64> = at.scene.inputs.iter().map(|input| input.default).collect();
+        self.tick(&inputs)
+    }
+}
+
+/// The scalar type of a session in `R`.
+fn scalar_kind<R: Scalar>() -> ScalarKind {
+    if size_of::<R>() == size_of::<f32>() { ScalarKind::F32 } else { ScalarKind::F64 }
+}

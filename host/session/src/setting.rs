@@ -1,0 +1,115 @@
+//! A scene answered as its setting says: by the code that firmware runs, on this machine.
+
+use std::fmt::Display;
+use std::time::Instant;
+
+use signorini_bake::full::Baked;
+use signorini_problem::inputs::{InputSpace, drawn};
+use signorini_problem::{Approach, Parts, Problem, Property};
+use signorini_scene::error::{InputError, Result};
+use signorini_scene::scene::Scene;
+use signorini_scene::setting::{MathKind, Method, ModelKind, Precision, Setting, Start};
+use signorini_solve::{Ending, ScalarKind, Seconds, Solution};
+
+use crate::Session;
+use crate::full::with_full;
+use crate::module::with_condensed;
+use crate::solves::with_solves;
+
+/// The setting of a scene with what is left open filled in: full, in f64.
+pub fn completed(scene: &Scene) -> Setting {
+    let setting = scene.setting.unwrap_or_default();
+    Setting {
+        scalar: setting.scalar.or(Some(Precision::F64)),
+        model: setting.model_kind().or(Some(ModelKind::Full)),
+        ..setting
+    }
+}
+
+/// Calls `then` with the session of `problem` that its setting says.
+///
+/// # Errors
+/// A setting that the scene does not allow for, numbers that the scalar cannot hold.
+pub fn with_session<T>(
+    problem: &Problem,
+    then: impl FnOnce(&mut dyn Session) -> Result<T>,
+) -> Result<T> {
+    let setting = completed(&problem.scene);
+    let mixed = setting.scalar == Some(Precision::Mixed);
+    let single = setting.scalar == Some(Precision::F32);
+    let lack = Approach::Tick.lack(problem)?.map(|lack| lack.property);
+    match (setting.model, lack) {
+        (Some(ModelKind::Condensed), _) if mixed => {
+            Err(no_mixed(&problem.scene, "a condensed model").into())
+        }
+        (Some(ModelKind::Condensed), _) if single => with_condensed::<f32, _>(problem, then),
+        (Some(ModelKind::Condensed), _) => with_condensed::<f64, _>(problem, then),
+        (_, Some(property)) => {
+            refuse_tick_keys(&problem.scene, &setting, property)?;
+            with_solves(problem, &setting, then)
+        }
+        _ if mixed => with_solves(problem, &setting, then),
+        _ if single => with_full(&problem.scene, &Baked::<f32>::new(problem)?, then),
+        _ => with_full(&problem.scene, &Baked::<f64>::new(problem)?, then),
+    }
+}
+
+/// Refuses keys of the setting that mean the kernel's tick, where `property` leaves none.
+fn refuse_tick_keys(scene: &Scene, setting: &Setting, property: Property) -> Result<()> {
+    let refused = |key: &str, what: &str| {
+        let message = format!("setting.{key}: {what} is not for {property}");
+        InputError::new(message).file(&scene.path).hint("remove it, or take model = \"condensed\"")
+    };
+    if setting.scalar == Some(Precision::Mixed) {
+        return Err(no_mixed(scene, property).into());
+    }
+    if setting.solver == Some(Method::Factor) {
+        return Err(refused("solver", "a factor").into());
+    }
+    if setting.math == MathKind::Micromath {
+        return Err(refused("math", "micromath").into());
+    }
+    Ok(())
+}
+
+fn no_mixed(scene: &Scene, what: impl Display) -> InputError {
+    InputError::new(format!("setting.scalar: f32+f64 is not for {what}"))
+        .file(&scene.path)
+        .hint("take f32 or f64")
+}
+
+/// Ticks before the one that is asked for: a fixed number of warm sweeps is one of a controller that has run for a
+/// while, with inputs around the defaults as a trade study draws them.
+fn earlier(scene: &Scene) -> Vec<Vec<f64>> {
+    const TICKS: usize = 100;
+    let setting = completed(scene);
+    let runs = setting.start == Start::Warm && setting.sweeps.is_some() && !scene.inputs.is_empty();
+    if runs { drawn::<f64>(&InputSpace::of(scene), TICKS).collect() } else { Vec::new() }
+}
+
+/// Solves `problem` for its default inputs and at t = 0, as its setting says.
+///
+/// # Errors
+/// As for [`with_session`].
+pub fn solve(problem: &Problem) -> Result<Solution> {
+    let problem = &problem.restated(Scene::clone(&problem.scene).at_rest());
+    let parts = Parts::examine(problem)?.counts;
+    let start = Instant::now();
+    let inputs: Vec<f64> = problem.scene.inputs.iter().map(|input| input.default).collect();
+    let (assembly, all, found) = with_session(problem, |session| {
+        let assembly = start.elapsed().as_secs_f64();
+        for earlier in earlier(&problem.scene) {
+            session.tick(&earlier)?;
+        }
+        session.tick(&inputs)?;
+        Ok((assembly, start.elapsed().as_secs_f64(), session.answer(problem)?))
+    })?;
+    let single = completed(&problem.scene).scalar == Some(Precision::F32);
+    Ok(Solution {
+        scalar: if single { ScalarKind::F32 } else { ScalarKind::F64 },
+        status: Ending::Solve(found.status.of_solve()),
+        parts,
+        seconds: Seconds { assembly, solve: all - assembly, ..Seconds::default() },
+        ..found
+    })
+}

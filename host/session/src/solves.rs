@@ -1,0 +1,300 @@
+//! One solve per tick, where the kernel's tick cannot go.
+//!
+//! That is a domain that contact alone or nothing holds, whose parts have to be shifted, which the kernel's solver
+//! does and its tick does not; and sweeps in f32 on residuals in f64. A cold session solves each tick from nothing, a warm one
+//! from the last answer, with the relaxation factor found there.
+
+use signorini_bound::certificate::Certificate;
+use signorini_certify::{Certified, CertifiedFields, Certifier, Data, ErrorBound, NoBound};
+use signorini_kernel::Error as KernelError;
+use signorini_kernel::relaxation::Relaxation;
+use signorini_kernel::rows::{QUADS, Row, Rows, TRIANGLES};
+use signorini_kernel::solver::{Outcome, Settings, Solver, Status};
+use signorini_problem::scalar::Scalar;
+use signorini_problem::{Assembled, Parts, Problem};
+use signorini_scene::error::Result;
+use signorini_scene::setting::{Omega, Precision, Setting};
+use signorini_solve::{Mixed, Options, Solution, read_off, unfit};
+
+use crate::{Session, scalar_kind};
+
+type Refused<T> = std::result::Result<T, KernelError>;
+
+/// Sweeps before the first certificate, where certificates tell when to end.
+const FIRST: u32 = 16;
+
+/// An assembled problem that can be swept.
+pub(crate) trait Sweeps<'p, R: Scalar> {
+    /// The problem in the scalar of its answers.
+    fn assembled(&self) -> &Assembled<'p, R>;
+
+    /// See [`Sweeps::assembled`]; its loads may change.
+    fn assembled_mut(&mut self) -> &mut Assembled<'p, R>;
+
+    /// Sweeps from where `u` stands.
+    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>>;
+}
+
+impl<'p, R: Scalar> Sweeps<'p, R> for Assembled<'p, R> {
+    fn assembled(&self) -> &Self {
+        self
+    }
+
+    fn assembled_mut(&mut self) -> &mut Self {
+        self
+    }
+
+    fn run(&mut self, settings: Settings<R>, u: &mut [R]) -> Refused<Outcome<R>> {
+        match self.problem().mesh.quads.is_empty() {
+            true => run::<R, TRIANGLES>(self, settings, u),
+            false => run::<R, QUADS>(self, settings, u),
+        }
+    }
+}
+
+impl<'p> Sweeps<'p, f64> for Mixed<'p> {
+    fn assembled(&self) -> &Assembled<'p, f64> {
+        Mixed::assembled(self)
+    }
+
+    fn assembled_mut(&mut self) -> &mut Assembled<'p, f64> {
+        Mixed::assembled_mut(self)
+    }
+
+    fn run(&mut self, settings: Settings<f64>, u: &mut [f64]) -> Refused<Outcome<f64>> {
+        Ok(Mixed::run(self, settings, u)?.outcome)
+    }
+}
+
+/// A solve per tick.
+pub(crate) struct Solves<R: Scalar, S> {
+    parts: Parts,
+    swept: S,
+    /// `None` where no certificate is asked for.
+    certifier: Option<(Certifier<R>, Data<R>)>,
+    settings: Settings<R>,
+    /// The share of the bound that may be left to sweeps, where that ends a solve.
+    share: Option<f64>,
+    /// Whether a tick starts from the last one.
+    is_warm: bool,
+    u: Vec<R>,
+    /// `None` before the first tick.
+    outcome: Option<Outcome<R>>,
+    certificate: Option<Certificate<R>>,
+    /// The ω that the last solve has found.
+    omega: Option<R>,
+}
+
+/// Calls `then` with a session of cold solves, in the scalar of the setting.
+pub(crate) fn with_solves<T>(
+    problem: &Problem,
+    setting: &Setting,
+    then: impl FnOnce(&mut dyn Session) -> Result<T>,
+) -> Result<T> {
+    if setting.scalar == Some(Precision::Mixed) {
+        let parts = Parts::examine(problem)?;
+        let mixed = Mixed::new(problem, &parts).map_err(unfit::<f32>(&problem.scene))?;
+        let by_share = setting.certificate && setting.sweeps.is_none();
+        let share = setting.share.unwrap_or(signorini_bake::full::SHARE);
+        let solves = Solves::new(problem, mixed, settings(setting), setting.certificate)?;
+        return then(&mut Solves { share: by_share.then_some(share), ..solves });
+    }
+    match setting.scalar {
+        Some(Precision::F32) => then(&mut swept::<f32>(problem, setting)?),
+        _ => then(&mut swept::<f64>(problem, setting)?),
+    }
+}
+
+fn swept<'p, R: Scalar>(
+    problem: &'p Problem,
+    setting: &Setting,
+) -> Result<Solves<R, Assembled<'p, R>>> {
+    let assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(&problem.scene))?;
+    Solves::new(problem, assembled, settings(setting), setting.certificate)
+}
+
+/// A session of certified warm solves.
+///
+/// # Errors
+/// Numbers that the scalar type cannot hold.
+pub(crate) fn warm<'p, R: Scalar>(
+    problem: &'p Problem,
+    settings: Settings<R>,
+) -> Result<Box<dyn Session + 'p>> {
+    let assembled = Assembled::<R>::new(problem).map_err(unfit::<R>(&problem.scene))?;
+    let solves = Solves::new(problem, assembled, settings, true)?;
+    Ok(Box::new(Solves { is_warm: true, ..solves }))
+}
+
+/// The tolerance of `solve`, and the ω and sweeps of the setting.
+fn settings<R: Scalar>(setting: &Setting) -> Settings<R> {
+    let max_sweeps = setting.sweeps.unwrap_or(1_000_000);
+    let relaxation = match setting.omega {
+        Omega::Auto => Relaxation::Adaptive(R::ONE),
+        Omega::Fixed(omega) => Relaxation::Fixed(R::narrow(omega)),
+    };
+    let options = Options { scalar: scalar_kind::<R>(), max_sweeps, ..Options::default() };
+    Settings { relaxation, ..options.settings() }
+}
+
+impl<'p, R: Scalar, S: Sweeps<'p, R>> Solves<R, S> {
+    fn new(
+        problem: &Problem,
+        mut swept: S,
+        settings: Settings<R>,
+        is_certified: bool,
+    ) -> Result<Self> {
+        let parts = Parts::examine(problem)?;
+        swept.assembled_mut().set_parts(&parts);
+        let certifier = match is_certified {
+            true => Some(certifier(problem, &parts, swept.assembled())?),
+            false => None,
+        };
+        Ok(Self {
+            parts,
+            u: swept.assembled().start(),
+            swept,
+            certifier,
+            settings,
+            share: None,
+            is_warm: false,
+            outcome: None,
+            certificate: None,
+            omega: None,
+        })
+    }
+
+    /// Sets u to where the next solve starts.
+    fn begin(&mut self) {
+        let assembled = self.swept.assembled();
+        let is_known = |outcome: Outcome<R>| outcome.status != Status::NotFinite;
+        match self.is_warm && self.outcome.is_some_and(is_known) {
+            true => {
+                let unknowns = assembled.edges().counts().unknowns();
+                self.u[unknowns..].copy_from_slice(assembled.dirichlet());
+            }
+            false => self.u = assembled.start(),
+        }
+    }
+
+    fn advance(&mut self) -> Refused<u32> {
+        let omega = self.omega.filter(|_| self.is_warm);
+        let relaxation = omega.map_or(self.settings.relaxation, Relaxation::Adaptive);
+        let settings = Settings { relaxation, ..self.settings };
+        let outcome = match self.share {
+            None => self.solve(settings)?,
+            Some(share) => self.solve_to(share, settings)?,
+        };
+        self.outcome = Some(outcome);
+        if outcome.status != Status::NotFinite {
+            self.omega = Some(outcome.omega);
+        }
+        Ok(outcome.sweeps)
+    }
+
+    fn solve(&mut self, settings: Settings<R>) -> Refused<Outcome<R>> {
+        let outcome = self.swept.run(settings, &mut self.u)?;
+        self.certificate = match &mut self.certifier {
+            Some((certifier, data)) if outcome.status != Status::NotFinite => {
+                certifier.certify(&self.parts, self.swept.assembled(), data, &self.u)?
+            }
+            _ => None,
+        };
+        Ok(outcome)
+    }
+
+    /// Solves until certificates, each after as many sweeps as all before it, leave no more than a share to sweeps.
+    fn solve_to(&mut self, share: f64, settings: Settings<R>) -> Refused<Outcome<R>> {
+        let (mut settings, mut sweeps) = (Settings { max_sweeps: FIRST, ..settings }, 0);
+        loop {
+            let outcome = self.solve(settings)?;
+            sweeps += outcome.sweeps;
+            let left =
+                self.certificate.as_ref().map(|known| known.algebraic.wide() / known.total.wide());
+            let outcome = Outcome { sweeps, ..outcome };
+            if left.is_some_and(|left| left <= share) {
+                return Ok(Outcome { status: Status::Converged, ..outcome });
+            }
+            if outcome.status != Status::OutOfSweeps || sweeps >= self.settings.max_sweeps {
+                return Ok(outcome);
+            }
+            if let Relaxation::Adaptive(_) = settings.relaxation {
+                settings.relaxation = Relaxation::Adaptive(outcome.omega);
+            }
+            settings.max_sweeps = sweeps;
+        }
+    }
+
+    /// The bound of the last tick, and the fields that it is about.
+    fn certified(&self, at: &Problem, status: Status) -> Certified {
+        let without = |reason| Certified {
+            bound: None,
+            no_bound: Some(reason),
+            answer: CertifiedFields::default(),
+        };
+        match &self.certifier {
+            None => without(NoBound::NotAsked),
+            Some(_) if status == Status::NotFinite => {
+                without(NoBound::Overflow { scalar: R::NAME })
+            }
+            Some((certifier, data)) => Certified {
+                bound: self.certificate.as_ref().map(ErrorBound::new),
+                no_bound: certifier.no_bound(at, &self.parts, data),
+                answer: certifier.answer(),
+            },
+        }
+    }
+}
+
+/// Ways out and data for certificates of `problem`.
+fn certifier<R: Scalar>(
+    problem: &Problem,
+    parts: &Parts,
+    assembled: &Assembled<R>,
+) -> Result<(Certifier<R>, Data<R>)> {
+    let certifier = Certifier::new(problem, parts, assembled);
+    Ok((certifier.map_err(unfit::<R>(&problem.scene))?, Data::new(problem)?))
+}
+
+impl<'p, R: Scalar, S: Sweeps<'p, R>> Session for Solves<R, S> {
+    fn pose(&mut self, at: &Problem) -> Result<()> {
+        self.parts = Parts::examine(at)?;
+        let assembled = self.swept.assembled_mut();
+        assembled.set_parts(&self.parts);
+        assembled.set_loads(&at.loads).map_err(unfit::<R>(&at.scene))?;
+        if let Some(posed) = &mut self.certifier {
+            *posed = certifier(at, &self.parts, assembled)?;
+        }
+        Ok(())
+    }
+
+    fn tick(&mut self, _: &[f64]) -> Result<u32> {
+        self.begin();
+        self.advance().map_err(unfit::<R>(&self.swept.assembled().problem().scene))
+    }
+
+    fn restart(&mut self) {
+        (self.outcome, self.omega) = (None, None);
+    }
+
+    fn answer(&self, at: &Problem) -> Result<Solution> {
+        let Some(outcome) = &self.outcome else { return Ok(Solution::default()) };
+        let (assembled, u) = (self.swept.assembled(), [&self.u[..], &[]]);
+        let certified = self.certified(at, outcome.status);
+        let read = read_off(at, &self.parts, assembled, outcome, u, certified);
+        let read = read.map_err(unfit::<R>(&at.scene))?;
+        Ok(Solution { scalar: scalar_kind::<R>(), ..read })
+    }
+}
+
+/// Sweeps over rows of `WIDTH` entries until the solve ends.
+fn run<R: Scalar, const WIDTH: usize>(
+    assembled: &Assembled<R>,
+    settings: Settings<R>,
+    u: &mut [R],
+) -> Refused<Outcome<R>> {
+    let system = assembled.system()?;
+    let mut memory = vec![Row::<R, u32, WIDTH>::EMPTY; system.counts().unknowns()];
+    let mut rows = Rows::new(assembled.edges(), &mut memory)?;
+    Solver::<R>::new(settings)?.run(&system, &mut rows, u)
+}

@@ -1,0 +1,42 @@
+//! Where the outputs of a tick lie for the exact solution.
+
+use super::record::TickInterval;
+use crate::Module;
+use signorini_intervals::{Answered, Lasting, of_next};
+use signorini_problem::Problem;
+use signorini_scene::error::Result;
+use signorini_solve::Solution;
+
+/// The source of intervals.
+pub(super) enum Intervals<'m> {
+    /// None are asked for.
+    Unasked,
+    /// Each tick's answer anew, with what stays from tick to tick.
+    Anew(Lasting),
+    /// The weights of a module.
+    Weighed(&'m Module),
+}
+
+impl Intervals<'_> {
+    /// Intervals of the declared outputs, in their order.
+    pub fn of(&mut self, problem: &Problem, solution: &Solution) -> Result<Vec<TickInterval>> {
+        let bound = solution.bound.filter(|bound| bound.total.is_finite());
+        match self {
+            Self::Unasked => Ok(Vec::new()),
+            Self::Anew(lasting) => {
+                lasting.renew(problem)?;
+                let Solution { certified, scalar, .. } = solution;
+                let answered = Answered { certified, bound, scalar: *scalar };
+                let mut all = of_next(problem, &answered, lasting);
+                let names = problem.scene.outputs.iter().map(|output| &output.name.value);
+                let found = names.filter_map(|name| all.remove(name));
+                Ok(found.map(|found| found.map(|of| of.ends())).collect())
+            }
+            Self::Weighed(module) => {
+                let outputs = solution.outputs.iter().take(problem.scene.outputs.len());
+                let around = outputs.zip(module.plus_minus(bound.as_ref()));
+                Ok(around.map(|(value, by)| by.map(|by| [value - by, value + by])).collect())
+            }
+        }
+    }
+}

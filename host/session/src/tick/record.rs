@@ -1,0 +1,131 @@
+//! One tick as `ticks.csv` has it.
+
+use signorini_certify::ErrorBound;
+use signorini_certify::exact::distance;
+use signorini_problem::Problem;
+use signorini_scene::error::Result;
+use signorini_scene::scene::Scene;
+use signorini_scene::scene::units::Units;
+use signorini_solve::outputs::{Reading, declared};
+use signorini_solve::{Ending, Solution};
+
+use signorini_kernel::report::Ended;
+
+/// Numbers of a tick; those that do not exist or are not finite are `None`.
+#[derive(Debug, Clone)]
+pub struct TickRecord {
+    /// t
+    pub time: f64,
+    /// How it ended.
+    pub status: Ending,
+    /// Sweeps spent.
+    pub sweeps: u32,
+    /// ∫_C (τ·n − q) ≥ 0, τ within the law of contact.
+    pub contact_force: Option<f64>,
+    /// Σ|E| over the active contact edges.
+    pub contact_length: Option<f64>,
+    /// The bound on the error.
+    pub bound: Option<ErrorBound>,
+    /// The error that it bounds, where the exact solution is known.
+    pub combined: Option<f64>,
+    /// The declared outputs, in the order of the scene.
+    pub outputs: Vec<Option<f64>>,
+    /// Intervals in which they lie for the exact solution, of a probe the mean over its cell, or why there is none; empty where
+    /// no intervals were asked for.
+    pub intervals: Vec<TickInterval>,
+}
+
+/// The ends of an interval, or why there is none.
+pub type TickInterval = std::result::Result<[f64; 2], String>;
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+impl TickRecord {
+    /// Reads `solution` off, the answer at the moment of `problem`, in its units; without intervals.
+    pub(super) fn of(problem: &Problem, solution: &Solution) -> Result<Self> {
+        let bound = solution.bound.filter(|bound| bound.total.is_finite());
+        let combined = match (&problem.scene.exact, bound) {
+            (Some(exact), Some(_)) => {
+                Some(distance(exact, problem, &solution.certified.admissible())?.combined)
+            }
+            _ => None,
+        };
+        let [force, length] = contact(&problem.scene, solution);
+        Ok(Self {
+            time: problem.time,
+            status: solution.status,
+            sweeps: solution.sweeps,
+            contact_force: finite(force),
+            contact_length: finite(length),
+            bound,
+            combined: combined.and_then(finite),
+            outputs: outputs(problem, solution, bound)?,
+            intervals: Vec::new(),
+        })
+    }
+
+    /// A tick whose inputs or answer the controller's scalar cannot hold.
+    pub(super) fn refused(problem: &Problem) -> Self {
+        let outputs = problem.scene.outputs.len();
+        Self {
+            time: problem.time,
+            status: Ending::Tick(Ended::NotFinite),
+            sweeps: 0,
+            contact_force: None,
+            contact_length: None,
+            bound: None,
+            combined: None,
+            outputs: vec![None; outputs],
+            intervals: vec![Err("the tick was refused".to_owned()); outputs],
+        }
+    }
+
+    /// Whether the solve broke down; one that its budget cut off did not.
+    pub fn failed(&self) -> bool {
+        self.status.is_breakdown()
+    }
+
+    /// From `units` to those that the scene had before.
+    pub(super) fn rescale(&mut self, scene: &Scene, units: &Units) {
+        let times = |number: &mut Option<f64>, unit: f64| {
+            *number = number.map(|x| x * unit).filter(|x| x.is_finite());
+        };
+        times(&mut self.contact_force, units.flux());
+        times(&mut self.combined, units.energy());
+        self.bound = self.bound.map(|bound| bound.times(units.energy()));
+        for (output, of) in self.outputs.iter_mut().zip(&scene.outputs) {
+            times(output, units.of_output(of.quantity));
+        }
+        for (interval, of) in self.intervals.iter_mut().zip(&scene.outputs) {
+            let unit = units.of_output(of.quantity);
+            if let Ok(ends) = interval {
+                *ends = ends.map(|end| end * unit);
+            }
+        }
+    }
+}
+
+/// Contact force and length: of a controller of a scene without declared outputs they are the outputs, with their bits.
+fn contact(scene: &Scene, solution: &Solution) -> [f64; 2] {
+    match (scene.outputs.is_empty(), &solution.outputs[..]) {
+        (true, &[force, length]) => [force, length],
+        _ => [solution.contact_force, solution.contact_length],
+    }
+}
+
+/// The declared outputs: a controller's own, with their bits, else read off the fields.
+fn outputs(
+    problem: &Problem,
+    solution: &Solution,
+    bound: Option<ErrorBound>,
+) -> Result<Vec<Option<f64>>> {
+    let Solution { scalar, u, flux, outputs, .. } = solution;
+    if outputs.is_empty() {
+        let (scalar, bound) = (*scalar, bound.map(|bound| bound.total));
+        return declared(problem, Reading { scalar, u, flux, units: Units::default(), bound });
+    }
+    let own = outputs.iter().take(problem.scene.outputs.len());
+    Ok(own.map(|&value| finite(value)).collect())
+}
