@@ -1,9 +1,10 @@
 //! The ways out: the forest over the cells and the cells packed in its order, owned.
 
-use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_bound::certificate::{Discretization, Stability, stability};
+use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle};
+use signorini_bound::certificate::{Discretization, Stability};
 use signorini_bound::equilibrium::is_root;
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
+use signorini_bound::forest::{Forest, ForestBuffers};
+use signorini_bound::prepare::{Conductivities, prepare};
 use signorini_kernel::Error as KernelError;
 
 use super::metric::Metric;
@@ -57,24 +58,20 @@ impl<R: Scalar> EquilibrationForest<R> {
             place: &mut self.place,
             distance: &mut numbers,
         };
-        let cost = |cell: usize| R::ONE / metric.alpha()[cell];
         let root = |edge: usize| {
             let outer = edges.half_edges()[edge][1] == u32::MAX;
             outer && (is_root(edges, &boundary, edge) || also(edge))
         };
-        grow(edges, cost, root, buffers)?;
-        let forest = Forest::new(edges, &self.order, &self.parent, &self.place)?;
-        let buffers = CellBuffers {
+        let cells = CellBuffers {
             triangles: &mut self.triangles,
             quads: &mut self.quads,
             of_vertices: &mut self.of_vertices,
             of_edges: &mut self.of_edges,
         };
         let (alpha, compliance) = (metric.alpha(), metric.compliance());
-        let stiffness = assembled.stiffness();
-        let mesh = assembled.mesh()?;
-        let cells = pack(&mesh, edges, stiffness, alpha, compliance, &forest, buffers)?;
-        self.stability = stability(edges, &cells, metric.view(), &boundary, &forest, &mut numbers)?;
+        let a = Conductivities { alpha, compliance, metric: metric.view() };
+        let (mesh, of_edges) = (assembled.mesh()?, (edges, assembled.stiffness()));
+        self.stability = prepare(&mesh, of_edges, &boundary, a, root, buffers, cells)?;
         Ok(())
     }
 

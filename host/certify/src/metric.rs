@@ -1,6 +1,7 @@
 //! A in reference coordinates, as the kernel's certificate takes it ([`signorini_bound::certificate`]).
 
 use signorini_bound::certificate::{POINTS, of_quad, of_triangle};
+use signorini_bound::prepare::{is_parallelogram, is_told};
 use signorini_kernel::element::QuadElement;
 use signorini_kernel::element::nonparametric::axes;
 use signorini_kernel::element::rannacher_turek::place;
@@ -89,7 +90,7 @@ impl<R: Scalar> Metric<R> {
                 let here = |reference: [f64; 3]| place(corners, [reference[0], reference[1]]);
                 if a.is_constant() && is_parallelogram(corners) {
                     let middle = here([0.5, 0.5, 0.0]);
-                    if is_told::<R>(&of_quad(&middle, a.at(middle.x))) {
+                    if is_told(of_quad(&middle, a.at(middle.x)), R::EPSILON.wide()) {
                         return None;
                     }
                 }
@@ -117,24 +118,6 @@ fn distortions<R: Scalar>(problem: &Problem) -> Vec<[R; 2]> {
         return Vec::new();
     }
     mesh.quads.iter().map(|quad| axes(corners(quad)).distortion().map(R::narrow)).collect()
-}
-
-/// The diagonals halve each other, up to 4·10⁻¹² of the height of the cell, below which B hardly varies.
-fn is_parallelogram([a, b, c, d]: [[f64; 2]; 4]) -> bool {
-    let [p, q] = [[a, c], [b, d]].map(|[from, to]| [to[0] - from[0], to[1] - from[1]]);
-    let twist = [0, 1].map(|k| (a[k] + c[k]) - (b[k] + d[k]));
-    let length = p[0].hypot(p[1]).max(q[0].hypot(q[1]));
-    let height = (p[0] * q[1] - p[1] * q[0]).abs() / length;
-    twist[0].abs() + twist[1].abs() <= 4e-12 * height
-}
-
-/// Whether the element matrix tells B: it holds sums of B's entries, in which the small one of a thin
-/// cell or of an oblique A is lost to rounding.
-fn is_told<R: Scalar>(b: &Tensor<f64>) -> bool {
-    const ENOUGH: f64 = 1e-3;
-    let spread = b.xx + b.yy;
-    let condition = spread * (spread / (b.xx * b.yy - b.xy * b.xy));
-    R::EPSILON.wide() * condition <= ENOUGH
 }
 
 /// ½ tr A of a cell: of its mean on triangles, of its middle on quads.

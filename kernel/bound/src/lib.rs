@@ -5,7 +5,7 @@
 //! How wrong an iterate can be, with no unknown constant.
 //!
 //! [`forest`] → packed [`cells`] → [`averages`] → [`conforming`] and [`equilibrium`] → [`certificate`], which ends in a
-//! [`Verdict`](signorini_kernel::Verdict).
+//! [`Verdict`](signorini_kernel::Verdict). [`prepare`] does once for a mesh what the first two need.
 
 pub mod averages;
 pub mod cells;
@@ -13,3 +13,4 @@ pub mod certificate;
 pub mod conforming;
 pub mod equilibrium;
 pub mod forest;
+pub mod prepare;

@@ -7,11 +7,12 @@
 use heapless::Vec;
 
 use super::fit;
-use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle, pack};
-use signorini_bound::certificate::{Discretization, Metric, Stability, of_quad, stability};
+use signorini_bound::cells::{CellBuffers, Cells, Quad, Triangle};
+use signorini_bound::certificate::{Discretization, Metric, Stability, of_quad};
 use signorini_bound::conforming::VertexData;
 use signorini_bound::equilibrium::is_root;
-use signorini_bound::forest::{Forest, ForestBuffers, grow};
+use signorini_bound::forest::ForestBuffers;
+use signorini_bound::prepare::{Conductivities, is_parallelogram, is_told, prepare};
 use signorini_kernel::Real;
 use signorini_kernel::Tensor;
 use signorini_kernel::element::rannacher_turek::place;
@@ -119,7 +120,8 @@ impl<
         let is_told = |(at, quad): (usize, &[I; 4])| {
             let corners = mesh.quad(quad);
             let a = coefficient.of_cell(t + at, t, points);
-            is_parallelogram(corners) && is_told(of_quad(&place(corners, [R::HALF; 2]), a))
+            is_parallelogram(corners)
+                && is_told(of_quad(&place(corners, [R::HALF; 2]), a), R::EPSILON)
         };
         self.affine = constant && mesh.quads().iter().enumerate().all(is_told);
         self.cancelled = R::ONE;
@@ -150,21 +152,20 @@ impl<
         boundary: &Boundary<R, I>,
     ) -> Result<(), Error> {
         let Self { order, parent, place, way, alpha, triangles, quads, .. } = self;
-        let cost = |cell: usize| R::ONE / read(alpha, cell);
-        let buffers = ForestBuffers { order, parent, place, distance: way };
+        let forest = ForestBuffers { order, parent, place, distance: way };
+        let (of_vertices, of_edges) = (&mut *self.of_vertices, &mut *self.of_edges);
+        let cells = CellBuffers { triangles, quads, of_vertices, of_edges };
+        let (compliance, metric) = (&*self.compliance, Metric::default());
+        let a = Conductivities { alpha, compliance, metric };
+        let is_root = |edge| is_root(edges, boundary, edge);
         self.cut_off = 0;
-        match grow(edges, cost, |edge| is_root(edges, boundary, edge), buffers) {
+        match prepare(mesh, (edges, stiffness), boundary, a, is_root, forest, cells) {
             Err(Error::NoWayOut { cell }) => {
                 self.cut_off = cell + 1;
                 return Ok(());
             }
-            found => found?,
-        };
-        let forest = Forest::new(edges, order, parent, place)?;
-        let (of_vertices, of_edges) = (&mut *self.of_vertices, &mut *self.of_edges);
-        let buffers = CellBuffers { triangles, quads, of_vertices, of_edges };
-        let cells = pack(mesh, edges, stiffness, alpha, &self.compliance, &forest, buffers)?;
-        self.stability = stability(edges, &cells, Metric::default(), boundary, &forest, way)?;
+            found => self.stability = found?,
+        }
         self.stability.oblique *= self.cancelled;
         Ok(())
     }
@@ -198,24 +199,6 @@ impl<
     pub(super) fn is_affine(&self) -> bool {
         self.affine
     }
-}
-
-/// Whether opposite sides agree to the last digits of the cell's height.
-fn is_parallelogram<R: Real>([a, b, c, d]: [[R; 2]; 4]) -> bool {
-    let side = |from: [R; 2], to: [R; 2]| [to[0] - from[0], to[1] - from[1]];
-    let (bottom, top, left) = (side(a, b), side(d, c), side(a, d));
-    let size = |v: [R; 2]| v[0].magnitude().or_larger(v[1].magnitude());
-    let longer = size(bottom).or_larger(size(left));
-    let height = (bottom[0] * left[1] - bottom[1] * left[0]).magnitude() / longer;
-    let differ = |(x, y): (&R, &R)| (*x - *y).magnitude() > R::TWO * R::EPSILON * height;
-    !bottom.iter().zip(&top).any(differ)
-}
-
-/// Whether the element matrix tells B: it holds sums of B's entries, in which the small one of a thin cell is lost.
-fn is_told<R: Real>(b: Tensor<R>) -> bool {
-    let spread = b.xx + b.yy;
-    let condition = spread * (spread / (b.xx * b.yy - b.xy * b.xy));
-    R::from_count(1000) * R::EPSILON * condition <= R::ONE
 }
 
 /// How much larger the terms of det A, and of N·AN for the normals N of the sides, are than what they cancel to: a host
