@@ -127,14 +127,14 @@ fn step<R: Real, I: Index>(
         *u += length * p;
     }
     if crosses {
-        land(system, u, buffers.direction, room);
+        snap_to_gap(system, u, buffers.direction, room);
         return None;
     }
     turn(system, u, buffers, length, product, goal)
 }
 
 /// Puts the edges that the step has brought to the gap exactly onto it.
-fn land<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], direction: &[R], room: R) {
+fn snap_to_gap<R: Real, I: Index>(system: &System<R, I>, u: &mut [R], direction: &[R], room: R) {
     let entries = u.iter_mut().zip(direction).skip(system.counts().free);
     for ((u, &p), law) in entries.zip(system.law().edges()) {
         let rounding = R::EPSILON * (u.magnitude() + room * p.magnitude());

@@ -97,7 +97,7 @@ impl<'a, R: Real> Law<'a, R> {
 
     /// Puts u + low onto the gap wherever u may not be where it is (or is not a number), and returns by how much at most. `u`
     /// and `low` hold the means on the contact edges; `low` is empty where nobody asks for it.
-    pub fn land(&self, u: &mut [R], low: &mut [R]) -> R {
+    pub fn snap_to_gap(&self, u: &mut [R], low: &mut [R]) -> R {
         let mut most = R::ZERO;
         for (at, (u, law)) in u.iter_mut().zip(self.edges()).enumerate() {
             if !law.admits(*u) {

@@ -131,7 +131,7 @@ pub fn run<R: Real, I: Index, M: Math<R>, const WIDTH: usize>(
         // u + (ψ − u) may round to less than ψ.
         let free = system.counts().free;
         if let (Some(u), Some(low)) = (u.get_mut(free..), low.get_mut(free..)) {
-            system.law().land(u, low);
+            system.law().snap_to_gap(u, low);
         }
         if u.iter().any(|u| !u.finite()) {
             outcome.status = Status::NotFinite;

@@ -8,7 +8,7 @@
 //!   s = u_D            on D, which wins where both meet.
 //! ```
 //! Where the flux of a contact edge has two finite ends, s may be on either side of ψ, and pays for the side that u is not
-//! on (`ease`).
+//! on (`relax_to_gap`).
 //!
 //! With the chord of ψ for the gap and that of u_D for the boundary value, s is admissible; what lies
 //! between a curved gap and its chord is another term of the bound.
@@ -101,7 +101,7 @@ pub fn impose<R: Real, I: Index>(
 /// ```
 /// To be called before [`impose`]. For huge limits that is the law without one, for lo = hi nothing is changed. Where hi − lo
 /// varies along edges, s is put on the side of u: its price is known in the mean alone.
-pub(crate) fn ease<R: Real, I: Index>(
+pub(crate) fn relax_to_gap<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
     stiffness: Stiffness<R>,

@@ -116,12 +116,12 @@ impl<R: Real> Condensed<'_, R> {
         all_finite(Array::Load, inputs)?;
         let matrix = self.matrix()?;
         self.combine(inputs, memory.load)?;
-        self.hold(inputs, memory.load)?;
+        self.check_magnitude(inputs, memory.load)?;
         self.spans.combine(inputs, memory.load.len(), &mut memory.spans)?;
         let spans = self.spans.of(memory.load.len(), &memory.spans);
         let given = Given::between(memory.load, spans, &[]);
         let progress = method.solve(&matrix, given, memory.iterate.reborrow(), deadline)?;
-        self.hold_back(&matrix, given, &mut memory.iterate)?;
+        self.clamp(&matrix, given, &mut memory.iterate)?;
         let Iterate { x, residual, .. } = &memory.iterate;
         let (x, residual) = (self.unpadded(x), self.unpadded(residual));
         let answer = Candidate { inputs, x, residual, ranges: given.ranges };
@@ -165,7 +165,7 @@ impl<R: Real> Condensed<'_, R> {
     /// x within [`Condensed::limits`]: solutions are, a tick that was cut off need not be.
     // Inlined, the matrix stays a constant of the controller's code, which then has no code for other orders.
     #[inline(always)]
-    fn hold_back(
+    fn clamp(
         &self,
         matrix: &Blocks<R>,
         given: Given<R>,
@@ -188,7 +188,7 @@ impl<R: Real> Condensed<'_, R> {
     /// `Ok` where neither the answer to this load nor an output can overflow: what openings add is at most Σ|Y_x| times
     /// the largest x, and r is at most n times that. Without contact an output refuses by itself, and leaves nothing
     /// behind.
-    fn hold(&self, inputs: &[R], load: &[R]) -> Result<(), Error> {
+    fn check_magnitude(&self, inputs: &[R], load: &[R]) -> Result<(), Error> {
         if self.contact == 0 {
             return Ok(());
         }

@@ -155,7 +155,7 @@ pub fn certify<R: Real, I: Index>(
     averages::fill(cells, given.loads, discretization.metric.distortions, u, vertices, tau)?;
     if law.is_limited() {
         let gap = given.ends.gap;
-        conforming::ease(mesh, edges, discretization.stiffness, u, law, gap, vertices);
+        conforming::relax_to_gap(mesh, edges, discretization.stiffness, u, law, gap, vertices);
     }
     conforming::impose(mesh, edges, u, law, given.ends, vertices)?;
     conforming::bubbles(mesh, edges, u, law, given.ends, vertices, bubbles)?;

@@ -178,11 +178,11 @@ fn search<R: Real, U: Rule>(
             return Ok((Some(Found::OutOfPivots), pivots));
         }
         let was_within = features::LIMITED && read(tableau.exchanged(), at);
-        ranges.comes_in(at, was_within, z, x);
+        ranges.before_exchange(at, was_within, z, x);
         if !tableau.exchange(at, z)? {
             return Ok((Some(Found::Worn), pivots));
         }
-        ranges.has_left(at, was_within, z, x);
+        ranges.after_exchange(at, was_within, z, x);
         pivots += 1;
     }
 }
@@ -197,8 +197,8 @@ fn next_of_three<R: Real, U: Rule>(
     pivots: u32,
 ) -> Step {
     let (z, exchanged) = tableau.viewed(z, |at, z, within| match U::FALLS {
-        true => ranges.viewed_from_below(at, z, read(x, at), within),
-        false => ranges.viewed(at, z, read(x, at), within),
+        true => ranges.violation_from_below(at, z, read(x, at), within),
+        false => ranges.violation(at, z, read(x, at), within),
     });
     rule.next(z, exchanged, noise, pivots)
 }

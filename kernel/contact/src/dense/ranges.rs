@@ -103,7 +103,7 @@ impl<R: Real> Ranges<'_, R> {
     }
 
     /// z as it would be were all ranges w ≥ 0: more than 0 outside, and less within, where nothing is wrong.
-    pub(super) fn viewed(&self, at: usize, z: R, x: R, within: bool) -> R {
+    pub(super) fn violation(&self, at: usize, z: R, x: R, within: bool) -> R {
         if within {
             return if x < R::ZERO { -z } else { z };
         }
@@ -112,7 +112,7 @@ impl<R: Real> Ranges<'_, R> {
     }
 
     /// The same for phases in which whoever is above its range, or at its upper end, waits.
-    pub(super) fn viewed_from_below(&self, at: usize, z: R, x: R, within: bool) -> R {
+    pub(super) fn violation_from_below(&self, at: usize, z: R, x: R, within: bool) -> R {
         match within {
             true if x < R::ZERO => R::ZERO,
             true => z,
@@ -159,7 +159,7 @@ impl<R: Real> Ranges<'_, R> {
 
     /// To be called before unknown `at` is exchanged: if it comes in, the sign of x says to which side, and the answer is
     /// that to the load of this side.
-    pub(super) fn comes_in(&self, at: usize, within: bool, z: &mut [R], x: &mut [R]) {
+    pub(super) fn before_exchange(&self, at: usize, within: bool, z: &mut [R], x: &mut [R]) {
         if !self.are_limited() || within {
             return;
         }
@@ -170,7 +170,7 @@ impl<R: Real> Ranges<'_, R> {
     }
 
     /// The same after it was: if it has left, what its side had beyond b is gone.
-    pub(super) fn has_left(&self, at: usize, was_within: bool, z: &mut [R], x: &mut [R]) {
+    pub(super) fn after_exchange(&self, at: usize, was_within: bool, z: &mut [R], x: &mut [R]) {
         if !self.are_limited() || !was_within {
             return;
         }

@@ -74,7 +74,7 @@ impl<R: Real> Modal<'_, R> {
         let spans = at.spans.of(shared.load.len(), &shared.spans);
         let given = Given::between(shared.load, spans, &[]);
         let progress = method.solve(&matrix, given, shared.iterate.reborrow(), deadline)?;
-        at.hold_back(&matrix, given, &mut shared.iterate)?;
+        at.clamp(&matrix, given, &mut shared.iterate)?;
         let x = at.unpadded(shared.iterate.x);
         self.set_amplitudes(*t, x, inputs)?;
         let residual = at.unpadded(shared.iterate.residual);
@@ -106,7 +106,7 @@ impl<R: Real> Modal<'_, R> {
         if self.model.contact > 0 {
             self.enlarge(t, inputs.len(), sizes::room(sizes::of_load(load)?), all);
         }
-        self.model.hold(all, load)?;
+        self.model.check_magnitude(all, load)?;
         Ok(t)
     }
 

@@ -225,7 +225,7 @@ impl<'a, R: Real, I: Index> Exact<'a, R, I> {
         }
         // A correction may round to less than ψ. What sinks further was open by a factor that is not of this matrix.
         let (_, on_contact) = u.split_at_mut(counts.free.min(u.len()));
-        let lifted = law.land(on_contact, low.get_mut(counts.free..).unwrap_or_default());
+        let lifted = law.snap_to_gap(on_contact, low.get_mut(counts.free..).unwrap_or_default());
         if lifted > R::from_count(SLACK) * R::EPSILON * largest(u) {
             last = Some(R::ONE / R::ZERO);
         }

@@ -14,7 +14,7 @@ use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error, all_moderate};
 use signorini_kernel::index::Index;
 
-/// How much larger than m/ε an iterate may be that is worth going on with.
+/// How much larger than m/ε an iterate may be that is largest_useful going on with.
 const WORTH: u32 = 1024;
 
 /// m, once load and rows are those of `data`.
@@ -32,8 +32,8 @@ pub(super) fn size<R: Real, I: Index, const WIDTH: usize>(
     Ok(load.or_larger(lower).or_larger(dirichlet))
 }
 
-/// The largest |u| that is worth going on with.
-pub(super) fn worth<R: Real>(size: R) -> R {
+/// The largest |u| that is largest_useful going on with.
+pub(super) fn largest_useful<R: Real>(size: R) -> R {
     R::from_count(WORTH) * size / R::EPSILON
 }
 
@@ -42,7 +42,7 @@ impl<R: Real, I, const WIDTH: usize> Memory<'_, R, I, WIDTH> {
     pub(super) fn forget_another_size(&mut self, unknowns: usize, size: R) {
         let u = self.u.get_mut(..unknowns).unwrap_or(&mut []);
         let most = u.iter().fold(R::ZERO, |most, u| most.or_larger(u.magnitude()));
-        if !(most <= worth(size)) {
+        if !(most <= largest_useful(size)) {
             u.fill(R::ZERO);
         }
     }

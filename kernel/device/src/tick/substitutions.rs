@@ -10,7 +10,7 @@
 //! substitutions of a solve too.
 
 use super::method::{Method, Sweeping};
-use super::range::worth;
+use super::range::largest_useful;
 use super::{Deadline, Limits, Report, Running};
 use crate::sparse::{Balance, Exact, SLACK};
 use signorini_kernel::Real;
@@ -58,7 +58,7 @@ impl<R: Real, I: Index, const WIDTH: usize> Running<'_, '_, R, I, WIDTH> {
             load: memory.load,
         };
         let places = memory.tau.get_mut(..counts.unknowns()).unwrap_or(&mut []);
-        exact.forget_beyond(worth(self.size));
+        exact.forget_beyond(largest_useful(self.size));
         let solved = exact.solve(&balance, data.law, places, memory.u, &mut [])?;
         self.verdict = None;
         // Next to the last answer corrections tell nothing: by the factor of another matrix they are small as well.

@@ -223,7 +223,7 @@ fn cancelled<R: Real, const N: usize>(a: Tensor<R>, corners: [[R; 2]; N]) -> R {
 
 /// What boundary data allow for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Allowed {
+pub(super) enum BoundSupport {
     /// A bound.
     Bound,
     /// None, since u_D jumps.
@@ -233,12 +233,12 @@ pub(super) enum Allowed {
 }
 
 /// What the boundary data allow for; jumps of rounding count as none. `last` is scratch with an entry a vertex.
-pub(super) fn allowed<R: Real, I: Index>(
+pub(super) fn support<R: Real, I: Index>(
     mesh: &Mesh<R, I>,
     edges: &Edges<I>,
     ends: VertexData<R>,
     last: &mut [[I; 2]],
-) -> Allowed {
+) -> BoundSupport {
     let counts = edges.counts();
     for edge in counts.free..counts.edges() {
         edges.endpoints(mesh, edge).iter().for_each(|end| write(last, end.at(), [I::NONE; 2]));
@@ -251,7 +251,7 @@ pub(super) fn allowed<R: Real, I: Index>(
             if before[0] != I::NONE {
                 let (other, size) = (known(before), value.magnitude());
                 if (other - value).magnitude() > R::EPSILON * size.or_larger(other.magnitude()) {
-                    return Allowed::NotForJumps;
+                    return BoundSupport::NotForJumps;
                 }
             }
             let own = [at, end].map(|number| I::new(number).unwrap_or(I::NONE));
@@ -264,9 +264,9 @@ pub(super) fn allowed<R: Real, I: Index>(
         for (vertex, &psi) in corners.iter().zip(gap) {
             let met = read(last, vertex.at());
             if met[0] != I::NONE && psi - known(met) > slack {
-                return Allowed::NotBelowGap;
+                return BoundSupport::NotBelowGap;
             }
         }
     }
-    Allowed::Bound
+    BoundSupport::Bound
 }

@@ -88,7 +88,7 @@ impl<
         let Self { of_triangles, of_quads, half_edges, counts, at_vertex, .. } = self;
         let edges = Edges::baked(of_triangles, of_quads, half_edges, *counts);
         let ends = super::ends(&self.gap_ends, &self.dirichlet_ends);
-        self.allowed = bound::allowed(mesh, &edges, ends, at_vertex);
+        self.support = bound::support(mesh, &edges, ends, at_vertex);
         self.built = true;
         Ok(())
     }

@@ -34,7 +34,7 @@ use signorini_kernel::system::System;
 use signorini_kernel::{Libm, Math};
 use signorini_kernel::{contact, flux};
 
-use bound::{Allowed, Equilibration};
+use bound::{BoundSupport, Equilibration};
 
 /// Everything one contact problem needs, for meshes up to the given numbers of vertices, triangles, quads, boundary
 /// edges, cells, edges plus one, matrix entries, and entries of a packed row. [`workspace!`](macro@crate::workspace) works
@@ -90,7 +90,7 @@ pub struct Workspace<
     flux: Vec<R, EDGES>,
     equilibration: Equilibration<R, I, VERTICES, TRIANGLES, QUADS, CELLS, EDGES>,
     /// What the boundary data allow for.
-    allowed: Allowed,
+    support: BoundSupport,
     active: Vec<bool, BOUNDARY>,
     vertices: Vec<R, VERTICES>,
     bubbles: Vec<R, EDGES>,
@@ -160,7 +160,7 @@ impl<
             u: Vec::new(),
             flux: Vec::new(),
             equilibration: Equilibration::new(),
-            allowed: Allowed::Bound,
+            support: BoundSupport::Bound,
             active: Vec::new(),
             vertices: Vec::new(),
             bubbles: Vec::new(),

@@ -1,6 +1,6 @@
 //! A control loop on a workspace: sweeps until the answer is good enough or time is up, with its error bound.
 
-use super::bound::Allowed;
+use super::bound::BoundSupport;
 use super::{Workspace, ends, stiffness_of};
 use crate::tick::{
     CertifiedSweeps, Data, Deadline, Limits, Memory, Progress, Report, Tick, UncertifiedSweeps,
@@ -84,10 +84,10 @@ impl<
         if !self.progress.has_begun() {
             self.progress = Progress::new(Relaxation::for_unknowns(counts.unknowns()))?;
         }
-        let refused = match self.allowed {
-            Allowed::NotBelowGap => Some(Verdict::BelowGap),
-            Allowed::Bound if self.equilibration.is_affine() => None,
-            Allowed::Bound | Allowed::NotForJumps => Some(Verdict::Unavailable),
+        let refused = match self.support {
+            BoundSupport::NotBelowGap => Some(Verdict::BelowGap),
+            BoundSupport::Bound if self.equilibration.is_affine() => None,
+            BoundSupport::Bound | BoundSupport::NotForJumps => Some(Verdict::Unavailable),
         };
         let (vertices, bubbles) = (&mut *self.vertices, &mut *self.bubbles);
         let (rows, active) = (rows.within(&edges)?, &mut *self.active);
