@@ -1,7 +1,7 @@
 //! A scene as the Rust source of its firmware: static data and a `Controller` for the kernel.
 //!
 //! ```text
-//!   Scene, Problem ─┬─► superposition: loads as base + Σ input · pattern ─► full ──────┬─► source
+//!   Scene, Problem ─┬─► terms of certify: loads as base + Σ input · pattern ─► full ──────┬─► source
 //!                   └─► condense: a dense problem on contact edges ───────► condensed ─┘  face, text
 //! ```
 //! Whatever the model, the module has one interface ([`module_api`]): `Inputs`, `Outputs`, `Answer` with one type of report, and one
@@ -28,7 +28,6 @@ pub mod promise;
 pub mod range;
 pub mod ranges;
 pub mod setting;
-pub mod superposition;
 mod table;
 pub mod text;
 pub mod trial;

@@ -31,6 +31,7 @@ mod no_bound;
 pub mod oscillation;
 pub mod robin;
 pub mod sampled;
+pub mod term;
 pub mod weighed;
 
 pub use bound::{Certified, ErrorBound};
@@ -38,3 +39,4 @@ pub use certifier::{CertifiedFields, Certifier};
 pub use conductivity::eigenvalues;
 pub use data::{Data, Evaluated};
 pub use no_bound::{NoBound, Spot};
+pub use term::TermData;

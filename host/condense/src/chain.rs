@@ -11,8 +11,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::patterns::Pattern;
 use super::{Corner, Form, Vertex};
+use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
 
@@ -55,7 +55,7 @@ impl Chain {
     /// A sentence why s cannot be fixed beforehand.
     pub fn new(
         problem: &Problem,
-        patterns: &[Pattern],
+        patterns: &[TermData],
         edges: &[usize],
         openings: &[f64],
         released: &BTreeSet<u32>,
@@ -131,7 +131,7 @@ impl Chain {
     }
 }
 
-fn given(problem: &Problem, patterns: &[Pattern]) -> BTreeMap<u32, Vec<f64>> {
+fn given(problem: &Problem, patterns: &[TermData]) -> BTreeMap<u32, Vec<f64>> {
     let first = problem.topology.counts.unknowns();
     let mut given = BTreeMap::new();
     for at in 0..problem.topology.counts.dirichlet {
@@ -142,7 +142,7 @@ fn given(problem: &Problem, patterns: &[Pattern]) -> BTreeMap<u32, Vec<f64>> {
     given
 }
 
-fn meetings(problem: &Problem, patterns: &[Pattern], edges: &[usize]) -> Meeting {
+fn meetings(problem: &Problem, patterns: &[TermData], edges: &[usize]) -> Meeting {
     let free = problem.topology.counts.free;
     let mut meetings = Meeting::new();
     for (at, &edge) in edges.iter().enumerate() {
@@ -157,7 +157,7 @@ fn meetings(problem: &Problem, patterns: &[Pattern], edges: &[usize]) -> Meeting
 /// ψ at a vertex, the same from all its contact edges.
 fn common_gap(
     problem: &Problem,
-    patterns: &[Pattern],
+    patterns: &[TermData],
     vertex: u32,
     meeting: &[(usize, Vec<f64>)],
 ) -> Result<Vec<f64>, String> {
@@ -173,8 +173,8 @@ fn common_gap(
 }
 
 /// u_D − ψ for each pattern; rounding is 0.
-fn excess(patterns: &[Pattern], given: &[f64], psi: &[f64]) -> Vec<f64> {
-    let difference = |(pattern, (given, psi)): (&Pattern, (&f64, &f64))| {
+fn excess(patterns: &[TermData], given: &[f64], psi: &[f64]) -> Vec<f64> {
+    let difference = |(pattern, (given, psi)): (&TermData, (&f64, &f64))| {
         let excess = given - psi;
         if excess.abs() > ROUNDING * pattern.ends.scale() { excess } else { 0.0 }
     };

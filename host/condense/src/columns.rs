@@ -3,14 +3,14 @@
 use signorini_kernel::mesh::geometry::{quad_area, triangle_area};
 
 use super::elimination::FieldLoads;
-use super::patterns::Pattern;
+use signorini_certify::TermData;
 use signorini_problem::{Loads, Problem};
 
 /// What each column is the field of: patterns without opening, unit openings without load, and a source
 /// that adds up to 1 on these cells, where asked for.
 pub(super) fn columns(
     problem: &Problem,
-    patterns: &[Pattern],
+    patterns: &[TermData],
     edges: &[usize],
     source: Option<&[bool]>,
 ) -> Vec<FieldLoads> {

@@ -12,10 +12,10 @@ use super::elimination::{Field, failed};
 use super::factor::{energies, triangular};
 use super::functions::Functions;
 use super::laws::Laws;
-use super::patterns::Pattern;
 use super::residual::{blocks, jumps};
 use super::spans::{excess, varies};
 use super::stability::{Source, stability};
+use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
@@ -27,7 +27,7 @@ pub(super) struct FormData<'g> {
     pub parts: &'g Parts,
     /// The contact edge of each unknown.
     pub edges: &'g [usize],
-    pub patterns: &'g [Pattern],
+    pub patterns: &'g [TermData],
     /// Columns of p, then those of x.
     pub fields: &'g [Field],
     /// d_i

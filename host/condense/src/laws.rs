@@ -11,7 +11,7 @@ use signorini_kernel::mesh::boundary::Robin;
 
 use super::block::{Block, triangular};
 use super::functions::Functions;
-use super::patterns::Pattern;
+use signorini_certify::TermData;
 use signorini_certify::robin::{RobinPoints, robin};
 use signorini_problem::Problem;
 use signorini_problem::quadrature::DATA_POINTS;
@@ -34,7 +34,7 @@ impl Laws {
     pub fn blocks(
         &self,
         problem: &Problem,
-        patterns: &[Pattern],
+        patterns: &[TermData],
         functions: &Functions,
     ) -> Result<Vec<Block>> {
         let transfer = transfer(patterns)?;
@@ -52,7 +52,7 @@ impl Laws {
 ///
 /// # Errors
 /// Data that are not finite.
-pub(super) fn transfer(patterns: &[Pattern]) -> Result<Vec<Vec<RobinPoints>>> {
+pub(super) fn transfer(patterns: &[TermData]) -> Result<Vec<Vec<RobinPoints>>> {
     patterns.iter().map(|pattern| robin(&pattern.problem, 0.0)).collect()
 }
 

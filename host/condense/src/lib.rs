@@ -14,7 +14,7 @@
 //! x < 0, and between them where x = 0 (`ends`). Spans are linear in the inputs like loads (`spans`).
 //!
 //! ```text
-//!   patterns ─► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► CondensedModel
+//!   terms ───► columns ─► elimination (a field for each p_j and x_i) ─┬─► Ŝ, B̂, measures ─► CondensedModel
 //!   chain (s on the boundary) ─┐                                       │                       ▲
 //!   residual (rows of a cell) ─┴─► best (s inside) ─► factor, stability ◄──┘ ─► form ──────────────┘
 //! ```
@@ -42,7 +42,6 @@ mod measures;
 mod model;
 mod modes;
 mod order;
-mod patterns;
 mod points;
 pub mod ranges;
 mod recovery;
@@ -68,9 +67,10 @@ use measures::measures;
 pub use model::{CondensedModel, Corner, Form, Measure, Vertex};
 pub use modes::{LawsForm, LeftOut, ModalModel, modal};
 pub use order::along_boundary;
-use patterns::{Pattern, patterns};
 pub use recovery::{Recovery, recoverable};
 pub use released::{ReleasedVertex, with_released};
+use signorini_certify::TermData;
+use signorini_certify::term::condensed_terms;
 use signorini_problem::{Approach, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::Input;
@@ -97,7 +97,7 @@ fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
 struct Pieces<'p> {
     problem: &'p Problem,
     parts: Parts,
-    patterns: Vec<Pattern>,
+    patterns: Vec<TermData>,
     /// From base to other end, pattern by pattern and contact edge by contact edge.
     spans: Vec<Vec<f64>>,
     edges: Vec<usize>,
@@ -112,8 +112,8 @@ impl<'p> Pieces<'p> {
     fn new(problem: &'p Problem) -> Result<Self> {
         let parts = Parts::examine(problem)?;
         problem.check_limits_within_ranges()?;
-        let mut patterns = patterns(problem)?;
-        let spans = spans(problem, &mut patterns)?;
+        let patterns = condensed_terms(problem)?;
+        let spans = spans(&patterns);
         let edges = along_boundary(problem);
         let held_by_contact = held_by_contact(problem, &parts, &edges);
         if held_by_contact.iter().any(|part| part.len() == 1) {

@@ -3,7 +3,7 @@
 
 use super::Measure;
 use super::elimination::Field;
-use super::patterns::Pattern;
+use signorini_certify::TermData;
 use signorini_problem::field::CellField;
 use signorini_problem::functional::{Functional, functionals};
 use signorini_problem::{EdgeKind, Problem};
@@ -18,7 +18,7 @@ pub(super) fn measures(
     problem: &Problem,
     edges: &[usize],
     openings: &[f64],
-    patterns: &[Pattern],
+    patterns: &[TermData],
     fields: &[Field],
     spans: Option<&Vec<f64>>,
 ) -> Result<Vec<Measure>> {
@@ -50,7 +50,7 @@ struct Columns<'a> {
     /// The contact edge of each unknown.
     edges: &'a [usize],
     openings: &'a [f64],
-    patterns: &'a [Pattern],
+    patterns: &'a [TermData],
     fields: &'a [Field],
     spans: Option<&'a Vec<f64>>,
 }

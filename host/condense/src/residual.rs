@@ -14,8 +14,8 @@ use super::block::{Block, triangular};
 use super::chain::is_left_out;
 use super::functions::Functions;
 use super::laws::{Laws, of_law, transfer};
-use super::patterns::Pattern;
 use super::points::{points, points_for};
+use signorini_certify::TermData;
 use signorini_certify::cell::{Cell, Local};
 use signorini_certify::conductivity::Conductivity;
 use signorini_certify::curved::{POINTS, of_rough_sides};
@@ -32,7 +32,7 @@ use signorini_scene::error::Result;
 /// Data that are not finite.
 pub(super) fn blocks(
     problem: &Problem,
-    patterns: &[Pattern],
+    patterns: &[TermData],
     functions: &Functions,
     laws: Option<&Laws>,
     released: &BTreeSet<u32>,
@@ -61,7 +61,7 @@ pub(super) fn blocks(
 /// Data that are not finite.
 pub(super) fn jumps(
     problem: &Problem,
-    patterns: &[Pattern],
+    patterns: &[TermData],
     functions: &Functions,
     released: &BTreeSet<u32>,
 ) -> Result<Option<Vec<Block>>> {
@@ -80,10 +80,10 @@ pub(super) fn jumps(
 /// What each pattern's data have above their chords and s follows: nothing between vertices that are released.
 fn deviations<'p>(
     problem: &Problem,
-    patterns: &'p [Pattern],
+    patterns: &'p [TermData],
     released: &BTreeSet<u32>,
 ) -> Result<Vec<Deviations<'p>>> {
-    let followed = |pattern: &'p Pattern| {
+    let followed = |pattern: &'p TermData| {
         let mut deviations = Deviations::at_time(&pattern.problem, 0.0)?;
         deviations.found.retain(|of| !is_left_out(problem.ends[of.edge], released));
         Ok(deviations)

@@ -1,34 +1,16 @@
-//! What the fluxes of contact edges may be, pattern by pattern: a base, which loads contain, and a span to the other end.
-//!
-//! Where no input changes an end, the base is the end that [`Problem`] has: the smaller one, so that no digit is lost beside
-//! a huge one. Where one does, either may be the smaller one: the base is the lower end then, wherever that is finite.
+//! Spans of contact fluxes, pattern by pattern: from the base, which loads contain, to the other end.
 
-use super::patterns::Pattern;
+use signorini_certify::TermData;
 use signorini_problem::{Problem, spread};
-use signorini_scene::error::Result;
 
-/// The spans of every pattern, contact edge by contact edge: nothing where all are ∞. The bases become the contact fluxes of
-/// `patterns`.
-///
-/// # Errors
-/// Data that are not finite.
-pub(super) fn spans(problem: &Problem, patterns: &mut [Pattern]) -> Result<Vec<Vec<f64>>> {
-    let Some((constant, others)) = patterns.split_first_mut() else { return Ok(Vec::new()) };
-    let base = constant.loads().spans.clone();
-    if base.is_empty() {
-        return Ok(Vec::new());
+/// The spans of every pattern, contact edge by contact edge: nothing where all are ∞.
+pub(super) fn spans(patterns: &[TermData]) -> Vec<Vec<f64>> {
+    match patterns.first() {
+        Some(constant) if !constant.loads().spans.is_empty() => {
+            patterns.iter().map(|pattern| pattern.spans.clone()).collect()
+        }
+        _ => Vec::new(),
     }
-    if problem.scene.limit_input().is_none() {
-        let silent = others.iter().map(|_| vec![0.0; base.len()]);
-        return Ok([base.clone()].into_iter().chain(silent).collect());
-    }
-    let terms = [constant].into_iter().chain(others).enumerate();
-    let spans = terms.map(|(term, pattern)| {
-        let of = problem.range_term(term)?;
-        pattern.problem.loads.contact_flux = of.fluxes;
-        Ok(of.spans)
-    });
-    spans.collect()
 }
 
 /// In the order of the unknowns and the unit of r̂, so many columns: those beyond the patterns of the scene are 0.
@@ -50,7 +32,7 @@ pub(super) fn in_unknowns(
 }
 
 /// Why a model whose ends inputs change has no bound: hi − lo varies along an edge.
-pub(super) fn varies(problem: &Problem, patterns: &[Pattern]) -> Option<String> {
+pub(super) fn varies(problem: &Problem, patterns: &[TermData]) -> Option<String> {
     let input = problem.scene.limit_input()?;
     let counts = problem.topology.counts;
     let varies = |edge: usize| {

@@ -19,8 +19,8 @@ use super::scale::Scale;
 use super::underflow::refuse_faint;
 use crate::module_api::ModuleApi;
 use crate::setting::checked;
-use crate::superposition::parts;
 use signorini_certify::Certifier;
+use signorini_certify::term::full_terms;
 use signorini_problem::functional::functionals;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Parts, Problem};
@@ -137,7 +137,7 @@ impl<R: Scalar> Baked<R> {
         let discretization = certifier.discretization(&assembled).map_err(&unfit)?;
         let functionals = functionals(problem)?;
         let outputs = functionals.iter().map(|of| output(problem, of)).collect();
-        let data = Data::new(problem, &parts(problem)?, discretization.stiffness)?;
+        let data = Data::new(problem, &full_terms(problem)?, discretization.stiffness)?;
         data.check().map_err(&unfit)?;
         refuse_faint(&problem.scene, &data)?;
         let start = assembled.start().first().copied().unwrap_or(R::ZERO);

@@ -7,8 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use signorini_bound::certificate;
 use signorini_device::full::{CurvedPart, Product};
 
-use crate::superposition::{Part, curved_pair};
+use signorini_certify::TermData;
 use signorini_certify::curved::{Curved, may_be_cleared};
+use signorini_certify::term::curved_pair;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -25,7 +26,7 @@ pub(super) struct Bent<R> {
 type Edges<R> = (Vec<certificate::Curved<R, u32>>, Vec<Bent<R>>);
 
 /// The curved edges: as records where no input bends an edge, else all of them as sums.
-pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[Part]) -> Result<Edges<R>> {
+pub(super) fn bent<R: Scalar>(problem: &Problem, parts: &[TermData]) -> Result<Edges<R>> {
     let bends: Vec<Term> =
         (0..parts.len()).filter(|&term| !parts[term].curved.is_empty()).collect();
     if bends.iter().all(|&term| term == 0) {

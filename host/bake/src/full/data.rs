@@ -10,7 +10,7 @@ use signorini_kernel::stiffness::Stiffness;
 use super::bent::{Bent, bent};
 use super::shares::{chords, shares};
 use super::transfer::Transfer;
-use crate::superposition::Part;
+use signorini_certify::TermData;
 use signorini_problem::Problem;
 use signorini_problem::scalar::Scalar;
 use signorini_scene::error::Result;
@@ -53,21 +53,21 @@ pub(super) enum Pattern<R> {
 
 impl<R: Scalar> Data<R> {
     /// From the parts of the data, base first.
-    pub fn new(problem: &Problem, parts: &[Part], stiffness: Stiffness<R>) -> Result<Self> {
+    pub fn new(problem: &Problem, parts: &[TermData], stiffness: Stiffness<R>) -> Result<Self> {
         let Some((base, of_inputs)) = parts.split_first() else { return Ok(Self::default()) };
         let neumann = with_flux(parts);
-        let is_uniform = parts.iter().all(Part::is_uniform);
+        let is_uniform = parts.iter().all(TermData::is_uniform);
         let patterns = problem.scene.inputs.iter().zip(of_inputs).map(|(input, part)| {
-            let contact = !part.contact_flux().iter().all(|&flux| flux == 0.0);
+            let contact = !part.loads().contact_flux.iter().all(|&flux| flux == 0.0);
             match input.field.value {
                 Field::Source => Pattern::Source {
-                    triangles: shares(&part.loads.triangles),
-                    quads: shares(&part.loads.quads),
+                    triangles: shares(&part.loads().triangles),
+                    quads: shares(&part.loads().quads),
                 },
                 Field::Flux if contact => range(part),
                 Field::Flux => Pattern::Neumann(shares(&fluxes(&neumann, part))),
-                Field::Gap => Pattern::Gap(chords(&part.loads.gap, &part.ends.gap)),
-                Field::Value => Pattern::Value(chords(&part.loads.dirichlet, &part.ends.given)),
+                Field::Gap => Pattern::Gap(chords(&part.loads().gap, &part.ends.gap)),
+                Field::Value => Pattern::Value(chords(&part.loads().dirichlet, &part.ends.given)),
                 Field::Limit => range(part),
                 Field::Ambient => ambient(part, is_uniform),
                 Field::Coefficient => {
@@ -80,23 +80,23 @@ impl<R: Scalar> Data<R> {
         });
         let (curved, curved_sums) = bent(problem, parts)?;
         let mut data = Self {
-            triangles: narrow(&base.loads.triangles),
-            quads: narrow(&base.loads.quads),
+            triangles: narrow(&base.loads().triangles),
+            quads: narrow(&base.loads().quads),
             neumann: Vec::new(),
-            robin: base.loads.robin.iter().map(robin).collect(),
-            contact_flux: narrow(base.contact_flux()),
-            spans: narrow(base.spans()),
-            span_excess: R::narrow(base.loads.span_excess),
-            gap: narrow(&base.loads.gap),
+            robin: base.loads().robin.iter().map(robin).collect(),
+            contact_flux: narrow(&base.loads().contact_flux),
+            spans: narrow(&base.spans),
+            span_excess: R::narrow(base.loads().span_excess),
+            gap: narrow(&base.loads().gap),
             gap_ends: pairs(&base.ends.gap),
-            dirichlet: narrow(&base.loads.dirichlet),
+            dirichlet: narrow(&base.loads().dirichlet),
             dirichlet_ends: pairs(&base.ends.given),
             curved,
             curved_sums,
             transfer: Vec::new(),
             patterns: patterns.collect(),
             oscillation: oscillation(problem, parts, stiffness),
-            has_bound: parts.iter().all(|part| part.has_bound),
+            has_bound: parts.iter().all(TermData::has_bound),
         };
         let of_base = neumann.iter().zip(fluxes(&neumann, base));
         data.neumann =
@@ -199,8 +199,8 @@ fn robin<R: Scalar>(law: &Robin<f64, u32>) -> Robin<R, u32> {
     Robin { edge: law.edge, coefficient, ambient }
 }
 
-fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
-    let integrals: Vec<f64> = part.loads.robin.iter().map(|law| law.ambient).collect();
+fn ambient<R: Scalar>(part: &TermData, is_uniform: bool) -> Pattern<R> {
+    let integrals: Vec<f64> = part.loads().robin.iter().map(|law| law.ambient).collect();
     let edges = part.transfer.iter().zip(0..).filter(|_| !is_uniform);
     let points = edges.map(|(edge, at)| Points { at, values: edge.map(|[_, u]| R::narrow(u)) });
     let acts = |points: &Points<R, u32>| points.values.iter().any(|&u| u != R::ZERO);
@@ -208,29 +208,29 @@ fn ambient<R: Scalar>(part: &Part, is_uniform: bool) -> Pattern<R> {
 }
 
 /// What an input adds to the fluxes of contact edges: to their bases alone, or to spans as well.
-fn range<R: Scalar>(part: &Part) -> Pattern<R> {
-    let fluxes = shares(part.contact_flux());
-    match &part.range {
-        Some(range) if range.spans.iter().any(|&span| span != 0.0) => {
-            Pattern::ContactRange { fluxes, spans: shares(&range.spans) }
-        }
-        _ => Pattern::ContactFlux(fluxes),
+fn range<R: Scalar>(part: &TermData) -> Pattern<R> {
+    let fluxes = shares(&part.loads().contact_flux);
+    match part.spans.iter().any(|&span| span != 0.0) {
+        true => Pattern::ContactRange { fluxes, spans: shares(&part.spans) },
+        false => Pattern::ContactFlux(fluxes),
     }
 }
 
 /// The Neumann edges on which some part of the data has a flux, ascending.
-fn with_flux(parts: &[Part]) -> Vec<u32> {
-    let mut edges: Vec<u32> =
-        parts.iter().flat_map(|part| part.loads.neumann.iter().map(|record| record.edge)).collect();
+fn with_flux(parts: &[TermData]) -> Vec<u32> {
+    let mut edges: Vec<u32> = parts
+        .iter()
+        .flat_map(|part| part.loads().neumann.iter().map(|record| record.edge))
+        .collect();
     edges.sort_unstable();
     edges.dedup();
     edges
 }
 
 /// The flux of a part on each of these edges.
-fn fluxes(edges: &[u32], part: &Part) -> Vec<f64> {
+fn fluxes(edges: &[u32], part: &TermData) -> Vec<f64> {
     let mut fluxes = vec![0.0; edges.len()];
-    for record in &part.loads.neumann {
+    for record in &part.loads().neumann {
         if let Ok(at) = edges.binary_search(&record.edge) {
             fluxes[at] += record.flux;
         }
@@ -240,15 +240,15 @@ fn fluxes(edges: &[u32], part: &Part) -> Vec<f64> {
 
 /// Of each part, what f, g and q leave out and, where inputs change ψ or u_D, what rounding does to its
 /// boundary values: the kernel's own allowance knows only their sum, which may be a small difference.
-fn oscillation<R: Scalar>(problem: &Problem, parts: &[Part], k: Stiffness<R>) -> Vec<R> {
-    let moves = |part: &Part| part.ends.scale() > 0.0;
+fn oscillation<R: Scalar>(problem: &Problem, parts: &[TermData], k: Stiffness<R>) -> Vec<R> {
+    let moves = |part: &TermData| part.ends.scale() > 0.0;
     let varies = parts.iter().skip(1).any(moves);
     let perturbation = |part| if varies { perturbation(problem, part, k) } else { 0.0 };
     parts.iter().map(|part| R::narrow(part.oscillation + perturbation(part))).collect()
 }
 
 /// As the kernel counts it: each value moves by 2ε, at 4Σ|K| of its cell for each square.
-fn perturbation<R: Scalar>(problem: &Problem, part: &Part, k: Stiffness<R>) -> f64 {
+fn perturbation<R: Scalar>(problem: &Problem, part: &TermData, k: Stiffness<R>) -> f64 {
     let free = problem.topology.counts.free;
     let size = |entries: &[R]| entries.iter().map(|k| k.wide().abs()).sum::<f64>();
     let ends = part.ends.gap.iter().chain(&part.ends.given).zip(free..);
