@@ -234,21 +234,6 @@ fn scenes_that_no_model_represents_are_refused() {
     says(&refused(&[], &["--input", "snow=1"]), &["rain, river"]);
 }
 
-#[test]
-fn the_dense_problem_is_a_c_header() {
-    let folder = Folder::new();
-    run(&["condense", &meshes("scenes/strip.toml"), "-o", &folder.word("problem.h")]).succeeds();
-    let text = text(folder.path("problem.h"));
-    assert!(text.contains("#define N 64 ") && text.contains("#define M 2 "));
-    let start = text.find("S[N * N] = {").expect("S") + "S[N * N] = {".len();
-    let numbers = text[start..].split('}').next().expect("numbers").split(',');
-    let numbers: Vec<f32> =
-        numbers.map(|x| x.trim().trim_end_matches('f').parse().expect("a number")).collect();
-    assert_eq!(numbers.len(), 64 * 64);
-    assert!((0..64).all(|i| numbers[65 * i] == 1.0), "a unit diagonal");
-    assert!((0..64 * 64).all(|at| numbers[at] == numbers[at % 64 * 64 + at / 64]), "symmetric");
-}
-
 /// The line for a Cargo.toml that a module prints builds as it stands, in a package anywhere.
 #[test]
 fn the_dependency_line_builds_as_printed() {

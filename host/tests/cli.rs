@@ -150,35 +150,6 @@ fn inputs_change_the_answer() {
 }
 
 #[test]
-fn export_writes_a_model() {
-    let folder = Folder::new();
-    // The river may rise to the sky.
-    let scene = folder.scene("levee.toml", "scenes/levee.toml", &[("range = [-1.0, 0.5]\n", "")]);
-    let export = |output: &str, more: &[&str]| {
-        run(&[&["export", &scene, "-o", &folder.word(output)], more].concat())
-    };
-    export("new/scene.rs", &[]).succeeds();
-    let model = text(folder.path("new/scene.rs"));
-    let line = |of: &str| model.lines().any(|line| line.trim_start().starts_with(of));
-    assert!(line("pub static MODEL: Model<'static, f32, u16> = Model {"));
-    assert!(line("pub const UNKNOWNS: usize = 2329;"));
-    assert!(line("counts: EdgeCounts { free: 2279, contact: 50, dirichlet: 20 },"));
-    let is_open = !model.contains("4294967295") && model.contains("NONE]");
-    assert!(is_open, "boundary edges have one side");
-
-    export("new/scene.rs", &["--input", "rain=2", "--scalar", "f64"]).succeeds();
-    assert_ne!(text(folder.path("new/scene.rs")).replace("f64", "f32"), model);
-    export("none.rs", &["--input", "snow=1"]).refuses();
-    // f32 has no such number, and of the next no squares.
-    export("none.rs", &["--input", "river=-1e300"]).refuses();
-    let said = export("none.rs", &["--input", "river=-1e20"]).refuses();
-    assert!(said.contains("u is near 1e20, which f32 cannot square"), "{said}");
-    export("wide.rs", &["--input", "river=-1e20", "--scalar", "f64"]).succeeds();
-    assert!(!folder.path("none.rs").exists(), "nothing is left of a failure");
-    assert_eq!(export("new/scene.rs/below/a/file.rs", &[]).status, 1);
-}
-
-#[test]
 fn help_has_examples() {
     for command in [&["--help"][..], &["solve", "--help"], &["tick", "--help"]] {
         assert!(run(command).stdout.contains("Examples:"), "{command:?}");

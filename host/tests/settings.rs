@@ -12,38 +12,36 @@ output.force = { kind = "force" }
 "#;
 
 /// The commands with what follows the scene.
-const COMMANDS: [(&str, &[&str]); 8] = [
+const COMMANDS: [(&str, &[&str]); 6] = [
     ("solve", &[]),
     ("solve", &["--solver", "direct"]),
     ("solve", &["--max-sweeps", "100000"]),
     ("bake", &[]),
     ("tick", &["--ticks", "2", "--baked"]),
     ("tick", &["--ticks", "2"]),
-    ("export", &[]),
-    ("condense", &[]),
 ];
 
 /// Keys, and for each command whether it follows them (or says what takes their place).
 #[rustfmt::skip] // A table.
-const FOLLOWED: &[(&str, [bool; 8])] = &[
-    //                                              solve  direct sweeps bake   baked  tick   export condense
-    ("refine = 1",                                  [true,  true,  true,  true,  true,  true,  true,  true ]),
-    ("error = '40%'",                               [true,  true,  true,  true,  true,  true,  true,  true ]),
-    ("cells = 'quads'",                             [true,  true,  true,  true,  true,  true,  true,  true ]),
-    ("cells = 'quads'\nelement = 'nonparametric'",  [true,  true,  true,  true,  true,  true,  true,  true ]),
-    ("scalar = 'f32'",                              [true,  false, true,  true,  true,  true,  true,  true ]),
-    ("scalar = 'f64'",                              [true,  true,  true,  true,  true,  true,  true,  false]),
-    ("scalar = 'f32+f64'",                          [true,  false, false, false, false, false, false, false]),
-    ("math = 'micromath'\nscalar = 'f32'",          [true,  false, true,  true,  true,  false, false, false]),
-    ("model = 'full'",                              [true,  true,  true,  true,  true,  true,  true,  false]),
-    ("model = 'condensed'",                         [true,  true,  true,  true,  true,  false, false, true ]),
-    ("solver = 'sweeps'",                           [true,  true,  true,  true,  true,  true,  false, false]),
-    ("solver = 'factor'",                           [true,  true,  true,  true,  true,  false, false, false]),
-    ("start = 'cold'",                              [true,  true,  true,  true,  true,  false, false, false]),
-    ("omega = 1.9",                                 [true,  true,  true,  true,  true,  false, false, false]),
-    ("sweeps = 12",                                 [true,  true,  true,  true,  true,  false, false, false]),
-    ("share = 0.1",                                 [true,  true,  true,  true,  true,  false, false, false]),
-    ("certificate = false",                         [true,  true,  true,  true,  true,  false, false, false]),
+const FOLLOWED: &[(&str, [bool; 6])] = &[
+    //                                              solve  direct sweeps bake   baked  tick
+    ("refine = 1",                                  [true,  true,  true,  true,  true,  true ]),
+    ("error = '40%'",                               [true,  true,  true,  true,  true,  true ]),
+    ("cells = 'quads'",                             [true,  true,  true,  true,  true,  true ]),
+    ("cells = 'quads'\nelement = 'nonparametric'",  [true,  true,  true,  true,  true,  true ]),
+    ("scalar = 'f32'",                              [true,  false, true,  true,  true,  true ]),
+    ("scalar = 'f64'",                              [true,  true,  true,  true,  true,  true ]),
+    ("scalar = 'f32+f64'",                          [true,  false, false, false, false, false]),
+    ("math = 'micromath'\nscalar = 'f32'",          [true,  false, true,  true,  true,  false]),
+    ("model = 'full'",                              [true,  true,  true,  true,  true,  true ]),
+    ("model = 'condensed'",                         [true,  true,  true,  true,  true,  false]),
+    ("solver = 'sweeps'",                           [true,  true,  true,  true,  true,  true ]),
+    ("solver = 'factor'",                           [true,  true,  true,  true,  true,  false]),
+    ("start = 'cold'",                              [true,  true,  true,  true,  true,  false]),
+    ("omega = 1.9",                                 [true,  true,  true,  true,  true,  false]),
+    ("sweeps = 12",                                 [true,  true,  true,  true,  true,  false]),
+    ("share = 0.1",                                 [true,  true,  true,  true,  true,  false]),
+    ("certificate = false",                         [true,  true,  true,  true,  true,  false]),
 ];
 
 /// Keys that the command line takes the place of are named in a warning.

@@ -74,14 +74,11 @@ fn a_slit_is_said_by_solve_and_stands_in_its_summary() {
 fn every_command_on_a_mesh_says_it_once() {
     let text = SCENE.replace("= \"f64\"", "= \"f64\"\nsetting.model = \"condensed\"");
     let (_plain, plain) = folder(SCENE, false);
-    let (_open, open) = folder(&SCENE.replace("setting.scalar = \"f64\"", ""), false);
     let (folder, condensed) = folder(&text, false);
-    let [rust, header, out] = ["a.rs", "a.h", "out"].map(|name| folder.word(name));
+    let [rust, out] = ["a.rs", "out"].map(|name| folder.word(name));
     for arguments in [
         &["tick", &plain, "--ticks", "2", "--out", &out][..],
         &["bake", &condensed, "-o", &rust],
-        &["export", &plain, "-o", &rust],
-        &["condense", &open, "-o", &header],
         &["trade", &condensed, "--no-peers", "--out", &out],
     ] {
         let said = run(arguments).succeeds().stderr;

@@ -13,4 +13,5 @@ mod hostile;
 mod identities;
 mod mesh;
 mod naive;
+mod scene_data;
 mod twins;

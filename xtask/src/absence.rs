@@ -3,6 +3,7 @@
 use crate::symbols::allocates;
 
 /// Something that an image shall not contain.
+#[derive(Debug)]
 pub struct Absence {
     /// For a person.
     pub what: &'static str,

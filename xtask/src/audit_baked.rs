@@ -1,4 +1,4 @@
-//! What the images of baked scenes do not contain, functions that were inlined included.
+//! Kinds of code that the images of baked scenes lack, functions that were inlined included.
 //!
 //! Each kind of code is looked for where it must not be, and by the same names where it must be: a renamed
 //! function, or a list that misses, fails one of the two.
@@ -6,10 +6,10 @@
 use std::path::Path;
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
-use crate::baked::Recipe;
+use crate::modules::ROWS;
 use crate::steps::Steps;
 use crate::symbols::{inlined, sized};
-use signorini_image::board::M4F;
+use signorini_image::board::M4F_192K;
 
 const ALWAYS: [Absence; 4] = [FORMATTING, ALLOCATOR, PANIC, DOUBLE];
 
@@ -54,7 +54,7 @@ const SOLVER: Absence = Absence {
             .any(|part| name.contains(part))
     },
 };
-const TRIANGLES: Absence = Absence {
+const TRIANGLES_CODE: Absence = Absence {
     what: "triangle code",
     is: |name| {
         [
@@ -69,7 +69,7 @@ const TRIANGLES: Absence = Absence {
         .any(|part| name.contains(part))
     },
 };
-const QUADS: Absence = Absence {
+const QUADS_CODE: Absence = Absence {
     what: "quad code",
     is: |name| {
         [
@@ -98,71 +98,47 @@ const BOUND: Absence = Absence {
 };
 const ROBIN: Absence = Absence { what: "Robin code", is: |name| name.contains("E5robin") };
 
-/// A scene, its model, what its image is free of, and what is found in it by the same names.
-struct Image {
-    scene: &'static str,
-    model: &'static str,
+/// Kinds of code that an image is free of, and kinds that are found in it by the same names.
+#[derive(Debug, Clone, Copy)]
+pub struct Audit {
     lacks: &'static [Absence],
     holds: &'static [Absence],
 }
 
-const IMAGES: [Image; 7] = [
-    Image {
-        scene: "tests/firmware/scenes/linear.toml",
-        model: "--condensed",
-        lacks: &[FULL, TRIANGLES, QUADS, ROBIN, SOLVER],
-        holds: &[],
-    },
-    Image {
-        scene: "meshes/scenes/levee.toml",
-        model: "--condensed",
-        lacks: &[FULL, TRIANGLES, QUADS, ROBIN],
-        holds: &[SOLVER],
-    },
-    Image {
-        scene: "tests/firmware/scenes/levee-swept.toml",
-        model: "--full",
-        lacks: &[SOLVER, QUADS, ROBIN],
-        holds: &[FULL, TRIANGLES, BOUND],
-    },
-    Image {
-        scene: "tests/firmware/scenes/levee-plain.toml",
-        model: "--full",
-        lacks: &[SOLVER, QUADS, ROBIN, BOUND],
-        holds: &[FULL, TRIANGLES],
-    },
-    Image {
-        scene: "tests/firmware/scenes/slab-swept.toml",
-        model: "--full",
-        lacks: &[SOLVER, TRIANGLES],
-        holds: &[FULL, QUADS, ROBIN],
-    },
-    Image {
-        scene: "tests/firmware/scenes/strip-swept.toml",
-        model: "--full",
-        lacks: &[SOLVER, ROBIN],
-        holds: &[FULL, TRIANGLES, QUADS],
-    },
-    Image {
-        scene: "tests/firmware/scenes/strip-factored.toml",
-        model: "--full",
-        lacks: &[ROBIN],
-        holds: &[SOLVER, FULL, TRIANGLES, QUADS],
-    },
-];
+impl Audit {
+    /// Condensed, with nothing in contact.
+    pub const LINEAR: Self =
+        Self { lacks: &[FULL, TRIANGLES_CODE, QUADS_CODE, ROBIN, SOLVER], holds: &[] };
+    /// Condensed, solved by exchanges.
+    pub const EXCHANGES: Self =
+        Self { lacks: &[FULL, TRIANGLES_CODE, QUADS_CODE, ROBIN], holds: &[SOLVER] };
+    /// Swept on triangles.
+    pub const TRIANGLES: Self =
+        Self { lacks: &[SOLVER, QUADS_CODE, ROBIN], holds: &[FULL, TRIANGLES_CODE, BOUND] };
+    /// Swept on triangles without a bound.
+    pub const PLAIN: Self =
+        Self { lacks: &[SOLVER, QUADS_CODE, ROBIN, BOUND], holds: &[FULL, TRIANGLES_CODE] };
+    /// Swept on quads, with transfer laws.
+    pub const QUADS: Self =
+        Self { lacks: &[SOLVER, TRIANGLES_CODE], holds: &[FULL, QUADS_CODE, ROBIN] };
+    /// Swept on both kinds of cells.
+    pub const BOTH: Self =
+        Self { lacks: &[SOLVER, ROBIN], holds: &[FULL, TRIANGLES_CODE, QUADS_CODE] };
+    /// By a factor, on both kinds of cells.
+    pub const FACTOR: Self =
+        Self { lacks: &[ROBIN], holds: &[SOLVER, FULL, TRIANGLES_CODE, QUADS_CODE] };
+}
 
 /// A step for each image.
 pub fn run(steps: &mut Steps) {
-    for image in &IMAGES {
-        let recipe = Recipe::of(image.scene, image.model);
-        let name = format!("{} {}", recipe.scene_name(), image.model.trim_start_matches('-'));
-        steps.check(&format!("{name}, baked: what its scene lacks"), || {
-            judge(image, &functions(&recipe.bake()?.image(&M4F, &[])?)?)
+    for (row, audit) in ROWS.iter().filter_map(|row| row.audit.map(|audit| (row, audit))) {
+        steps.check(&format!("{}, baked: what its scene lacks", row.name()), || {
+            judge(&audit, &functions(&row.module()?.image(&M4F_192K)?)?)
         });
     }
 }
 
-fn judge(image: &Image, names: &[String]) -> Result<(), String> {
+fn judge(image: &Audit, names: &[String]) -> Result<(), String> {
     for absence in ALWAYS.iter().chain(image.lacks) {
         if let Some(name) = names.iter().find(|name| (absence.is)(name)) {
             return Err(format!("{}: {name}", absence.what));
@@ -197,7 +173,7 @@ mod tests {
     fn what_must_not_and_what_must_be_there_are_both_asked_for() {
         let solver = "_RNvNtNtCs1_17signorini_contact5dense3sor5sweepf".to_owned();
         let mesh = "_RNvNtCs1_16signorini_kernel8assembly4loadft".to_owned();
-        let [linear, levee, ..] = &IMAGES;
+        let (linear, levee) = (&Audit::LINEAR, &Audit::EXCHANGES);
         assert_eq!(judge(linear, &[]), Ok(()));
         let refused = |image, names: &[String]| judge(image, names).expect_err("refused");
         assert!(refused(linear, std::slice::from_ref(&solver)).contains(&solver));

@@ -1,11 +1,12 @@
-//! What libraries for C do not contain: by all their symbols, those that they keep for themselves included.
+//! Kinds of code that libraries for C lack: by all their symbols, those that they keep for themselves included.
 //!
 //! What a library asks for is refused when it is made, but memcpy and the like; here that is seen once more, by the archive alone,
 //! and with a path to a panic that must not pass.
 
 use crate::absence::{ALLOCATOR, Absence, DOUBLE, FORMATTING, PANIC};
-use crate::baked::Recipe;
-use crate::c::package::{Package, machine};
+use crate::c::package::machine;
+use crate::modules::{ROWS, Row, row};
+use crate::setup;
 use crate::steps::Steps;
 use crate::symbols::Shown;
 use signorini_image::library::{EXPORTS, EXPORTS_WITHIN, Library};
@@ -16,59 +17,55 @@ const ALWAYS: [Absence; 3] = [FORMATTING, ALLOCATOR, PANIC];
 /// Functions that every C library has.
 const OF_C: [&str; 5] = ["memcpy", "memmove", "memset", "memcmp", "memclr"];
 
-/// Condensed models of every kind, then meshes: by sweeps with transfer laws, and by a factor.
-const SCENES: [(&str, &str); 6] = [
-    ("tests/firmware/scenes/linear.toml", "--condensed"),
-    ("meshes/scenes/levee.toml", "--condensed"),
-    ("meshes/scenes/slab.toml", "--condensed"),
-    ("meshes/scenes/antiicing.toml", "--condensed"),
-    ("tests/firmware/scenes/slab-swept.toml", "--full"),
-    ("tests/firmware/scenes/strip-factored.toml", "--full"),
-];
-
-/// A step for each library, then the breaches.
+/// A step for the libraries of each module, then the breaches.
 pub fn run(steps: &mut Steps) {
+    setup::run(steps);
     steps.check_once("tools for C", ensure_for_c);
-    for (scene, model) in SCENES {
-        let recipe = Recipe::of(scene, model);
-        steps.check(&format!("{} for C: what a library lacks", recipe.scene_name()), || {
-            ["m4", "m4-soft", "m7"].iter().try_for_each(|word| free(&recipe, word, &ALWAYS))?;
-            // Where there is a unit for f32 nothing else has to be called.
-            free(&recipe, "m4", &[DOUBLE])
+    let is_whole = steps.is_whole();
+    for row in ROWS.iter().filter(|row| !row.c.words(is_whole).is_empty()) {
+        steps.check(&format!("{}, for C: what its libraries lack", row.name()), || {
+            row.c.words(is_whole).into_iter().filter(|word| *word != "host").try_for_each(|word| {
+                let names = symbols(row, word)?;
+                lacks(&names, &ALWAYS)?;
+                // Where there is a unit for f32 nothing else has to be called, and in f64 these helpers are.
+                match lacks(&names, &[DOUBLE]) {
+                    _ if word != "m4" => Ok(()),
+                    Ok(()) if row.scalar == "f64" => Err("no f64 helper is found".to_owned()),
+                    Err(_) if row.scalar == "f64" => Ok(()),
+                    other => other,
+                }
+                .map_err(|why| format!("{word}: {why}"))
+            })
         });
     }
-    let levee = Recipe::of(SCENES[1].0, SCENES[1].1);
-    steps.check("helpers for f64 are found in a library of f64", || {
-        let double = Recipe { scalar: Some("f64".to_owned()), ..levee.clone() };
-        match free(&double, "m4", &[DOUBLE]) {
-            Err(why) if why.contains(DOUBLE.what) => Ok(()),
-            other => Err(format!("not found: {other:?}")),
-        }
-    });
-    steps.check("broken-panic is caught when a library is made", || broken(&levee));
+    steps.check("broken-panic is caught when a library is made", broken);
 }
 
-/// `Ok` where the library has none of these, and asks for nothing but what C has.
-fn free(recipe: &Recipe, word: &str, absences: &[Absence]) -> Result<(), String> {
-    let package = Package::bake(recipe, machine(word)?)?;
+/// The symbols of a library, which shows its functions and asks for nothing but what C has.
+fn symbols(row: &Row, word: &str) -> Result<Shown, String> {
+    let package = row.package(word)?;
     let names = Shown::of(&package.library())?;
-    let exports =
-        EXPORTS.iter().chain(&EXPORTS_WITHIN).map(|own| format!("{}_{own}", package.name));
+    let exports = EXPORTS.iter().chain(&EXPORTS_WITHIN);
+    let exports: Vec<_> = exports.map(|own| format!("{}_{own}", package.name)).collect();
     // Without its functions the archive shows nothing.
-    if let Some(name) = exports.clone().find(|name| !names.shown.contains(name)) {
+    if let Some(name) = exports.iter().find(|name| !names.shown.contains(name)) {
         return Err(format!("{word}: no {name}"));
     }
-    let exports: Vec<_> = exports.collect();
     if let Some(name) = names.shown.iter().find(|name| !exports.contains(name)) {
         return Err(format!("{word}: it shows {name}"));
     }
     if let Some(name) = names.asked.iter().find(|name| !is_of_c(name)) {
         return Err(format!("{word}: it asks for {name}"));
     }
+    Ok(names)
+}
+
+/// `Ok` where the library has none of these.
+fn lacks(names: &Shown, absences: &[Absence]) -> Result<(), String> {
     for absence in absences {
         let all = names.own.iter().chain(&names.shown).chain(&names.asked);
         if let Some(name) = all.into_iter().find(|name| (absence.is)(name)) {
-            return Err(format!("{word}: {}: {name}", absence.what));
+            return Err(format!("{}: {name}", absence.what));
         }
     }
     Ok(())
@@ -80,8 +77,8 @@ fn is_of_c(name: &str) -> bool {
 }
 
 /// `Ok` where a library that can panic is not made.
-fn broken(recipe: &Recipe) -> Result<(), String> {
-    let module = recipe.bake()?;
+fn broken() -> Result<(), String> {
+    let module = row("levee", "--condensed")?.module()?;
     let text = std::fs::read_to_string(module.file()).map_err(|error| error.to_string())?;
     let features = &module.chosen.kernel_features;
     let made =

@@ -3,16 +3,20 @@
 use std::env;
 use std::fs;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
-use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
-use signorini_image::cargo::{cargo, root};
+use crate::program::signorini;
+use signorini_image::cargo::root;
 use signorini_image::chosen::Chosen;
 use signorini_image::firmware::NoResult;
 use signorini_image::module::Module;
+use signorini_image::once::Once;
 use signorini_image::room::NoImage;
-use signorini_image::toolchain::output;
+
+/// The modules of this run.
+static BAKED: Once<Arc<Module>> = Once::new();
 
 /// What to bake.
 #[derive(Debug, Clone)]
@@ -96,31 +100,10 @@ impl Recipe {
         hash.finish() as u32
     }
 
-    /// The program that bakes: the one that the environment names, else the checkout's.
-    fn command(&self) -> Command {
-        if let Some(program) = env::var_os("SIGNORINI") {
-            return Command::new(program);
-        }
-        // The build that tests and exports use, optimised like a release.
-        let mut command = cargo(&["run", "--locked", "--package", "signorini"]);
-        if !std::io::stderr().is_terminal() {
-            command.arg("--quiet");
-        }
-        command.arg("--manifest-path").arg(root().join("Cargo.toml")).arg("--");
-        command
-    }
-
     /// The command that writes the module to `file`, and what was chosen to `facts`.
-    fn baking(&self, file: &Path, facts: &Path) -> Command {
-        let mut command = self.asked();
-        command.arg("-o").arg(file).arg("--json").arg(facts);
-        command
-    }
-
-    /// The command that bakes, but for where to.
-    fn asked(&self) -> Command {
-        let mut command = self.command();
-        command.arg("bake").arg(&self.scene).args(&self.model);
+    fn baking(&self, file: &Path, facts: &Path) -> Result<Command, String> {
+        let mut command = signorini(&["bake"])?;
+        command.arg(&self.scene).args(&self.model);
         if let Some(scalar) = &self.scalar {
             command.args(["--scalar", scalar]);
         }
@@ -130,40 +113,52 @@ impl Recipe {
         for input in &self.inputs {
             command.args(["--input", input]);
         }
-        command
-    }
-
-    /// Writes the module; the command tells itself what is wrong with a scene.
-    pub fn bake(&self) -> Result<Module, Failure> {
-        Module::new(&self.name(), |file| {
-            let facts = file.with_extension("json");
-            let chosen = self.write(file, &facts);
-            let _ = fs::remove_file(&facts);
-            chosen
-        })
-    }
-
-    /// Writes the controller for C into `folder`, for a board by the word of `--board`.
-    pub fn bake_c(&self, board: &str, folder: &Path) -> Result<(), String> {
-        let mut command = self.asked();
-        command.arg("--c").arg(folder).args(["--board", board]);
-        // What it says is how to run the example.
-        output(&mut command).map(drop)
-    }
-
-    fn write(&self, file: &Path, facts: &Path) -> Result<Chosen, Failure> {
-        let mut command = self.baking(file, facts);
+        command.arg("-o").arg(file).arg("--json").arg(facts);
         // Where this one was called: the scene's path is from there.
         command.current_dir(env::current_dir().map_err(|error| error.to_string())?);
-        let status = command.status().map_err(|error| error.to_string())?;
-        if !status.success() {
-            let why = format!("signorini bake: {status}");
-            return Err(Failure { why, status: if status.code() == Some(2) { 2 } else { 1 } });
-        }
-        let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", facts.display());
-        let text = fs::read_to_string(facts).map_err(|error| wrong(&error))?;
-        Ok(serde_json::from_str(&text).map_err(|error| wrong(&error))?)
+        Ok(command)
     }
+
+    /// The module, baked once a run; the command tells itself what is wrong with a scene.
+    pub fn bake(&self) -> Result<Arc<Module>, Failure> {
+        self.bake_for(&[], Path::new(""))
+    }
+
+    /// The module with its controllers for C, for machines by the words of `--board`; nothing is written where it is baked
+    /// already.
+    pub fn bake_for(&self, words: &[&str], folder: &Path) -> Result<Arc<Module>, Failure> {
+        BAKED.get(&self.name(), || {
+            let module = Module::new(&self.name(), |file| {
+                let facts = file.with_extension("json");
+                let mut command = self.baking(file, &facts)?;
+                if !words.is_empty() {
+                    command.arg("--c").arg(folder);
+                }
+                command.args(words.iter().flat_map(|word| ["--board", word]));
+                let chosen = written(command, &facts);
+                let _ = fs::remove_file(&facts);
+                chosen
+            })?;
+            Ok(Arc::new(module))
+        })
+    }
+}
+
+/// The number of modules that this run has baked.
+pub fn bakes() -> usize {
+    BAKED.count()
+}
+
+/// Runs the command; the facts that it has written.
+fn written(mut command: Command, facts: &Path) -> Result<Chosen, Failure> {
+    let status = command.status().map_err(|error| error.to_string())?;
+    if !status.success() {
+        let why = format!("signorini bake: {status}");
+        return Err(Failure { why, status: if status.code() == Some(2) { 2 } else { 1 } });
+    }
+    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", facts.display());
+    let text = fs::read_to_string(facts).map_err(|error| wrong(&error))?;
+    Ok(serde_json::from_str(&text).map_err(|error| wrong(&error))?)
 }
 
 #[cfg(test)]

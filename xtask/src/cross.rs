@@ -5,35 +5,43 @@
 
 use std::fs;
 
-use crate::baked::Recipe;
+use crate::crates::DEVICE;
 use crate::export::scenes;
+use crate::modules::ROWS;
 use crate::setup;
 use crate::steps::Steps;
 use signorini_image::board::{Board, Build, HARDWARE, M4, M4F, M7};
 use signorini_image::cargo::{run as run_cargo, target_dir};
 
-const BOARDS: [Board; 3] = [M4, M4F, M7];
+/// Boards, the first of which links every image in every run.
+const BOARDS: [Board; 3] = [M4F, M4, M7];
 
-/// Packages, and what to call them.
-const PACKAGES: [(&str, &str); 3] = [
-    ("signorini-device", "the kernel"),
-    ("signorini-firmware", "the images"),
-    ("signorini-rtic", "the RTIC example"),
-];
+/// Packages of images, and what to call them.
+const PACKAGES: [(&str, &str); 2] =
+    [("signorini-firmware", "the images"), ("signorini-rtic", "the RTIC example")];
 
 /// Builds for the M4 without and with its unit for f32, for the M7, and for a real board.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
-    for board in BOARDS {
-        for (package, what) in PACKAGES {
+    let is_whole = steps.is_whole();
+    for (at, board) in BOARDS.into_iter().enumerate() {
+        let kernel = [(DEVICE, "the kernel")];
+        let images = PACKAGES.into_iter().filter(|_| is_whole || at == 0);
+        for (package, what) in kernel.into_iter().chain(images) {
             steps.check(&format!("{what} for the {}", board.name), || {
                 build(&board, Build { package, bins: &[], features: &[], scenes: &scenes()? })
             });
         }
-        steps.check(&format!("a baked scene for the {}", board.name), || {
-            let recipe = Recipe::of("meshes/scenes/levee.toml", "--condensed");
-            Ok(recipe.bake()?.image(&board, &[]).map(drop)?)
-        });
+    }
+    for row in &ROWS {
+        for board in row.linked {
+            steps.check(&format!("{} for the {}", row.name(), board.name), || {
+                Ok(row.module()?.image(board).map(drop)?)
+            });
+        }
+    }
+    if !is_whole {
+        return;
     }
     steps.check("the cost image for a real board", || {
         let (package, bins) = ("signorini-firmware", &["cost"]);

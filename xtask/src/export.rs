@@ -1,10 +1,12 @@
-//! The scenes of the firmware, as the host's exporter writes them.
+//! Scenes as data for the stages of the kernel.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use signorini_image::cargo::{cargo, run, target_dir};
+use crate::program::scene_data;
+use signorini_image::cargo::target_dir;
+use signorini_image::module::take;
+use signorini_image::toolchain::output;
 
 /// Name, scene file and scalars.
 const SCENES: [(&str, &str, &[&str]); 5] = [
@@ -26,19 +28,9 @@ fn write() -> Result<PathBuf, String> {
     for (name, file, scalars) in SCENES {
         for scalar in scalars {
             let fresh = folder.join(format!("{name}_{scalar}.{}.rs", std::process::id()));
-            let mut command =
-                cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
-            command.args(["export", file, "--scalar", scalar, "--output"]).arg(&fresh);
-            run(command)?;
+            output(scene_data(&["model", file, scalar])?.arg(&fresh))?;
             take(&fresh, &folder.join(format!("{name}_{scalar}.rs")))?;
         }
     }
     Ok(folder)
-}
-
-/// Puts `fresh` in the place of `kept`, unless they are equal: images are then not built anew.
-pub fn take(fresh: &Path, kept: &Path) -> Result<(), String> {
-    let equal = fs::read(fresh).ok() == fs::read(kept).ok();
-    let done = if equal { fs::remove_file(fresh) } else { fs::rename(fresh, kept) };
-    done.map_err(|error| format!("{}: {error}", kept.display()))
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::baked::Recipe;
+use crate::modules::FLOWN;
 use crate::record;
 use signorini_image::board::{Build, M4F, emulator};
 use signorini_image::cargo::{root, run as run_cargo};
@@ -12,7 +12,7 @@ const RECORD: &str = "tests/firmware/antiicing.txt";
 
 /// Bakes the scene, flies, and compares what is said. The image itself fails where a deadline is missed or an answer is wrong.
 pub fn check(bless: bool) -> Result<(), String> {
-    let module = Recipe::of("meshes/scenes/antiicing.toml", "--full").bake()?;
+    let module = FLOWN.module()?;
     let (bins, features) = (&["antiicing"], &["antiicing"]);
     let build = Build { package: "signorini-rtic", bins, features, scenes: module.file() };
     let (mut command, folder) = M4F.build(build)?;

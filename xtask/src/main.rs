@@ -10,18 +10,22 @@ mod boards;
 mod c;
 mod cost;
 mod counted;
+mod crates;
 mod cross;
 mod export;
 mod firmware;
 mod flight;
 mod fuzz;
 mod imports;
+mod modules;
 mod mutants;
 mod no_std;
 mod oldest;
 mod osqp;
 mod peers;
+mod program;
 mod python;
+mod quick;
 mod ranks;
 mod record;
 mod replay;
@@ -31,6 +35,7 @@ mod seen;
 mod setup;
 mod size;
 mod snapshot;
+mod stamps;
 mod steps;
 mod symbols;
 mod test;
@@ -43,7 +48,7 @@ use signorini_image::cargo::target_dir;
 use signorini_image::checkout;
 use signorini_image::lock::hold;
 
-use steps::Steps;
+use steps::{Mode, Steps};
 
 /// A verb of the command line.
 struct Verb {
@@ -54,17 +59,22 @@ struct Verb {
 
 /// What a verb does.
 enum Work {
-    /// Steps, all of them whichever fail, with no argument but `--bless`.
+    /// Steps, all of them whichever fail, with no argument but `--bless` and `--all`.
     Steps(fn(&mut Steps)),
     /// One thing, with arguments and a help of its own.
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 19] = [
+const VERBS: [Verb; 20] = [
     Verb {
         name: "test",
-        about: "everything: formatting, clippy, tests, and all that follows",
+        about: "formatting, clippy, tests, boards; with --all what need not run each time, too",
         work: Work::Steps(test::run),
+    },
+    Verb {
+        name: "quick",
+        about: "format, clippy and tests of the packages that the working tree changes",
+        work: Work::Steps(quick::run),
     },
     Verb {
         name: "imports",
@@ -160,7 +170,8 @@ const VERBS: [Verb; 19] = [
 
 const EXAMPLES: &str = "\
 Examples:
-  cargo xtask test      before every commit, and what CI runs
+  cargo xtask test         before every commit, and what CI runs
+  cargo xtask test --all   fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista, every board, too
   cargo xtask no-std    after a change of the kernel's dependencies
   cargo xtask cost --bless    writes the record anew (boards, c, cost, peers and size have one)
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
@@ -184,19 +195,21 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Some(Work::Steps(work)) => match arguments {
-            [] | ["--bless"] => {
+            [] | ["--bless"] | ["--all"] => {
                 // Images of one name differ from verb to verb.
                 let _turn = match hold(&target_dir("firmware").join("steps.lock")) {
                     Ok(turn) => turn,
                     Err(why) => return wrong(&why),
                 };
-                let mut steps = Steps::new(!arguments.is_empty());
+                let bless = arguments == ["--bless"];
+                // A record is written whole.
+                let mut steps = Steps::new(Mode { bless, is_whole: !arguments.is_empty() });
                 work(&mut steps);
                 steps.finish()
             }
-            [extra, ..] => {
-                wrong(&format!("`{name}` takes no argument but `--bless`, not `{extra}`"))
-            }
+            [extra, ..] => wrong(&format!(
+                "`{name}` takes no argument but `--bless` or `--all`, not `{extra}`"
+            )),
         },
         None => wrong(&format!("no verb `{name}`")),
     }

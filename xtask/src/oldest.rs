@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::program;
 use crate::steps::Steps;
-use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
+use signorini_image::cargo::{root, target_dir};
 use signorini_image::toolchain::output;
 use signorini_image::tools::install_packages;
 
@@ -22,11 +23,7 @@ pub fn run(steps: &mut Steps) {
     }
     steps.check("a solve on an x86-64 without AVX", || {
         ensure()?;
-        // As the tests before have built it: whatever RUSTFLAGS says is what they were built with, too.
-        let mut build = cargo(&["test", "--quiet", "--workspace", "--locked", "--no-run"]);
-        build.env("CARGO_TARGET_DIR", target_dir(""));
-        run_cargo(build)?;
-        let program = target_dir("").join("debug/signorini");
+        let program = program::path()?;
         SOLVERS.iter().try_for_each(|solver| solve(&program, solver))
     });
 }

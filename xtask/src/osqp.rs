@@ -10,6 +10,9 @@ use signorini_image::cargo::{cargo, run, target_dir};
 use signorini_image::toolchain::output;
 use signorini_image::tools::install_packages;
 
+/// The package of the program.
+pub const MANIFEST: &str = "tests/osqp/Cargo.toml";
+
 const HELP: &str = "\
 Usage: cargo xtask osqp [--wide]
 
@@ -54,7 +57,7 @@ fn build(is_wide: bool) -> Result<String, String> {
     }
     // Each kind has a folder: of two studies at the same time neither gets the other's program.
     let target = target_dir("osqp").join(if is_wide { "wide" } else { "" });
-    let words = ["build", "--release", "--locked", "--manifest-path", "tests/osqp/Cargo.toml"];
+    let words = ["build", "--release", "--locked", "--manifest-path", MANIFEST];
     let mut command = if is_wide { widened(&words) } else { cargo(&words) };
     if !is_wide {
         command.env("RUSTFLAGS", "");

@@ -22,13 +22,14 @@ mod sources;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use crate::program::{scene_data, signorini};
 use crate::record;
 use crate::setup;
 use crate::steps::Steps;
 use image::Measured;
 use reference::{Deviation, Problem, deviation};
 use signorini_image::board::emulator;
-use signorini_image::cargo::{cargo, root, run as run_cargo, target_dir};
+use signorini_image::cargo::{root, target_dir};
 use signorini_image::toolchain::{Toolchain, first_words, output};
 use sources::Sources;
 
@@ -71,6 +72,7 @@ pub fn run(steps: &mut Steps) {
             "M4F, f32", "n", "median", "worst", "code", "RAM", "error", "violation"
         );
         for (title, scene, is_reduced) in PROBLEMS {
+            println!("{title}");
             table += &format!("{title}\n{}", rows(scene, is_reduced, &sources)?);
         }
         println!("{table}");
@@ -147,15 +149,11 @@ fn condense(scene: &str, is_reduced: bool, folder: &Path) -> Result<PathBuf, Str
     let header = folder.join("problem.h");
     let scene = root().join(format!("tests/firmware/peers/{scene}.toml"));
     let source = folder.join("contact.rs");
-    let (condense, bake): (&[&str], &[&str]) = match is_reduced {
-        true => (&["condense", "--reduced"], &["bake", "--condensed"]),
-        false => (&["condense"], &["bake", "--condensed", "--full-edges"]),
-    };
-    for (words, file) in [(condense, &header), (bake, &source)] {
-        let mut command = cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
-        command.args(words).arg(&scene).arg("-o").arg(file);
-        run_cargo(command)?;
-    }
+    let more: &[&str] = if is_reduced { &["--reduced"] } else { &[] };
+    output(scene_data(&["contact"])?.arg(&scene).arg(&header).args(more))?;
+    let more: &[&str] = if is_reduced { &[] } else { &["--full-edges"] };
+    let mut bake = signorini(&["bake", "--condensed"])?;
+    output(bake.args(more).arg(&scene).arg("-o").arg(&source))?;
     Ok(header)
 }
 

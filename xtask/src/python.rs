@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use crate::program;
 use crate::steps::Steps;
 use crate::venv;
 use signorini_image::cargo::{cargo, root, run as run_command, target_dir};
@@ -17,10 +18,10 @@ const ENVIRONMENT: &str = "module-environment";
 
 /// The steps.
 pub fn run(steps: &mut Steps) {
-    steps.check("formatting, host/python", || {
+    steps.lint("formatting, host/python", || {
         run_command(cargo(&["fmt", "--manifest-path", "host/python/Cargo.toml", "--check"]))
     });
-    steps.check("clippy, host/python", || {
+    steps.lint("clippy, host/python", || {
         let mut clippy =
             cargo(&["clippy", "--manifest-path", "host/python/Cargo.toml", "--locked"]);
         clippy.arg("--target-dir").arg(target_dir("python").join("module"));
@@ -34,13 +35,9 @@ pub fn run(steps: &mut Steps) {
         if output(Command::new(&python).args(["-c", "import gmsh"])).is_err() {
             install_packages(&OF_GMSH)?;
         }
-        // As the tests before have built it.
-        let mut build = cargo(&["test", "--quiet", "--workspace", "--locked", "--no-run"]);
-        build.env("CARGO_TARGET_DIR", target_dir(""));
-        run_command(build)?;
         let mut tests = Command::new(&python);
         tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "host/python/tests"]);
-        tests.env("SIGNORINI", target_dir("").join("debug/signorini")).current_dir(root());
+        tests.env("SIGNORINI", program::path()?).current_dir(root());
         run_command(tests)
     });
 }

@@ -12,8 +12,16 @@ use signorini_image::tools::install_packages;
 const PACKAGES: [&str; 3] = ["libopenmpi-dev", "openmpi-bin", "libclang-dev"];
 
 /// The whole workspace, as the tests before, so that its dependencies are compiled already.
-const TESTS: [&str; 7] =
-    ["test", "--workspace", "--locked", "--features", "signorini/mpi", "--test", "ranks"];
+const TESTS: [&str; 8] = [
+    "test",
+    "--release",
+    "--workspace",
+    "--locked",
+    "--features",
+    "signorini/mpi",
+    "--test",
+    "ranks",
+];
 
 /// The step.
 pub fn run(steps: &mut Steps) {

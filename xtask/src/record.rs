@@ -13,22 +13,49 @@ const TOLERANCE: f64 = 0.02;
 
 /// Compares `table` with the record, or writes it. `false`: the record is one of other versions.
 pub fn compare(path: &str, versions: &str, table: &str, bless: bool) -> Result<bool, String> {
-    let text = format!("{versions}\n\n{table}");
     if bless {
-        return snapshot::write(path, &text).map(|()| true);
+        return snapshot::write(path, &format!("{versions}\n\n{table}")).map(|()| true);
     }
+    compared(path, versions, table, str::to_owned)
+}
+
+/// Compares a table that is a part of the record: some of its blocks, or the first rows of one.
+pub fn compare_part(path: &str, versions: &str, table: &str) -> Result<bool, String> {
+    compared(path, versions, table, |figures| part(figures, table))
+}
+
+fn compared(
+    path: &str,
+    versions: &str,
+    table: &str,
+    of: impl Fn(&str) -> String,
+) -> Result<bool, String> {
     let recorded =
         fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
-    let (of, figures) = recorded.split_once('\n').unwrap_or_default();
-    if !(of.starts_with("rustc ") && of.contains(", QEMU ")) {
+    let (by, figures) = recorded.split_once('\n').unwrap_or_default();
+    if !(by.starts_with("rustc ") && by.contains(", QEMU ")) {
         return Err(format!("{path} does not begin with versions; --bless writes it anew"));
     }
-    if of.trim() != versions {
-        println!("{path} is a record of `{of}`, this is `{versions}`: nothing is compared");
+    if by.trim() != versions {
+        println!("{path} is a record of `{by}`, this is `{versions}`: nothing is compared");
         return Ok(false);
     }
-    let worse = regressions(figures, table)?;
+    let worse = regressions(&of(figures), table)?;
     if worse.is_empty() { Ok(true) } else { Err(format!("{path}: {}", worse.join("; "))) }
+}
+
+/// The blocks of `record` that begin with the lines that those of `table` begin with, each as long as that one.
+fn part(record: &str, table: &str) -> String {
+    let blocks = |text: &str| -> Vec<Vec<String>> {
+        let blocks = text.trim().split("\n\n");
+        blocks.map(|block| block.lines().map(str::to_owned).collect()).collect()
+    };
+    let mut recorded = blocks(record).into_iter();
+    let kept = blocks(table).into_iter().filter_map(|now| {
+        let old = recorded.find(|old| old.first() == now.first())?;
+        Some(old.into_iter().take(now.len()).collect::<Vec<_>>().join("\n"))
+    });
+    kept.collect::<Vec<_>>().join("\n\n")
 }
 
 /// The figures of two tables that differ by more than the tolerance.
@@ -79,6 +106,16 @@ mod tests {
         assert_eq!(regressions(old, "sweep unknown 23.30 30.00\n"), Ok(Vec::new()));
         let worse = regressions(old, "sweep unknown 23.40 34.00\n").unwrap();
         assert_eq!(worse, ["sweep unknown: 23.4, recorded 22.9"]);
+    }
+
+    #[test]
+    fn a_part_is_compared_with_its_own_blocks_and_rows() {
+        let record = "\nM4F x\nsweep 1\n\nM7 x\nsweep 2\n\nM4F x\nflux 3\nload 4\n";
+        assert_eq!(
+            part(record, "M4F x\nsweep 9\n\nM4F x\nflux 9\n"),
+            "M4F x\nsweep 1\n\nM4F x\nflux 3"
+        );
+        assert_eq!(part(record, "M8 x\nsweep 9\n"), "");
     }
 
     #[test]

@@ -4,7 +4,9 @@
 
 use std::fs;
 
-use signorini_image::cargo::{cargo, run, target_dir};
+use crate::program::signorini;
+use signorini_image::cargo::target_dir;
+use signorini_image::toolchain::output;
 
 /// The scenes in the order of the stage `scenes`.
 const SCENES: [&str; 4] = ["levee", "slab", "strip", "membrane"];
@@ -27,9 +29,7 @@ pub fn compare(journal: &str) -> Result<(), String> {
     for (name, section) in SCENES.iter().zip(sections) {
         let folder = target_dir("firmware").join("solve").join(name);
         let scene = format!("meshes/scenes/{name}.toml");
-        let mut command = cargo(&["run", "--quiet", "--locked", "--package", "signorini", "--"]);
-        command.args(["solve", &scene, "--scalar", "f32", "--out"]).arg(&folder);
-        run(command)?;
+        output(signorini(&["solve", &scene, "--scalar", "f32", "--out"])?.arg(&folder))?;
         let summary = fs::read_to_string(folder.join("summary.json"));
         let summary = summary.map_err(|error| format!("{}: {error}", folder.display()))?;
         for (key, line) in FIGURES {

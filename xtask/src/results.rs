@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::program::signorini;
 use crate::steps::Steps;
 use crate::venv;
-use signorini_image::cargo::{cargo, root, run as run_command, target_dir};
+use signorini_image::cargo::{root, target_dir};
 use signorini_image::toolchain::output;
 
 const REQUIREMENTS: &str = "tests/python/requirements.txt";
@@ -18,15 +19,11 @@ const TICKED: &str = "meshes/catalogue/moving-tri.toml";
 pub fn run(steps: &mut Steps) {
     steps.check("meshio and PyVista read the results", || {
         let python = venv::with("environment", &["-r", REQUIREMENTS], &[])?;
-        // As the tests before have built it.
-        let mut build = cargo(&["test", "--quiet", "--workspace", "--locked", "--no-run"]);
-        build.env("CARGO_TARGET_DIR", target_dir(""));
-        run_command(build)?;
         let out = target_dir("python").join("out");
-        signorini(&["tick", TICKED, "--vtu", "--ticks", "5"], &out.join("ticks"))?;
+        written(&["tick", TICKED, "--vtu", "--ticks", "5"], &out.join("ticks"))?;
         SCENES.iter().try_for_each(|name| {
             let scene = format!("meshes/scenes/{name}.toml");
-            signorini(&["solve", &scene, "--max-error", "25%"], &out.join("solve"))?;
+            written(&["solve", &scene, "--max-error", "25%"], &out.join("solve"))?;
             let mut read = Command::new(&python);
             read.arg(READER).arg(&out).current_dir(root());
             output(&mut read).map(|said| print!("{name}: {said}"))
@@ -34,8 +31,6 @@ pub fn run(steps: &mut Steps) {
     });
 }
 
-fn signorini(arguments: &[&str], out: &Path) -> Result<(), String> {
-    let mut command = Command::new(target_dir("").join("debug/signorini"));
-    command.args(arguments).arg("--out").arg(out).current_dir(root());
-    output(&mut command).map(drop)
+fn written(words: &[&str], out: &Path) -> Result<(), String> {
+    output(signorini(words)?.arg("--out").arg(out)).map(drop)
 }

@@ -11,6 +11,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 use crate::counted::counted_by;
+use crate::crates::of_kernel;
 use crate::steps::{Steps, Tally};
 use signorini_image::cargo::{cargo, target_dir};
 use signorini_image::toolchain::output;
@@ -26,9 +27,14 @@ fn main() {
 ";
 const FLAG: &str = "-Zsanitizer=address";
 
-/// That it catches anything, then the tests.
-pub fn run(steps: &mut Steps) {
+/// Shows that the toolchain has a sanitizer that catches anything.
+pub fn witness(steps: &mut Steps) {
     steps.check("a number behind an array is caught", caught);
+}
+
+/// The sanitizer, then the tests.
+pub fn run(steps: &mut Steps) {
+    witness(steps);
     steps.step("sweeps stay inside of u", || match tests() {
         Ok(command) => counted_by(command),
         Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
@@ -56,15 +62,7 @@ fn caught() -> Result<(), String> {
 }
 
 fn tests() -> Result<Command, String> {
-    let mut command = cargo(&[
-        "test",
-        "--locked",
-        "--no-fail-fast",
-        "-p",
-        "signorini-kernel",
-        "-p",
-        "signorini-device",
-    ]);
+    let mut command = of_kernel(cargo(&["test", "--locked", "--no-fail-fast"]));
     command.args(TESTS.iter().flat_map(|test| ["--test", test]));
     // With a target of its own, programs that run while it builds stay as they are.
     command.arg("--target").arg(host()?).arg("--target-dir").arg(target_dir("sanitize"));

@@ -32,15 +32,19 @@ struct Entry {
 /// Entries by name.
 type Entries = BTreeMap<String, Entry>;
 
-/// Has the tests that `command` runs write down what they see, with nothing left of earlier runs.
-pub fn told(mut command: Command) -> Result<Command, String> {
+/// Removes what the tests of earlier runs have written down.
+pub fn emptied() -> Result<(), String> {
     let folder = folder();
     if folder.exists() {
         fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
-    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    command.env(FOLDER, folder);
-    Ok(command)
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// Has the tests that `command` runs write down what they see.
+pub fn told(mut command: Command) -> Command {
+    command.env(FOLDER, folder());
+    command
 }
 
 /// The step: a check for each entry of the table.

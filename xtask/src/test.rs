@@ -1,69 +1,162 @@
-//! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out.
+//! `cargo xtask test`: everything that must hold, in the order in which it is cheap to find out; `--all` has beside it what
+//! need not run each time.
+//!
+//! ```text
+//!   formatting, house ─► signorini ─┬─► host: clippy, tests, documentation, Python
+//!                                   └─► boards: modules, images, C, audits, records
+//!   --all: more boards and breaches in the steps above; then fuzzing, sanitizer, mutants, MPI, OSQP, old processors, PyVista
+//! ```
+//! The host's steps use all processors while they compile, those of the boards one: images are linked as a whole.
 
 use crate::counted::counted_by;
+use crate::crates::{KERNEL, of_kernel};
 use crate::steps::{Steps, Tally};
 use crate::{
-    audit, boards, c, cost, cross, firmware, fuzz, imports, mutants, no_std, oldest, osqp, python,
-    ranks, results, sanitize, seen, size,
+    audit, boards, c, cost, cross, firmware, fuzz, imports, modules, mutants, no_std, oldest, osqp,
+    program, python, ranks, results, sanitize, seen, setup, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
+use signorini_image::tools::ensure_for_c;
 
-/// Formatting, clippy, tests, ranks of MPI, documentation, the kernel without std, the images.
+/// Workspaces of their own, and all packages of each.
+const FORMATTED: [&str; 6] = [
+    "Cargo.toml",
+    no_std::MANIFEST,
+    fuzz::MANIFEST,
+    mutants::MANIFEST,
+    osqp::MANIFEST,
+    "tests/firmware/Cargo.toml",
+];
+
+/// The sources of all programs, and the scenes that tests read.
+const HOST: [&str; 9] = [
+    "kernel",
+    "host",
+    "meshes",
+    "tests/src",
+    "tests/tests",
+    "tests/Cargo.toml",
+    "tests/tolerances",
+    "tests/fuzz",
+    "tests/fixtures",
+];
+/// Files that tests compare with what programs say.
+const PAGES: [&str; 5] = ["docs", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "tests/firmware"];
+/// What boards run.
+const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/firmware.md"];
+
+/// The verb.
 pub fn run(steps: &mut Steps) {
-    steps.check("formatting", || {
-        require("fmt", "rustfmt")?;
-        run_cargo(cargo(&["fmt", "--all", "--check"]))
-    });
-    steps.check("formatting, tests/no_std", || {
-        require("fmt", "rustfmt")?;
-        run_cargo(cargo(&["fmt", "--manifest-path", no_std::MANIFEST, "--check"]))
-    });
-    steps.check("clippy", || {
-        require("clippy", "clippy")?;
-        let what = ["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"];
-        run_cargo(cargo(&what))
-    });
+    formatting(steps);
     imports::run(steps);
-    steps.step("tests", || {
-        let all = cargo(&["test", "--workspace", "--locked", "--no-fail-fast"]);
-        match seen::told(all) {
-            Ok(all) => counted_by(all),
-            Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
-        }
+    steps.compile("the program signorini", || program::path().map(drop));
+    steps.beside(on_host, on_boards);
+    if steps.is_whole() {
+        at_length(steps);
+    } else {
+        witnesses(steps);
+    }
+}
+
+fn formatting(steps: &mut Steps) {
+    steps.lint("formatting", || {
+        require("fmt", "rustfmt")?;
+        FORMATTED.iter().try_for_each(|manifest| {
+            run_cargo(cargo(&["fmt", "--manifest-path", manifest, "--all", "--check"]))
+        })
     });
+}
+
+fn on_host(steps: &mut Steps) {
+    steps.group("host", &[&HOST[..], &PAGES].concat(), |steps| {
+        clippy(steps);
+        tests(steps);
+        steps.lint("documentation", || {
+            let mut doc = cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"]);
+            doc.env("RUSTDOCFLAGS", "-D warnings");
+            run_cargo(doc)
+        });
+    });
+    steps.group("the kernel without std", &["kernel", "tests/no_std"], no_std::run);
+    steps.group("Python", &["kernel", "host", "meshes"], python::run);
+}
+
+/// Clippy, on what the tests build.
+pub fn clippy(steps: &mut Steps) {
+    steps.lint("clippy", || {
+        require("clippy", "clippy")?;
+        let words = ["clippy", "--release", "--workspace", "--all-targets", "--locked"];
+        let mut command = cargo(&words);
+        command.args(["--", "-D", "warnings"]);
+        run_cargo(command)
+    });
+}
+
+/// All tests as the program is built; those of the kernel with debug assertions and checks of overflow.
+fn tests(steps: &mut Steps) {
+    let built = |words: &[&str]| {
+        let mut command = cargo(&["test", "--release", "--workspace", "--locked"]);
+        command.args(KERNEL.iter().flat_map(|package| ["--exclude", package]));
+        command.args(words);
+        command
+    };
+    let checked = |words: &[&str]| {
+        let mut command = of_kernel(cargo(&["test", "--locked"]));
+        command.args(words);
+        command
+    };
+    steps.compile("tests, built", || run_cargo(built(&["--no-run"])));
+    steps.compile("tests of the kernel, built", || run_cargo(checked(&["--no-run"])));
+    let mut told = seen::emptied();
+    for (name, command) in [
+        ("tests", built(&["--no-fail-fast"])),
+        ("tests of the kernel, overflow checked", checked(&["--no-fail-fast"])),
+    ] {
+        steps.step(name, || match std::mem::replace(&mut told, Ok(())) {
+            Ok(()) => counted_by(seen::told(command)),
+            Err(why) => (Tally { passed: 0, failed: 1 }, Some(why)),
+        });
+    }
     seen::run(steps);
+}
+
+fn on_boards(steps: &mut Steps) {
+    setup::run(steps);
+    steps.check_once("tools for C", ensure_for_c);
+    steps.group("boards", &BOARDS, |steps| {
+        modules::bake_all(steps);
+        firmware::check(steps);
+        size::run(steps);
+        c::run(steps);
+        audit::run(steps);
+        cross::run(steps);
+        boards::run(steps);
+        cost::run(steps);
+        firmware::check_worst(steps);
+        steps.check("each module was baked once", modules::baked_once);
+    });
+}
+
+/// The steps that need not run each time.
+fn at_length(steps: &mut Steps) {
+    fuzz::check(steps);
+    sanitize::run(steps);
     mutants::verify(steps);
     ranks::run(steps);
-    steps.check("documentation", || {
-        let mut doc = cargo(&["doc", "--workspace", "--no-deps", "--locked"]);
-        doc.env("RUSTDOCFLAGS", "-D warnings");
-        run_cargo(doc)
-    });
-    results::run(steps);
-    python::run(steps);
-    oldest::run(steps);
-    no_std::run(steps);
-    sanitize::run(steps);
     osqp::check(steps);
-    steps.check("formatting, tests/fuzz", || {
-        run_cargo(cargo(&["fmt", "--manifest-path", fuzz::MANIFEST, "--check"]))
+    oldest::run(steps);
+    results::run(steps);
+}
+
+/// A small part of each of them.
+fn witnesses(steps: &mut Steps) {
+    sanitize::witness(steps);
+    mutants::witness(steps);
+    steps.lint("packages apart: their lock files are whole", || {
+        [fuzz::MANIFEST, osqp::MANIFEST, mutants::MANIFEST].iter().try_for_each(|manifest| {
+            let words =
+                ["tree", "--quiet", "--locked", "--depth", "0", "--manifest-path", manifest];
+            run_cargo(cargo(&words))
+        })
     });
-    fuzz::check(steps);
-    steps.check("formatting, tests/firmware", || {
-        run_cargo(cargo(&[
-            "fmt",
-            "--manifest-path",
-            "tests/firmware/Cargo.toml",
-            "--all",
-            "--check",
-        ]))
-    });
-    cross::run(steps);
-    boards::run(steps);
-    firmware::check(steps);
-    firmware::check_worst(steps);
-    c::run(steps);
-    audit::run(steps);
-    size::run(steps);
-    cost::run(steps);
 }

@@ -18,7 +18,6 @@ pub mod costs;
 pub mod dense;
 pub mod emit;
 pub mod explain;
-pub mod export;
 pub mod full;
 pub mod intervals;
 mod item;

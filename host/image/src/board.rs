@@ -88,6 +88,11 @@ pub struct Build<'a> {
 }
 
 impl Board {
+    /// A name that no other memory map has.
+    pub(crate) fn memory_name(&self) -> String {
+        format!("{}.{}", self.name, self.memory)
+    }
+
     /// The board, with so much flash and RAM that every image has room: to link, not to run.
     pub fn boundless(self) -> Self {
         Self { memory: "boundless", ..self }

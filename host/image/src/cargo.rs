@@ -4,6 +4,8 @@ use std::env;
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 pub use crate::checkout::root;
 
@@ -18,6 +20,26 @@ pub fn cargo(words: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(words).current_dir(root());
     command
+}
+
+/// Milliseconds that builds of programs for boards and desks took.
+static BUILDING: AtomicU64 = AtomicU64::new(0);
+
+/// The time that all calls of [`build`] took.
+pub fn building() -> Duration {
+    Duration::from_millis(BUILDING.load(Ordering::Relaxed))
+}
+
+/// Runs `command`, which compiles, with its output in sight or not.
+///
+/// # Errors
+/// It does not start, or fails.
+pub fn build(command: Command, is_quiet: bool) -> Result<(), String> {
+    let start = Instant::now();
+    let built = if is_quiet { run_quietly(command) } else { run(command) };
+    let took = u64::try_from(start.elapsed().as_millis()).unwrap_or(u64::MAX);
+    BUILDING.fetch_add(took, Ordering::Relaxed);
+    built
 }
 
 /// Runs `command` with its output in sight.

@@ -8,6 +8,7 @@
 //! Who bakes writes the module: `cargo xtask firmware` by the program `signorini`, `signorini trade` itself. It works in a
 //! checkout of the sources ([`checkout`]), with tools that it installs where it can ([`tools`]).
 
+mod binutils;
 pub mod board;
 pub mod cargo;
 pub mod checkout;
@@ -17,7 +18,7 @@ pub mod footprint;
 pub mod library;
 pub mod lock;
 pub mod module;
-pub mod programs;
+pub mod once;
 pub mod record;
 pub mod room;
 pub mod sections;

@@ -7,14 +7,14 @@
 //! So that two such libraries link into one image, though each has a panic handler and parts of `core`. The panic handler asks
 //! for a function that is defined nowhere: a library that needs more than memcpy and the like is refused.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::binutils::Binutils;
 use crate::board::{Board, Build, M4, M4F, M7};
-use crate::cargo::{cargo, root, run_quietly, target_dir};
+use crate::cargo::{build, cargo, root, target_dir};
 use crate::lock;
-use crate::toolchain::output;
 use crate::tools;
 
 const PACKAGE: &str = "signorini-c";
@@ -70,12 +70,6 @@ pub const EXPORTS: [&str; 13] = [
 /// Those of the second object: host/c says why it is one.
 pub const EXPORTS_WITHIN: [&str; 1] = ["tick_within"];
 
-/// Constants of the build that the library does not have: their sizes are what they tell.
-const SIZES: [&str; 2] = ["size_of_state", "size_of_report"];
-
-/// What every C compiler may call, and every C library has.
-const OF_C: [&str; 4] = ["memcpy", "memmove", "memset", "memcmp"];
-
 /// A library.
 #[derive(Debug)]
 pub struct Library {
@@ -98,10 +92,14 @@ impl Library {
         name: &str,
         on: &Machine,
     ) -> Result<Self, String> {
-        Self::build_with(&[], &[], module, features, name, on)
+        let bench = Bench::new(module, features, name, on)?;
+        let within = bench.object(&bench.built(&["within"])?, &EXPORTS_WITHIN)?;
+        let whole = bench.built(&[])?;
+        bench.library(&whole, &[bench.object(&whole, &EXPORTS)?, within])
     }
 
-    /// The same with features of host/c's own, and more functions in its first object: what `cargo xtask` tries on it.
+    /// The library without its tick with a deadline, built with features of host/c's own, and with more functions: for the
+    /// checks of `cargo xtask`.
     ///
     /// # Errors
     /// As for [`Library::build`].
@@ -113,28 +111,61 @@ impl Library {
         name: &str,
         on: &Machine,
     ) -> Result<Self, String> {
+        let bench = Bench::new(module, features, name, on)?;
+        let whole = bench.built(own)?;
+        bench.library(&whole, &[bench.object(&whole, &[&EXPORTS[..], more].concat())?])
+    }
+}
+
+/// The place where a library is made: its folder is no other command's meanwhile.
+struct Bench<'a> {
+    tools: Binutils,
+    features: &'a [String],
+    name: &'a str,
+    on: &'a Machine,
+    folder: PathBuf,
+    scene: PathBuf,
+    _turn: File,
+}
+
+impl<'a> Bench<'a> {
+    fn new(
+        module: &str,
+        features: &'a [String],
+        name: &'a str,
+        on: &'a Machine,
+    ) -> Result<Self, String> {
         if on.board.is_some() {
             tools::ensure()?;
         }
         let folder = target_dir("c").join(on.word);
-        let _turn = lock::hold(&folder.join("lock"))?;
+        let turn = lock::hold(&folder.join("lock"))?;
         let scene = folder.join("scene.rs");
         fs::write(&scene, module).map_err(|error| format!("{}: {error}", scene.display()))?;
         let tools = Binutils { prefix: if on.board.is_some() { "arm-none-eabi-" } else { "" } };
-        let built = |own: &[&str]| {
-            let (mut command, built) = build_command(on, &features_of(features, own), &scene)?;
-            command.env("SIGNORINI_SCENE", &scene).env("SIGNORINI_C_NAME", name);
-            run_quietly(command)?;
-            tools.without_bitcode(&built.join("libsignorini_c.a"), &folder)
-        };
-        let within = tools.object(&built(&["within"])?, name, &EXPORTS_WITHIN, &folder)?;
-        let whole = built(own)?;
-        let object = tools.object(&whole, name, &[&EXPORTS[..], more].concat(), &folder)?;
-        let archive = tools.archive(name, &[object, within], &folder)?;
-        let [state, report] = tools.sizes(&whole, name, &folder)?;
+        Ok(Self { tools, features, name, on, folder, scene, _turn: turn })
+    }
+
+    /// The archive of cargo, built with these features of host/c.
+    fn built(&self, own: &[&str]) -> Result<PathBuf, String> {
+        let features = features_of(self.features, own);
+        let (mut command, built) = build_command(self.on, &features, &self.scene)?;
+        command.env("SIGNORINI_SCENE", &self.scene).env("SIGNORINI_C_NAME", self.name);
+        build(command, true)?;
+        self.tools.without_bitcode(&built.join("libsignorini_c.a"), &self.folder)
+    }
+
+    /// An object of `whole` that shows these exports alone.
+    fn object(&self, whole: &Path, exports: &[&str]) -> Result<PathBuf, String> {
+        self.tools.object(whole, self.name, exports, &self.folder)
+    }
+
+    fn library(&self, whole: &Path, objects: &[PathBuf]) -> Result<Library, String> {
+        let archive = self.tools.archive(self.name, objects, &self.folder)?;
+        let [state, report] = self.tools.sizes(whole, self.name, &self.folder)?;
         let archive =
             fs::read(&archive).map_err(|error| format!("{}: {error}", archive.display()))?;
-        Ok(Self { archive, state, report })
+        Ok(Library { archive, state, report })
     }
 }
 
@@ -165,131 +196,9 @@ fn build_command(
     Ok((command, folder.join("release")))
 }
 
-/// The programs that take objects apart and put them together.
-struct Binutils {
-    prefix: &'static str,
-}
-
-impl Binutils {
-    fn command(&self, program: &str) -> Command {
-        Command::new(format!("{}{program}", self.prefix))
-    }
-
-    fn run(&self, command: &mut Command) -> Result<String, String> {
-        output(command).map_err(|why| match self.prefix {
-            "" => format!("{why}; it belongs to what Debian calls binutils"),
-            _ => why,
-        })
-    }
-
-    /// The archive without LLVM's own copy of the code, which plugins of binutils take for it.
-    fn without_bitcode(&self, whole: &Path, folder: &Path) -> Result<PathBuf, String> {
-        let plain = folder.join("plain.a");
-        let mut copy = self.command("objcopy");
-        copy.args(["--remove-section=.llvmbc", "--remove-section=.llvmcmd"]).arg(whole).arg(&plain);
-        self.run(&mut copy).map(|_| plain)
-    }
-
-    /// What `names` reach in `whole`, as one object.
-    fn linked(&self, whole: &Path, names: &[String], object: &Path) -> Result<(), String> {
-        let mut link = self.command("ld");
-        link.args(["-r", "--gc-sections"]);
-        names.iter().for_each(|name| {
-            link.arg("-u").arg(name);
-        });
-        self.run(link.arg(whole).arg("-o").arg(object)).map(drop)
-    }
-
-    /// An object that shows these exports alone.
-    fn object(
-        &self,
-        whole: &Path,
-        name: &str,
-        exports: &[&str],
-        folder: &Path,
-    ) -> Result<PathBuf, String> {
-        let last = exports.last().copied().unwrap_or_default();
-        let object = folder.join(format!("{name}_{last}.o"));
-        let names: Vec<_> = exports.iter().map(|own| format!("{name}_{own}")).collect();
-        self.linked(whole, &names, &object)?;
-        let mut hide = self.command("objcopy");
-        hide.arg("--strip-debug");
-        names.iter().for_each(|name| {
-            hide.arg(format!("--keep-global-symbol={name}"));
-        });
-        self.run(hide.arg(&object))?;
-        let listing = self.run(self.command("nm").arg("-P").arg(&object))?;
-        needs_nothing(&listing).map(|()| object)
-    }
-
-    /// The library.
-    fn archive(&self, name: &str, objects: &[PathBuf], folder: &Path) -> Result<PathBuf, String> {
-        let archive = folder.join(format!("lib{name}.a"));
-        // `ar` adds to what is there.
-        let _ = fs::remove_file(&archive);
-        // D: without times and users, so that the same scene gives the same bytes.
-        self.run(self.command("ar").arg("rcsD").arg(&archive).args(objects)).map(|_| archive)
-    }
-
-    fn sizes(&self, whole: &Path, name: &str, folder: &Path) -> Result<[usize; 2], String> {
-        let object = folder.join(format!("{name}.sizes.o"));
-        let names = SIZES.map(|own| format!("{name}_{own}"));
-        self.linked(whole, &names, &object)?;
-        let listing = self.run(self.command("nm").arg("-P").arg(&object))?;
-        let size = |name: &String| {
-            size_of_symbol(&listing, name)
-                .ok_or_else(|| format!("the library does not tell {name}"))
-        };
-        Ok([size(&names[0])?, size(&names[1])?])
-    }
-}
-
-/// `Ok` where no symbol is undefined but what every C library has.
-fn needs_nothing(listing: &str) -> Result<(), String> {
-    let undefined = listing.lines().filter_map(|line| {
-        let (name, kind) = line.split_once(' ')?;
-        kind.starts_with('U').then_some(name)
-    });
-    let known = |name: &&str| {
-        let plain = name.strip_prefix("__aeabi_").unwrap_or(name).trim_end_matches(['4', '8']);
-        OF_C.contains(&plain) || plain == "memclr"
-    };
-    match undefined.into_iter().find(|name| !known(name)) {
-        None => Ok(()),
-        Some(name) if name.contains("panic") => {
-            Err(format!("the library can panic: it asks for {name}; this is a fault of signorini"))
-        }
-        Some(name) => Err(format!(
-            "the library needs {name}, which no C library has; this is a fault of signorini"
-        )),
-    }
-}
-
-/// The size that `nm -P` tells of a symbol.
-fn size_of_symbol(listing: &str, name: &str) -> Option<usize> {
-    let line = listing.lines().find(|line| line.split(' ').next() == Some(name))?;
-    usize::from_str_radix(line.split_whitespace().nth(3)?, 16).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_a_library_needs_is_read_from_its_symbols() {
-        let listing = "levee_tick T 0 8c\nmemcpy U         \n__aeabi_memclr4 U         \n__aeabi_memcpy8 U \n";
-        assert_eq!(needs_nothing(listing), Ok(()));
-        let panics = "levee_tick T 0 8c\na_panic_path_is_reachable U         \n";
-        assert!(needs_nothing(panics).is_err_and(|why| why.contains("can panic")));
-        assert!(needs_nothing("malloc U \n").is_err_and(|why| why.contains("malloc")));
-    }
-
-    #[test]
-    fn sizes_are_those_of_symbols() {
-        let listing = "levee_size_of_report B 0 3c\nlevee_size_of_state R 1c 0278\n";
-        assert_eq!(size_of_symbol(listing, "levee_size_of_state"), Some(0x278));
-        assert_eq!(size_of_symbol(listing, "levee_size"), None);
-    }
 
     #[test]
     fn flags_are_those_of_the_targets() {

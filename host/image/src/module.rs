@@ -1,18 +1,22 @@
-//! A scene as a module of firmware, and the programs that hold it.
+//! A scene as a module of firmware, the programs that hold it, and what they say.
 //!
 //! Every module and every program is kept under a name of its own. Commands that run at the same time do not take each
 //! other's: of two that make the same, the second waits until the first has done with its [`Module`], and programs,
-//! which cargo puts under one name whatever their scene, are built and taken away in turns.
+//! which cargo puts under one name whatever their scene, are built and taken away in turns. A module builds each of its
+//! programs once, and runs each once.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use crate::board::{Board, Build};
-use crate::cargo::{cargo, root, run, run_quietly, target_dir};
+use crate::cargo::{build, cargo, root, target_dir};
 use crate::chosen::Chosen;
 use crate::lock;
+use crate::once::Once;
 use crate::room::NoImage;
+use crate::ticks::Ticks;
+use crate::toolchain::output;
 
 const PACKAGE: &str = "signorini-scene";
 
@@ -21,11 +25,15 @@ const PACKAGE: &str = "signorini-scene";
 pub struct Module {
     name: String,
     file: PathBuf,
-    /// Nobody else has module and programs of this name meanwhile.
+    /// No other command has module and programs of this name meanwhile.
     _turn: File,
     /// Whether builds are out of sight.
     quiet: bool,
-    /// What the scene became.
+    /// Programs by machine.
+    programs: Once<PathBuf>,
+    /// Ticks by machine.
+    ticks: Once<Ticks>,
+    /// Model and figures that the bake has chosen.
     pub chosen: Chosen,
 }
 
@@ -44,10 +52,11 @@ impl Module {
         let chosen = write(&fresh).inspect_err(|_| drop(fs::remove_file(&fresh)))?;
         let file = folder.join(format!("{name}.rs"));
         take(&fresh, &file)?;
-        Ok(Self { name: name.to_owned(), file, _turn: turn, quiet: false, chosen })
+        let (programs, ticks) = (Once::default(), Once::default());
+        Ok(Self { name: name.to_owned(), file, _turn: turn, quiet: false, programs, ticks, chosen })
     }
 
-    /// The same, its builds out of sight.
+    /// Puts its builds out of sight.
     #[must_use]
     pub fn quietly(self) -> Self {
         Self { quiet: true, ..self }
@@ -58,23 +67,18 @@ impl Module {
         &self.file
     }
 
-    /// Whether builds are out of sight.
-    pub fn is_quiet(&self) -> bool {
-        self.quiet
-    }
-
-    /// Builds the image of a board, with features of the scene's package beside its kernel's.
+    /// The image of a board.
     ///
     /// # Errors
     /// No room on the board, a build that fails.
-    pub fn image(&self, board: &Board, more: &[&str]) -> Result<PathBuf, NoImage> {
-        let linked = self.linked("scene", board, more);
+    pub fn image(&self, board: &Board) -> Result<PathBuf, NoImage> {
+        let linked = self.linked("scene", board, &[]);
         linked.map_err(|why| {
-            NoImage::of(board, why, || self.linked("scene", &board.boundless(), more))
+            NoImage::of(board, why, || self.linked("scene", &board.boundless(), &[]))
         })
     }
 
-    /// Builds the image that looks for the worst tick of a condensed scene.
+    /// The image that looks for the worst tick of a condensed scene.
     ///
     /// # Errors
     /// A build that fails.
@@ -84,21 +88,46 @@ impl Module {
         self.linked(bin, board, &[bin])
     }
 
+    /// The ticks that a board plays, every instruction counted.
+    ///
+    /// # Errors
+    /// No image; it fails.
+    pub fn on_board(&self, board: &Board) -> Result<Ticks, NoImage> {
+        let image = self.image(board)?;
+        let ticks = self.ticks.get(board.name, || Ok(Ticks::parse(&board.run(&image, true)?)));
+        ticks.map_err(NoImage::Failed)
+    }
+
+    /// The ticks that this machine plays.
+    ///
+    /// # Errors
+    /// A build that fails; ticks that fail.
+    pub fn on_desk(&self) -> Result<Ticks, String> {
+        let mut command = Command::new(self.desk()?);
+        if !self.quiet {
+            // It says why a tick has no answer.
+            command.stderr(Stdio::inherit());
+        }
+        self.ticks.get("desk", || Ok(Ticks::parse(&output(&mut command)?)))
+    }
+
     fn linked(&self, bin: &str, board: &Board, more: &[&str]) -> Result<PathBuf, String> {
         let features = self.of_kernel();
         let features: Vec<&str> =
             features.iter().map(String::as_str).chain(more.iter().copied()).collect();
         // This package reads one scene; the folder of the exported ones is for others.
-        let build =
+        let what =
             Build { package: PACKAGE, bins: &[bin], features: &features, scenes: &self.file };
-        let (mut command, folder) = board.build(build)?;
+        let (mut command, folder) = board.build(what)?;
         command.env("SIGNORINI_SCENE", &self.file);
-        let machine =
-            if bin == "scene" { board.name.to_owned() } else { format!("{}.{bin}", board.name) };
+        let machine = match bin {
+            "scene" => board.memory_name(),
+            _ => format!("{}.{bin}", board.memory_name()),
+        };
         self.made(command, &folder.join(bin), &machine)
     }
 
-    /// Builds the program for the desk.
+    /// The program for the desk.
     ///
     /// # Errors
     /// A build that fails.
@@ -117,13 +146,15 @@ impl Module {
         features.map(|feature| format!("signorini-device/{feature}")).collect()
     }
 
-    /// What `command` puts at `program`: a copy that the next scene's does not replace.
+    /// Builds `program` by `command`, once per machine; a copy that the next scene's does not replace.
     fn made(&self, command: Command, program: &Path, machine: &str) -> Result<PathBuf, String> {
-        let _turn = lock::hold(&program.with_extension("lock"))?;
-        if self.quiet { run_quietly(command) } else { run(command) }?;
-        let kept = folder()?.join(format!("{}.{machine}", self.name));
-        let copied = fs::copy(program, &kept);
-        copied.map(|_| kept).map_err(|error| format!("{}: {error}", program.display()))
+        self.programs.get(machine, || {
+            let _turn = lock::hold(&program.with_extension("lock"))?;
+            build(command, self.quiet)?;
+            let kept = folder()?.join(format!("{}.{machine}", self.name));
+            let copied = fs::copy(program, &kept);
+            copied.map(|_| kept).map_err(|error| format!("{}: {error}", program.display()))
+        })
     }
 }
 

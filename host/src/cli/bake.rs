@@ -12,7 +12,7 @@ use signorini_bake::emit::{Emitted, emit};
 use signorini_bake::explain::{explanation, warnings};
 use signorini_bake::promise;
 use signorini_bake::setting;
-use signorini_image::library::MACHINES;
+use signorini_image::library::{MACHINES, Machine};
 use signorini_problem::Problem;
 use signorini_problem::progress::{note, say, waiting, warn};
 use signorini_problem::scalar::Scalar;
@@ -80,9 +80,9 @@ pub struct Arguments {
     /// The folder for the controller in C: NAME.h, libNAME.a, NAMEConfig.cmake and an example
     #[arg(long, value_name = "DIR")]
     c: Option<PathBuf>,
-    /// What the library for C is built for
-    #[arg(long, value_name = "BOARD", requires = "c", default_value = "m4", value_parser = known_machines())]
-    board: String,
+    /// What the library for C is built for [default: m4]; repeatable: each then has a folder of its name in DIR
+    #[arg(long, value_name = "BOARD", requires = "c", value_parser = known_machines())]
+    board: Vec<String>,
     /// The full model: the scene's mesh solved on the target
     #[arg(long, conflicts_with = "condensed")]
     full: bool,
@@ -129,8 +129,10 @@ impl Arguments {
             ));
         }
         if let Some(folder) = &self.c {
-            let on = MACHINES.iter().find(|machine| machine.word == self.board);
-            on.map_or(Ok(()), |on| bake_c::write(&problem, &emitted, on, folder))?;
+            self.machines().try_for_each(|on| match self.board.len() {
+                0 | 1 => bake_c::write(&problem, &emitted, on, folder),
+                _ => bake_c::write(&problem, &emitted, on, &folder.join(on.word)),
+            })?;
         }
         if let Some(file) = &self.output {
             write_beside(&scene, "-o", file, source)?;
@@ -145,6 +147,15 @@ impl Arguments {
 }
 
 impl Arguments {
+    /// The machines that libraries for C are built for, each once.
+    fn machines(&self) -> impl Iterator<Item = &'static Machine> {
+        let is_asked = |machine: &&Machine| match &self.board[..] {
+            [] => machine.word == "m4",
+            words => words.iter().any(|word| word == machine.word),
+        };
+        MACHINES.iter().filter(is_asked)
+    }
+
     /// The module; what there is to say of it is said.
     fn module<R: Scalar>(&self, problem: &Problem, promise: Option<&Promise>) -> Result<Emitted> {
         let kind = match (self.full, self.condensed) {

@@ -3,8 +3,6 @@
 mod answer;
 mod bake;
 mod bake_c;
-mod condense;
-mod export;
 mod extremes;
 mod honoured;
 mod levels;
@@ -29,7 +27,6 @@ Examples:
   signorini bake my.toml -o my.rs --explain         the scene as the firmware it needs, and why
   signorini trade my.toml --max-error 1%            what accuracy costs, and the setting to take
   signorini extremes                                contrast, scales, shapes: what holds how far
-  signorini export my.toml -o my.rs --scalar f32    the scene as data for the kernel's stages
 
 Exit status: 0 done; 1 a check failed or a file could not be written; 2 the input is wrong;
 3 the solver stopped before its tolerance (its outputs are written and say so).";
@@ -57,10 +54,6 @@ enum Command {
     Trade(trade::Arguments),
     /// Push every scale until something gives: a map of what is correct, poor or refused
     Extremes(extremes::Arguments),
-    /// Write the dense contact problem of a scene as a C header, for other solvers
-    Condense(condense::Arguments),
-    /// Write a scene as static data of a Rust program for a microcontroller
-    Export(export::Arguments),
 }
 
 impl Cli {
@@ -75,8 +68,6 @@ impl Cli {
             Some(Command::Bake(arguments)) => arguments.run(),
             Some(Command::Trade(arguments)) => arguments.run(),
             Some(Command::Extremes(arguments)) => arguments.run(),
-            Some(Command::Condense(arguments)) => arguments.run(),
-            Some(Command::Export(arguments)) => arguments.run(),
             None => signorini_lab::study::run(),
         }
     }

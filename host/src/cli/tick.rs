@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::honoured::Command;
+use super::honoured::check_ticks;
 use super::picture::picture;
 use super::posed::problem_of;
 use super::scene_arguments::SceneArguments;
@@ -86,7 +86,7 @@ impl Arguments {
     pub(super) fn run(self) -> Result<u8> {
         let scene = self.place.scene()?;
         if !self.baked {
-            Command::Tick.check(&scene, self.scalar.is_some())?;
+            check_ticks(&scene, self.scalar.is_some())?;
         }
         let out = self.place.out()?;
         let moments = match &self.log {

@@ -13,9 +13,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::package::{Package, machine, write};
+use super::package::{Package, write};
 use super::program::{play, sources};
-use crate::baked::Recipe;
+use crate::modules::{ROWS, Row};
 use crate::record;
 use crate::steps::Steps;
 use signorini_image::board::{M4F_192K, emulator};
@@ -25,20 +25,13 @@ use signorini_image::toolchain::{Toolchain, first_words, output};
 
 const RECORD: &str = "tests/firmware/c.txt";
 
+/// The columns.
+const HEAD: &str = "\
+scene           scalar      flash   state  tick alone   from Rust      from C      most    more  +alone
+";
+
 /// Instructions that a call from C may take more than one from Rust, in any tick.
 const MOST: i64 = 60;
-
-/// Scenes and models, all in f32, which the board's unit is for, and how many ticks are counted: what a call takes beside the
-/// controller depends on the kind of answer alone, and ticks on a mesh are long.
-const COUNTED: [(&str, &str, usize); 7] = [
-    ("meshes/scenes/levee.toml", "--condensed", 101),
-    ("meshes/scenes/slab.toml", "--condensed", 101),
-    ("meshes/scenes/strip.toml", "--condensed", 101),
-    ("meshes/scenes/antiicing.toml", "--condensed", 101),
-    ("tests/firmware/scenes/slab-swept.toml", "--full", 7),
-    ("tests/firmware/scenes/strip-swept.toml", "--full", 7),
-    ("tests/firmware/scenes/strip-factored.toml", "--full", 7),
-];
 
 /// Functions that the library has for this count alone.
 const RUST: [&str; 2] = ["answered", "ticked"];
@@ -46,42 +39,37 @@ const RUST: [&str; 2] = ["answered", "ticked"];
 /// The programs: how each is told what to count.
 const CALLS: [&str; 3] = ["-DCOUNTED=1", "-DCOUNTED=2", "-DCOUNTED=3"];
 
-/// Counts, prints, compares.
+/// Counts, prints, compares: all rows of the record in a whole run, else the first. All are in f32, which the board's unit is for;
+/// what a call takes beside the controller depends on the kind of answer alone, and ticks on a mesh are long.
 pub fn run(steps: &mut Steps) {
     let bless = steps.blesses();
+    let count = if steps.is_whole() { ROWS.len() } else { 1 };
     steps.check("a call from C takes hardly more than one from Rust", || {
-        let mut table = format!(
-            "{:<16}{:<8}{:>9}{:>8}{:>12}{:>12}{:>12}{:>10}{:>8}{:>8}\n",
-            "scene",
-            "scalar",
-            "flash",
-            "state",
-            "tick alone",
-            "from Rust",
-            "from C",
-            "most",
-            "more",
-            "+alone"
-        );
+        let mut table = HEAD.to_owned();
         let mut wrong = Vec::new();
-        for (scene, model, ticks) in COUNTED {
-            let recipe = Recipe::of(scene, model);
-            let row = Row::measure(&recipe, ticks)?;
-            let _ = writeln!(table, "{}", row.line(&recipe));
-            if row.more() > MOST {
-                wrong.push(format!("{}: {} instructions more", recipe.scene_name(), row.more()));
+        let counted = ROWS.iter().filter_map(|row| row.c_counted.map(|ticks| (row, ticks)));
+        for (row, ticks) in counted.take(count) {
+            let counts = Counts::measure(row, ticks)?;
+            let name = row.recipe().scene_name();
+            let _ = writeln!(table, "{}", counts.line(&name));
+            if counts.more() > MOST {
+                wrong.push(format!("{name}: {} instructions more", counts.more()));
             }
         }
         println!("{table}");
         if !wrong.is_empty() {
             return Err(format!("{}; {MOST} are allowed", wrong.join("; ")));
         }
-        record::compare(RECORD, &versions()?, &table, bless).map(drop)
+        match count {
+            1 => record::compare_part(RECORD, &versions()?, &table),
+            _ => record::compare(RECORD, &versions()?, &table, bless),
+        }
+        .map(drop)
     });
 }
 
-/// What is told of a scene.
-struct Row {
+/// Counts and bytes of a module.
+struct Counts {
     flash: u64,
     state: usize,
     /// Instructions of every tick, by call.
@@ -90,15 +78,20 @@ struct Row {
     alone: Vec<i64>,
 }
 
-impl Row {
-    fn measure(recipe: &Recipe, ticks: usize) -> Result<Self, String> {
-        let machine = machine("m4")?;
-        let package = Package::bake(recipe, machine)?;
-        let module = recipe.bake()?;
+impl Counts {
+    fn measure(row: &Row, ticks: usize) -> Result<Self, String> {
+        let package = row.package("m4")?;
+        let module = row.module()?;
         let text = fs::read_to_string(module.file()).map_err(|error| error.to_string())?;
         let features = &module.chosen.kernel_features;
-        let counted =
-            Library::build_with(&["counted"], &RUST, &text, features, &package.name, machine)?;
+        let counted = Library::build_with(
+            &["counted"],
+            &RUST,
+            &text,
+            features,
+            &package.name,
+            &package.machine,
+        )?;
         let library = package.folder.join("counted.a");
         write(&library, &counted.archive)?;
         let [from_c, from_rust, alone] = CALLS.map(|call| counts(&package, &library, call, ticks));
@@ -116,13 +109,13 @@ impl Row {
         largest(&self.from_c, &self.from_rust)
     }
 
-    fn line(&self, recipe: &Recipe) -> String {
+    fn line(&self, name: &str) -> String {
         let [alone, from_rust, from_c] =
             [&self.alone, &self.from_rust, &self.from_c].map(|counts| median(counts));
         let most = self.from_c.iter().max().copied().unwrap_or(0);
         format!(
             "{:<16}{:<8}{:>9}{:>8}{alone:>12}{from_rust:>12}{from_c:>12}{most:>10}{:>8}{:>8}",
-            recipe.scene_name(),
+            name,
             "f32",
             self.flash,
             self.state,

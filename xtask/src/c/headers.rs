@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::package::{Package, machine};
 use super::program::{WARNINGS, sources};
-use crate::baked::Recipe;
+use crate::modules::row;
 use crate::steps::Steps;
 use signorini_image::library::{MACHINES, Machine};
 use signorini_image::toolchain::output;
@@ -42,8 +42,8 @@ pub fn run(steps: &mut Steps) {
 }
 
 fn both(machine: &Machine) -> Result<[Package; 2], String> {
-    let package = |scene| Package::bake(&Recipe::of(scene, "--condensed"), machine);
-    Ok([package("meshes/scenes/levee.toml")?, package("meshes/scenes/slab.toml")?])
+    let package = |scene| row(scene, "--condensed")?.package(machine.word);
+    Ok([package("levee")?, package("slab")?])
 }
 
 fn compile(packages: &[Package], on: &Machine, age: &str, more: &[&str]) -> Result<(), String> {

@@ -16,14 +16,16 @@ pub mod package;
 mod program;
 mod states;
 
+use crate::modules;
 use crate::setup;
 use crate::steps::Steps;
 use signorini_image::tools::ensure_for_c;
 
-/// All of it.
+/// The steps of the five.
 pub fn run(steps: &mut Steps) {
     setup::run(steps);
     steps.check_once("tools for C", ensure_for_c);
+    modules::bake_for_c(steps);
     headers::run(steps);
     states::run(steps);
     example::run(steps);

@@ -1,43 +1,50 @@
 //! A controller for C in a folder of its own.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::baked::Recipe;
+use crate::baked::{Failure, Recipe};
 use signorini_image::cargo::target_dir;
 use signorini_image::library::{MACHINES, Machine};
+use signorini_image::module::Module;
 
-/// What this run has baked: several steps look at the same one.
-static BAKED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// Folders that this run has written.
+static WRITTEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Header, library, package of CMake, example.
 #[derive(Debug, Clone)]
 pub struct Package {
-    /// What its functions begin with.
+    /// The beginning of its functions' names.
     pub name: String,
-    /// What it is built for.
+    /// The machine that it is built for.
     pub machine: Machine,
-    /// Where it is.
+    /// Its place.
     pub folder: PathBuf,
 }
 
+/// Bakes a module with its libraries for these machines, by one command.
+pub fn bake(recipe: &Recipe, words: &[&'static str]) -> Result<Arc<Module>, Failure> {
+    let folder = folder_of(recipe);
+    // What is left of another run must not pass for a file of this one.
+    let _ = fs::remove_dir_all(&folder);
+    // With more than one each has a folder of its own.
+    let place = if let [word] = words { folder.join(word) } else { folder.clone() };
+    let module = recipe.bake_for(words, &place)?;
+    let written = words.iter().map(|word| folder.join(word));
+    WRITTEN.lock().unwrap_or_else(PoisonError::into_inner).extend(written);
+    Ok(module)
+}
+
 impl Package {
-    /// Bakes it, once.
-    pub fn bake(recipe: &Recipe, machine: &Machine) -> Result<Self, String> {
-        let name = recipe.scene_name().replace('-', "_");
-        let [scalar, model] =
-            [&recipe.scalar, &recipe.model].map(|of| of.as_deref().unwrap_or("-"));
-        let kind = format!("{name}-{scalar}{model}");
-        let folder = folder().join(machine.word).join(kind);
-        let baked = || BAKED.lock().unwrap_or_else(PoisonError::into_inner);
-        if !baked().contains(&folder) {
-            // What is left of another run must not pass for a file of this one.
-            let _ = fs::remove_dir_all(&folder);
-            recipe.bake_c(machine.word, &folder)?;
-            baked().push(folder.clone());
+    /// The package that [`bake`] has written.
+    pub fn of(recipe: &Recipe, machine: &Machine) -> Result<Self, String> {
+        let folder = folder_of(recipe).join(machine.word);
+        if !WRITTEN.lock().unwrap_or_else(PoisonError::into_inner).contains(&folder) {
+            return Err(format!("{} was not baked for {}", recipe.scene_name(), machine.word));
         }
-        Ok(Self { name, machine: *machine, folder })
+        Ok(Self { name: name_of(recipe), machine: *machine, folder })
     }
 
     /// Its library.
@@ -45,7 +52,7 @@ impl Package {
         self.folder.join(format!("lib{}.a", self.name))
     }
 
-    /// What the scene-independent programs are told of it.
+    /// Definitions for the programs that know no scene.
     pub fn defines(&self) -> Vec<String> {
         let name = &self.name;
         vec![
@@ -58,7 +65,16 @@ impl Package {
     }
 }
 
-/// Of all that this verb makes.
+fn name_of(recipe: &Recipe) -> String {
+    recipe.scene_name().replace('-', "_")
+}
+
+fn folder_of(recipe: &Recipe) -> PathBuf {
+    let [scalar, model] = [&recipe.scalar, &recipe.model].map(|of| of.as_deref().unwrap_or("-"));
+    folder().join(format!("{}-{scalar}{model}", name_of(recipe)))
+}
+
+/// The folder of all that this verb makes.
 pub fn folder() -> PathBuf {
     target_dir("firmware").join("c")
 }

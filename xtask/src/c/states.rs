@@ -3,26 +3,31 @@
 use std::fs;
 use std::process::Command;
 
-use super::package::{Package, folder, machine, write};
+use super::package::{folder, machine};
 use super::program::sources;
-use crate::baked::Recipe;
+use crate::modules::ROWS;
 use crate::steps::Steps;
 use signorini_image::cargo::root;
 use signorini_image::toolchain::output;
 
-/// Controllers of one program, all there are in CMakeLists.txt.
-const CONTROLLERS: usize = 6;
+/// Controllers of one program, all there are in CMakeLists.txt: two scenes, one of them in another scalar and in another model,
+/// too, of the same contents under other names.
+const CONTROLLERS: [&str; 6] =
+    ["levee", "levee-double", "levee-full", "levee-swept", "slab", "words"];
 
 /// A step for the desk, and one for a board.
 pub fn run(steps: &mut Steps) {
-    for word in ["host", "m4"] {
+    let words: &[&str] = if steps.is_whole() { &["m4", "host"] } else { &["m4"] };
+    for word in words {
         steps.check(&format!("states of six controllers in one program, {word}"), || check(word));
     }
 }
 
 fn check(word: &str) -> Result<(), String> {
     let machine = machine(word)?;
-    let packages = recipes()?.into_iter().map(|recipe| Package::bake(&recipe, machine));
+    let row = |name: &str| ROWS.iter().find(|row| row.recipe().scene_name() == name);
+    let packages = CONTROLLERS.map(|name| row(name).ok_or(format!("no module of {name}")));
+    let packages = packages.into_iter().map(|row| row?.package(word));
     let packages: Vec<_> = packages.collect::<Result<_, String>>()?;
     let build = folder().join(word).join("states");
     let _ = fs::remove_dir_all(&build);
@@ -49,36 +54,7 @@ fn check(word: &str) -> Result<(), String> {
     };
     print!("{said}");
     match said.matches(": as it should\n").count() {
-        CONTROLLERS => Ok(()),
-        other => Err(format!("{other} of {CONTROLLERS} controllers are as they should: {said}")),
+        count if count == CONTROLLERS.len() => Ok(()),
+        other => Err(format!("{other} controllers are as they should: {said}")),
     }
-}
-
-/// Two scenes, one of them in another scalar and in another model, too: of the same contents under other names.
-fn recipes() -> Result<Vec<Recipe>, String> {
-    let condensed = |scene| Recipe::of(scene, "--condensed");
-    let double =
-        Recipe { scalar: Some("f64".to_owned()), ..Recipe::of(&levee("double")?, "--condensed") };
-    Ok(vec![
-        condensed("meshes/scenes/levee.toml"),
-        double,
-        Recipe::of(&levee("full")?, "--full"),
-        Recipe::of("tests/firmware/scenes/levee-swept.toml", "--full"),
-        condensed("meshes/scenes/slab.toml"),
-        condensed("tests/firmware/scenes/words.toml"),
-    ])
-}
-
-/// The levee under another name.
-fn levee(more: &str) -> Result<String, String> {
-    let scenes = root().join("meshes/scenes");
-    let to = folder().join("scenes");
-    let copied = |from: &str, name: &str| {
-        let bytes = fs::read(scenes.join(from)).map_err(|error| format!("{from}: {error}"))?;
-        write(&to.join(name), &bytes)
-    };
-    copied("levee.msh", "levee.msh")?;
-    let name = format!("levee_{more}.toml");
-    copied("levee.toml", &name)?;
-    Ok(to.join(name).display().to_string())
 }

@@ -20,7 +20,8 @@ use signorini_image::module::Module;
 use signorini_image::tools::ensure;
 use signorini_image::worst::WorstStart;
 
-use crate::baked::{Failure, Recipe};
+use crate::baked::Failure;
+use crate::modules::{ROWS, Row};
 use crate::steps::Steps;
 use options::{HELP, Options};
 use stated::compare;
@@ -49,39 +50,22 @@ pub fn run(words: &[&str]) -> ExitCode {
     }
 }
 
-/// A scene, its model, and the instructions that a tick may take in the median.
-///
-/// A seepage face, quads and transfer laws, both kinds of cells, swept and by a factor; then more than 50 000 unknowns condensed to 64
-/// and 96 contact edges.
-const TESTED: [(&str, &str, Option<u64>); 8] = [
-    ("meshes/scenes/levee.toml", "--condensed", None),
-    ("meshes/scenes/slab.toml", "--condensed", None),
-    ("meshes/scenes/strip.toml", "--condensed", None),
-    ("tests/firmware/scenes/strip-swept.toml", "--full", None),
-    ("tests/firmware/scenes/strip-factored.toml", "--full", None),
-    ("tests/firmware/scenes/levee-64.toml", "--condensed", Some(60_000)),
-    ("tests/firmware/scenes/levee-96.toml", "--condensed", Some(120_000)),
-    ("meshes/scenes/antiicing.toml", "--condensed", Some(350_000)),
-];
-
-/// Scenes whose statement by `bake` is compared with the image: quads, triangles and outputs, the mesh itself, limits and modes.
-const EXPLAINED: [&str; 6] = ["slab", "levee", "strip", "levee-64", "strip-swept", "antiicing"];
-
 /// Scenes on the board with 192 KiB, as steps of `cargo xtask test`.
 pub fn check(steps: &mut Steps) {
-    for (scene, model, most) in TESTED {
-        let recipe = Recipe::of(scene, model);
-        let name = format!("{} {}", recipe.scene_name(), model.trim_start_matches('-'));
-        steps.check(&format!("{name}, baked, on the M4F-192K, bit for bit"), || {
-            let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
-            let is_compared = EXPLAINED.contains(&recipe.scene_name().as_str());
-            let worst = false;
-            let (firmware, chosen) = measure(&Options { recipe, board: M4F_192K, out, worst })?;
+    for row in ROWS.iter().filter(|row| row.is_played) {
+        steps.check(&format!("{}, on the M4F-192K, bit for bit", row.name()), || {
+            let (firmware, chosen) = measure(&options(row, false))?;
             firmware.verdict()?;
-            within(most, firmware.instructions_per_tick.median)?;
-            if is_compared { compare(&chosen, &firmware) } else { Ok(()) }
+            within(row.median, firmware.instructions_per_tick.median)?;
+            if row.is_explained { compare(&chosen, &firmware) } else { Ok(()) }
         });
     }
+}
+
+fn options(row: &Row, worst: bool) -> Options {
+    let name = format!("{}{}", row.name(), if worst { " worst" } else { "" });
+    let out = target_dir("firmware").join("bills").join(name.replace(' ', "-"));
+    Options { recipe: row.recipe(), board: M4F_192K, out, worst }
 }
 
 /// `Ok` where bits are equal, and no start takes more than is proved.
@@ -100,23 +84,15 @@ fn within(most: Option<u64>, median: u64) -> Result<(), String> {
     }
 }
 
-/// Scenes whose worst case is tried on the board, and how many times what is found may be proved: every start of 7 edges, 10 000
-/// of 28, and as many of 32 whose fluxes have limits. With these, two exchanges an edge are proved of the third phase, which
-/// hardly a scene needs.
-const TRIED: [(&str, f64); 3] = [
-    ("meshes/scenes/levee.toml", 2.2),
-    ("meshes/scenes/slab.toml", 2.2),
-    ("meshes/scenes/antiicing.toml", 2.6),
-];
-
-/// No start takes more than is proved, as steps of `cargo xtask test`.
+/// No start takes more than is proved, as steps of `cargo xtask test`: every start of the levee's 7 edges, and in a whole run
+/// 10 000 of the slab's 28, and as many of 32 whose fluxes have limits. With these, two exchanges an edge are proved of the third
+/// phase, which hardly a scene needs.
 pub fn check_worst(steps: &mut Steps) {
-    for (scene, times) in TRIED {
-        let recipe = Recipe::of(scene, "--condensed");
-        let name = recipe.scene_name();
-        steps.check(&format!("{name}, no start takes more than is proved"), || {
-            let out = target_dir("firmware").join("bills").join(format!("{name}-worst"));
-            let (firmware, _) = measure(&Options { recipe, board: M4F_192K, out, worst: true })?;
+    let count = if steps.is_whole() { ROWS.len() } else { 1 };
+    let rows = ROWS.iter().filter_map(|row| row.worst.map(|times| (row, times)));
+    for (row, times) in rows.take(count) {
+        steps.check(&format!("{}, no start takes more than is proved", row.name()), || {
+            let (firmware, _) = measure(&options(row, true))?;
             verdict(&firmware)?;
             let found = firmware.worst_start.ok_or("no start was tried")?;
             found.is_near(&firmware.worst_case, times)
@@ -135,7 +111,7 @@ fn measure(options: &Options) -> Result<(Firmware, Chosen), Failure> {
     let file = options.out.join("firmware.json");
     replace(&file, &firmware.json())?;
     println!("{}written to {}", firmware.table(&options.recipe.scene_name()), file.display());
-    Ok((firmware, module.chosen))
+    Ok((firmware, module.chosen.clone()))
 }
 
 /// What the board finds from starts of every kind.

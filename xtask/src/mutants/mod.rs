@@ -28,7 +28,7 @@ Exit status: 0 where 95 % are killed and each survivor has its reason; 1 otherwi
 ";
 
 /// The program that judges.
-const MANIFEST: &str = "tests/mutants/Cargo.toml";
+pub const MANIFEST: &str = "tests/mutants/Cargo.toml";
 /// Percent of the mutants that compile.
 const KILLED: usize = 95;
 
@@ -59,12 +59,18 @@ pub fn command(words: &[&str]) -> ExitCode {
     }
 }
 
-/// The steps of `cargo xtask test`: no mutant runs, the record and the list must agree.
+/// A step of every run: record and list can be read.
+pub fn witness(steps: &mut Steps) {
+    steps.check("the record of mutants and its list", || {
+        let (record, survivors) = (Record::read()?, Survivors::read()?);
+        let is_there = !record.0.is_empty() && !survivors.0.is_empty();
+        if is_there { Ok(()) } else { Err("one of them is empty".to_owned()) }
+    });
+}
+
+/// The steps of a whole run: no mutant runs, the record and the list must agree.
 pub fn verify(steps: &mut Steps) {
     steps.check("mutants as recorded", check);
-    steps.check("formatting, tests/mutants", || {
-        run(cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
-    });
     steps.step("switches of mutants", || {
         let target = target_dir("mutants").join("judge").display().to_string();
         counted(&["test", "--locked", "--manifest-path", MANIFEST, "--target-dir", &target])

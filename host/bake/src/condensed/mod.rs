@@ -9,7 +9,6 @@
 mod arrays;
 mod bound;
 mod controller;
-mod header;
 mod modes;
 mod output;
 mod padding;
@@ -24,7 +23,6 @@ mod visited;
 
 pub use arrays::{Baked, Work};
 pub use controller::Controller;
-pub use header::header;
 pub use modes::Modes;
 pub use sizes::sizes;
 pub use source::source;

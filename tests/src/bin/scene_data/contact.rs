@@ -23,8 +23,7 @@ pub fn header(scene: &Scene, condensate: &CondensedModel) -> String {
     let mut text = format!(
         "/* {}\n   {}.\n   \
          The unknowns follow the boundary: on the contact edges of edges.csv, counted from 0,\n   \
-         {edges}.\n   Written by `signorini \
-         condense` {}; do not edit. */\n#define N {contact} /* contact edges */\n#define M {inputs} \
+         {edges}.\n   Written by scene_data {}; do not edit. */\n#define N {contact} /* contact edges */\n#define M {inputs} \
          /* inputs, the constant included, first */\n",
         scene.title.replace("*/", "* /").replace('\n', " "),
         if condensate.is_limited() { LIMITED } else { PLAIN },

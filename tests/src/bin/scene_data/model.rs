@@ -10,7 +10,7 @@ use signorini_device::model::Model;
 use signorini_kernel::error::Array;
 use signorini_kernel::{Error, Index};
 
-use crate::range::{refuse_lengths, refuse_squares};
+use signorini_bake::range::{refuse_lengths, refuse_squares};
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Approach, Assembled, Problem};
 use signorini_scene::error::Result;
@@ -22,7 +22,7 @@ use signorini_solve::{choose_units, unfit};
 /// # Errors
 /// What [`Approach::Export`] cannot treat; numbers that the scalar type cannot hold or compute with in the scene's
 /// units.
-pub fn export<R: Scalar>(problem: &Problem) -> Result<String> {
+pub fn source_of<R: Scalar>(problem: &Problem) -> Result<String> {
     Approach::Export.check(problem)?;
     refuse_squares::<R>(&problem.scene, &choose_units(problem)?)?;
     refuse_lengths::<R>(problem)?;
@@ -89,7 +89,7 @@ fn source<R: Scalar>(scene: &Scene, model: &Model<R, u32>, index: &str) -> Strin
     ];
     let mut text = format!(
         "// {file:?} in {scalar}: {} unknowns, {} of them contact edges, {} triangles, {} quads.\n\
-         // Written by `signorini export` {version}; do not edit.\n\n",
+         // Written by scene_data {version}; do not edit.\n\n",
         counts.unknowns(),
         counts.contact,
         model.triangles.len(),
