@@ -40,7 +40,6 @@ mod steps;
 mod symbols;
 mod test;
 mod venv;
-mod wide;
 
 use std::process::ExitCode;
 
@@ -65,7 +64,7 @@ enum Work {
     Command(fn(&[&str]) -> ExitCode),
 }
 
-const VERBS: [Verb; 20] = [
+const VERBS: [Verb; 19] = [
     Verb {
         name: "test",
         about: "formatting, clippy, tests, boards; with --all what need not run each time, too",
@@ -157,11 +156,6 @@ const VERBS: [Verb; 20] = [
         work: Work::Command(osqp::command),
     },
     Verb {
-        name: "wide",
-        about: "a command of cargo with AVX2 on x86-64, for benchmarks",
-        work: Work::Command(wide::command),
-    },
-    Verb {
         name: "mutants",
         about: "does a test fail for every single change of the kernel? (minutes)",
         work: Work::Command(mutants::command),
@@ -177,7 +171,7 @@ Examples:
   cargo xtask firmware meshes/scenes/levee.toml    and `cargo xtask firmware --help`
   cargo xtask fuzz --runs 1000000 mesh    goes on fuzzing the mesh reader
 
-Each verb but `firmware`, `fuzz`, `mutants`, `osqp` and `wide` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
+Each verb but `firmware`, `fuzz`, `mutants` and `osqp` runs all its steps, whichever fail. The last line is `N passed, N failed`; the exit
 status is 0 only where nothing failed, 2 for a wrong command line. A missing tool is a failure.";
 
 fn main() -> ExitCode {

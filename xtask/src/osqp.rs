@@ -5,7 +5,6 @@
 use std::process::{Command, ExitCode};
 
 use crate::steps::Steps;
-use crate::wide::widened;
 use signorini_image::cargo::{cargo, run, target_dir};
 use signorini_image::toolchain::output;
 use signorini_image::tools::install_packages;
@@ -16,7 +15,7 @@ pub const MANIFEST: &str = "tests/osqp/Cargo.toml";
 const HELP: &str = "\
 Usage: cargo xtask osqp [--wide]
 
-Builds tests/osqp and prints the program's path; with --wide for AVX2, see `cargo xtask wide --help`.";
+Builds tests/osqp and prints the program's path; with --wide for AVX2 on x86-64, whatever RUSTFLAGS says.";
 
 /// The verb: the last line of its output is the program's path.
 pub fn command(arguments: &[&str]) -> ExitCode {
@@ -47,6 +46,17 @@ pub fn command(arguments: &[&str]) -> ExitCode {
 /// Studies leave OSQP out where it cannot be built, and go on: here that is a failure.
 pub fn check(steps: &mut Steps) {
     steps.check("the program that times OSQP", || build(false).map(drop));
+}
+
+/// Registers of four f64 on x86-64, which build scripts hand on to C compilers. Cargo's own environment would replace them.
+const WIDE: &str =
+    r#"target.'cfg(target_arch = "x86_64")'.rustflags=["-C", "target-feature=+avx2,+fma"]"#;
+
+/// `cargo` with these words and wide registers.
+fn widened(words: &[&str]) -> Command {
+    let mut command = cargo(&["--config", WIDE]);
+    command.args(words).env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");
+    command
 }
 
 fn build(is_wide: bool) -> Result<String, String> {

@@ -14,7 +14,7 @@ pub const METHOD: &str = "AArch64 generic timer (CNTVCT_EL0), smallest of 7 repe
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub const METHOD: &str = "nanoseconds of the monotonic clock, smallest of 7 repeats";
 
-/// Whether this program is built for registers of four f64 on x86-64, which `cargo xtask wide` asks for.
+/// Whether this program is built for registers of four f64 on x86-64, which RUSTFLAGS ask for.
 pub const IS_WIDE: bool = cfg!(all(target_feature = "avx2", target_feature = "fma"));
 
 /// The registers that this program is built for, for records of cycles.
@@ -31,7 +31,7 @@ pub const REGISTERS: &str = if IS_WIDE {
 /// What to say of cycles that a wider build would have less of.
 pub const NARROW: Option<&str> = if cfg!(target_arch = "x86_64") && !IS_WIDE {
     Some(
-        "cycles of a build for any x86-64; where there is AVX2, `cargo xtask wide run --release -- trade …` measures with it",
+        "cycles of a build for any x86-64; where there is AVX2, a build with RUSTFLAGS=\"-C target-feature=+avx2,+fma\" measures with it",
     )
 } else {
     None

@@ -30,7 +30,7 @@ and recommends one. It leaves trade.json, trade.csv, trade.svg and recommended.t
 scene that solve, bake and `cargo xtask firmware` take. A scene with a [setting] is measured in that alone. \
 Without a scene it renews the record of every standard scene (host/benches/trade), on the host and on the M4F.
 
-What is built runs on every x86-64; `cargo xtask wide run --release -- trade …` measures with AVX2, and the record says which.
+What is built runs on every x86-64; with RUSTFLAGS=\"-C target-feature=+avx2,+fma\" it measures with AVX2, and the record says which.
 
 Interrupted, the same command goes on where it was. --shard 1/4 … 4/4 share the work among processes that see the same \
 folder; the same command without --shard then puts their parts together.";
