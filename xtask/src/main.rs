@@ -16,7 +16,7 @@ mod export;
 mod firmware;
 mod flight;
 mod fuzz;
-mod imports;
+mod house;
 mod modules;
 mod mutants;
 mod no_std;
@@ -76,9 +76,9 @@ const VERBS: [Verb; 19] = [
         work: Work::Steps(quick::run),
     },
     Verb {
-        name: "imports",
-        about: "no two files of a crate import each other, nor two of its folders",
-        work: Work::Steps(imports::run),
+        name: "house",
+        about: "rules of the house that no compiler holds, with those that break them",
+        work: Work::Steps(house::run),
     },
     Verb {
         name: "no-std",

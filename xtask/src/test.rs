@@ -12,7 +12,7 @@ use crate::counted::counted_by;
 use crate::crates::{KERNEL, of_kernel};
 use crate::steps::{Steps, Tally};
 use crate::{
-    audit, boards, c, cost, cross, firmware, fuzz, imports, modules, mutants, no_std, oldest, osqp,
+    audit, boards, c, cost, cross, firmware, fuzz, house, modules, mutants, no_std, oldest, osqp,
     program, python, ranks, results, sanitize, seen, setup, size,
 };
 use signorini_image::cargo::{cargo, require, run as run_cargo};
@@ -48,7 +48,7 @@ const BOARDS: [&str; 5] = ["kernel", "host", "meshes", "tests/firmware", "docs/f
 /// The verb.
 pub fn run(steps: &mut Steps) {
     formatting(steps);
-    imports::run(steps);
+    house::run(steps);
     steps.compile("the program signorini", || program::path().map(drop));
     steps.beside(on_host, on_boards);
     if steps.is_whole() {
