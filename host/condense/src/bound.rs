@@ -12,7 +12,7 @@ use super::{CondensedModel, Corner, Form};
 /// An excess this far on a side that there is not, against the size of its terms, is rounding of its sum.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// What the law allows for some inputs.
+/// Ends that the law allows for some inputs.
 pub(super) struct Allowed {
     /// The least and the greatest r̂ of each edge.
     pub ends: Vec<[f64; 2]>,
@@ -34,7 +34,7 @@ impl CondensedModel {
         self.bound_with(self.norm(form, &form.factor, p, x), p, x)
     }
 
-    /// The same, `norm` being that of the residual A^½∇s − A^{−½}τ.
+    /// Bound of a state, `norm` being that of the residual A^½∇s − A^{−½}τ.
     pub(super) fn bound_with(&self, norm: f64, p: &[f64], x: &[f64]) -> Option<f64> {
         let form = self.certificate.as_ref().ok()?;
         let allowed = self.allowed(p);
@@ -67,7 +67,7 @@ impl CondensedModel {
         self.certificate.as_ref().map(of).unwrap_or_default()
     }
 
-    /// What the law allows at `p`.
+    /// Ends that the law allows at `p`.
     pub(super) fn allowed(&self, p: &[f64]) -> Allowed {
         let scale = self.opening.iter().map(|d| self.energy_unit / d).collect();
         Allowed { ends: self.ends_of(p), scale }
@@ -179,7 +179,7 @@ impl Form {
         Some(square.sqrt())
     }
 
-    /// What s pays on edges whose flux has limits for the side of the gap that u is not on, `tau` being within the law.
+    /// Charge for s on edges whose flux has limits, where it is on the side of the gap that u is not on, `tau` being within the law.
     fn crossed(&self, allowed: &Allowed, p: &[f64], x: &[f64], tau: &[f64]) -> f64 {
         if self.ends.is_empty() {
             return 0.0;

@@ -1,4 +1,4 @@
-//! What s is on the boundary: u_D on D, ψ + e on C, with e interpolated from the openings.
+//! Values of s on the boundary: u_D on D, ψ + e on C, with e interpolated from the openings.
 //!
 //! ```text
 //!        v_1      v_2      v_3                 openings, means over contact edges
@@ -16,7 +16,7 @@ use signorini_certify::TermData;
 use signorini_certify::ends::of_moved;
 use signorini_problem::Problem;
 
-/// What rounding may leave between two expressions for the same value, relative to the largest.
+/// Difference that rounding may leave between two expressions for the same value, relative to the largest.
 const ROUNDING: f64 = 1e-9;
 
 /// The boundary values of s.

@@ -6,7 +6,7 @@ use super::elimination::FieldLoads;
 use signorini_certify::TermData;
 use signorini_problem::{Loads, Problem};
 
-/// What each column is the field of: patterns without opening, unit openings without load, and a source
+/// Loads and openings of each column: patterns without opening, unit openings without load, and a source
 /// that adds up to 1 on these cells, where asked for.
 pub(super) fn columns(
     problem: &Problem,

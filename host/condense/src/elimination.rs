@@ -25,7 +25,7 @@ impl Field {
     }
 }
 
-/// What a field is the field of: loads, and u on the contact edges.
+/// Data of a field: loads, and u on the contact edges.
 pub(super) struct FieldLoads {
     pub loads: Loads,
     pub contact: Vec<f64>,

@@ -57,7 +57,7 @@ impl CondensedModel {
         })
     }
 
-    /// What belongs to the unknowns, in the order of the contact edges.
+    /// Values of the unknowns, in the order of the contact edges.
     pub fn by_edge(&self, x: &[f64]) -> Vec<f64> {
         let mut by_edge = vec![0.0; self.contact];
         self.edges.iter().zip(x).for_each(|(&edge, &x)| by_edge[edge] = x);

@@ -21,7 +21,7 @@ use signorini_problem::{Assembled, Parts, Problem};
 use signorini_scene::error::Result;
 use signorini_solve::unfit;
 
-/// What the certificate is made from.
+/// Data that the certificate is made from.
 pub(super) struct FormData<'g> {
     pub problem: &'g Problem,
     pub parts: &'g Parts,
@@ -190,7 +190,7 @@ pub(super) fn packed(factor: &Mat<f64>) -> Vec<f64> {
     (0..factor.ncols()).flat_map(|j| (0..=j).map(move |i| factor[(i, j)])).collect()
 }
 
-/// What `of` gives of fields, edge by edge.
+/// Table of the values that `of` gives of fields, edge by edge.
 fn table(edges: usize, fields: &[Field], of: impl Fn(&Field) -> &[f64]) -> Table {
     let mut table = Table::new(edges, fields.len());
     for (column, field) in fields.iter().enumerate() {

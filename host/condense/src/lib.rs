@@ -93,7 +93,7 @@ fn build(problem: &Problem) -> Result<(CondensedModel, Recovery)> {
     pieces.model(fields)
 }
 
-/// What a condensed model is made of before anything is eliminated.
+/// Data of a condensed model before anything is eliminated.
 struct Pieces<'p> {
     problem: &'p Problem,
     parts: Parts,
@@ -123,7 +123,7 @@ impl<'p> Pieces<'p> {
         Ok(Self { problem, parts, patterns, spans, edges, held_by_contact, alone, laws: None })
     }
 
-    /// Those of the patterns, of unit openings, of the source where there is one, and of `more` loads.
+    /// Fields of the patterns, of unit openings, of the source where there is one, and of `more` loads.
     fn fields(&self, more: Vec<FieldLoads>) -> Result<Fields> {
         let Self { problem, patterns, edges, alone, .. } = self;
         let mut columns = columns(problem, patterns, edges, alone.as_deref());

@@ -44,7 +44,7 @@ pub(super) fn measures(
     Ok(functionals(problem)?.iter().map(measure).collect())
 }
 
-/// What outputs are made of.
+/// Columns that outputs are sums over.
 struct Columns<'a> {
     problem: &'a Problem,
     /// The contact edge of each unknown.
@@ -117,7 +117,7 @@ impl Columns<'_> {
         counts.zip(self.openings).map(|(counts, opening)| counts / opening).collect()
     }
 
-    /// What belongs to contact edges, in the order of the unknowns.
+    /// Values of contact edges, in the order of the unknowns.
     fn by_unknown(&self, numbers: &[(usize, f64)]) -> Vec<f64> {
         let counts = self.problem.topology.counts;
         let mut by_edge = vec![0.0; counts.contact];

@@ -83,13 +83,13 @@ pub enum Measure {
 pub struct Form {
     /// F by columns, column j with its j + 1 entries: m columns of p, n of x, one of d a vertex.
     pub factor: Vec<f64>,
-    /// What rounding in f64 may hide of each column of F and J, those of d included.
+    /// Rounding in f64 that each column of F and J may hide, those of d included.
     pub lost: Vec<f64>,
     /// J by columns in the same way, ‖A^½∇_h(s − u_h)‖ = U |J(p, x, d)|; nothing where F is never less.
     pub jump: Option<Vec<f64>>,
     /// The contact vertices that are not on D.
     pub vertices: Vec<Vertex>,
-    /// What mending costs: ‖A^{−½} Σδ_i w_i‖ ≤ U stability |δ|.
+    /// Cost of mending: ‖A^{−½} Σδ_i w_i‖ ≤ U stability |δ|.
     pub stability: f64,
     /// Where u_D lies above ψ beside contact.
     pub corners: Vec<Corner>,
@@ -128,6 +128,6 @@ pub struct Corner {
     pub edge: usize,
     /// (u_D − ψ)/d at that end as m factors of p.
     pub excess: Vec<f64>,
-    /// What moving u_D there by d costs at most, in the unit of ‖A^½∇u‖ where that of U is 1.
+    /// Largest cost of moving u_D there by d, in the unit of ‖A^½∇u‖ where that of U is 1.
     pub energy: f64,
 }

@@ -33,7 +33,7 @@ pub fn along_boundary(problem: &Problem) -> Vec<usize> {
     edges
 }
 
-/// What has been walked along.
+/// Edges that have been walked along.
 struct Order<'o> {
     ends: &'o [[u32; 2]],
     meetings: &'o Meetings,

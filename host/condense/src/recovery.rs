@@ -88,7 +88,7 @@ impl Recovery {
     }
 }
 
-/// What multiplies the columns of p and x, which are those of U = 1.
+/// Factors of the columns of p and x, which are those of U = 1.
 fn columns(of: &CondensedModel, p: &[f64], x: &[f64]) -> Vec<f64> {
     p.iter().copied().chain(x.iter().map(|x| of.energy_unit * x)).collect()
 }

@@ -77,7 +77,7 @@ pub(super) fn jumps(
     (0..problem.cells()).map(of_means).collect::<Result<Vec<_>>>().map(Some)
 }
 
-/// What each pattern's data have above their chords and s follows: nothing between vertices that are released.
+/// Deviations of each pattern's data from their chords that s follows: none between vertices that are released.
 fn deviations<'p>(
     problem: &Problem,
     patterns: &'p [TermData],
@@ -91,7 +91,7 @@ fn deviations<'p>(
     patterns.iter().map(followed).collect()
 }
 
-/// What is taken from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
+/// Field subtracted from A^½∇s: A^{−½}τ of fluxes, or A^½∇u_h of means.
 #[derive(Debug, Clone, Copy)]
 enum Of {
     Fluxes,

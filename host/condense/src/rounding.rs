@@ -1,4 +1,4 @@
-//! What rounding in f64 leaves in the columns of the forms, where the host made them.
+//! Rounding in f64 in the columns of the forms, where the host made them.
 //!
 //! ```text
 //!   lost_j = ε Σ over rows |terms|  +  (way + out) Σ_T (|Σ ±τ_E − ∫_T f| + ε Σ|terms|)  +  stability ‖ΔŜ_j‖
@@ -54,7 +54,7 @@ impl FormData<'_> {
         Ok(lost)
     }
 
-    /// What it takes to bring 1 from the farthest cell to the boundary.
+    /// Energy that it takes to bring 1 from the farthest cell to the boundary.
     fn way(&self, assembled: &Assembled<f64>) -> Result<f64> {
         let problem = self.problem;
         let unfit = unfit::<f64>(&problem.scene);

@@ -8,7 +8,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
-/// What a part held by contact alone needs.
+/// Source for a part held by contact alone.
 pub(super) struct Source {
     /// 1/d_i of the unknowns of that part, 0 of the others.
     pub inverse: Vec<f64>,

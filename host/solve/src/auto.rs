@@ -64,7 +64,7 @@ pub(super) fn in_f64(
     by_kernel::<f64>(problem, parts, options, start)
 }
 
-/// The same without the direct solver, which works in f64.
+/// Chooses without the direct solver, which works in f64.
 pub(super) fn in_f32(
     problem: &Problem,
     parts: &Parts,

@@ -12,7 +12,7 @@ use super::ldlt::{Ldlt, exchanges};
 use signorini_problem::progress::stage;
 use signorini_problem::scalar::Scalar;
 
-/// What the factor did.
+/// Work of the factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Factored {
     /// Entries of L.

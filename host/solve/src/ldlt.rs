@@ -100,7 +100,7 @@ fn order<R: Scalar>(system: &System<R, u32>) -> Option<Vec<u32>> {
 /// The kernel's memory for exchanges on S.
 pub type Exchanges<R> = Storage<Vec<Block<R>>, Vec<R>, Vec<bool>>;
 
-/// The same for so many contact edges.
+/// Exchanges for this number of contact edges.
 pub fn exchanges<R: Scalar>(contact: usize) -> Exchanges<R> {
     let [blocks, numbers, flags] = storage::lengths(contact);
     let zero = [[R::ZERO; SIDE]; SIDE];

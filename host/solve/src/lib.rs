@@ -71,7 +71,7 @@ pub fn solve(problem: &Problem, options: &Options) -> Result<Solution> {
     solve_from(problem, options, &[])
 }
 
-/// The same from a start: the mean of u over each unknown edge, such as a coarser mesh or other data give it. Entries of Dirichlet
+/// Solves from a start: the mean of u over each unknown edge, such as a coarser mesh or other data give it. Entries of Dirichlet
 /// edges are ignored: there the problem's own data hold. Empty, it is a cold start. The direct solver takes none.
 ///
 /// # Errors

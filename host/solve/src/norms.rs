@@ -35,7 +35,7 @@ pub struct Errors {
     /// [`signorini_certify::exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub combined: Option<f64>,
-    /// What the bound should be, from the same place.
+    /// Number that the bound should equal, from the same place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub identity: Option<f64>,
 }

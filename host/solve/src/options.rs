@@ -1,4 +1,4 @@
-//! What a solve is asked for.
+//! Options of a solve.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -40,7 +40,7 @@ impl ScalarKind {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverKind {
-    /// What one would choose for the size of the problem: sweeps on a small mesh, a factor on a large one.
+    /// Choice by the size of the problem: sweeps on a small mesh, a factor on a large one.
     #[default]
     Auto,
     /// The kernel's projected SOR, and its factor where that does not end.
@@ -53,7 +53,7 @@ pub enum SolverKind {
     Direct,
 }
 
-/// What to do.
+/// Options of a solve.
 #[derive(Debug, Clone, Copy)]
 pub struct Options {
     /// Scalar type.

@@ -11,7 +11,7 @@ use signorini_problem::{EdgeKind, Problem};
 use signorini_scene::error::Result;
 use signorini_scene::scene::units::Units;
 
-/// What outputs are read off.
+/// Answer that outputs are read off.
 #[derive(Debug, Clone, Copy)]
 pub struct Reading<'a> {
     /// The scalar type it was computed in.
@@ -20,7 +20,7 @@ pub struct Reading<'a> {
     pub u: &'a [f64],
     /// ∫_E σ·n of each edge, by (15) or balanced.
     pub flux: &'a [f64],
-    /// What 1 stands for in `scalar`.
+    /// Units of the numbers in `scalar`.
     pub units: Units,
     /// The bound on its error, where there is one.
     pub bound: Option<f64>,

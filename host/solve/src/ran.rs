@@ -1,4 +1,4 @@
-//! What solved a problem in the end, as the terminal and `summary.json` say it.
+//! Solver that was used in the end, in the words of the terminal and `summary.json`.
 
 use serde::{Serialize, Serializer};
 
@@ -23,7 +23,7 @@ pub enum Ran {
 }
 
 impl Ran {
-    /// What u on the whole mesh is in, of a solve in `scalar`: f64 where it was recovered from a condensed answer.
+    /// Scalar of u on the whole mesh, for a solve in `scalar`: f64 where it was recovered from a condensed answer.
     pub fn scalar_of_u(self, scalar: ScalarKind) -> ScalarKind {
         match self {
             Self::CondensedExact | Self::CondensedSweeps | Self::CondensedLinear => ScalarKind::F64,

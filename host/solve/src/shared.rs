@@ -9,7 +9,7 @@ use signorini_scene::error::Result;
 pub struct SharedFactor(Ldlt<f64>);
 
 impl SharedFactor {
-    /// That of `problem`; nothing where it is singular, or would take too much memory.
+    /// Factor of `problem`; `None` where it is singular, or would take too much memory.
     ///
     /// # Errors
     /// Numbers that f64 cannot hold.

@@ -102,7 +102,7 @@ fn exp2(n: i32) -> f64 {
 pub struct Scaled<'p> {
     /// In the scene's units.
     pub own: &'p Problem,
-    /// What 1 stands for in the other one.
+    /// Units of the other problem.
     pub units: Units,
     other: Option<Arc<Problem>>,
 }
@@ -125,7 +125,7 @@ impl<'p> Scaled<'p> {
         self.other.as_deref().unwrap_or(self.own)
     }
 
-    /// The same, where these are not the scene's.
+    /// The problem in other units, where these are not the scene's.
     pub fn other(self) -> Option<Arc<Problem>> {
         self.other
     }

@@ -13,7 +13,7 @@ pub struct LeftOut {
     pub of_contact: Vec<f64>,
 }
 
-/// What modes are weighed by.
+/// Weights of modes.
 pub(super) struct Shares<'a> {
     /// The largest δ.
     pub change: f64,

@@ -53,7 +53,7 @@ pub struct ModalModel {
     pub inputs: usize,
     /// The place of the coefficient's input among them.
     pub input: usize,
-    /// What that input is where δ = 0.
+    /// Value of that input where δ = 0.
     pub origin: f64,
     /// ν_k
     pub compliance: Vec<f64>,
@@ -63,7 +63,7 @@ pub struct ModalModel {
     pub of_contact: Vec<Vec<f64>>,
     /// F_π; nothing where there is no bound.
     pub of_laws: Option<LawsForm>,
-    /// What the modes that are no part of it cost.
+    /// Cost of the modes that are no part of it.
     pub left_out: LeftOut,
     /// Where the matrix is an M-matrix whatever the coefficient is: at most how far above 0 the sum of what is positive of a
     /// row of Ŝ(δ) may be by rounding, off the diagonal.
@@ -75,7 +75,7 @@ pub struct ModalModel {
 pub struct LawsForm {
     /// By columns.
     pub factor: Vec<f64>,
-    /// What rounding in f64 may hide of each.
+    /// Rounding in f64 that each may hide.
     pub lost: Vec<f64>,
 }
 

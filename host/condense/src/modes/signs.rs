@@ -14,7 +14,7 @@
 use super::passing::Mode;
 use crate::CondensedModel;
 
-/// What counts as rounding.
+/// Part of an entry that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// The most that rounding makes of the positive part of a row; nothing where more than rounding is positive. `alphas` are

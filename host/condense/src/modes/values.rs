@@ -1,4 +1,4 @@
-//! What a model of modes is at one value of its coefficient: matrix, loads, outputs, bound.
+//! A model of modes at one value of its coefficient: matrix, loads, outputs, bound.
 
 use super::ModalModel;
 use crate::{CondensedModel, Measure};
@@ -41,7 +41,7 @@ impl ModalModel {
         model
     }
 
-    /// The same with the x of [`ModalModel::model`]: its matrix has a diagonal of 1 or more.
+    /// Model at `value` with the x of [`ModalModel::model`]: its matrix has a diagonal of 1 or more.
     pub fn in_own_scale(&self, value: f64) -> CondensedModel {
         let (n, m, unit) = (self.model.contact, self.inputs, self.model.energy_unit);
         let gains = self.gains(value);

@@ -90,7 +90,7 @@ impl<'c> Change<'c> {
         of_contact + load.map(|(column, p)| column[at].abs() * p.size()).sum::<f64>()
     }
 
-    /// What the modes that are left out add to a row at most.
+    /// Largest contribution to a row of the modes that are left out.
     fn left_out(&self, at: usize) -> f64 {
         let out = &self.modes.left_out;
         let sum = |of: &[f64], numbers: &[Interval]| -> f64 {

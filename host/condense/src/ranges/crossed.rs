@@ -1,4 +1,4 @@
-//! What the bound charges at most for s on another side of the gap than u, for all inputs of a box, where fluxes have limits.
+//! Largest charge of the bound for s on another side of the gap than u, for all inputs of a box, where fluxes have limits.
 //!
 //! Of a solution an edge is in one of three states, and pays for one side of one of them:
 //! ```text
@@ -15,7 +15,7 @@ pub(super) fn eased(vertex: &Vertex, x: &[Interval]) -> Interval {
     Interval { lo: (-e.hi).min(0.0), hi: (-e.lo).max(0.0) }
 }
 
-/// What s pays at most where it is on another side of the gap than u.
+/// Largest charge for s where it is on another side of the gap than u.
 pub(super) fn crossed(model: &CondensedModel, form: &Form, p: &[Interval], x: &[Interval]) -> f64 {
     let of_edge = |(at, ends): (usize, &[usize; 2])| {
         let scale = Interval::point(model.energy_unit) * inverse(model.opening[at]);

@@ -37,7 +37,7 @@ pub struct EndBox {
 }
 
 impl EndBox {
-    /// Those of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
+    /// Enclosure of the solutions of `model` for p in `ranges`. An input has one value in a load and in the end of its side.
     pub fn new(model: &CondensedModel, ranges: &[[f64; 2]]) -> Self {
         let ends: Vec<_> = (0..model.contact).map(|at| model.end_columns(at)).collect();
         let side = |side: usize, infinite: f64| {

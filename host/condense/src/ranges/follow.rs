@@ -1,4 +1,4 @@
-//! What holds for all inputs where one of them changes a transfer coefficient, so that the matrix follows it.
+//! Proofs for all inputs where one of them changes a transfer coefficient, so that the matrix follows it.
 //!
 //! The range of that input is cut into pieces. In a piece the model is the one of its middle, but for what modes change:
 //! ```text
@@ -28,7 +28,7 @@ const ROOM: f64 = 1.0 / 16.0;
 /// Entries off the diagonal that are positive by less than this part of both diagonals are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What is proved of a model of modes for all inputs within their ranges.
+/// Findings proved of a model of modes for all inputs within their ranges.
 #[derive(Debug, Clone)]
 pub struct FollowedRanges {
     /// The sides of its edges; all are kept.
@@ -70,7 +70,7 @@ impl FollowedRanges {
         Ok(whole.map(|whole| whole.of_all(modes)))
     }
 
-    /// What holds in this piece and in others.
+    /// Findings that hold in this piece and in others.
     fn and(self, others: Option<Self>) -> Self {
         let Some(others) = others else { return self };
         let Some((own, other)) = self.sides.enclosure.as_ref().zip(others.sides.enclosure.as_ref())
@@ -95,7 +95,7 @@ impl FollowedRanges {
         Self { sides, outputs, pieces: self.pieces + others.pieces }
     }
 
-    /// The same as of the model whose inputs are those of the scene; no x is held back, and no edge is taken out.
+    /// Findings in terms of the model whose inputs are those of the scene; no x is held back, and no edge is taken out.
     fn of_all(self, modes: &ModalModel) -> Self {
         let mut model = modes.in_own_scale(modes.model.defaults[modes.input]);
         model.ranges = modes.model.ranges[..modes.inputs].to_vec();
@@ -130,7 +130,7 @@ struct Piece<'p> {
     middle: f64,
     /// The model there with n inputs more, and one for each output.
     model: CondensedModel,
-    /// What of each row was positive off the diagonal, and is 0 in the model.
+    /// Entries of each row that were positive off the diagonal, and are 0 in the model.
     cut: Vec<Vec<f64>>,
     split: Split,
 }
@@ -148,7 +148,7 @@ impl<'p> Piece<'p> {
         Some(Self { modes, range, middle, model, cut, split })
     }
 
-    /// What is proved of it; nothing where no box was found.
+    /// Findings proved of it; `None` where no box was found.
     fn proved(mut self) -> Result<Option<FollowedRanges>, ReferenceError> {
         let mut x = vec![Interval::ZERO; self.model.contact];
         for _ in 0..PROPOSALS {
@@ -240,7 +240,7 @@ fn extend(model: &mut CondensedModel) {
     }
 }
 
-/// What holds both, and more.
+/// Intervals that hold both, and more.
 fn wider(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
     let largest = b.iter().fold(0.0, |most: f64, x| most.max(x.size()));
     let hull = a

@@ -40,7 +40,7 @@ impl Interval {
         Self::outwards(self.lo - by, self.hi + by)
     }
 
-    /// What lies in both, of two intervals that hold the same number.
+    /// Intersection of two intervals that hold the same number.
     pub fn and(self, other: Self) -> Self {
         Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
     }

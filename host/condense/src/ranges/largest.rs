@@ -20,7 +20,7 @@ use signorini_reference::ReferenceError;
 const PIECES: usize = 256;
 /// No piece is halved once the largest bound is this many times one that is reached.
 const ENOUGH: f64 = 1.1;
-/// What is proved says something where it is at most so many times what is reached.
+/// Largest ratio of what is proved to what is reached at which the proof says something.
 const SHARP: f64 = 2.0;
 /// u_D this far below ψ, against the size of its terms, is rounding of inputs in the target's scalar.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
@@ -72,7 +72,7 @@ impl LargestBound {
         }
     }
 
-    /// Whether what is proved is near what is reached.
+    /// Tells whether the proved bound is near the one that is reached.
     pub fn is_sharp(&self) -> bool {
         self.proved <= SHARP * self.reached
     }
@@ -127,7 +127,7 @@ fn solved(model: &CondensedModel, p: &[f64]) -> Option<f64> {
     model.bound(p, &model.solve(p).ok()?)
 }
 
-/// Those of the box, of its first inputs.
+/// Corners of the box, of its first inputs.
 fn corners(ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
     let bits = CORNERS.min(ranges.len() - 1);
     let end = |bits: usize, at: usize| match at.checked_sub(1) {

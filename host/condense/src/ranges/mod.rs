@@ -1,4 +1,4 @@
-//! What a condensed model can do for all inputs of a box: where its solution lies, and the edges that may change sides.
+//! States of a condensed model for all inputs of a box: where its solution lies, and the edges that may change sides.
 //!
 //! ```text
 //!   ranges of the inputs ─► load box b_lo ≤ B̂p ≤ b_hi ─► enclosure lo ≤ x ≤ hi ─► open, touching, at its limit, may change

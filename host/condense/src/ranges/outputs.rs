@@ -49,7 +49,7 @@ pub fn intervals(
     model.outputs.iter().map(|measure| known.output(measure)).collect::<Result<_, _>>().map(Some)
 }
 
-/// What is known of all solutions.
+/// Facts on all solutions.
 struct Known<'k> {
     model: &'k CondensedModel,
     enclosure: &'k Enclosure,
@@ -150,7 +150,7 @@ impl Known<'_> {
         reactions.fold(own.within(&self.inputs, &x), |sum, reaction| sum + reaction)
     }
 
-    /// The same with μ times the rows of O less their ends; nothing where S_OO is not positive definite to working precision.
+    /// Output with μ times the rows of O less their ends; `None` where S_OO is not positive definite to working precision.
     fn eliminated(&self, of: &AffineOutput) -> Option<AffineOutput> {
         let n = self.model.contact;
         let open: Vec<usize> = (0..n).filter(|&at| self.side(at).is_some()).collect();
@@ -190,7 +190,7 @@ impl Known<'_> {
         if self.enclosure.is_open(at) { Some(0) } else { is_saturated().then_some(1) }
     }
 
-    /// What of an interval of r lies between the ends that inputs may make.
+    /// Part of an interval of r that lies between the ends that inputs may make.
     fn admissible(&self, at: usize, r: Interval) -> Interval {
         let [least, greatest] = self.model.end_columns(at).map(|end| match end[0].is_finite() {
             true => dot(points(&end, end.len()), self.inputs.iter().copied()),

@@ -58,7 +58,7 @@ pub struct Sides {
     pub enclosure: Option<Enclosure>,
 }
 
-/// What a contact vertex adds to the error bound.
+/// Contribution of a contact vertex to the error bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum VertexSide {
     /// An edge beside it always touches: d = −e.
@@ -105,7 +105,7 @@ impl Sides {
         }
     }
 
-    /// As the enclosure says.
+    /// Sides that the enclosure proposes.
     pub(super) fn proposed(
         model: &CondensedModel,
         enclosure: Enclosure,
@@ -135,7 +135,7 @@ impl Sides {
         Self { inputs, of, kept, limits, enclosure: Some(enclosure) }
     }
 
-    /// What becomes of each edge.
+    /// Partition of the edges by their sides.
     pub fn partition(&self) -> Partition {
         let all = |is: &dyn Fn(usize) -> bool| (0..self.of.len()).filter(|&at| is(at)).collect();
         let dropped = |side| all(&|at| !self.kept[at] && self.of[at] == side);
@@ -184,7 +184,7 @@ impl Sides {
         self.inputs.iter().copied().chain(of_kept).collect()
     }
 
-    /// What the error bound must see move and is not kept yet.
+    /// Edges that the error bound must see move and that are not kept yet.
     fn needed(&self, form: &Form, reduction: &Reduction) -> Vec<usize> {
         let mut needed: Vec<usize> = form.corners.iter().map(|corner| corner.edge).collect();
         for vertex in &form.vertices {
@@ -198,7 +198,7 @@ impl Sides {
         needed
     }
 
-    /// What `vertex` adds to the bound.
+    /// Contribution of `vertex` to the bound.
     pub(super) fn at(&self, vertex: &Vertex, reduction: &Reduction) -> VertexSide {
         let beside = || vertex.beside.iter();
         if beside().any(|&at| self.of[at] == EdgeSide::Touching && !self.kept[at]) {
@@ -215,7 +215,7 @@ impl Sides {
     }
 }
 
-/// What of an interval of x is on sides that there are.
+/// Part of an interval of x that is on sides that exist.
 fn there_is(model: &CondensedModel, at: usize, [lo, hi]: [f64; 2]) -> [f64; 2] {
     let [least, greatest] = model.end_columns(at);
     let lo = if greatest[0] == f64::INFINITY { lo.max(0.0) } else { lo };

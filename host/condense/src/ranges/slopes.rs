@@ -31,7 +31,7 @@ pub(super) struct Slopes<'s> {
 }
 
 impl<'s> Slopes<'s> {
-    /// Those of a model; nothing where an entry off the diagonal of S is positive.
+    /// Slopes of a model; `None` where an entry off the diagonal of S is positive.
     ///
     /// # Errors
     /// Loads that are not finite.
@@ -109,7 +109,7 @@ fn rises(slope: &Interval) -> bool {
     slope.hi > -slope.lo
 }
 
-/// What an input adds to the load of each edge, which has the end of the edge's side in it.
+/// Contribution of an input to the load of each edge, which has the end of the edge's side in it.
 fn column(model: &CondensedModel, enclosure: &Enclosure, j: usize) -> Vec<Interval> {
     let of_edge = |(at, &b): (usize, &f64)| {
         let sides = [!enclosure.is_saturated(at), !enclosure.is_open(at)];

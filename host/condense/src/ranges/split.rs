@@ -80,7 +80,7 @@ impl Split {
         self.above_ends(load, &vec![f64::INFINITY; load.len()])
     }
 
-    /// The same where Nx is `least` with x > 0, `greatest` with x < 0, and between them with x = 0; either may be infinite.
+    /// Upper solution where Nx is `least` with x > 0, `greatest` with x < 0, and between them with x = 0; either may be infinite.
     ///
     /// # Errors
     /// As for [`Split::above`].
@@ -102,7 +102,7 @@ impl Split {
         self.below_ends(load, &vec![f64::INFINITY; load.len()])
     }
 
-    /// The same with two ends, as for [`Split::above_ends`].
+    /// Lower solution with two ends, as for [`Split::above_ends`].
     ///
     /// # Errors
     /// As for [`Split::above`].

@@ -48,7 +48,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Vec<ScheduledTick>> {
     Ok(moments)
 }
 
-/// What is wrong at a time is wrong with the line of the log that has it, whose inputs made it so.
+/// Reports an error at time t as an error of the line of the log whose inputs made it so.
 #[must_use]
 pub fn blamed(path: &Path, error: Error) -> Error {
     let Error::Input(error) = error else { return error };
@@ -67,7 +67,7 @@ fn line_of(path: &Path, time: f64) -> Option<usize> {
     record.position().map(|position| position.line() as usize)
 }
 
-/// What stands in a column behind the first: its name and the input.
+/// A column behind the first: its name and the input.
 type Column = (String, usize);
 
 fn columns(reader: &mut Reader<std::fs::File>, path: &Path, scene: &Scene) -> Result<Vec<Column>> {
@@ -118,7 +118,7 @@ fn number(column: &str, field: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// What the CSV reader says, in one sentence with file and line.
+/// Reports an error of the CSV reader in one sentence with file and line.
 fn refused(path: &Path, error: &csv::Error) -> InputError {
     let message = match error.kind() {
         csv::ErrorKind::Io(cause) => cause.to_string(),

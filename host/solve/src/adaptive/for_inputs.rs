@@ -48,7 +48,7 @@ pub fn mesh_of_scene(scene: &Scene) -> Result<MeshOfScene> {
     of_adapted(scene, adapted::of_scene(scene)?)
 }
 
-/// The same of another mesh than that of the scene's file.
+/// Mesh for a scene that starts from another mesh than that of the scene's file.
 ///
 /// # Errors
 /// As for [`mesh_of_scene`].
@@ -99,11 +99,11 @@ struct Trial<'a> {
     scene: &'a Scene,
     promised: Promised,
     options: Options,
-    /// What is drawn from the ranges, corners apart.
+    /// Inputs drawn from the ranges, corners apart.
     inputs: Vec<Vec<f64>>,
-    /// Those that every mesh is solved for: the defaults, the corners, and the worst of the others so far.
+    /// Inputs that every mesh is solved for: the defaults, the corners, and the worst of the others so far.
     followed: Vec<Followed>,
-    /// What was found of all inputs on the last mesh.
+    /// Bounds of all inputs on the last mesh.
     allowed: Vec<Allowed>,
 }
 

@@ -14,11 +14,11 @@ const SHARE: f64 = 0.5;
 /// Where more of the cells than this have that share, as many are refined as the goal takes, or all: the bound is spread evenly then, and cuts between fine and
 /// coarse cells cost more than they save.
 const EVEN: f64 = 0.2;
-/// What refinement takes of the square of a smooth cell's indicator.
+/// Part of the square of a smooth cell's indicator that refinement removes.
 const TAKEN: f64 = 0.75;
 /// The least part of the cells that a level marks, so that few levels are solved: all together cost little more than the last.
 const FEWEST: f64 = 0.03;
-/// The same of a level that is to be the last.
+/// Least part of the cells that a last level marks.
 const FEWEST_AT_LAST: f64 = 0.02;
 /// The goal is aimed at from below, since not all cells are smooth.
 const ROOM: f64 = 0.85;

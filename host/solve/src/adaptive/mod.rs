@@ -33,10 +33,10 @@ use signorini_scene::mesh::Mesh;
 use signorini_scene::mesh::adaptive::Hierarchy;
 use signorini_scene::scene::Scene;
 
-/// What is asked for.
+/// Request for a refined mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct Wanted {
-    /// What the bound is to be below.
+    /// Goal of the bound.
     pub goal: Goal,
     /// No refined mesh with more unknowns is solved on.
     pub most_unknowns: usize,
@@ -45,7 +45,7 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// What suits the size takes sweeps on small meshes, which is ahead on the easiest scenes, and by milliseconds. Here there are
+    /// Takes a factor: sweeps are ahead on small meshes of the easiest scenes alone, and by milliseconds. Here there are
     /// many small meshes with cells of many sizes, for which sweeps are slow: a factor is as good as any there, and often faster.
     fn by_factor(mut self) -> Self {
         if self.options.solver == SolverKind::Auto {

@@ -1,4 +1,4 @@
-//! What is promised of a mesh, and what holds on it.
+//! Promises of a mesh, and the bounds that hold on it.
 
 use std::fmt;
 
@@ -8,16 +8,16 @@ use signorini_scene::mesh::Mesh;
 /// Which cells of a mesh are refined while its bound is too large.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refining {
-    /// Those that hold most of it; all where that brings little.
+    /// Cells that hold most of it; all where that brings little.
     Marked,
     /// All.
     Everywhere,
 }
 
-/// What a mesh is to hold for all inputs.
+/// Promise that a mesh is to keep for all inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Promised {
-    /// What the bound is to be at most.
+    /// Largest bound that is allowed.
     pub goal: Goal,
     /// How it is to get there.
     pub refining: Refining,
@@ -30,14 +30,14 @@ pub struct Promised {
 pub struct MeshOfScene {
     /// The mesh.
     pub mesh: Mesh,
-    /// What holds on it, where the setting has an `error`.
+    /// Promise that holds on it, where the setting has an `error`.
     pub promise: Option<Promise>,
 }
 
 /// That the bound is small enough for all inputs tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Promise {
-    /// What the bound is at most.
+    /// Largest bound that it states.
     pub goal: Goal,
     /// The largest bound over what it was to be.
     pub largest: f64,
@@ -47,7 +47,7 @@ pub struct Promise {
     pub allowed: Vec<Allowed>,
 }
 
-/// What the bound may be for some inputs.
+/// Bound that is allowed for some inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Allowed {
     /// Values of the inputs.

@@ -15,7 +15,7 @@ pub enum Stop {
     TooLarge {
         /// So many.
         unknowns: usize,
-        /// What is allowed.
+        /// Number that is allowed.
         most: usize,
     },
     /// There is no finer mesh: it would have too many cells, or ones so small that rounding hides their shape.
@@ -31,7 +31,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// What ended it with this solution, in words; nothing where that is the goal.
+    /// Reason in words why the levels ended with this solution; `None` where that is the goal.
     pub fn why(&self, solution: &Solution) -> Option<String> {
         const ABOVE: &str = "the error bound is above what was asked for";
         Some(match self {
@@ -71,18 +71,18 @@ pub struct Stall {
 /// A term of the error bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Term {
-    /// What s and τ are apart.
+    /// Distance of s and τ.
     Gap,
-    /// What f, g and q leave out.
+    /// Part of f, g and q that their means leave out.
     Oscillation,
-    /// What rounding can have hidden.
+    /// Part that rounding can have hidden.
     Rounding,
-    /// What the solver left.
+    /// Part that the solver left.
     Algebraic,
 }
 
 impl Term {
-    /// What it is, in words.
+    /// Describes this part in words.
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Gap => "the gap between s and τ, as where data jump inside cells",

@@ -1,4 +1,4 @@
-//! What is left of u, as a contact problem in f32.
+//! Correction of u as a contact problem in f32.
 
 use signorini_kernel::flux_range::Spans;
 use signorini_kernel::law::Law;
@@ -17,7 +17,7 @@ pub(super) struct Correction {
     pub v: Vec<f32>,
 }
 
-/// The same as the kernel takes it.
+/// Arrays of a correction in the form that the kernel takes.
 pub(super) struct Posed<'c> {
     pub load: &'c [f32],
     pub law: Law<'c, f32>,
@@ -66,7 +66,7 @@ impl Correction {
         }
     }
 
-    /// What the kernel solves, and v.
+    /// The problem that the kernel solves, and v.
     pub fn posed(&mut self) -> Refused<Posed<'_>> {
         let Self { load, lower, spans, v } = self;
         Ok(Posed { load, law: Law::above(lower).with_spans(Spans::new(spans)?), v })

@@ -44,10 +44,10 @@ enum Packed {
     Quads(Vec<Row<f32, u32, { rows::QUADS }>>),
 }
 
-/// What came of a solve.
+/// Outcome of a solve with corrections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corrected {
-    /// As the kernel tells it; sweeps are those in f32, the residual is that in f64.
+    /// Outcome of the kernel; sweeps are those in f32, the residual is that in f64.
     pub outcome: Outcome<f64>,
     /// Times that u was corrected.
     pub corrections: u32,

@@ -140,7 +140,7 @@ fn longest(omega: f64) -> u32 {
     (8.0 / (2.0 - omega)).ceil() as u32
 }
 
-/// As many sweeps as the goal seems to be away.
+/// Number of sweeps after which the goal seems to be reached.
 fn next_length(
     settings: &Settings<f64>,
     now: &Outcome<f64>,
