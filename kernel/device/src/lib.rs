@@ -35,7 +35,7 @@
 //! assert_eq!(outcome.status, Status::Converged);
 //! assert!((bar.contact_force() - 6.0).abs() < 1e-5); // 3 W/mK · 2 K / 1 m
 //! assert_eq!(bar.contact_length::<Libm>(&mesh)?, 1.0);
-//! # Ok::<(), crate::Error>(())
+//! # Ok::<(), signorini_device::Error>(())
 //! ```
 //!
 
