@@ -8,6 +8,7 @@
 
 #[cfg(feature = "mesh")]
 pub mod assembly;
+pub mod codes;
 #[cfg(feature = "mesh")]
 pub mod conjugate;
 #[cfg(feature = "mesh")]

@@ -9,7 +9,7 @@ mod field;
 pub use field::Field;
 
 /// A scalar of the kernel: `f32` or `f64`, and nothing else.
-pub trait Real: Field + Copy + Default {
+pub trait Real: Field + Copy + Default + 'static {
     /// 0
     const ZERO: Self;
     /// 1

@@ -25,38 +25,44 @@ pub struct Certificate<R> {
 }
 
 impl<R: Real> Certificate<R> {
-    /// This certificate with an algebraic part that is no more than the total it is a part of.
+    /// The certificate with an algebraic part that is no more than the total it is a part of.
     #[must_use]
     pub fn as_parts(self) -> Self {
         if self.algebraic > self.total { Self { algebraic: self.total, ..self } } else { self }
     }
 }
 
-/// Verdict on an iterate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict<R> {
-    /// Its error is at most the total of this.
-    Certified(Certificate<R>),
-    /// No bound: only contact edges can take the surplus of a part, and this one would be pulled at.
-    Pulled {
-        /// The edge.
-        edge: usize,
-    },
-    /// No bound: contact alone holds the domain, and no edge is pressed hard enough to take its surplus.
-    Unpressed,
-    /// No bound: a Dirichlet value lies below the gap where they meet, so that no u has both.
-    BelowGap,
-    /// No bound, whatever the inputs: the data do not allow for one. u_D or ψ jumps, say, or a transfer coefficient
-    /// nearly vanishes; `signorini bake` says which.
-    Unavailable,
-    /// No bound: the numbers overflow.
-    NotFinite,
-    /// No bound: nobody asked for one.
-    NotAsked,
+crate::codes! {
+    /// Whether there is a bound on the error of an iterate, or why there is none.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    Verdict<R> {
+        /// There is a bound.
+        /// The error is at most its total.
+        Certified(Certificate<R>) = 0 c"CERTIFIED",
+        /// None: only contact edges can take the surplus of a part, and one would be pulled at.
+        Pulled {
+            /// That edge.
+            edge: usize,
+        } = 1 c"PULLED",
+        /// None: contact alone holds the domain, and no edge is pressed hard enough.
+        /// One would have to take the surplus of the domain.
+        Unpressed = 2 c"UNPRESSED",
+        /// None: a given value lies below the gap where they meet.
+        /// No u has both.
+        BelowGap = 3 c"BELOW_GAP",
+        /// None, whatever the inputs: the data do not allow for one.
+        /// u_D or ψ jumps, say, or a transfer coefficient nearly vanishes; `signorini bake` says which.
+        Unavailable = 4 c"UNAVAILABLE",
+        /// None: the numbers overflow.
+        NotFinite = 5 c"BOUND_NOT_FINITE",
+        /// None: the scene asks for none.
+        /// The method of the tick is one without a bound.
+        NotAsked = 6 c"NOT_ASKED",
+    }
 }
 
 impl<R: Real> Verdict<R> {
-    /// This verdict with [`Certificate::as_parts`].
+    /// The verdict with [`Certificate::as_parts`].
     #[must_use]
     pub fn as_parts(self) -> Self {
         match self {

@@ -164,7 +164,7 @@ fn ticks<R: Scalar, const WIDTH: usize>(
             let flux: Vec<_> = controller.tau().iter().map(|x| x.wide() * units.flux()).collect();
             let touches = |at: usize| controller.u()[free + at] == controller.lower()[at];
             let table = table(&posed(problem, &p), &flux, touches);
-            let force = report.force.wide();
+            let force = report.figures.force.wide();
             let said = || format!("{what}, {sweeps} sweeps, {p:?}: {force} {values:?} {table:?}");
             assert!(force >= 0.0, "{}", said());
             allowed.check(what, (force - table.law) / table.size);

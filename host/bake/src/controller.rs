@@ -1,18 +1,8 @@
-//! The text of a module's `Controller`: one set of methods, whatever the model.
-//!
-//! ```text
-//!   new ─► tick(inputs) ─► Answer { outputs, report }       as often as inputs come
-//!          tick_within(inputs, limits, deadline)            the same, cut off where time is short
-//!          reset()                                          back to new
-//! ```
+//! The text that makes a module's `Controller` of the kernel's: the scene's types and constants, its memory, an alias.
 
 /// What is the model's own.
 #[derive(Debug, Clone)]
 pub(super) struct Parts<'a> {
-    /// Fields of the struct, a line each, with their comments.
-    pub fields: &'a str,
-    /// The same with what they are before the first tick.
-    pub values: &'a str,
     /// How the first tick starts.
     pub first: &'a str,
     /// From where each tick answers.
@@ -21,68 +11,70 @@ pub(super) struct Parts<'a> {
     pub ends: &'a str,
     /// The value of `LIMITS`.
     pub limits: &'a str,
-    /// Whether `tick_within` reads its limits.
-    pub is_limited: bool,
-    /// What refuses inputs outside their ranges; empty where they have none.
-    pub check: &'a str,
-    /// The body of `tick_within`, down to an `Ok` with the answer.
-    pub tick: &'a str,
-    /// That of `reset`.
-    pub reset: &'a str,
+    /// Whether the inputs have ranges.
+    pub has_ranges: bool,
+    /// Whether every tick starts anew.
+    pub is_cold: bool,
+    /// The type of the memory.
+    pub storage: &'a str,
+    /// The memory before the first tick.
+    pub zeros: &'a str,
+    /// The model that is lent to the memory.
+    pub setup: &'a str,
 }
 
-/// The struct and its methods.
+/// The alias, and the scene behind it.
 pub(super) fn controller(parts: &Parts) -> String {
-    let Parts { fields, values, first, from, ends, limits, is_limited, check, tick, reset } = parts;
-    let name = if *is_limited { "limits" } else { "_" };
+    let Parts { first, from, ends, limits, has_ranges, is_cold, storage, zeros, setup } = parts;
+    let ranges = if *has_ranges { "&Inputs::RANGES" } else { "&[]" };
     format!(
         "
+use signorini_device::controller;
+use signorini_device::kernel::limits::{{Deadline, Limits}};
+use signorini_device::{{Error, Report}};
+
 /// When a tick ends: {ends}.
 pub const LIMITS: Limits<Scalar> = {limits};
 
-/// All memory of the scene; can initialise a `static`.
-#[derive(Debug)]
-pub struct Controller {{
-{fields}}}
+/// What a tick came to.
+pub type Answer = controller::Answer<Outputs, Scalar>;
 
-impl Controller {{
-    /// Before the first tick, which {first}.
-    pub const fn new() -> Self {{
-        Self {{
-{values}        }}
+/// All memory of the scene; can initialise a `static`. The first tick {first}, each answers {from}. Refused are inputs outside
+/// [`Inputs::RANGES`].
+pub type Controller = controller::Controller<Scene>;
+
+/// The scene, as [`Controller`] takes it.
+#[derive(Debug, Clone, Copy)]
+pub struct Scene;
+
+impl controller::Scene for Scene {{
+    type Scalar = Scalar;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+    type Storage = {storage};
+
+    fn ranges(&self) -> &[[Scalar; 2]] {{
+        {ranges}
     }}
 
-    /// Answers for these inputs, {from}.
-    ///
-    /// # Errors
-    /// Inputs outside [`Inputs::RANGES`], that are not finite, or so large that data, answers or outputs may overflow; the
-    /// last answer stays.
-    pub fn tick(&mut self, inputs: Inputs) -> Result<Answer, Error> {{
-        self.tick_within(inputs, LIMITS, &mut Deadline::never())
+    fn limits(&self) -> Limits<Scalar> {{
+        LIMITS
     }}
 
-    /// The same with limits of the caller's and until a deadline. Whatever ends it, the answer is feasible and the
-    /// report says how wrong it can be.
-    ///
-    /// # Errors
-    /// As for [`Controller::tick`].
-    pub fn tick_within<F: FnMut() -> u32>(
-        &mut self,
-        inputs: Inputs,
-        {name}: Limits<Scalar>,
-        deadline: &mut Deadline<F>,
-    ) -> Result<Answer, Error> {{
-{check}{tick}    }}
+    fn is_cold(&self) -> bool {{
+        {is_cold}
+    }}
 
-    /// Forgets all ticks: the next one is the first again.
-    pub fn reset(&mut self) {{
-{reset}    }}
+    fn lend<T>(
+        &self,
+        take: impl FnOnce(&<Self::Storage as controller::Storage<Scalar>>::Model<'_>) -> T,
+    ) -> T {{
+        take(&{setup})
+    }}
 }}
 
-impl Default for Controller {{
-    fn default() -> Self {{
-        Self::new()
-    }}
+impl controller::Baked for Scene {{
+    const CONTROLLER: Controller = Controller::of(Scene, {zeros});
 }}
 "
     )

@@ -84,12 +84,10 @@ fn record<R: Scalar>(of: &OutputWeights<R>) -> String {
 }
 
 const PLUS_MINUS: &str = "
-impl Answer {
-    /// How far each output may be from its value for the exact solution of the scene, in its own unit; infinite where nothing is
-    /// guaranteed. What the sum of an output rounds is not in it.
-    pub fn plus_minus(&self) -> Outputs {
+impl controller::Weighed<Scalar> for Outputs {
+    fn plus_minus(report: &Report<Scalar>) -> Self {
         let weights = &OUTPUT_WEIGHTS;
-        Outputs::from_array(signorini_device::intervals::plus_minus(weights, &self.report))
+        Outputs::from_array(signorini_device::intervals::plus_minus(weights, report))
     }
 }
 ";

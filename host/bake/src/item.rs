@@ -71,6 +71,44 @@ pub(super) fn to_array(count: &str, items: &[Item]) -> String {
     )
 }
 
+/// The factors of a model's columns: the constant 1, and the inputs.
+pub(super) fn terms(items: &[Item]) -> String {
+    let fields = || items.iter().map(|item| item.identifier.clone());
+    let terms: Vec<_> = std::iter::once("1.0".to_owned()).chain(fields()).collect();
+    format!(
+        "
+impl controller::Inputs<Scalar> for Inputs {{
+    type Terms = [Scalar; INPUTS + 1];
+
+    fn terms(self) -> Self::Terms {{
+        let {} = self;
+        [{}]
+    }}
+}}
+",
+        braced("Self", fields()),
+        terms.join(", ")
+    )
+}
+
+/// Outputs read off an answer, each by a number that is a constant.
+pub(super) fn read(items: &[Item]) -> String {
+    let numbered = items.iter().enumerate();
+    let values = numbered.map(|(at, item)| format!("{}: of.value({at})?", item.identifier));
+    format!(
+        "
+impl controller::Outputs<Scalar> for Outputs {{
+    #[inline(always)]
+    fn read({}: &impl controller::Reading<Scalar>) -> Result<Self, Error> {{
+        Ok({})
+    }}
+}}
+",
+        if items.is_empty() { "_" } else { "of" },
+        braced("Self", values)
+    )
+}
+
 fn list(items: &[Item]) -> String {
     let all: Vec<_> = items.iter().map(|item| item.identifier.as_str()).collect();
     format!("[{}]", all.join(", "))

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::item::{Item, braced, from_array, items, names, structure, to_array};
+use super::item::{Item, braced, from_array, items, names, read, structure, terms, to_array};
 use super::meanings::{effect, meaning, said};
 use super::text::{code, prose};
 use signorini_image::checkout;
@@ -28,17 +28,6 @@ pub struct ModuleApi {
 pub(crate) const UNITS: &str = "Units are the scene's: lengths those of its mesh, fluxes A∇u those of its conductivity times u by length; \
                      a bound has that of (∫A∇u·∇u)^½. A flux is (A∇u)·n with the normal outward: positive where u rises \
                      towards the outside. Heat, which flows from high u to low, then flows in; water flows out where u is −head.";
-
-const ANSWER: &str = "
-/// What a tick came to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {
-    /// What the controller reads.
-    pub outputs: Outputs,
-    /// How the tick ended, what it took, and how wrong the answer can be.
-    pub report: Report<Scalar>,
-}
-";
 
 /// What a model says of itself in the header.
 #[derive(Debug, Clone)]
@@ -81,14 +70,9 @@ impl ModuleApi {
         inputs::ranges(&self.ranges)
     }
 
-    /// What a tick does first.
-    pub(super) fn check(&self) -> &'static str {
-        match self.ranges::<f64>().is_empty() {
-            true => "",
-            false => {
-                "        signorini_device::ranges::check(&inputs.to_array(), &Inputs::RANGES)?;\n"
-            }
-        }
+    /// Whether an input has a range.
+    pub(super) fn has_ranges(&self) -> bool {
+        !self.ranges::<f64>().is_empty()
     }
 
     /// Everything but the controller and its data.
@@ -210,12 +194,13 @@ impl Inputs {
         text += &to_array("INPUTS", &self.inputs);
         text += &self.range_items::<R>();
         text += "}\n";
+        text += &terms(&self.inputs);
         text += &structure("Outputs", "What the controller reads.", &self.outputs);
         text += "\nimpl Outputs {\n";
         text += &names("OUTPUTS", &self.outputs);
         text += &from_array("OUTPUTS", &self.outputs);
         text += &to_array("OUTPUTS", &self.outputs);
-        text + "}\n" + ANSWER
+        text + "}\n" + &read(&self.outputs)
     }
 }
 

@@ -85,7 +85,7 @@ fn with_width<R: Scalar, const WIDTH: usize>(
         let (pivots, rounds) =
             controller.solved().map_or((0, 0), |solved| (solved.pivots, solved.rounds));
         let (sweeps, settled) = (report.sweeps, is_settled(report.ended));
-        let looks = [controller.certificates(), measurements(sweeps, report.omega.wide())];
+        let looks = [controller.certificates(), measurements(sweeps, report.figures.omega.wide())];
         updates += f64::from(sweeps + rounds) * baked.unknowns() as f64;
         ticks.push(TickWork { pivots, sweeps, rounds, looks, settled });
     }

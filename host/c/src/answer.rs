@@ -61,7 +61,7 @@ pub unsafe fn told(
                     *report = Report::new(&answer);
                 }
             }
-            Refusal::Ok as i32
+            Refusal::Ok.code()
         }
         Err(error) => {
             let (why, culprit) = refusal(&error);
@@ -69,7 +69,7 @@ pub unsafe fn told(
             if matches!(why, Refusal::InputOutOfRange | Refusal::InputNotFinite) {
                 state.close(seal);
             }
-            why as i32
+            why.code()
         }
     }
 }

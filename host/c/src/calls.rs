@@ -7,16 +7,19 @@ use crate::named;
 use crate::report::Report;
 use crate::scene::{Inputs, Scalar};
 use crate::state::State;
-use signorini_device::codes::{Bounded, EndedCode, Refusal};
+use signorini_device::kernel::Verdict;
+use signorini_device::kernel::codes::word;
+use signorini_device::codes::Refusal;
+use signorini_device::kernel::report::Ended;
 
 /// # Safety
 /// `state` is null or has room for a state.
 #[unsafe(export_name = named!("init"))]
 pub unsafe extern "C" fn init(state: *mut State) -> i32 {
     match state.is_null() {
-        true => Refusal::NullPointer as i32,
+        true => Refusal::NullPointer.code(),
         // SAFETY: the caller's.
-        false => unsafe { State::begin(state) as i32 },
+        false => unsafe { State::begin(state).code() },
     }
 }
 
@@ -26,8 +29,8 @@ pub unsafe extern "C" fn init(state: *mut State) -> i32 {
 pub unsafe extern "C" fn reset(state: *mut State) -> i32 {
     // SAFETY: the caller's.
     match unsafe { owned(state) } {
-        Ok(state) => state.reset() as i32,
-        Err(why) => why as i32,
+        Ok(state) => state.reset().code(),
+        Err(why) => why.code(),
     }
 }
 
@@ -37,8 +40,8 @@ pub unsafe extern "C" fn reset(state: *mut State) -> i32 {
 pub unsafe extern "C" fn seal_state(state: *mut State) -> i32 {
     // SAFETY: the caller's.
     match unsafe { owned(state) } {
-        Ok(state) => state.seal() as i32,
-        Err(why) => why as i32,
+        Ok(state) => state.seal().code(),
+        Err(why) => why.code(),
     }
 }
 
@@ -57,9 +60,9 @@ unsafe fn owned<'s>(state: *mut State) -> Result<&'s mut State, Refusal> {
 #[unsafe(export_name = named!("check_state"))]
 pub unsafe extern "C" fn check_state(state: *const State) -> i32 {
     match state.is_null() {
-        true => Refusal::NullPointer as i32,
+        true => Refusal::NullPointer.code(),
         // SAFETY: the caller's.
-        false => unsafe { State::check(state) as i32 },
+        false => unsafe { State::check(state).code() },
     }
 }
 
@@ -83,17 +86,17 @@ pub unsafe extern "C" fn clamp(inputs: *mut Inputs) {
 
 #[unsafe(export_name = named!("error_name"))]
 pub extern "C" fn error_name(error: i32) -> *const c_char {
-    Refusal::of_code(error).map_or(UNKNOWN, Refusal::word).as_ptr()
+    word(Refusal::CODES, error).unwrap_or(UNKNOWN).as_ptr()
 }
 
 #[unsafe(export_name = named!("status_name"))]
 pub extern "C" fn status_name(status: i32) -> *const c_char {
-    EndedCode::of_code(status).map_or(UNKNOWN, EndedCode::word).as_ptr()
+    word(Ended::CODES, status).unwrap_or(UNKNOWN).as_ptr()
 }
 
 #[unsafe(export_name = named!("bounded_name"))]
 pub extern "C" fn bounded_name(bounded: i32) -> *const c_char {
-    Bounded::of_code(bounded).map_or(UNKNOWN, Bounded::word).as_ptr()
+    word(Verdict::<Scalar>::CODES, bounded).unwrap_or(UNKNOWN).as_ptr()
 }
 
 const UNKNOWN: &CStr = c"UNKNOWN";

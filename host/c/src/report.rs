@@ -1,7 +1,6 @@
 //! What a tick came to, as C reads it.
 
 use crate::scene::{Answer, Outputs, Scalar};
-use signorini_device::codes;
 use signorini_device::kernel::verdict::{Certificate, Verdict};
 
 /// `NAME_report` of the header, field by field.
@@ -42,8 +41,8 @@ impl Report {
             _ => 0,
         };
         Self {
-            status: codes::ended(report.ended) as i32,
-            bounded: codes::bounded(&report.verdict) as i32,
+            status: report.ended.code(),
+            bounded: report.verdict.code(),
             exchanges: report.exchanges,
             sweeps: report.sweeps,
             active: report.active,

@@ -20,7 +20,7 @@ pub unsafe extern "C" fn tick(
     // SAFETY: the caller's.
     let (state, inputs) = match unsafe { admitted(state, inputs) } {
         Ok(both) => both,
-        Err(why) => return why as i32,
+        Err(why) => return why.code(),
     };
     let (controller, seal) = state.open();
     let answer = answered(controller, inputs);

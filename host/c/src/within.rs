@@ -41,7 +41,7 @@ pub unsafe extern "C" fn tick_within(
     // SAFETY: the caller's.
     let (state, inputs) = match unsafe { admitted(state, inputs) } {
         Ok(both) => both,
-        Err(why) => return why as i32,
+        Err(why) => return why.code(),
     };
     // SAFETY: the caller's.
     let (limits, deadline) = unsafe { (limits.as_ref(), deadline.as_ref()) };

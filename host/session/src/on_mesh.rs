@@ -34,10 +34,10 @@ pub(crate) fn answer<R: Scalar>(report: &Report<R>, arrays: &Arrays<R>, units: &
         scalar: crate::scalar_kind::<R>(),
         status: Ending::Tick(report.ended),
         sweeps: report.sweeps,
-        algebraic_residual: report.residual.wide() / range(&u),
-        omega: report.omega.wide(),
+        algebraic_residual: report.figures.residual.wide() / range(&u),
+        omega: report.figures.omega.wide(),
         flux: tau.clone(),
-        contact_force: report.force.wide(),
+        contact_force: report.figures.force.wide(),
         bound: report.verdict.certificate().map(ErrorBound::new),
         certified: CertifiedFields {
             vertices: wide(arrays.vertices, units.u),

@@ -36,7 +36,7 @@ impl SolveSummary {
     pub(super) fn report<R: Real>(self, x: &[R], verdict: Verdict<R>) -> Report<R> {
         let active = x.iter().filter(|x| **x == R::ZERO).count() as u32;
         let Self { ended, pivots, sweeps } = self;
-        Report { ended, exchanges: pivots, sweeps, active, verdict }
+        Report { ended, exchanges: pivots, sweeps, active, verdict, figures: () }
     }
 }
 

@@ -1,57 +1,10 @@
-//! What a controller says, as numbers and words: for callers in C, and for whatever else knows no Rust enum.
-//!
-//! ```text
-//!   Error   ─► Refusal        why a call has no answer, and the number of the culprit
-//!   Ended   ─► ended          what ended a tick
-//!   Verdict ─► bounded        whether there is a bound, or why there is none
-//! ```
-//! Each number keeps its meaning; what is new gets a new one.
+//! Why a controller refuses a call, as a number and a word: for callers in C.
 
-use core::ffi::CStr;
-
-use signorini_kernel::Real;
 use signorini_kernel::error::{Array, Error};
-use signorini_kernel::report::Ended;
-use signorini_kernel::verdict::Verdict;
 
-/// An enum whose values have a number, a word in C's spelling, and a meaning.
-macro_rules! codes {
-    ($(#[$doc:meta])* $name:ident { $(#[doc = $meaning:literal] $variant:ident = $code:literal $word:literal,)+ }) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        #[repr(i32)]
-        pub enum $name {
-            $(#[doc = $meaning] $variant = $code,)+
-        }
-
-        impl $name {
-            /// All of them, in the order of their numbers.
-            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
-
-            /// Its word, such as `INPUT_OUT_OF_RANGE`.
-            pub const fn word(self) -> &'static CStr {
-                match self {
-                    $(Self::$variant => $word,)+
-                }
-            }
-
-            /// What it means, a sentence.
-            pub const fn meaning(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $meaning,)+
-                }
-            }
-
-            /// The value of this number.
-            pub fn of_code(code: i32) -> Option<Self> {
-                Self::ALL.iter().copied().find(|value| *value as i32 == code)
-            }
-        }
-    };
-}
-
-codes! {
+signorini_kernel::codes! {
     /// Why a call has no answer.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     Refusal {
         /// There is an answer.
         Ok = 0 c"OK",
@@ -84,44 +37,6 @@ codes! {
     }
 }
 
-codes! {
-    /// What ended a tick: [`Ended`].
-    EndedCode {
-        /// The solution of the discrete problem, but for rounding.
-        Exact = 0 c"EXACT",
-        /// The certified error is small enough.
-        Accurate = 1 c"ACCURATE",
-        /// More sweeps would hardly change the answer.
-        Settled = 2 c"SETTLED",
-        /// The sweeps allowed are used up.
-        OutOfSweeps = 3 c"OUT_OF_SWEEPS",
-        /// The time is used up.
-        OutOfTime = 4 c"OUT_OF_TIME",
-        /// The answer overflows: do not use it.
-        NotFinite = 5 c"NOT_FINITE",
-    }
-}
-
-codes! {
-    /// Whether there is a bound on the error, or why there is none: [`Verdict`].
-    Bounded {
-        /// There is a bound.
-        Certified = 0 c"CERTIFIED",
-        /// None: only contact edges can take the surplus of a part, and one would be pulled at.
-        Pulled = 1 c"PULLED",
-        /// None: contact alone holds the domain, and no edge is pressed hard enough.
-        Unpressed = 2 c"UNPRESSED",
-        /// None: a given value lies below the gap where they meet.
-        BelowGap = 3 c"BELOW_GAP",
-        /// None, whatever the inputs: the data do not allow for one.
-        Unavailable = 4 c"UNAVAILABLE",
-        /// None: the numbers overflow.
-        BoundNotFinite = 5 c"BOUND_NOT_FINITE",
-        /// None: the scene asks for none.
-        NotAsked = 6 c"NOT_ASKED",
-    }
-}
-
 /// The refusal of an error, and the number of its culprit, 0 where it has none.
 ///
 /// ```
@@ -130,7 +45,7 @@ codes! {
 ///
 /// let (why, input) = refusal(&Error::InputOutOfRange { input: 1 });
 /// assert_eq!((why, input), (Refusal::InputOutOfRange, 1));
-/// assert_eq!((why as i32, why.word()), (5, c"INPUT_OUT_OF_RANGE"));
+/// assert_eq!(why.code(), 5);
 /// ```
 pub fn refusal(error: &Error) -> (Refusal, usize) {
     match *error {
@@ -146,62 +61,37 @@ pub fn refusal(error: &Error) -> (Refusal, usize) {
     }
 }
 
-/// What ended a tick.
-pub fn ended(ended: Ended) -> EndedCode {
-    match ended {
-        Ended::Exact => EndedCode::Exact,
-        Ended::Accurate => EndedCode::Accurate,
-        Ended::Settled => EndedCode::Settled,
-        Ended::OutOfSweeps => EndedCode::OutOfSweeps,
-        Ended::OutOfTime => EndedCode::OutOfTime,
-        Ended::NotFinite => EndedCode::NotFinite,
-    }
-}
-
-/// Whether there is a bound.
-pub fn bounded<R: Real>(verdict: &Verdict<R>) -> Bounded {
-    match verdict {
-        Verdict::Certified(_) => Bounded::Certified,
-        Verdict::Pulled { .. } => Bounded::Pulled,
-        Verdict::Unpressed => Bounded::Unpressed,
-        Verdict::BelowGap => Bounded::BelowGap,
-        Verdict::Unavailable => Bounded::Unavailable,
-        Verdict::NotFinite => Bounded::BoundNotFinite,
-        Verdict::NotAsked => Bounded::NotAsked,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use signorini_kernel::codes::{Code, word};
     use signorini_kernel::error::CellId;
-    use signorini_kernel::verdict::Certificate;
+    use signorini_kernel::report::Ended;
+    use signorini_kernel::verdict::{Certificate, Verdict};
 
     #[test]
     fn numbers_count_up_and_read_back() {
-        for (at, refusal) in (0..).zip(Refusal::ALL) {
-            assert_eq!((*refusal as i32, Refusal::of_code(at)), (at, Some(*refusal)));
+        for codes in [Refusal::CODES, Ended::CODES, Verdict::<f32>::CODES] {
+            for (at, code) in (0..).zip(codes) {
+                assert_eq!((code.number, word(codes, at)), (at, Some(code.word)));
+            }
         }
-        for (at, ended) in (0..).zip(EndedCode::ALL) {
-            assert_eq!((*ended as i32, EndedCode::of_code(at)), (at, Some(*ended)));
-        }
-        for (at, bounded) in (0..).zip(Bounded::ALL) {
-            assert_eq!((*bounded as i32, Bounded::of_code(at)), (at, Some(*bounded)));
-        }
-        assert_eq!(Refusal::of_code(Refusal::ALL.len() as i32), None);
-        assert_eq!(Refusal::of_code(-1), None);
+        assert_eq!(word(Refusal::CODES, Refusal::CODES.len() as i32), None);
+        assert_eq!(word(Refusal::CODES, -1), None);
     }
 
     #[test]
     fn words_and_meanings_differ() {
-        for (at, one) in Refusal::ALL.iter().enumerate() {
-            for other in Refusal::ALL.iter().take(at) {
-                assert!(one.word() != other.word() && one.meaning() != other.meaning());
+        for (at, one) in Refusal::CODES.iter().enumerate() {
+            for other in Refusal::CODES.iter().take(at) {
+                assert!(one.word != other.word && one.meaning != other.meaning);
             }
         }
-        assert_eq!(EndedCode::OutOfTime.word(), c"OUT_OF_TIME");
-        assert_eq!(Bounded::BelowGap.word(), c"BELOW_GAP");
-        assert_eq!(Refusal::Ok.meaning().trim(), "There is an answer.");
+        let known = |codes: &'static [Code], code| word(codes, code);
+        assert_eq!(known(Ended::CODES, Ended::OutOfTime.code()), Some(c"OUT_OF_TIME"));
+        let below = Verdict::<f32>::BelowGap.code();
+        assert_eq!(known(Verdict::<f32>::CODES, below), Some(c"BELOW_GAP"));
+        assert_eq!(Refusal::CODES[0].meaning.trim(), "There is an answer.");
     }
 
     #[test]
@@ -224,27 +114,27 @@ mod tests {
     }
 
     #[test]
-    fn reports_are_told_by_name() {
-        for (of, code) in [
-            (Ended::Exact, EndedCode::Exact),
-            (Ended::Accurate, EndedCode::Accurate),
-            (Ended::Settled, EndedCode::Settled),
-            (Ended::OutOfSweeps, EndedCode::OutOfSweeps),
-            (Ended::OutOfTime, EndedCode::OutOfTime),
-            (Ended::NotFinite, EndedCode::NotFinite),
-        ] {
-            assert_eq!(ended(of), code);
+    fn values_have_the_numbers_of_their_words() {
+        for (at, ended) in (0..).zip([
+            Ended::Exact,
+            Ended::Accurate,
+            Ended::Settled,
+            Ended::OutOfSweeps,
+            Ended::OutOfTime,
+            Ended::NotFinite,
+        ]) {
+            assert_eq!(ended.code(), at);
         }
-        for (of, code) in [
-            (Verdict::Certified(Certificate::<f32>::default()), Bounded::Certified),
-            (Verdict::Pulled { edge: 1 }, Bounded::Pulled),
-            (Verdict::Unpressed, Bounded::Unpressed),
-            (Verdict::BelowGap, Bounded::BelowGap),
-            (Verdict::Unavailable, Bounded::Unavailable),
-            (Verdict::NotFinite, Bounded::BoundNotFinite),
-            (Verdict::NotAsked, Bounded::NotAsked),
-        ] {
-            assert_eq!(bounded(&of), code);
+        for (at, verdict) in (0..).zip([
+            Verdict::Certified(Certificate::<f32>::default()),
+            Verdict::Pulled { edge: 1 },
+            Verdict::Unpressed,
+            Verdict::BelowGap,
+            Verdict::Unavailable,
+            Verdict::NotFinite,
+            Verdict::NotAsked,
+        ]) {
+            assert_eq!(verdict.code(), at);
         }
     }
 }

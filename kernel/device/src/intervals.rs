@@ -40,7 +40,8 @@ impl<R: Real> OutputWeights<R> {
     /// let weights = OutputWeights { total: 2.0, square: 0.0, algebraic: 1.0, of_u: 0.0 };
     /// let certificate = Certificate { total: 0.1, algebraic: 0.02, ..Certificate::default() };
     /// let verdict = Verdict::Certified(certificate);
-    /// let report = Report { ended: Ended::Exact, exchanges: 0, sweeps: 0, active: 3, verdict };
+    /// let (ended, figures) = (Ended::Exact, ());
+    /// let report = Report { ended, exchanges: 0, sweeps: 0, active: 3, verdict, figures };
     /// assert_eq!(weights.plus_minus(&report), 0.22);
     /// assert_eq!(OutputWeights::NONE.plus_minus(&report), f64::INFINITY);
     /// ```
@@ -48,7 +49,7 @@ impl<R: Real> OutputWeights<R> {
         report.certificate().map_or(R::INFINITY, |bound| self.within(bound))
     }
 
-    /// The same of a bound.
+    /// How far the output may be off within this bound.
     pub fn within(&self, bound: &Certificate<R>) -> R {
         let is_told = self.algebraic == R::ZERO || bound.algebraic < bound.total;
         if !is_told || self.total == R::INFINITY {
@@ -59,7 +60,7 @@ impl<R: Real> OutputWeights<R> {
     }
 }
 
-/// The same of every output.
+/// How far each output may be off.
 pub fn plus_minus<R: Real, const N: usize>(
     weights: &[OutputWeights<R>; N],
     report: &Report<R>,
@@ -74,7 +75,7 @@ mod tests {
     use signorini_kernel::verdict::Verdict;
 
     fn report(verdict: Verdict<f32>) -> Report<f32> {
-        Report { ended: Ended::Settled, exchanges: 0, sweeps: 7, active: 0, verdict }
+        Report { ended: Ended::Settled, exchanges: 0, sweeps: 7, active: 0, verdict, figures: () }
     }
 
     #[test]

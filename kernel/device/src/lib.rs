@@ -45,8 +45,10 @@ pub use signorini_contact as contact;
 pub use signorini_kernel as kernel;
 
 pub mod codes;
+pub mod condensed;
 #[cfg(feature = "workspace")]
 pub mod condition;
+pub mod controller;
 #[cfg(feature = "mesh")]
 pub mod full;
 pub mod intervals;

@@ -93,8 +93,8 @@ fn beside_sweeps(
         )?;
         let report = advance(&mut tick.begin(data)?, &mut exact)?;
         assert_eq!((report.active, report.sweeps), (expected.active, 0), "{source} {bend}");
-        assert_eq!(report.changes, expected.changes, "{source} {bend}");
-        RESIDUAL.check(format_args!("{source} {bend}"), report.residual);
+        assert_eq!(report.figures.changes, expected.figures.changes, "{source} {bend}");
+        RESIDUAL.check(format_args!("{source} {bend}"), report.figures.residual);
         let free = foundation.plate.edges()?.counts().free;
         assert!(tick.u()[free..].iter().zip(&input.lower).all(|(u, lower)| u >= lower));
         compare(&report, &exact, [tick.u(), tick.tau()], [reference.u(), reference.tau()]);
@@ -284,14 +284,14 @@ fn limits_and_deadlines_hold() -> Result<(), Error> {
     let short = &mut Deadline { remaining: || 9, sweep: 7, certificate: 3 };
     let report = running.advance(certified(&mut exact), TO_THE_END, short)?;
     assert_eq!((report.ended, report.sweeps), (Ended::OutOfTime, 0));
-    assert!(report.residual > 1e-3 && exact.solved().is_none());
+    assert!(report.figures.residual > 1e-3 && exact.solved().is_none());
     // The rest of the tick: enough time for a solve, and a bound that is small enough.
     let enough = &mut Deadline { remaining: || 10, sweep: 7, certificate: 3 };
     let generous = Limits { error: 1e3, ..TO_THE_END };
     let report = running.advance(certified(&mut exact), generous, enough)?;
     assert_eq!((report.ended, report.sweeps), (Ended::Accurate, 0));
     assert!(exact.solved().is_some());
-    RESIDUAL.check("the end", report.residual);
+    RESIDUAL.check("the end", report.figures.residual);
     let contact = foundation.plate.edges()?.counts().free;
     assert!(tick.u()[contact..].contains(&GAP));
     exact.restart()?;

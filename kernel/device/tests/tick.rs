@@ -99,13 +99,13 @@ fn a_tick_goes_on_until_sweeps_buy_nothing_and_the_next_starts_there() -> Result
     )?;
     assert_eq!(cold.ended, Ended::Settled);
     assert!(certificate(&cold).algebraic <= 0.1 * certificate(&cold).total);
-    assert!(cold.active > 0 && cold.changes == cold.active && cold.sweeps > 8, "{cold:?}");
+    assert!(cold.active > 0 && cold.figures.changes == cold.active && cold.sweeps > 8, "{cold:?}");
     let warm = tick.begin(data(&foundation)?)?.advance(
         CertifiedSweeps(Libm),
         Limits::default(),
         &mut Deadline::never(),
     )?;
-    assert!(warm.sweeps <= 4 && warm.changes == 0, "{warm:?}");
+    assert!(warm.sweeps <= 4 && warm.figures.changes == 0, "{warm:?}");
     assert_eq!(tick.report(), Some(&warm));
     let counts = foundation.plate.edges()?.counts();
     assert!(tick.u()[counts.free..counts.unknowns()].iter().all(|&u| u >= GAP));
@@ -231,7 +231,10 @@ fn without_a_certificate_the_iterate_is_the_same_and_tau_is_the_flux_of_it() -> 
         let mut running = without.begin(data(&foundation)?)?;
         let found = running.advance(UncertifiedSweeps(Libm), limits, never)?;
         assert_eq!((found.ended, found.sweeps), (Ended::OutOfSweeps, sweeps));
-        assert_eq!((found.verdict, found.residual), (Verdict::NotAsked, certified.residual));
+        assert_eq!(
+            (found.verdict, found.figures.residual),
+            (Verdict::NotAsked, certified.figures.residual)
+        );
         assert_eq!(without.u(), with.u());
         let (loads, mut flux) = (data(&foundation)?.given.loads, vec![0.0; with.u().len()]);
         flux::recover(
@@ -263,7 +266,7 @@ fn without_a_certificate_a_tick_ends_at_rounding_or_out_of_time() -> Result<(), 
     let end = running.advance(UncertifiedSweeps(Libm), Limits::default(), never)?;
     assert_eq!(end.ended, Ended::Settled);
     assert!(end.sweeps > 50, "{end:?}");
-    RESIDUAL.check("the end", end.residual);
+    RESIDUAL.check("the end", end.figures.residual);
     // What sweeps have left over is far below the error of the mesh.
     let after =
         running.advance(CertifiedSweeps(Libm), Limits { sweeps: 0, ..Limits::default() }, never)?;
@@ -306,9 +309,11 @@ fn forces_keep_their_sign_wherever_a_tick_is_stopped() -> Result<(), Error> {
         flux::recover(&edges, foundation.stiffness(), loads, tick.u(), &[], &mut flux)?;
         let by_law: f64 = multipliers(&foundation, tick.u(), &flux)?.iter().sum();
         for report in [certified, plain] {
-            assert!(report.force >= 0.0, "{sweeps}: {report:?}");
-            FORCE_OF_FLUX
-                .check(format_args!("{sweeps}: {by_law} {report:?}"), report.force - by_law);
+            assert!(report.figures.force >= 0.0, "{sweeps}: {report:?}");
+            FORCE_OF_FLUX.check(
+                format_args!("{sweeps}: {by_law} {report:?}"),
+                report.figures.force - by_law,
+            );
         }
         let on_contact = (0..counts.contact).map(|at| flux[counts.free + at]);
         let given = foundation.boundary()?.contact_flux(0).base();
@@ -336,7 +341,7 @@ fn edges_in_contact_follow_the_gap() -> Result<(), Error> {
     let data = Data { given: LoadCase { ends, ..data.given }, law: Law::above(&lower), ..data };
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let after = tick.begin(data)?.advance(CertifiedSweeps(Libm), none, &mut Deadline::never())?;
-    assert_eq!((after.active, after.changes, after.sweeps), (before.active, 0, 0));
+    assert_eq!((after.active, after.figures.changes, after.sweeps), (before.active, 0, 0));
     Ok(())
 }
 
@@ -383,7 +388,10 @@ fn fluxes_that_overflow_are_said_to() -> Result<(), Error> {
     let none = Limits { sweeps: 0, share: 0.0, error: 0.0 };
     let report =
         tick.begin(data)?.advance(UncertifiedSweeps(Libm), none, &mut Deadline::never())?;
-    assert!(tick.u().iter().all(|u| u.is_finite()) && report.residual.is_finite(), "{report:?}");
+    assert!(
+        tick.u().iter().all(|u| u.is_finite()) && report.figures.residual.is_finite(),
+        "{report:?}"
+    );
     assert_eq!(report.ended, Ended::NotFinite, "{report:?}");
     Ok(())
 }

@@ -124,7 +124,7 @@ fn a_tick_to_the_end_is_a_solve() -> Result<(), Error> {
     };
     assert!(apart(whole.u(), lean.u()) < 1e-9, "{}", apart(whole.u(), lean.u()));
     assert!((whole.contact_force() - lean.contact_force()).abs() < 1e-9);
-    assert!((report.force - lean.contact_force()).abs() < 1e-12);
+    assert!((report.figures.force - lean.contact_force()).abs() < 1e-12);
     assert_eq!(report.active, N as u32);
     // Held at 1.5 on the right: the slope there is ½ by −u″ = 2 and u(1) = 3/2.
     assert!((lean.contact_force() - 0.5).abs() < 1e-6, "{}", lean.contact_force());

@@ -118,9 +118,9 @@ fn answered<R: Bits>(report: &Report<R>) {
     if report.ended == Ended::NotFinite {
         return;
     }
-    assert!(report.residual.finite() && report.residual >= R::ZERO, "{report:?}");
-    assert!(report.force.finite() && report.force >= R::ZERO, "{report:?}");
-    assert!(report.omega > R::ZERO && report.omega < R::TWO, "{report:?}");
+    assert!(report.figures.residual.finite() && report.figures.residual >= R::ZERO, "{report:?}");
+    assert!(report.figures.force.finite() && report.figures.force >= R::ZERO, "{report:?}");
+    assert!(report.figures.omega > R::ZERO && report.figures.omega < R::TWO, "{report:?}");
     if let Some(found) = report.verdict.certificate() {
         is_bound(found);
     }

@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
-use signorini_device::codes::{Bounded, EndedCode, Refusal};
+use signorini_device::codes::Refusal;
+use signorini_kernel::Verdict;
+use signorini_kernel::codes::Code;
+use signorini_kernel::report::Ended;
 
 use super::comment::{MARK, as_is, comment, wrapped};
 use super::names::field;
@@ -126,15 +129,14 @@ impl Header<'_> {
     }
 
     fn codes(&self) -> String {
-        let refusals = Refusal::ALL.iter().map(|of| (of.word(), *of as i32, of.meaning()));
-        let ended = EndedCode::ALL.iter().map(|of| (of.word(), *of as i32, of.meaning()));
-        let bounded = Bounded::ALL.iter().map(|of| (of.word(), *of as i32, of.meaning()));
-        enumeration(
-            "name_error",
-            "Why a call has no answer. The last answer stays what it was.",
-            refusals,
-        ) + &enumeration("name_status", "What ended a tick.", ended)
-            + &enumeration("name_bounded", "Whether there is an error bound.", bounded)
+        let refused = "Why a call has no answer. The last answer stays what it was.";
+        enumeration("name_error", refused, Refusal::CODES)
+            + &enumeration("name_status", "What ended a tick.", Ended::CODES)
+            + &enumeration(
+                "name_bounded",
+                "Whether there is an error bound.",
+                Verdict::<f32>::CODES,
+            )
     }
 
     fn report(&self) -> String {
@@ -179,17 +181,12 @@ fn structure(name: &str, doc: &str, items: &[Item], more: impl Iterator<Item = S
 }
 
 /// An enumeration in 32 bits, whatever -fshort-enums says.
-fn enumeration<'w>(
-    name: &str,
-    doc: &str,
-    values: impl Iterator<Item = (&'w std::ffi::CStr, i32, &'static str)>,
-) -> String {
-    let values: Vec<_> = values
-        .map(|(word, code, meaning)| {
-            let word = word.to_string_lossy();
-            format!("{}\n    NAME_{word} = {code}", comment(meaning.trim(), "    "))
-        })
-        .collect();
+fn enumeration(name: &str, doc: &str, codes: &[Code]) -> String {
+    let value = |Code { number, word, meaning }: &Code| {
+        let word = word.to_string_lossy();
+        format!("{}\n    NAME_{word} = {number}", comment(meaning.trim(), "    "))
+    };
+    let values: Vec<_> = codes.iter().map(value).collect();
     format!("\n/* {doc} */\ntypedef int32_t {name};\nenum {{\n{}\n}};\n", values.join(",\n"))
 }
 

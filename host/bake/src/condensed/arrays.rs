@@ -5,11 +5,11 @@ use signorini_contact::certificate::Corner;
 use signorini_contact::dense::blocks::{Block, SIDE, padded};
 use signorini_contact::dense::rule::{Phases, Rule as _};
 use signorini_contact::method::Sweeps;
+use signorini_contact::sides;
 use signorini_contact::spans::SpanColumns;
-use signorini_kernel::Error;
-use signorini_kernel::error::Array;
+use signorini_kernel::{Error, error::Array};
 
-use super::bound::Bound;
+use super::bound::{Bound, Ends};
 use super::modes::{Modes, Scaled};
 use super::output::Output;
 use super::padding::{filled_up, matrix};
@@ -258,6 +258,11 @@ impl<R: Scalar> Baked<R> {
     pub fn forms(&self) -> usize {
         let laws = usize::from(self.modes.is_some());
         self.bound.as_ref().map_or(0, |bound| 1 + usize::from(bound.jump.is_some()) + laws)
+    }
+
+    /// Where s − ψ comes from at the ends of contact edges, where a flux has a limit.
+    pub(super) fn sides(&self) -> Option<sides::Baked<'_, R>> {
+        self.bound.as_ref().ok()?.sides.as_ref().map(Ends::view)
     }
 
     fn has_jump(&self) -> bool {

@@ -61,9 +61,9 @@ impl<R: Scalar> Ends<R> {
         })
     }
 
-    fn view(&self) -> Sides<'_, R> {
+    pub fn view(&self) -> sides::Baked<'_, R> {
         let Self { ends, scale, excess, largest } = self;
-        Sides::new(sides::Baked { ends, scale, excess: *excess, largest })
+        sides::Baked { ends, scale, excess: *excess, largest }
     }
 }
 
@@ -118,7 +118,7 @@ impl<R: Scalar> Bound<R> {
             jump: self.jump.as_ref().map(Columns::view),
             vertices: &self.vertices,
             corners,
-            sides: self.sides.as_ref().map_or(Sides::UNLIMITED, Ends::view),
+            sides: self.sides.as_ref().map_or(Sides::UNLIMITED, |ends| Sides::new(ends.view())),
             stability: self.stability,
             floating: &self.floating,
             oscillation: &self.oscillation,

@@ -58,12 +58,6 @@ impl<R: Scalar> Modes<R> {
             is_monotone: self.is_monotone,
         }
     }
-
-    /// Numbers in flash.
-    pub fn numbers(&self) -> usize {
-        let laws = self.laws.as_ref().map_or(0, |laws| laws.columns.len() + laws.norms.len());
-        self.compliance.len() + self.of_inputs.len() + laws
-    }
 }
 
 /// A model of modes in the units of the target, in f64.

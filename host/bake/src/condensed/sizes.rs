@@ -3,9 +3,7 @@
 use signorini_contact::dense::blocks::{count, padded};
 
 use super::arrays::{Baked, Solver};
-use super::bound::Columns;
-use super::modes::Modes;
-use super::output::Output;
+use super::statics::written;
 use crate::full::Sizes;
 use signorini_problem::scalar::Scalar;
 
@@ -106,32 +104,12 @@ pub fn sizes<R: Scalar>(baked: &Baked<R>) -> Sizes {
         }
         _ => 0,
     };
-    let start = match baked.work.pivots {
-        Some(_) => BLOCK * baked.start.blocks.len() * scalar + baked.start.exchanged.len(),
-        None => 0,
-    };
-    let outputs = baked.outputs.iter().flat_map(Output::arrays).map(<[R]>::len).sum::<usize>();
-    let bound = baked.bound.as_ref().map_or(0, |bound| {
-        let corners: usize = bound.corners.iter().map(|(_, excess, _)| excess.len() + 2).sum();
-        let form = |form: &Columns<R>| form.columns.len() + form.norms.len();
-        let forms = form(&bound.factor) + bound.jump.as_ref().map_or(0, form);
-        let sides = bound.sides.as_ref();
-        let ends = sides.map_or(0, |of| of.scale.len() + of.largest.len() + 1);
-        let numbers = forms + corners + bound.floating.len() + ends;
-        let ends = sides.map_or(0, |of| 4 * of.ends.len());
-        let of_inputs = bound.oscillation.len() + bound.largest_load.len();
-        (numbers + of_inputs) * scalar + bound.vertices.len() * (8 + 2 * scalar) + ends
-    });
     let modes = baked.modes.as_ref();
     let followed =
         modes.map_or(0, |modes| BLOCK * count(baked.contact) + baked.inputs + modes.count + 2);
     // A flag takes a number's room, as arrays end where a number may begin.
     Sizes {
         ram: (4 * n + 2 * columns + baked.varying_spans() + followed + 1) * scalar + n + tableau,
-        flash: (BLOCK * baked.matrix.len() + n + baked.load.len() + baked.spans.len() + outputs)
-            * scalar
-            + modes.map_or(0, Modes::numbers) * scalar
-            + start
-            + bound,
+        flash: written(std::iter::repeat(""), baked).bytes,
     }
 }

@@ -8,6 +8,7 @@ use super::arrays::{Baked, Solver};
 use super::sizes::sizes;
 use super::statics::data;
 use crate::controller::{self, Parts};
+use crate::imports::imports;
 use crate::module_api::{About, ModuleApi};
 use signorini_problem::scalar::Scalar;
 
@@ -29,34 +30,24 @@ pub fn source<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let features = baked.kernel_features();
     let about = About { model: "condensed", text: &about, features: &features };
     let mut text = face.source::<R>(&about);
-    text += &imports(baked);
-    text += &constants(baked);
-    text += &controller(face, baked);
-    text + &data(face, baked)
+    let own = constants(baked) + &controller(face, baked);
+    text += &imports(NAMES, &own, "");
+    text + &own + &data(face.outputs(), baked)
 }
 
-fn imports<R: Scalar>(baked: &Baked<R>) -> String {
-    let is_modal = baked.modes.is_some();
-    let one = if is_modal { "modes::ArrayModalStorage" } else { "storage::ArrayStorage" };
-    let both = match is_modal {
-        true => "{modes::ArrayModalStorage, storage::ArrayTableauStorage}",
-        false => "storage::{ArrayStorage, ArrayTableauStorage}",
-    };
-    let method = |name| format!("use signorini_device::contact::method::{name};\n");
-    let (method, storage) = match baked.solver() {
-        Solver::Linear => (method("Linear"), one),
-        Solver::Sweeps => (method("Sweeps"), one),
-        Solver::Exchanges(_) => (method("Sweeps"), both),
-        Solver::TwoPhases => (String::new(), both),
-    };
-    format!(
-        "
-{method}use signorini_device::contact::{storage};
-use signorini_device::kernel::limits::{{Deadline, Limits}};
-use signorini_device::{{Error, Report}};
-"
-    )
-}
+/// What the module may name, with its place in the kernel.
+const NAMES: &[(&str, &str)] = &[
+    ("ControllerStorage", "condensed::ControllerStorage"),
+    ("Exchanges", "condensed::Exchanges"),
+    ("Phased", "condensed::Phased"),
+    ("Setup", "condensed::Setup"),
+    ("Swept", "condensed::Swept"),
+    ("Linear", "contact::method::Linear"),
+    ("Sweeps", "contact::method::Sweeps"),
+    ("ArrayModalStorage", "contact::modes::ArrayModalStorage"),
+    ("ArrayStorage", "contact::storage::ArrayStorage"),
+    ("ArrayTableauStorage", "contact::storage::ArrayTableauStorage"),
+];
 
 fn constants<R: Scalar>(baked: &Baked<R>) -> String {
     let (contact, sweeps) = (baked.contact, baked.sweeps);
@@ -108,7 +99,6 @@ pub const SWEEPS: Sweeps<Scalar> =
 
 fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     let solver = baked.solver();
-    let only = |text: &'static str| if is_exact(solver) { text } else { "" };
     let ends = match solver {
         Solver::Linear => "with the solution, for nothing is in contact",
         Solver::Sweeps => "with complementarity, or after so many sweeps",
@@ -119,21 +109,13 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
     };
     let is_limited = matches!(solver, Solver::Sweeps | Solver::Exchanges(_));
     let sweeps = if is_limited { baked.sweeps.most } else { 0 };
+    let (storage, zeros) = memory(baked);
+    let setup = match solver {
+        Solver::Linear | Solver::TwoPhases => "Setup::of(&data::SYSTEM)",
+        Solver::Sweeps => "Setup { sweeps: SWEEPS, ..Setup::of(&data::SYSTEM) }",
+        Solver::Exchanges(_) => "Setup { system: &data::SYSTEM, pivots: PIVOTS, sweeps: SWEEPS }",
+    };
     let text = controller::controller(&Parts {
-        fields: &format!(
-            "    storage: {}{}>,\n{}",
-            match baked.modes {
-                Some(_) => "ArrayModalStorage<Scalar, PADDED, COLUMNS, BLOCKS, TERMS",
-                None => "ArrayStorage<Scalar, PADDED, COLUMNS",
-            },
-            if baked.varying_spans() > 0 { ", PADDED" } else { "" },
-            only("    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,\n")
-        ),
-        values: &format!(
-            "            storage: {}::zeros(),\n{}",
-            if baked.modes.is_some() { "ArrayModalStorage" } else { "ArrayStorage" },
-            only("            tableau: ArrayTableauStorage::zeros(),\n")
-        ),
         first: "begins with the answer to the scene's own inputs",
         from: match baked.cold {
             true => "from the answer to the scene's own inputs",
@@ -141,92 +123,33 @@ fn controller<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
         },
         ends,
         limits: &format!("Limits {{ error: 0.0, share: 0.0, sweeps: {sweeps} }}"),
-        check: face.check(),
-        is_limited,
-        tick: &tick(face, baked),
-        reset: &format!(
-            "        self.storage.reset();\n{}",
-            only("        self.tableau.reset();\n")
-        ),
+        has_ranges: face.has_ranges(),
+        is_cold: baked.cold,
+        storage: &storage,
+        zeros: &zeros,
+        setup,
     });
     text + "\npub use data::SYSTEM;\n"
 }
 
-fn is_exact(solver: Solver) -> bool {
-    matches!(solver, Solver::Exchanges(_) | Solver::TwoPhases)
-}
-
-/// The body of a tick.
-fn tick<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
-    const SWEEPS: &str = "Sweeps { most: limits.sweeps, ..SWEEPS }";
-    let (model, set) = match baked.modes.is_some() {
-        false => ("&data::SYSTEM", PLAIN),
-        true if is_exact(baked.solver()) => ("&model", MODAL),
-        true => ("&model", MODAL_SWEPT),
+/// The type of the memory, and what it is before the first tick.
+fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
+    let (kind, sizes) = match baked.modes {
+        Some(_) => ("ArrayModalStorage", "PADDED, COLUMNS, BLOCKS, TERMS"),
+        None => ("ArrayStorage", "PADDED, COLUMNS"),
     };
-    let method = match baked.solver() {
-        Solver::Linear => "Linear".to_owned(),
-        Solver::TwoPhases => format!("self.tableau.two_phases({model})?"),
-        Solver::Sweeps => SWEEPS.to_owned(),
+    let spans = if baked.varying_spans() > 0 { ", PADDED" } else { "" };
+    let tableau = "ArrayTableauStorage<Scalar, PADDED, BLOCKS>";
+    let (solver, zeros) = match baked.solver() {
+        Solver::Linear => ("Linear".to_owned(), "Linear"),
+        Solver::Sweeps => ("Swept".to_owned(), "Swept"),
+        Solver::TwoPhases => (format!("Phased<{tableau}>"), "Phased(ArrayTableauStorage::zeros())"),
         Solver::Exchanges(_) => {
-            format!(
-                "{{
-            let sweeps = {SWEEPS};
-            self.tableau.method({model}, PIVOTS, sweeps)?
-        }}"
-            )
+            (format!("Exchanges<{tableau}>"), "Exchanges(ArrayTableauStorage::zeros())")
         }
     };
-    let names: Vec<_> = face.inputs().collect();
-    let listed: Vec<_> = std::iter::once("1.0").chain(names.iter().copied()).collect();
-    let pattern = match names.is_empty() {
-        true => "let Inputs {} = inputs;".to_owned(),
-        false => format!("let Inputs {{ {} }} = inputs;", names.join(", ")),
-    };
-    let outputs = face.outputs().enumerate();
-    let [before, solved, of_answer] = set;
-    let value = |at: usize| of_answer.replace("NUMBER", &at.to_string());
-    let outputs: String =
-        outputs.map(|(at, name)| format!("            {name}: {}?,\n", value(at))).collect();
-    format!(
-        "{}        {pattern}
-        let inputs = [{}];
-{before}        let mut method = {method};
-{solved}        let outputs = Outputs {{
-{outputs}        }};
-        Ok(Answer {{ outputs, report }})
-",
-        if baked.cold { "        self.reset();\n" } else { "" },
-        listed.join(", "),
+    (
+        format!("ControllerStorage<{kind}<Scalar, {sizes}{spans}>, {solver}>"),
+        format!("ControllerStorage {{ iterate: {kind}::zeros(), solver: {zeros} }}"),
     )
 }
-
-/// What comes before the method, what solves with it, and an output.
-const PLAIN: [&str; 3] = [
-    "",
-    "        let mut memory = self.storage.memory(&data::SYSTEM);
-        let report = data::SYSTEM.tick(&inputs, &mut method, deadline, &mut memory)?;
-",
-    "data::SYSTEM.output(NUMBER, &inputs, &memory, &report)",
-];
-
-/// The same where a transfer coefficient changes; a tableau belongs to one of its values.
-const MODAL: [&str; 3] = [
-    "        if self.storage.set(&data::SYSTEM, &inputs)? {
-            self.tableau.reset();
-        }
-        let (model, mut memory) = self.storage.at(&data::SYSTEM);
-",
-    "        let report = data::SYSTEM.tick(&model, &mut method, deadline, &mut memory)?;
-",
-    "model.output(NUMBER, memory.inputs, &memory.shared, &report)",
-];
-
-/// The same without a tableau.
-const MODAL_SWEPT: [&str; 3] = [
-    "        self.storage.set(&data::SYSTEM, &inputs)?;
-        let (model, mut memory) = self.storage.at(&data::SYSTEM);
-",
-    MODAL[1],
-    MODAL[2],
-];

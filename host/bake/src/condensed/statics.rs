@@ -1,271 +1,214 @@
-//! The statics of the condensed model as Rust text.
+//! The statics of the condensed model, written by the structs that borrow them.
 
-use std::fmt::{Debug, Write as _};
+use std::fmt::Write as _;
 
+use signorini_contact::certificate::{Corner, Form, Vertex};
 use signorini_contact::dense::blocks::Block;
+use signorini_contact::factor::Factor;
+use signorini_contact::modes::Modal;
+use signorini_contact::outputs::Measure;
+use signorini_contact::{Condensed, sides};
 
 use super::arrays::{Baked, Solver};
-use super::bound::{Bound, Ends};
-use super::modes::Modes;
-use super::output::Output;
-use crate::module_api::ModuleApi;
-use crate::text::array;
+use crate::statics::{Statics, lines, named};
 use signorini_problem::scalar::Scalar;
 
+/// What they may name, with its place in the kernel.
+const NAMES: &[(&str, &str)] = &[
+    ("Condensed", "contact::Condensed"),
+    ("Corner", "contact::certificate::Corner"),
+    ("Form", "contact::certificate::Form"),
+    ("Vertex", "contact::certificate::Vertex"),
+    ("Factor", "contact::factor::Factor"),
+    ("Modal", "contact::modes::Modal"),
+    ("Measure", "contact::outputs::Measure"),
+    ("Baked", "contact::sides::Baked"),
+    ("Sides", "contact::sides::Sides"),
+    ("SpanColumns", "contact::spans::SpanColumns"),
+    ("InitialTableau", "contact::dense::tableau::InitialTableau"),
+];
+
 /// A module of their own.
-pub(super) fn data<R: Scalar>(face: &ModuleApi, baked: &Baked<R>) -> String {
-    let mut text = String::new();
-    let mut names = Vec::new();
-    put(&mut text, "MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", {
-        (baked.matrix.len(), blocks(&baked.matrix))
+pub(super) fn data<'n, R: Scalar>(
+    outputs: impl Iterator<Item = &'n str>,
+    baked: &Baked<R>,
+) -> String {
+    written(outputs, baked).module(NAMES, "Scalar")
+}
+
+/// Everything in flash; `outputs` are their names.
+pub(super) fn written<'n, R: Scalar>(
+    outputs: impl Iterator<Item = &'n str>,
+    baked: &Baked<R>,
+) -> Statics {
+    let mut to = Statics::default();
+    baked.with_model(|model| {
+        let system = condensed(model, outputs, baked, &mut to);
+        let (of, system) = match &baked.modes {
+            None => ("Condensed", system),
+            Some(modes) => ("Modal", modal(&modes.view(model), &system, &mut to)),
+        };
+        let _ = write!(
+            to.text,
+            "
+    /// The scene as the kernel takes it.
+    pub static SYSTEM: {of}<'static, Scalar> = {system};
+"
+        );
     });
-    let start = match baked.solver() {
-        Solver::Exchanges(_) | Solver::TwoPhases if baked.modes.is_none() => {
-            let doc = "The tableau of the scene's own inputs: where exchanges begin.";
-            let value = (baked.start.blocks.len(), blocks(&baked.start.blocks));
-            put(&mut text, "TABLEAU", doc, "[[Scalar; 8]; 8]", value);
-            let value = (baked.start.exchanged.len(), array(&baked.start.exchanged, 4));
-            put(&mut text, "OPEN", "The edges that are open in it.", "bool", value);
-            "InitialTableau { blocks: &TABLEAU, exchanged: &OPEN }"
-        }
-        _ => "InitialTableau { blocks: &[], exchanged: &[] }",
-    };
-    let _ = write!(
-        text,
-        "\n    /// The scaled openings for the scene's own inputs.\n    static START: [Scalar; {}] \
-         = {};\n",
-        baked.start.x.len(),
-        array(&baked.start.x, 4)
-    );
-    numbers(
-        &mut text,
-        "LOAD",
-        "B by columns: what each input, the constant first, does.",
-        &baked.load,
-    );
-    let limits = match baked.limits.is_empty() {
-        true => "&[]",
-        false => {
-            let value = (baked.limits.len(), array(&baked.limits, 4));
-            put(&mut text, "WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", value);
-            "&WITHIN"
-        }
-    };
-    let spans = match baked.spans.is_empty() {
-        true => "SpanColumns::UNLIMITED",
-        false => {
-            let doc = "How far it is to the other end of each flux, by columns.";
-            let spans = array(&baked.spans, 4);
-            put(&mut text, "SPANS", doc, "Scalar", (baked.spans.len(), spans));
-            "SpanColumns::new(&SPANS)"
-        }
-    };
-    for (output, name) in baked.outputs.iter().zip(face.outputs()) {
-        names.push(measure(&mut text, &name.to_ascii_uppercase(), output));
-    }
-    let certificate = match &baked.bound {
-        Ok(bound) => certificate(&mut text, bound),
-        Err(_) => "None".to_owned(),
-    };
-    let uses = match &baked.bound {
-        Ok(bound) if bound.corners.is_empty() => {
-            "certificate::{Form, Vertex}, factor::Factor, sides::Sides, "
-        }
-        Ok(_) => "certificate::{Corner, Form, Vertex}, factor::Factor, sides::Sides, ",
-        Err(_) => "",
-    };
-    let [uses_modes, of, before, after] = match &baked.modes {
-        Some(modes) => {
-            ["modes::Modal, ", "Modal", "Modal {\n        model: ", &of_modes(&mut text, modes)]
-                .map(str::to_owned)
-        }
-        None => ["", "Condensed", "", ""].map(str::to_owned),
-    };
-    let model = format!(
+    to
+}
+
+#[rustfmt::skip] // A table; so below.
+fn condensed<'n, R: Scalar>(of: &Condensed<R>, names: impl Iterator<Item = &'n str>, baked: &Baked<R>, to: &mut Statics) -> String {
+    let matrix = to.array::<Block<R>>("MATRIX", "S, the lower triangle of its blocks.", "[[Scalar; 8]; 8]", of.matrix);
+    let start = start(of, baked, to);
+    let x = to.array::<R>("START", "The scaled openings for the scene's own inputs.", "Scalar", of.x);
+    let load = to.array::<R>("LOAD", "B by columns: what each input, the constant first, does.", "Scalar", of.load);
+    let limits = to.array::<[R; 2]>("WITHIN", "Where openings are kept, scaled.", "[Scalar; 2]", of.limits);
+    let spans = to.array::<R>("SPANS", "How far it is to the other end of each flux, by columns.", "Scalar", &baked.spans);
+    let spans = if baked.is_limited() { format!("SpanColumns::new({spans})") } else { "SpanColumns::UNLIMITED".to_owned() };
+    let outputs = of.outputs.iter().zip(names).map(|(of, name)| measure(of, name, to));
+    let outputs = lines(&outputs.collect::<Vec<_>>());
+    let certificate = of.certificate.as_ref().map_or("None".to_owned(), |form| certificate(form, baked, to));
+    let has_bound = of.has_bound;
+    format!(
         "Condensed {{
         contact: super::CONTACT,
-        matrix: &MATRIX,
-        x: &START,
+        matrix: {matrix},
+        x: {x},
         start: {start},
-        load: &LOAD,
+        load: {load},
         limits: {limits},
         spans: {spans},
-        outputs: &[{}],
+        outputs: {outputs},
         certificate: {certificate},
-        has_bound: {},
-    }}",
-        names.iter().map(|name| format!("\n            {name},")).collect::<String>()
-            + "\n        ",
-        baked.has_bound,
-    );
-    let model = if baked.modes.is_some() { model.replace("\n    ", "\n        ") } else { model };
-    format!(
-        "
-/// The scene: what stays from tick to tick.
+        has_bound: {has_bound},
+    }}"
+    )
+}
+
+/// The tableau in which exchanges begin; with modes they begin in S(t).
+fn start<R: Scalar>(of: &Condensed<R>, baked: &Baked<R>, to: &mut Statics) -> String {
+    let is_exact = matches!(baked.solver(), Solver::Exchanges(_) | Solver::TwoPhases);
+    let (blocks, exchanged) = match is_exact && baked.modes.is_none() {
+        true => (of.start.blocks, of.start.exchanged),
+        false => (&[][..], &[][..]),
+    };
+    let doc = "The tableau of the scene's own inputs: where exchanges begin.";
+    let blocks = to.array::<Block<R>>("TABLEAU", doc, "[[Scalar; 8]; 8]", blocks);
+    let exchanged = to.array::<bool>("OPEN", "The edges that are open in it.", "bool", exchanged);
+    format!("InitialTableau {{ blocks: {blocks}, exchanged: {exchanged} }}")
+}
+
+/// The model of modes around that where the coefficient is least.
 #[rustfmt::skip]
-#[allow(clippy::all)]
-mod data {{
-    use signorini_device::contact::{{{uses}{uses_modes}outputs::Measure, spans::SpanColumns, Condensed}};
-    use signorini_device::contact::dense::tableau::InitialTableau;
-
-    use super::Scalar;
-{text}
-    /// All of it.
-    pub static SYSTEM: {of}<'static, Scalar> = {before}{model}{after};
-}}
-"
-    )
-}
-
-/// What follows the model of modes.
-fn of_modes<R: Scalar>(text: &mut String, modes: &Modes<R>) -> String {
-    numbers(text, "COMPLIANCE", "What one of each mode brings to itself.", &modes.compliance);
-    numbers(text, "MODES_OF_INPUTS", "By modes: what the inputs bring to them.", &modes.of_inputs);
-    let laws = match &modes.laws {
-        None => "None",
-        Some(laws) => {
-            numbers(text, "LAWS", "F of the laws that change, by columns.", &laws.columns);
-            numbers(text, "LAWS_NORMS", "The norms of its columns.", &laws.norms);
-            "Some(Factor { columns: &LAWS, norms: &LAWS_NORMS })"
-        }
-    };
+fn modal<R: Scalar>(of: &Modal<R>, model: &str, to: &mut Statics) -> String {
+    let Modal { input, origin, per_unit, compliance, of_inputs, laws, is_monotone, .. } = of;
+    let compliance = to.array::<R>("COMPLIANCE", "What one of each mode brings to itself.", "Scalar", compliance);
+    let of_inputs = to.array::<R>("MODES_OF_INPUTS", "By modes: what the inputs bring to them.", "Scalar", of_inputs);
+    let laws = optional(laws.as_ref(), "LAWS", "F of the laws that change, by columns.", to);
     format!(
-        ",
-        input: {},
-        origin: {:?},
-        per_unit: {:?},
-        compliance: &COMPLIANCE,
-        of_inputs: &MODES_OF_INPUTS,
+        "Modal {{
+        model: {model},
+        input: {input},
+        origin: {origin:?},
+        per_unit: {per_unit:?},
+        compliance: {compliance},
+        of_inputs: {of_inputs},
         laws: {laws},
-        is_monotone: {},
-    }}",
-        modes.input, modes.origin, modes.per_unit, modes.is_monotone
+        is_monotone: {is_monotone},
+    }}"
     )
 }
 
-fn put(text: &mut String, name: &str, doc: &str, of: &str, (length, value): (usize, String)) {
-    let _ = write!(text, "\n    /// {doc}\n    static {name}: [{of}; {length}] = {value};\n");
-}
-
-fn numbers<T: Debug>(text: &mut String, name: &str, doc: &str, numbers: &[T]) {
-    put(text, name, doc, "Scalar", (numbers.len(), array(numbers, 4)));
-}
-
-/// A line a row of each block.
-fn blocks<R: Debug>(blocks: &[Block<R>]) -> String {
-    let block = |block: &Block<R>| {
-        let rows: String = block.iter().map(|row| format!("\n        {row:?},")).collect();
-        format!("\n        [{}],", rows.trim_start().trim_end_matches(','))
-    };
-    format!("[{}\n    ]", blocks.iter().map(block).collect::<String>())
-}
-
-fn measure<R: Debug>(text: &mut String, name: &str, output: &Output<R>) -> String {
-    match output {
-        Output::Linear { of_inputs, of_contact } => {
-            numbers(text, &format!("{name}_OF_INPUTS"), "By the inputs.", of_inputs);
-            numbers(text, &format!("{name}_OF_CONTACT"), "By the openings.", of_contact);
+/// What an output is read off.
+fn measure<R: Scalar>(of: &Measure<R>, output: &str, to: &mut Statics) -> String {
+    let mut factors =
+        |what: &str, doc: &str, all: &[R]| to.array::<R>(&named(output, what), doc, "Scalar", all);
+    let by_inputs = "By the inputs.";
+    let by_openings = "By the openings.";
+    let lengths = "Lengths of the edges.";
+    match *of {
+        Measure::Linear { of_inputs, of_contact } => {
+            let of_inputs = factors("OF_INPUTS", by_inputs, of_inputs);
+            let of_contact = factors("OF_CONTACT", by_openings, of_contact);
+            format!("Measure::Linear {{ of_inputs: {of_inputs}, of_contact: {of_contact} }}")
+        }
+        Measure::Flux { of_inputs, of_contact, of_reaction } => {
+            let of_inputs = factors("OF_INPUTS", by_inputs, of_inputs);
+            let of_contact = factors("OF_CONTACT", by_openings, of_contact);
+            let of_reaction = factors("OF_REACTION", "By the reactions.", of_reaction);
             format!(
-                "Measure::Linear {{ of_inputs: &{name}_OF_INPUTS, of_contact: &{name}_OF_CONTACT }}"
+                "Measure::Flux {{ of_inputs: {of_inputs}, of_contact: {of_contact}, of_reaction: {of_reaction} }}"
             )
         }
-        Output::Flux { of_inputs, of_contact, of_reaction } => {
-            let mut some = |of: &str, doc: &str, factors: &[R]| {
-                if factors.is_empty() {
-                    return "&[]".to_owned();
-                }
-                let name = format!("{name}_{of}");
-                numbers(text, &name, doc, factors);
-                format!("&{name}")
-            };
-            let of_inputs = some("OF_INPUTS", "By the inputs.", of_inputs);
-            let of_contact = some("OF_CONTACT", "By the openings.", of_contact);
-            let of_reaction = some("OF_REACTION", "By the reactions.", of_reaction);
-            format!(
-                "Measure::Flux {{ of_inputs: {of_inputs}, of_contact: {of_contact}, \
-                 of_reaction: {of_reaction} }}"
-            )
+        Measure::Length { always, of_contact } => {
+            let of_contact = factors("OF_CONTACT", lengths, of_contact);
+            format!("Measure::Length {{ always: {always:?}, of_contact: {of_contact} }}")
         }
-        Output::Length { always, of_contact } => {
-            numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
-            format!("Measure::Length {{ always: {always:?}, of_contact: &{name}_OF_CONTACT }}")
+        Measure::Saturated { always, of_contact } => {
+            let of_contact = factors("OF_CONTACT", lengths, of_contact);
+            format!("Measure::Saturated {{ always: {always:?}, of_contact: {of_contact} }}")
         }
-        Output::Saturated { always, of_contact } => {
-            numbers(text, &format!("{name}_OF_CONTACT"), "Lengths of the edges.", of_contact);
-            format!("Measure::Saturated {{ always: {always:?}, of_contact: &{name}_OF_CONTACT }}")
-        }
-        Output::Bound => "Measure::Bound".to_owned(),
+        Measure::Bound => "Measure::Bound".to_owned(),
     }
 }
 
-fn certificate<R: Debug>(text: &mut String, bound: &Bound<R>) -> String {
-    numbers(text, "FACTOR", "F by columns: inputs, openings, corrections.", &bound.factor.columns);
-    numbers(text, "NORMS", "The norms of its columns.", &bound.factor.norms);
-    let jump = match &bound.jump {
-        None => "None",
-        Some(jump) => {
-            numbers(text, "JUMP", "J by columns: what u_h is off from s.", &jump.columns);
-            numbers(text, "JUMP_NORMS", "The norms of its columns.", &jump.norms);
-            "Some(Factor { columns: &JUMP, norms: &JUMP_NORMS })"
-        }
-    };
-    let vertices = &bound.vertices;
-    put(text, "VERTICES", "Contact vertices.", "Vertex<Scalar>", {
-        (vertices.len(), array(vertices, 4))
-    });
-    numbers(text, "OSCILLATION", "The oscillation of each input.", &bound.oscillation);
-    numbers(text, "LARGEST_LOAD", "The largest entry of each load.", &bound.largest_load);
-    let floating = match bound.floating.is_empty() {
-        true => "&[]",
-        false => {
-            numbers(text, "FLOATING", "The flux of a unit on each contact edge.", &bound.floating);
-            "&FLOATING"
-        }
-    };
-    let sides = match &bound.sides {
-        None => "Sides::UNLIMITED".to_owned(),
-        Some(sides) => baked_sides(text, sides),
-    };
-    let corners = bound.corners.iter().enumerate().map(|(at, (edge, excess, energy))| {
-        let name = format!("CORNER_{at}");
-        numbers(text, &name, "u_D above the gap at an end of the contact.", excess);
-        format!("Corner {{ edge: {edge}, excess: &{name}, energy: {energy:?} }}")
-    });
-    let corners: Vec<_> = corners.collect();
+#[rustfmt::skip]
+fn certificate<R: Scalar>(of: &Form<R>, baked: &Baked<R>, to: &mut Statics) -> String {
+    let Form { factor, jump, vertices, corners, stability, floating, oscillation, row_sum, largest_load, unit, .. } = of;
+    let factor = self::factor(factor, "FACTOR", "F by columns: inputs, openings, corrections.", to);
+    let jump = optional(jump.as_ref(), "JUMP", "J by columns: what u_h is off from s.", to);
+    let vertices = to.array::<Vertex<R>>("VERTICES", "Contact vertices.", "Vertex<Scalar>", vertices);
+    let oscillation = to.array::<R>("OSCILLATION", "The oscillation of each input.", "Scalar", oscillation);
+    let largest_load = to.array::<R>("LARGEST_LOAD", "The largest entry of each load.", "Scalar", largest_load);
+    let floating = to.array::<R>("FLOATING", "The flux of a unit on each contact edge.", "Scalar", floating);
+    let sides = sides(baked, to);
+    let corners = corners.iter().enumerate().map(|(at, corner)| self::corner(at, corner, to));
+    let corners = lines(&corners.collect::<Vec<_>>());
     format!(
         "Some(Form {{
-            factor: Factor {{ columns: &FACTOR, norms: &NORMS }},
+            factor: {factor},
             jump: {jump},
-            vertices: &VERTICES,
-            corners: &[{}],
+            vertices: {vertices},
+            corners: {corners},
             sides: {sides},
-            stability: {:?},
+            stability: {stability:?},
             floating: {floating},
-            oscillation: &OSCILLATION,
-            row_sum: {:?},
-            largest_load: &LARGEST_LOAD,
-            unit: {:?},
-        }})",
-        corners.join(", "),
-        bound.stability,
-        bound.row_sum,
-        bound.unit
+            oscillation: {oscillation},
+            row_sum: {row_sum:?},
+            largest_load: {largest_load},
+            unit: {unit:?},
+        }})"
     )
+}
+
+fn corner<R: Scalar>(at: usize, of: &Corner<R>, to: &mut Statics) -> String {
+    let Corner { edge, excess, energy } = of;
+    let doc = "u_D above the gap at an end of the contact.";
+    let excess = to.array::<R>(&format!("CORNER_{at}"), doc, "Scalar", excess);
+    format!("Corner {{ edge: {edge}, excess: {excess}, energy: {energy:?} }}")
 }
 
 /// Where s − ψ comes from at the ends of contact edges.
-fn baked_sides<R: Debug>(text: &mut String, sides: &Ends<R>) -> String {
-    let value = (sides.ends.len(), array(&sides.ends, 4));
-    put(text, "ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", value);
-    numbers(text, "SCALE", "From the unit of vertices to that of 1/r.", &sides.scale);
-    numbers(text, "LARGEST_SPAN", "The largest span of each input.", &sides.largest);
-    format!(
-        "Sides::new(signorini_device::contact::sides::Baked {{
-                ends: &ENDS,
-                scale: &SCALE,
-                excess: {:?},
-                largest: &LARGEST_SPAN,
-            }})",
-        sides.excess
-    )
+#[rustfmt::skip]
+fn sides<R: Scalar>(baked: &Baked<R>, to: &mut Statics) -> String {
+    let Some(sides) = baked.sides() else { return "Sides::UNLIMITED".to_owned() };
+    let sides::Baked { ends, scale, excess, largest } = sides;
+    let ends = to.array::<[u16; 2]>("ENDS", "Vertices and corners at the ends of contact edges.", "[u16; 2]", ends);
+    let scale = to.array::<R>("SCALE", "From the unit of vertices to that of 1/r.", "Scalar", scale);
+    let largest = to.array::<R>("LARGEST_SPAN", "The largest span of each input.", "Scalar", largest);
+    format!("Sides::new(Baked {{ ends: {ends}, scale: {scale}, excess: {excess:?}, largest: {largest} }})")
+}
+
+fn factor<R: Scalar>(of: &Factor<R>, name: &str, doc: &str, to: &mut Statics) -> String {
+    let columns = to.array::<R>(name, doc, "Scalar", of.columns);
+    let norms = format!("{name}_NORMS");
+    let norms = to.array::<R>(&norms, "The norms of its columns.", "Scalar", of.norms);
+    format!("Factor {{ columns: {columns}, norms: {norms} }}")
+}
+
+fn optional<R: Scalar>(of: Option<&Factor<R>>, name: &str, doc: &str, to: &mut Statics) -> String {
+    of.map_or("None".to_owned(), |of| format!("Some({})", factor(of, name, doc, to)))
 }

@@ -1,23 +1,24 @@
 //! What the baked module does, on this machine and on the same numbers.
 
 use signorini_bound::certificate::Curved;
-use signorini_device::full::{Lengths, Numbers, Storage};
-use signorini_device::ranges::check;
+use signorini_device::controller::{self, Scene};
+use signorini_device::full::controller::{ControllerStorage, Setup, Solver, Task};
+use signorini_device::full::{Lengths, Memory, Numbers, Storage};
 use signorini_device::sparse::{Exact, Solved};
 use signorini_device::tick::{
-    CertifiedSweeps, Deadline, Limits, Method, Report, Substitutions, UncertifiedSweeps,
+    CertifiedSweeps, Deadline, Figures, Limits, Report, Substitutions, UncertifiedSweeps,
 };
-use signorini_kernel::Error as KernelError;
 use signorini_kernel::mesh::boundary::{Neumann, Robin};
 use signorini_kernel::rows::Row;
-use signorini_kernel::{Libm, Math};
+use signorini_kernel::{Error, Libm, Math};
 
 use super::arrays::Baked;
+use crate::desk::{Terms, Values};
 use signorini_problem::scalar::Scalar;
 use signorini_solve::{Exchanges, exchanges};
 
-/// The memory of a baked scene.
-type Owned<R, const WIDTH: usize> = Storage<
+/// The arrays of a baked scene.
+type Arrays<R, const WIDTH: usize> = Storage<
     R,
     Vec<Row<R, u32, WIDTH>>,
     Vec<R>,
@@ -31,10 +32,7 @@ type Owned<R, const WIDTH: usize> = Storage<
 #[derive(Debug)]
 pub struct Controller<'b, R: Scalar, const WIDTH: usize> {
     baked: &'b Baked<R>,
-    lengths: Lengths,
-    storage: Owned<R, WIDTH>,
-    exchanges: Option<Exchanges<R>>,
-    solved: Option<Solved<R>>,
+    own: controller::Controller<Desk<'b, R, WIDTH>>,
     certificates: u32,
 }
 
@@ -42,7 +40,7 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     /// Before the first tick.
     pub fn new(baked: &'b Baked<R>) -> Self {
         let lengths = baked.lengths();
-        let storage = Storage::of(
+        let arrays = Storage::of(
             vec![Row::EMPTY; lengths.rows],
             vec![R::ZERO; lengths.numbers.sum()],
             vec![false; lengths.active],
@@ -50,8 +48,17 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
             vec![Robin::default(); lengths.robin],
             vec![Curved::default(); lengths.curved],
         );
-        let exchanges = baked.factored.as_ref().map(|_| exchanges(lengths.active));
-        Self { baked, lengths, storage, exchanges, solved: None, certificates: 0 }
+        let solver = DeskSolver {
+            is_fast: baked.how.fast,
+            is_certified: baked.how.certified,
+            exchanges: baked.factored.as_ref().map(|_| exchanges(lengths.active)),
+            solved: None,
+            figures: None,
+        };
+        let outputs = vec![R::ZERO; baked.outputs.len()];
+        let storage = ControllerStorage::of(arrays, solver, outputs);
+        let scene = Desk { baked, lengths, ranges: baked.face.ranges() };
+        Self { baked, own: controller::Controller::of(scene, storage), certificates: 0 }
     }
 
     /// Outputs and report for these inputs, within the limits of the baked module.
@@ -59,11 +66,11 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     /// # Errors
     /// Inputs outside their ranges, that are not finite, of another number, or so large that data or answers may overflow: the last answer
     /// stays. A `WIDTH` that is not that of the mesh.
-    pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), KernelError> {
+    pub fn tick(&mut self, inputs: &[R]) -> Result<(Vec<R>, Report<R>), Error> {
         self.tick_within(inputs, self.baked.how.limits)
     }
 
-    /// The same within other limits.
+    /// Outputs and report for these inputs, within other limits.
     ///
     /// # Errors
     /// As for [`Controller::tick`].
@@ -71,43 +78,21 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
         &mut self,
         inputs: &[R],
         limits: Limits<R>,
-    ) -> Result<(Vec<R>, Report<R>), KernelError> {
-        let (baked, lengths) = (self.baked, &self.lengths);
-        check(inputs, &baked.face.ranges::<R>())?;
-        if baked.how.cold {
-            self.storage.reset();
-        }
-        let limits = baked.scale.map_or(limits, |scale| scale.limits(limits));
-        let mut outputs = vec![R::ZERO; baked.outputs.len()];
-        let factored = baked.factored.as_ref().zip(self.exchanges.as_mut());
-        let mut exact = match factored {
-            Some((factored, own)) => {
-                Some(Exact::new(factored.view(), own.memory(lengths.active)?)?)
-            }
-            None => None,
+    ) -> Result<(Vec<R>, Report<R>), Error> {
+        let mut looks: u32 = 0;
+        let clock = || {
+            looks += 1;
+            u32::MAX
         };
-        let mut looks = 0;
-        let call = Call {
-            baked,
-            inputs,
-            limits,
-            lengths,
-            storage: &mut self.storage,
-            outputs: &mut outputs,
-            looks: &mut looks,
-        };
-        let report = match baked.how.fast {
-            true => call.with(R::FAST, exact.as_mut())?,
-            false => call.with(Libm, exact.as_mut())?,
-        };
+        let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
+        let answer = self.own.tick_within(Terms::new(inputs), limits, never)?;
+        let (Values(outputs), report) = (answer.outputs, answer.report);
         // The clock is asked before every sweep and once more at the end, at every certificate, and after each but the last.
         self.certificates = (looks.saturating_sub(report.sweeps) / 2).max(1);
-        self.solved = exact.and_then(|exact| exact.solved()).filter(|_| report.sweeps == 0);
-        let report = match baked.scale {
-            Some(scale) => scale.answer(&baked.outputs, &mut outputs, report),
-            None => report,
-        };
-        Ok((outputs, report))
+        let figures = self.own.storage().solver.figures.unwrap_or_default();
+        let units = self.baked.scale.map(|scale| scale.kernel);
+        let figures = units.map_or(figures, |units| units.figures(figures));
+        Ok((outputs, report.with(figures)))
     }
 
     /// Certificates of the last tick, where it was swept.
@@ -117,12 +102,13 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
 
     /// What the factor did in the last tick; `None` without one, or where sweeps had to help.
     pub fn solved(&self) -> Option<Solved<R>> {
-        self.solved
+        self.own.storage().solver.solved
     }
 
     /// Whether the factor alone answers for these inputs.
     pub(super) fn solves(&mut self, inputs: &[R]) -> bool {
-        self.tick(inputs).is_ok_and(|(_, report)| report.sweeps == 0 && report.residual.finite())
+        self.tick(inputs)
+            .is_ok_and(|(_, report)| report.sweeps == 0 && report.figures.residual.finite())
     }
 
     /// Means of u over the edges, in [`Baked::units`] as all arrays below.
@@ -152,48 +138,105 @@ impl<'b, R: Scalar, const WIDTH: usize> Controller<'b, R, WIDTH> {
     }
 
     fn numbers(&self) -> Numbers<&[R]> {
-        self.storage.numbers(&self.lengths).unwrap_or_default()
+        let lengths = self.baked.lengths();
+        self.own.storage().own.numbers(&lengths).unwrap_or_default()
     }
 }
 
-/// The call that the module has in its `tick_within`, but for the method.
-struct Call<'c, R: Scalar, const WIDTH: usize> {
-    baked: &'c Baked<R>,
-    inputs: &'c [R],
-    limits: Limits<R>,
-    lengths: &'c Lengths,
-    storage: &'c mut Owned<R, WIDTH>,
-    outputs: &'c mut [R],
-    /// Becomes how often the clock was asked.
-    looks: &'c mut u32,
+/// A baked scene, for its controller.
+#[derive(Debug)]
+struct Desk<'b, R: Scalar, const WIDTH: usize> {
+    baked: &'b Baked<R>,
+    lengths: Lengths,
+    ranges: Vec<[R; 2]>,
 }
 
-impl<R: Scalar, const WIDTH: usize> Call<'_, R, WIDTH> {
-    /// The method is the baked one, with this square root.
-    fn with<M: Math<R> + Copy>(
-        self,
-        math: M,
-        exact: Option<&mut Exact<R, u32>>,
-    ) -> Result<Report<R>, KernelError> {
-        let (certified, plain) = (CertifiedSweeps(math), UncertifiedSweeps(math));
-        match (exact, self.baked.how.certified) {
-            (None, true) => self.by(certified),
-            (None, false) => self.by(plain),
-            (Some(exact), true) => self.by(Substitutions { exact, sweeps: certified }),
-            (Some(exact), false) => self.by(Substitutions { exact, sweeps: plain }),
-        }
+impl<R: Scalar, const WIDTH: usize> Scene for Desk<'_, R, WIDTH> {
+    type Scalar = R;
+    type Inputs = Terms<R>;
+    type Outputs = Values<R>;
+    type Storage = ControllerStorage<Arrays<R, WIDTH>, DeskSolver<R>, Vec<R>, u32, WIDTH>;
+
+    fn ranges(&self) -> &[[R; 2]] {
+        &self.ranges
     }
 
-    fn by(self, method: impl Method<R, u32>) -> Result<Report<R>, KernelError> {
-        let Self { baked, inputs, limits, lengths, storage, outputs, looks } = self;
-        let clock = || {
-            *looks += 1;
-            u32::MAX
+    fn limits(&self) -> Limits<R> {
+        self.baked.how.limits
+    }
+
+    fn is_cold(&self) -> bool {
+        self.baked.how.cold
+    }
+
+    fn lend<T>(&self, take: impl FnOnce(&Setup<R, u32>) -> T) -> T {
+        let Self { baked, lengths, .. } = self;
+        let factored = baked.factored.as_ref().map(|factored| factored.view());
+        let (factored, units) = (factored.as_ref(), baked.scale.map(|scale| scale.kernel));
+        baked.with(|full| take(&Setup { full, lengths, factored, units }))
+    }
+}
+
+/// The method that the module has, chosen at run time; what it did last.
+#[derive(Debug)]
+struct DeskSolver<R: Scalar> {
+    is_fast: bool,
+    is_certified: bool,
+    exchanges: Option<Exchanges<R>>,
+    solved: Option<Solved<R>>,
+    figures: Option<Figures<R>>,
+}
+
+impl<R: Scalar> Solver<R, u32> for DeskSolver<R> {
+    fn tick<F: FnMut() -> u32, const WIDTH: usize>(
+        &mut self,
+        of: &Setup<R, u32>,
+        task: Task<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, u32, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        let report = match self.is_fast {
+            true => self.with(R::FAST, of, task, deadline, memory, outputs)?,
+            false => self.with(Libm, of, task, deadline, memory, outputs)?,
         };
-        let never = &mut Deadline { remaining: clock, sweep: 0, certificate: 0 };
-        baked.with(|full| {
-            let memory = storage.memory(full, lengths)?;
-            full.tick(inputs, method, limits, never, memory, outputs)
-        })
+        self.solved = self.solved.filter(|_| report.sweeps == 0);
+        self.figures = Some(report.figures);
+        Ok(report)
+    }
+}
+
+impl<R: Scalar> DeskSolver<R> {
+    /// Ticks with this square root.
+    fn with<M: Math<R> + Copy, F: FnMut() -> u32, const WIDTH: usize>(
+        &mut self,
+        math: M,
+        of: &Setup<R, u32>,
+        task: Task<R>,
+        deadline: &mut Deadline<F>,
+        memory: Memory<R, u32, WIDTH>,
+        outputs: &mut [R],
+    ) -> Result<Report<R>, Error> {
+        let (mut certified, mut plain) = (CertifiedSweeps(math), UncertifiedSweeps(math));
+        let Some((factored, own)) = of.factored.zip(self.exchanges.as_mut()) else {
+            return match self.is_certified {
+                true => certified.tick(of, task, deadline, memory, outputs),
+                false => plain.tick(of, task, deadline, memory, outputs),
+            };
+        };
+        let mut exact = Exact::new(*factored, own.memory(of.lengths.active)?)?;
+        let (full, Task { inputs, limits }) = (of.full, task);
+        let report = match self.is_certified {
+            true => {
+                let method = Substitutions { exact: &mut exact, sweeps: certified };
+                full.tick(inputs, method, limits, deadline, memory, outputs)?
+            }
+            false => {
+                let method = Substitutions { exact: &mut exact, sweeps: plain };
+                full.tick(inputs, method, limits, deadline, memory, outputs)?
+            }
+        };
+        self.solved = exact.solved();
+        Ok(report)
     }
 }

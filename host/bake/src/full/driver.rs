@@ -1,57 +1,53 @@
-//! The text of the `Controller`: memory of exactly the scene's size, and the tick.
-
-use std::fmt::Write as _;
+//! The text of the `Controller`: memory of exactly the scene's size, and the method of its ticks.
 
 use signorini_kernel::limits::Limits;
 
 use super::arrays::{Baked, TickOptions};
-use super::imports::imports;
-use super::rescaling::Rescaling;
 use crate::controller::{self, Parts};
+use crate::imports::imports;
 use signorini_problem::scalar::Scalar;
 
 /// What the controller may name, with its place in the kernel.
 const NAMES: &[(&str, &str)] = &[
-    ("Error", "Error"),
     ("Libm", "kernel::Libm"),
     ("Micromath", "kernel::Micromath"),
     ("ArrayStorage", "full::ArrayStorage"),
+    ("ByFactor", "full::controller::ByFactor"),
+    ("ControllerStorage", "full::controller::ControllerStorage"),
+    ("Setup", "full::controller::Setup"),
     ("Lengths", "full::Lengths"),
-    ("Certificate", "kernel::Certificate"),
-    ("Verdict", "kernel::Verdict"),
+    ("Units", "full::Units"),
     ("sparse", "sparse"),
-    ("Exact", "sparse::Exact"),
-    ("Deadline", "kernel::limits::Deadline"),
-    ("Limits", "kernel::limits::Limits"),
     ("CertifiedSweeps", "tick::CertifiedSweeps"),
-    ("Substitutions", "tick::Substitutions"),
     ("UncertifiedSweeps", "tick::UncertifiedSweeps"),
-    ("Report", "Report"),
 ];
 
-/// The struct with its memory, and what it does.
-pub(super) fn controller<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
-    let text = body(baked, rescaling);
+/// The scene with its memory, and the alias.
+pub(super) fn controller<R: Scalar>(baked: &Baked<R>) -> String {
+    let text = body(baked);
     imports(NAMES, &text, "") + &text
 }
 
-fn body<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
+fn body<R: Scalar>(baked: &Baked<R>) -> String {
     let how = &baked.how;
-    let (fields, values) = memory(baked);
+    let (storage, zeros) = memory(baked);
     let Limits { error, share, sweeps } = how.limits;
+    let factored = if baked.factored.is_some() { "Some(&data::FACTORED)" } else { "None" };
+    let units = baked.scale.as_ref().map(|scale| scale.kernel);
     let text = controller::controller(&Parts {
-        fields: &fields,
-        values: &values,
-        check: baked.face.check(),
         first: "starts cold",
         from: if how.cold { "from a cold start" } else { "from where the last tick ended" },
         ends: ends(baked),
         limits: &format!("Limits {{ error: {error:?}, share: {share:?}, sweeps: {sweeps} }}"),
-        is_limited: true,
-        tick: &tick(baked, rescaling),
-        reset: "        self.storage.reset();\n",
+        has_ranges: baked.face.has_ranges(),
+        is_cold: how.cold,
+        storage: &storage,
+        zeros: &zeros,
+        setup: &format!(
+            "Setup {{ full: &data::FULL, lengths: &LENGTHS, factored: {factored}, units: {units:?} }}"
+        ),
     });
-    lengths(baked) + &text + &rescaling.items
+    lengths(baked) + &text
 }
 
 /// How long its memory is: the kernel works it out of the statics, when the module is compiled.
@@ -67,62 +63,37 @@ const EXCHANGES: [usize; 3] = sparse::storage::lengths(LENGTHS.active);
     own.to_owned() + if baked.factored.is_some() { exchanges } else { "" }
 }
 
-/// The fields of the struct, and what they are before the first tick.
+/// The type of the memory, and what it is before the first tick.
 fn memory<R: Scalar>(baked: &Baked<R>) -> (String, String) {
-    let mut fields = format!(
-        "    /// Rows, iterate, and the data that inputs change.
-    storage: ArrayStorage<
-        Scalar,
-        Index,
-        {},
-        {{ LENGTHS.rows }},
-        {{ LENGTHS.numbers.sum() }},
-        {{ LENGTHS.active }},
-        {{ LENGTHS.neumann }},
-        {{ LENGTHS.robin }},
-        {{ LENGTHS.curved }},
-    >,
-",
-        baked.width()
+    let width = baked.width();
+    let own = format!(
+        "ArrayStorage<
+            Scalar,
+            Index,
+            {width},
+            {{ LENGTHS.rows }},
+            {{ LENGTHS.numbers.sum() }},
+            {{ LENGTHS.active }},
+            {{ LENGTHS.neumann }},
+            {{ LENGTHS.robin }},
+            {{ LENGTHS.curved }},
+        >"
     );
-    let mut values = "            storage: ArrayStorage::zeros(),\n".to_owned();
+    let TickOptions { fast, certified, .. } = baked.how;
+    let math = if fast { "Micromath" } else { "Libm" };
+    let sweeps = if certified { "CertifiedSweeps" } else { "UncertifiedSweeps" };
+    let (mut solver, mut zeros) = (format!("{sweeps}<{math}>"), format!("{sweeps}({math})"));
     if baked.factored.is_some() {
-        fields += "    /// Exchanges on the contact edges.
-    exchanges: sparse::ArrayStorage<Scalar, { EXCHANGES[0] }, { EXCHANGES[1] }, { EXCHANGES[2] }>,
-";
-        values += "            exchanges: sparse::ArrayStorage::zeros(),\n";
+        let sizes = "{ EXCHANGES[0] }, { EXCHANGES[1] }, { EXCHANGES[2] }";
+        solver = format!("ByFactor<sparse::ArrayStorage<Scalar, {sizes}>, {solver}>");
+        zeros = format!("ByFactor {{ exchanges: sparse::ArrayStorage::zeros(), sweeps: {zeros} }}");
     }
-    (fields, values)
-}
-
-/// The body of a tick.
-fn tick<R: Scalar>(baked: &Baked<R>, rescaling: &Rescaling) -> String {
-    let mut text = if baked.how.cold { "        self.reset();\n" } else { "" }.to_owned();
-    text += &rescaling.before;
-    let is_factored = baked.factored.is_some();
-    if is_factored {
-        text += "        let exchanges = self.exchanges.memory(LENGTHS.active)?;
-        let mut exact = Exact::new(data::FACTORED, exchanges)?;
-";
-    }
-    let _ = write!(
-        text,
-        "        let memory = self.storage.memory(&data::FULL, &LENGTHS)?;
-        let mut outputs = [0.0; OUTPUTS];
-        let method = {};
-        let report = data::FULL.tick(&inputs.to_array(), method, limits, deadline, memory, &mut outputs)?;
-",
-        method(baked),
-    );
-    text += if is_factored {
-        "        let exchanges = exact.solved().map_or(0, |solved| solved.pivots);
-        let report = Report { exchanges, ..report.into() };
-"
-    } else {
-        "        let report = Report::from(report);\n"
-    };
-    text += &rescaling.after;
-    text + "        Ok(Answer { outputs: Outputs::from_array(outputs), report })\n"
+    (
+        format!(
+            "ControllerStorage<\n        {own},\n        {solver},\n        [Scalar; OUTPUTS],\n        Index,\n        {width},\n    >"
+        ),
+        format!("ControllerStorage::of(ArrayStorage::zeros(), {zeros}, [0.0; OUTPUTS])"),
+    )
 }
 
 /// What ends a tick.
@@ -137,16 +108,5 @@ fn ends<R: Scalar>(baked: &Baked<R>) -> &'static str {
         (true, true) => {
             "once sweeps have brought the algebraic part of the error bound down to this share of it"
         }
-    }
-}
-
-/// How the kernel's tick comes to its answer.
-fn method<R: Scalar>(baked: &Baked<R>) -> String {
-    let TickOptions { fast, certified, .. } = baked.how;
-    let math = if fast { "Micromath" } else { "Libm" };
-    let sweeps = if certified { "CertifiedSweeps" } else { "UncertifiedSweeps" };
-    match baked.factored {
-        Some(_) => format!("Substitutions {{ exact: &mut exact, sweeps: {sweeps}({math}) }}"),
-        None => format!("{sweeps}({math})"),
     }
 }

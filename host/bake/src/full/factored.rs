@@ -8,7 +8,7 @@ use signorini_device::sparse::direct::normalise;
 use signorini_device::sparse::{self, Factor};
 use signorini_kernel::Index;
 
-use super::statics::Statics;
+use crate::statics::Statics;
 use signorini_problem::scalar::Scalar;
 use signorini_problem::{Assembled, Problem};
 use signorini_scene::error::Result;

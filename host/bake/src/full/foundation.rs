@@ -11,7 +11,7 @@ use signorini_kernel::mesh::edges::Edges;
 use signorini_kernel::stiffness::Stiffness;
 use signorini_kernel::{Index, Tensor};
 
-use super::statics::{Statics, lines};
+use crate::statics::{Statics, lines};
 use crate::text::array;
 use signorini_problem::scalar::Scalar;
 

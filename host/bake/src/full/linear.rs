@@ -5,8 +5,8 @@ use signorini_device::full::{
 };
 use signorini_kernel::Index;
 
-use super::statics::{Statics, lines, named};
 use crate::module_api::ModuleApi;
+use crate::statics::{Statics, lines, named};
 use signorini_problem::scalar::Scalar;
 
 /// What each input adds for each unit of its value.

@@ -7,10 +7,9 @@ use signorini_kernel::Index;
 
 use super::arrays::Baked;
 use super::foundation::{base, discretization};
-use super::imports::imports;
 use super::linear::{outputs, patterns};
-use super::statics::Statics;
 use crate::module_api::ModuleApi;
+use crate::statics::Statics;
 use signorini_problem::scalar::Scalar;
 
 /// What they may name, with its place in the kernel.
@@ -53,17 +52,7 @@ const NAMES: &[(&str, &str)] = &[
 
 /// The statics, in a module of their own.
 pub(super) fn listing<R: Scalar>(baked: &Baked<R>) -> String {
-    let text = listed(baked).text;
-    let imports = imports(NAMES, &text, "    ");
-    format!(
-        "
-/// The scene: what stays from tick to tick.
-#[rustfmt::skip]
-#[allow(clippy::all)]
-mod data {{
-    use super::{{Index, Scalar}};{imports}{text}}}
-"
-    )
+    listed(baked).module(NAMES, "Index, Scalar")
 }
 
 /// Everything in flash.
@@ -113,7 +102,7 @@ fn full<R: Scalar, I: Index>(of: &Full<R, u32>, face: &ModuleApi, to: &mut Stati
     let _ = write!(
         to.text,
         "
-    /// All of it.
+    /// The scene as the kernel takes it.
     pub(super) static FULL: Full<'static, Scalar, Index> = Full {{
         discretization: {discretization},
         base: {base},

@@ -20,16 +20,13 @@ mod data;
 mod driver;
 mod factored;
 mod foundation;
-mod imports;
 mod linear;
 mod listing;
 mod output;
-mod rescaling;
 mod scale;
 mod shares;
 mod sizes;
 mod source;
-mod statics;
 #[cfg(test)]
 mod tests;
 mod transfer;

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use super::arrays::Baked;
 use super::driver::controller;
 use super::listing::listing;
-use super::rescaling::rescaling;
 use super::sizes::sizes;
 use crate::module_api::About;
 use signorini_problem::scalar::Scalar;
@@ -35,7 +34,7 @@ pub fn source<R: Scalar>(baked: &Baked<R>) -> String {
     let mut text = baked.face.source::<R>(&about);
     let _ = write!(text, "\n/// Positions in the arrays.\ntype Index = {index};\n");
     text += &required(&features);
-    text += &controller(baked, &rescaling(baked));
+    text += &controller(baked);
     text + &listing(baked)
 }
 

@@ -9,6 +9,7 @@
 //! What changes lives in memory of the caller ([`Memory`], owned by a [`Storage`]), of exactly the size that the scene
 //! needs ([`Lengths`]): data that no input changes are read from the statics, and their memory is empty.
 
+pub mod controller;
 mod curved;
 mod data;
 mod functional;
@@ -17,6 +18,7 @@ mod pattern;
 mod ranges;
 mod storage;
 mod transfer;
+mod units;
 
 pub use curved::{CurvedPart, CurvedSum, Product};
 pub use data::Base;
@@ -26,6 +28,7 @@ pub use pattern::{
     AmbientShare, Contribution, DataMemory, EdgeTrace, Pattern, Points, TransferPattern,
 };
 pub use storage::{ArrayStorage, Storage};
+pub use units::Units;
 
 use crate::tick::{self, Deadline, Ended, Limits, Method, Progress, Report, Tick};
 use functional::TickState;

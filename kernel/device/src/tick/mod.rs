@@ -29,7 +29,7 @@ mod uncertified;
 
 pub use certified::CertifiedSweeps;
 pub use method::{Method, Sweeping};
-pub use report::Report;
+pub use report::{Figures, Report};
 pub use resume::Progress;
 pub use running::Running;
 pub use signorini_kernel::limits::{Deadline, Limits};

@@ -1,12 +1,12 @@
 //! A tick in progress.
 
-use super::{Data, Deadline, Ended, Report, Tick, contact_state};
+use super::{Data, Deadline, Ended, Figures, Report, Tick, contact_state};
 use signorini_bound::certificate::Verdict;
+use signorini_kernel::Index;
 use signorini_kernel::Math;
 use signorini_kernel::Real;
 use signorini_kernel::contact;
 use signorini_kernel::error::Error;
-use signorini_kernel::index::Index;
 use signorini_kernel::psor;
 use signorini_kernel::relaxation::Search;
 
@@ -127,7 +127,8 @@ impl<'t, 'a, R: Real, I: Index, const WIDTH: usize> Running<'t, 'a, R, I, WIDTH>
         }
         let (omega, verdict) = (search.omega, verdict.as_parts());
         let sweeps = self.sweeps;
-        let found = Report { ended, sweeps, residual, active, changes, force, verdict, omega };
+        let figures = Figures { residual, changes, force, omega };
+        let found = Report { ended, exchanges: 0, sweeps, active, verdict, figures };
         *report = Some(found);
         Ok(found)
     }

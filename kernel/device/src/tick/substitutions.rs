@@ -39,10 +39,12 @@ impl<R: Real, I: Index, S: Sweeping<R, I>> Method<R, I> for Substitutions<'_, '_
         limits: Limits<R>,
         deadline: &mut Deadline<F>,
     ) -> Result<Report<R>, Error> {
-        if !deadline.allows_a_sweep() || !running.solve(self.exact)? {
-            return self.sweeps.advance(running, limits, deadline);
-        }
-        self.sweeps.conclude(running, limits)
+        let report = match deadline.allows_a_sweep() && running.solve(self.exact)? {
+            true => self.sweeps.conclude(running, limits)?,
+            false => self.sweeps.advance(running, limits, deadline)?,
+        };
+        let exchanges = self.exact.solved().map_or(0, |solved| solved.pivots);
+        Ok(Report { exchanges, ..report })
     }
 }
 

@@ -102,7 +102,7 @@ impl<
             }
         };
         self.progress = tick.progress();
-        self.force = report.force;
+        self.force = report.figures.force;
         Ok(report)
     }
 

@@ -153,7 +153,7 @@ fn judged(
     report: &Report<f32>,
 ) -> &'static str {
     let numbers = tick.u().iter().chain(tick.vertices()).chain(tick.tau());
-    let figures = [report.residual, report.force, report.omega];
+    let figures = [report.figures.residual, report.figures.force, report.figures.omega];
     if !numbers.chain(&figures).all(|number| number.is_finite()) {
         return "not finite";
     }

@@ -90,7 +90,7 @@ impl Plant {
         Ok(Answer {
             ended: report.ended,
             sweeps: report.sweeps,
-            force: report.force,
+            force: report.figures.force,
             verdict: report.verdict,
             energy: self.energy(),
             surface: self.surface(),

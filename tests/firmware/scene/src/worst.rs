@@ -22,7 +22,7 @@ use signorini_kernel::report::{Ended, Report};
 use signorini_kernel::{Error, Real as _};
 
 use crate::loads::loads;
-use crate::scene::{CONTACT, INPUTS, Inputs, Scalar};
+use crate::scene::{CONTACT, Inputs, Scalar};
 
 /// At least so many ticks.
 const TICKS: u32 = 10_000;
@@ -101,13 +101,6 @@ fn draw_open(draw: &mut Draw, open: &mut [bool; CONTACT]) {
         let place = at as f32 / CONTACT as f32;
         *open = if is_arc { (first..=first + share).contains(&place) } else { part() < share };
     }
-}
-
-/// The constant 1 and the inputs.
-pub fn all(inputs: Inputs) -> [Scalar; INPUTS + 1] {
-    let mut all = [1.0; INPUTS + 1];
-    all.iter_mut().skip(1).zip(inputs.to_array()).for_each(|(all, input)| *all = input);
-    all
 }
 
 /// The tableau of these sides.

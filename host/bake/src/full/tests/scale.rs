@@ -48,7 +48,8 @@ fn baked<R: Scalar>(units: Units) -> Result<Baked<R>> {
 /// Flux, force, length, probe and bound, and what the report has of them.
 fn numbers<R: Scalar>((outputs, report): &Found<R>) -> Vec<f64> {
     let of = report.verdict.certificate().expect("a bound");
-    let of_report = [report.residual, report.force, of.duality_gap, of.rounding, of.total];
+    let of_report =
+        [report.figures.residual, report.figures.force, of.duality_gap, of.rounding, of.total];
     outputs.iter().chain(&of_report).map(|number| number.wide()).collect()
 }
 
@@ -109,7 +110,7 @@ fn the_text_has_the_same_units() -> Result<()> {
     let mut controller = Controller::<f32, { rows::QUADS }>::new(&baked);
     let inputs = INPUTS.map(f32::narrow);
     let (outputs, report) = controller.tick_within(&inputs, limits).expect("a tick");
-    let expected = (outputs, signorini_kernel::Report::from(report));
+    let expected = (outputs, report.with(()));
     let main = format!(
         "
 fn main() {{

@@ -49,8 +49,8 @@ fn so_many_sweeps_are_done_and_the_certificate_does_not_touch_u() -> Result<()> 
         // At the rounding floor, too.
         assert_eq!((report.sweeps, report.ended), (12, Ended::OutOfSweeps));
         assert_eq!((plain.sweeps, plain.ended), (12, Ended::OutOfSweeps));
-        assert_eq!((report.omega, plain.omega), (1.4, 1.4));
-        assert_eq!((u, report.residual), (same, plain.residual));
+        assert_eq!((report.figures.omega, plain.figures.omega), (1.4, 1.4));
+        assert_eq!((u, report.figures.residual), (same, plain.figures.residual));
         assert!(report.verdict.certificate().is_some() && plain.verdict == Verdict::NotAsked);
         assert_ne!(tau, other);
     }
@@ -99,7 +99,7 @@ fn the_square_root_moves_omega_and_not_the_answer() -> Result<()> {
     let (libm, micromath) = (of(MathKind::Libm)?, of(MathKind::Micromath)?);
     let [(u, _, report)] = &libm[..] else { panic!("one tick") };
     let [(other, _, fast)] = &micromath[..] else { panic!("one tick") };
-    assert_ne!(report.omega, fast.omega);
+    assert_ne!(report.figures.omega, fast.figures.omega);
     SWEPT_NARROW.check_each("u", u, other);
     Ok(())
 }

@@ -9,43 +9,25 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use signorini_board::run;
-use signorini_contact::dense::blocks::{count, padded};
-use signorini_contact::modes::ArrayModalStorage;
-use signorini_contact::storage::ArrayTableauStorage;
-use signorini_device::ranges::check;
-use signorini_kernel::Error;
-use signorini_kernel::limits::Deadline;
-use signorini_kernel::report::Report;
-use signorini_scene::scene::{CONTACT, INPUTS, Inputs, OUTPUTS, SYSTEM, Scalar};
-use signorini_scene::worst::{Starts, all, exchange, search};
+use signorini_device::Error;
+use signorini_device::controller::Inputs as _;
+use signorini_device::kernel::report::Report;
+use signorini_scene::scene::{CONTACT, Controller, Inputs, SYSTEM, Scalar};
+use signorini_scene::worst::{Starts, exchange, search};
 
-const PADDED: usize = padded(CONTACT);
-const BLOCKS: usize = count(CONTACT);
-const TERMS: usize = INPUTS + 1 + SYSTEM.compliance.len();
-const COLUMNS: usize = match &SYSTEM.model.certificate {
-    Some(form) => form.factor.norms.len(),
-    None => 0,
-};
-const SPANS: usize = SYSTEM.model.spans.buffered(PADDED);
-
-/// What a controller has, and how many ticks it has begun.
-struct Memory {
-    storage: ArrayModalStorage<Scalar, PADDED, COLUMNS, BLOCKS, TERMS, SPANS>,
-    tableau: ArrayTableauStorage<Scalar, PADDED, BLOCKS>,
+/// The controller whose state is chosen, and how many ticks it has begun.
+struct Chosen {
+    controller: Controller,
     begun: u32,
 }
 
 #[entry]
 fn main() -> ! {
-    static mut MEMORY: Memory = Memory {
-        storage: ArrayModalStorage::zeros(),
-        tableau: ArrayTableauStorage::zeros(),
-        begun: 0,
-    };
-    run(|journal| search(journal, MEMORY))
+    static mut CHOSEN: Chosen = Chosen { controller: Controller::new(), begun: 0 };
+    run(|journal| search(journal, CHOSEN))
 }
 
-impl Starts for Memory {
+impl Starts for Chosen {
     fn are_limited() -> bool {
         SYSTEM.model.spans.are_limited()
     }
@@ -55,9 +37,10 @@ impl Starts for Memory {
         if self.begun.is_multiple_of(2) {
             return Ok(());
         }
-        self.storage.set(&SYSTEM, &all(inputs))?;
-        let (model, memory) = self.storage.at(&SYSTEM);
-        exchange(&model, self.tableau.two_phases(&model)?, sides)?;
+        let storage = self.controller.storage_mut();
+        storage.iterate.set(&SYSTEM, &inputs.terms())?;
+        let (model, memory) = storage.iterate.at(&SYSTEM);
+        exchange(&model, storage.solver.0.two_phases(&model)?, sides)?;
         if Self::are_limited() {
             let x = memory.shared.iterate.x;
             x.iter_mut().zip(sides).for_each(|(x, &side)| *x = side);
@@ -67,18 +50,8 @@ impl Starts for Memory {
 
     #[inline(never)]
     fn tick(&mut self, inputs: Inputs) -> Result<Report<Scalar>, Error> {
-        check(&inputs.to_array(), &Inputs::RANGES)?;
-        if self.storage.set(&SYSTEM, &all(inputs))? {
-            self.tableau.reset();
-        }
-        let (model, mut memory) = self.storage.at(&SYSTEM);
-        let mut method = self.tableau.two_phases(&model)?;
-        let report = SYSTEM.tick(&model, &mut method, &mut Deadline::never(), &mut memory)?;
-        let mut outputs = [0.0; OUTPUTS];
-        for (number, output) in outputs.iter_mut().enumerate() {
-            *output = model.output(number, memory.inputs, &memory.shared, &report)?;
-        }
-        black_box(outputs);
-        Ok(report)
+        let answer = self.controller.tick(inputs)?;
+        black_box(answer.outputs);
+        Ok(answer.report)
     }
 }

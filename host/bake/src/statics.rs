@@ -2,13 +2,14 @@
 
 use std::fmt::{Debug, Write as _};
 
+use crate::imports::imports;
 use crate::text::array;
 
 /// What has been written so far.
 #[derive(Debug, Default)]
-pub(super) struct Statics {
+pub(crate) struct Statics {
     pub text: String,
-    /// Those of the arrays.
+    /// Bytes of the arrays.
     pub bytes: usize,
 }
 
@@ -18,7 +19,7 @@ impl Statics {
         self.spelt::<T>(name, doc, of, entries.len(), &array(entries, 4))
     }
 
-    /// The same with its value as text.
+    /// Writes an array whose value is this text.
     pub fn spelt<T>(
         &mut self,
         name: &str,
@@ -36,15 +37,31 @@ impl Statics {
         self.bytes += size_of::<T>() * length;
         format!("&{name}")
     }
+
+    /// The module that holds them: `names` are what they may name, with its place in the kernel, `own` what they take from
+    /// the module around it.
+    pub fn module(&self, names: &[(&str, &str)], own: &str) -> String {
+        let text = &self.text;
+        let imports = imports(names, text, "    ");
+        format!(
+            "
+/// The scene: what stays from tick to tick.
+#[rustfmt::skip]
+#[allow(clippy::all)]
+mod data {{
+    use super::{{{own}}};{imports}{text}}}
+"
+        )
+    }
 }
 
 /// Records of an array that nothing else names, one a line.
-pub(super) fn lines(entries: &[String]) -> String {
+pub(crate) fn lines(entries: &[String]) -> String {
     let lines: String = entries.iter().map(|entry| format!("\n            {entry},")).collect();
     if entries.is_empty() { "&[]".to_owned() } else { format!("&[{lines}\n        ]") }
 }
 
 /// The name of an input's or output's array.
-pub(super) fn named(identifier: &str, what: &str) -> String {
+pub(crate) fn named(identifier: &str, what: &str) -> String {
     format!("{}_{what}", identifier.trim_end_matches('_').to_ascii_uppercase())
 }

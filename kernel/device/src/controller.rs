@@ -1,0 +1,195 @@
+//! The controller of a baked scene: one set of methods, whatever its model.
+//!
+//! ```text
+//!   Inputs ─► ranges ─► cold start? ─► Storage::tick on the model ─► Answer { outputs, report }
+//! ```
+//! A module of `signorini bake` names its [`Scene`]: constants, types, and the memory that the model needs. The desk plays the
+//! same controller on arrays that it owns. What a model does in a tick stands where its memory does: in
+//! [`crate::condensed`] and in `device::full`'s `controller`.
+
+use crate::ranges::check;
+use signorini_kernel::Real;
+use signorini_kernel::error::Error;
+use signorini_kernel::limits::{Deadline, Limits};
+use signorini_kernel::report::Report;
+
+/// A scene whose inputs are to be answered.
+pub trait Scene {
+    /// The type of every number.
+    type Scalar: Real;
+    /// What the controller is told.
+    type Inputs: Inputs<Self::Scalar>;
+    /// What is read off an answer.
+    type Outputs: Outputs<Self::Scalar>;
+    /// What stays from tick to tick.
+    type Storage: Storage<Self::Scalar>;
+
+    /// The range of each input; empty where none is declared.
+    fn ranges(&self) -> &[[Self::Scalar; 2]];
+
+    /// When a tick ends.
+    fn limits(&self) -> Limits<Self::Scalar>;
+
+    /// Whether every tick starts anew.
+    fn is_cold(&self) -> bool;
+
+    /// Lends the model to `take`.
+    fn lend<T>(
+        &self,
+        take: impl FnOnce(&<Self::Storage as Storage<Self::Scalar>>::Model<'_>) -> T,
+    ) -> T;
+}
+
+/// A scene of a baked module, where all but the memory is constant.
+pub trait Baked: Scene + Sized {
+    /// The controller before its first tick: zeros, which take no room in flash.
+    const CONTROLLER: Controller<Self>;
+}
+
+/// Values of the inputs of one tick.
+pub trait Inputs<R> {
+    /// The constant 1, then each value.
+    type Terms: AsRef<[R]>;
+
+    /// The factors of the model's columns.
+    fn terms(self) -> Self::Terms;
+}
+
+/// Numbers that are read off an answer.
+pub trait Outputs<R>: Sized {
+    /// Each by its number.
+    ///
+    /// # Errors
+    /// An output that overflows.
+    fn read(of: &impl Reading<R>) -> Result<Self, Error>;
+}
+
+/// Outputs of which a bound tells how far they may be off.
+pub trait Weighed<R>: Sized {
+    /// How far each may be off ([`crate::intervals`]).
+    fn plus_minus(report: &Report<R>) -> Self;
+}
+
+/// An answer as outputs are read off it.
+pub trait Reading<R> {
+    /// How many outputs there are.
+    fn count(&self) -> usize;
+
+    /// Output `number`.
+    ///
+    /// # Errors
+    /// A value that overflows; no such output.
+    fn value(&self, number: usize) -> Result<R, Error>;
+}
+
+/// The memory of a model, and how its ticks are solved.
+pub trait Storage<R: Real> {
+    /// What it solves (borrowed).
+    type Model<'m>;
+
+    /// Forgets all ticks.
+    fn reset(&mut self);
+
+    /// Answers for `terms`, the constant 1 and the inputs.
+    ///
+    /// # Errors
+    /// Inputs that are not finite, or so large that data, answers or outputs may overflow: the last answer stays.
+    fn tick<O: Outputs<R>, F: FnMut() -> u32>(
+        &mut self,
+        model: &Self::Model<'_>,
+        terms: &[R],
+        limits: Limits<R>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<Answer<O, R>, Error>;
+}
+
+/// What a tick came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer<O, R> {
+    /// What the controller reads.
+    pub outputs: O,
+    /// How the tick ended, what it took, and how wrong the answer can be.
+    pub report: Report<R>,
+}
+
+impl<O: Weighed<R>, R> Answer<O, R> {
+    /// How far each output may be from its value for the exact solution of the scene, in its own unit; infinite where nothing is
+    /// guaranteed. What the sum of an output rounds is not in it.
+    pub fn plus_minus(&self) -> O {
+        O::plus_minus(&self.report)
+    }
+}
+
+/// A scene with all memory that its ticks take.
+#[derive(Debug)]
+pub struct Controller<S: Scene> {
+    scene: S,
+    storage: S::Storage,
+}
+
+impl<S: Scene> Controller<S> {
+    /// Before the first tick, with the memory that `scene` needs.
+    pub const fn of(scene: S, storage: S::Storage) -> Self {
+        Self { scene, storage }
+    }
+
+    /// Before the first tick; can initialise a `static`.
+    pub const fn new() -> Self
+    where
+        S: Baked,
+    {
+        S::CONTROLLER
+    }
+
+    /// Answers for these inputs, from where the last tick ended or, where the scene asks for a cold start, from its beginning.
+    ///
+    /// # Errors
+    /// Inputs outside their ranges, that are not finite, or so large that data, answers or outputs may overflow; the
+    /// last answer stays.
+    pub fn tick(&mut self, inputs: S::Inputs) -> Result<Answer<S::Outputs, S::Scalar>, Error> {
+        let limits = self.scene.limits();
+        self.tick_within(inputs, limits, &mut Deadline::never())
+    }
+
+    /// Answers within limits of the caller's and until a deadline. Whatever ends the tick, the answer is feasible and the
+    /// report says how wrong it can be.
+    ///
+    /// # Errors
+    /// As for [`Controller::tick`].
+    pub fn tick_within<F: FnMut() -> u32>(
+        &mut self,
+        inputs: S::Inputs,
+        limits: Limits<S::Scalar>,
+        deadline: &mut Deadline<F>,
+    ) -> Result<Answer<S::Outputs, S::Scalar>, Error> {
+        let terms = inputs.terms();
+        let terms = terms.as_ref();
+        check(terms.get(1..).unwrap_or_default(), self.scene.ranges())?;
+        if self.scene.is_cold() {
+            self.storage.reset();
+        }
+        let Self { scene, storage } = self;
+        scene.lend(|model| storage.tick(model, terms, limits, deadline))
+    }
+
+    /// Forgets all ticks: the next one is the first again.
+    pub fn reset(&mut self) {
+        self.storage.reset();
+    }
+
+    /// What the last tick left.
+    pub const fn storage(&self) -> &S::Storage {
+        &self.storage
+    }
+
+    /// The memory of the next tick.
+    pub const fn storage_mut(&mut self) -> &mut S::Storage {
+        &mut self.storage
+    }
+}
+
+impl<S: Baked> Default for Controller<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
