@@ -159,7 +159,7 @@ impl Steps {
     fn times(&self) -> String {
         let of = |work| -> f64 {
             let steps = self.done.iter().filter(|step| step.work == work);
-            steps.map(|step| step.time.as_secs_f64()).sum()
+            steps.map(|step| step.time).sum::<Duration>().as_secs_f64()
         };
         let images = building().as_secs_f64();
         let cpu = processors().map_or_else(String::new, |seconds| {
